@@ -16,11 +16,9 @@ import numpy as np
 from graphkin.search import Pieces, Turn, resolve
 from graphkin.solver import DriverRange, Motion
 from graphkin.solver.pose import Array
-from graphkin.solver.quantities import transmission
-from graphkin.structure import Dyad
 from graphkin.study.quantities import Quantity, rates_of
 
-__all__ = ["CurveParameter", "Extreme", "Least", "Traced", "driver_value", "trace"]
+__all__ = ["CurveParameter", "Extreme", "Traced", "driver_value", "trace"]
 
 NOTHING = 5e-11
 """A driver value this small (rad, m) is 0: no extreme of an acceleration is placed better."""
@@ -67,20 +65,6 @@ class Traced:
     @property
     def least(self) -> Extreme | None:
         return self.furthest(-1.0)
-
-
-@dataclass(frozen=True)
-class Least:
-    """The least transmission angle of a group (rad), and the value of the driver there (None if it never changes)."""
-
-    group: Dyad
-    angle: float
-    driver: float | None
-
-    @property
-    def pressure(self) -> float:
-        """The greatest pressure angle (rad)."""
-        return float(np.pi / 2) - self.angle
 
 
 @dataclass(frozen=True)
@@ -177,15 +161,11 @@ def driver_value(reach: DriverRange, offset: float) -> float:
     return 0.0 if abs(value) < NOTHING else value
 
 
-def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[tuple[Traced, ...], tuple[Least, ...]]:
-    """Find all extremes and zeros of quantities, and the least transmission angle of each group of two links; of a
-    mechanism that is singular throughout there are none."""
+def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[Traced, ...]:
+    """Find all extremes and zeros of quantities; of a mechanism that is singular throughout there are none."""
     way = CurveParameter(reach)
-    dyads = [*reach.structure.dyads.values()]
     places = [q for q in quantities if q.is_position]
     rates = [q for q in quantities if not q.is_position]
-    size = reach.scene.size
-
     here: dict[bytes, Motion] = {}
 
     def at(parameter: Array) -> Motion:
@@ -194,39 +174,24 @@ def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[tuple[Tra
             here[key] = reach.motion(way.offset(parameter), fine=False)
         return here[key]
 
-    def positions(parameter: Array) -> tuple[Array, Array]:
-        motion = at(parameter)
-        columns = [q.smooth(reach, motion) for q in places]
-        bound = motion.bound.angle + motion.bound.position / size
-        off = np.where(np.isfinite(bound), bound, 0.0)
-        columns += [(transmission(reach.structure, d, motion.poses).cosine, off) for d in dyads]
-        return _columns(columns)
+    def resolved(own: Sequence[Quantity], floor: Array, weight: Array | None = None) -> list[Curve]:
+        def columns(parameter: Array) -> tuple[Array, Array]:
+            values, off = zip(*(q.smooth(reach, at(parameter)) for q in own), strict=True)
+            return np.stack(values, axis=1), np.stack(off, axis=1)
 
-    def speeds(parameter: Array) -> tuple[Array, Array]:
-        return _columns([q.smooth(reach, at(parameter)) for q in rates])
+        pieces = resolve(columns, *way.range, reach.full, floor, weight, way.seams)
+        return [Curve(q, pieces, k) for k, q in enumerate(own)]
 
     # apart, because positions stay smooth where rates grow without bound
     curves: list[Curve] = []
-    least: tuple[Least, ...] = ()
-    if places or dyads:
-        floor = np.array([size if q.measure == "length" else 1.0 for q in places] + [1.0] * len(dyads))
-        pieces = resolve(positions, *way.range, periodic=reach.full, floor=floor, seams=way.seams)
-        curves += [Curve(q, pieces, k) for k, q in enumerate(places)]
-        least = _leasts(way, pieces, len(places), dyads) if dyads else ()
+    if places:
+        curves += resolved(places, np.array([reach.scene.size if q.measure == "length" else 1.0 for q in places]))
     if rates:
         # near the end of a motion, a distance x away, velocities grow as x^-1/2 and accelerations as x^-3/2
         power = np.array([(1.0 if q.is_speed else 3.0) * (2 if q.is_size else 1) for q in rates])
-        weight = None if reach.full else power
-        usual = _floor(reach, rates)
-        pieces = resolve(speeds, *way.range, periodic=reach.full, floor=usual, weight=weight, seams=way.seams)
-        curves += [Curve(q, pieces, k) for k, q in enumerate(rates)]
+        curves += resolved(rates, _floor(reach, rates), None if reach.full else power)
     found = {t.quantity: t for t in _traced(way, curves) if t.constant is None or np.isfinite(t.constant)}
-    return tuple(found[q] for q in quantities if q in found), least
-
-
-def _columns(pairs: Sequence[tuple[Array, Array]]) -> tuple[Array, Array]:
-    values, off = zip(*pairs, strict=True)
-    return np.stack(values, axis=1), np.stack(off, axis=1)
+    return tuple(found[q] for q in quantities if q in found)
 
 
 def _values(
@@ -265,7 +230,7 @@ def _traced(way: CurveParameter, curves: Sequence[Curve]) -> list[Traced]:
     found = []
     for curve in (c for c in curves if c.quantity in constant):
         quantity = curve.quantity
-        nothing = quantity.smooth(reach, start)[0][0] == 0.0
+        nothing = not quantity.is_position and quantity.smooth(reach, start)[0][0] == 0.0
         found.append(Traced(quantity, (), (), 0.0 if nothing else float(quantity.values(reach, start)[0])))
     moving = [c for c in curves if c.quantity not in constant]
     for curve, extremes in zip(moving, _extremes(way, moving), strict=True):
@@ -331,37 +296,8 @@ def _extremes(way: CurveParameter, curves: Sequence[Curve]) -> list[tuple[Extrem
         inner = []
         for turn, place, value in zip(own, places.tolist(), fine.tolist(), strict=True):
             # at a jump both values stand at one place
-            value = curve.quantity.of_smooth(turn.value) if turn.at_seam else value
+            # and where a group stands in line, at a change point, the solver refuses
+            value = curve.quantity.of_smooth(turn.value) if turn.at_seam or np.isnan(value) else value
             inner.append(Extreme("max" if turn.sense > 0 else "min", place, driver_value(reach, place), value))
         found.append((*ends[0], *inner, *ends[1]))
     return found
-
-
-def _leasts(way: CurveParameter, pieces: Pieces, first: int, dyads: Sequence[Dyad]) -> tuple[Least, ...]:
-    """The least transmission angle of each group, whose cosines are curves from ``first`` on."""
-    reach, found = way.reach, list[Least]()
-    grid = np.linspace(*way.range, 33)
-    places = [np.sort(np.append(pieces.extremes(first + n), grid)) for n in range(len(dyads))]
-    # where a group stands in line, at a change point or at an end of the motion, the solver refuses
-    cosines = [np.abs(pieces.at(at, first + n)) for n, at in enumerate(places)]
-    best = [int(np.argmax(own >= np.nanmax(own, initial=0.0) - NOTHING)) for own in cosines]  # the first of equal ones
-    offsets = way.offset(np.array([at[k] for at, k in zip(places, best, strict=True)]))
-    motion = reach.motion(offsets)  # only what is printed takes all its digits
-    for n, dyad in enumerate(dyads):
-        constant = pieces.is_constant(first + n)
-        poses, k = (reach.known.poses, 0) if constant else (motion.poses, n)
-        angle = float(transmission(reach.structure, dyad, poses).angle[k])
-        if not constant and (not np.isfinite(angle) or offsets[n] in (() if reach.full else reach.ends)):
-            angle = _from_cosine(float(cosines[n][best[n]]))
-        if np.isfinite(angle):
-            found.append(Least(dyad, angle, None if constant else driver_value(reach, float(offsets[n]))))
-    return tuple(found)
-
-
-def _from_cosine(cosine: float) -> float:
-    """An angle of 90 degrees or less by its cosine as the curve gives it; 0 where rounding tells no more, not a number
-    where the curve was left out."""
-    if np.isnan(cosine):
-        return cosine
-    lack = max(0.0, 1.0 - abs(cosine))
-    return 2 * float(np.arcsin(np.sqrt(lack / 2))) if lack > 1e-12 else 0.0

@@ -17,7 +17,7 @@ from graphkin.scene.tables import Measure, Unit
 from graphkin.solver import DriverRange, Motion, forces_of, listed_points, own_slides, senses_along, value_of
 from graphkin.solver.pose import Array
 from graphkin.solver.prepared import PreparedMechanism
-from graphkin.solver.quantities import all_slides
+from graphkin.solver.quantities import all_slides, transmission
 from graphkin.structure import Structure, links_for
 from graphkin.table import Column, Table
 from graphkin.words import Wording
@@ -27,10 +27,12 @@ __all__ = [
     "place_quantity", "rates_of", "settled", "slide_quantities", "symbol_quantity", "word_column",
 ]  # fmt: skip
 
-Kind = Literal["theta", "omega", "alpha", "s", "v", "a", "place", "force", "moment", "symbol"]
+Kind = Literal["theta", "omega", "alpha", "s", "v", "a", "place", "force", "moment", "transmission", "symbol"]
 Parts = tuple[tuple[Array, ...], ...]
 """Of each quantity its values, two for a vector."""
 Words = Sequence[Wording] | Array
+IN_LINE = 1e-12
+"""Two bars are in line where the square of the sine of their angle is no more: rounding tells no less."""
 
 _KINDS: Mapping[str, tuple[Measure, Callable[[Motion, str], Array | None]]] = {
     "theta": ("angle", lambda motion, link: motion.angle(link)),
@@ -42,16 +44,23 @@ _KINDS: Mapping[str, tuple[Measure, Callable[[Motion, str], Array | None]]] = {
     "place": ("length", lambda motion, ref: motion.position(*ref.split("@"))),
     "force": ("force", lambda motion, name: forces_of(motion).value(name)),
     "moment": ("moment", lambda motion, name: forces_of(motion).value(name)),
+    "transmission": ("angle", lambda motion, links: _transmission(motion, links)),
 }
 """What a quantity of each kind measures, and its value (SI) in a motion by the name of what it is of; of a ``symbol``
 both are the symbol's own."""
+
+
+def _transmission(motion: Motion, links: str) -> Array:
+    """The transmission angle of the group of two links that has these."""
+    dyad = next(d for d in motion.structure.dyads.values() if "-".join(d.links) == links)
+    return transmission(motion.structure, dyad, motion.poses).angle
 
 
 @dataclass(frozen=True)
 class Quantity:
     """One quantity that changes over the turn: ``theta_3`` (angle of a link), ``s_6/1`` (travel of a sliding pair),
     their rates ``omega_3``, ``alpha_3``, ``v_6/1``, ``a_6/1``, the place of a point, a force or a moment by its name,
-    or another symbol of ``find``.
+    the transmission angle of a group of two links ("4-5"), or another symbol of ``find``.
 
     along : of a vector that lies on a guide its part along that, with its sign, stands for it instead of its size
     """
@@ -75,7 +84,8 @@ class Quantity:
     @property
     def is_position(self) -> bool:
         """Whether it is an angle or a travel."""
-        return self.kind in ("theta", "s") or (self.symbol is not None and self.symbol.scope == "position")
+        known = self.kind in ("theta", "s", "transmission")
+        return known or (self.symbol is not None and self.symbol.scope == "position")
 
     @property
     def is_speed(self) -> bool:
@@ -164,13 +174,14 @@ class Quantity:
     def of_smooth(self, value: float) -> float:
         """Its value from what is smooth of it."""
         if self._folded:
-            return math.acos(min(1.0, max(-1.0, -value))) / 2
+            sine = (1.0 + value) / 2  # the square of it
+            return math.asin(math.sqrt(min(1.0, sine))) if sine > IN_LINE else 0.0
         return math.sqrt(max(0.0, value)) if self._apart or self.is_size else value
 
     @property
     def _folded(self) -> bool:
         """Whether it is an angle that is 90 degrees at most."""
-        return self.symbol is not None and self.symbol.kind in ("gamma", "pressure")
+        return self.kind == "transmission" or (self.symbol is not None and self.symbol.kind in ("gamma", "pressure"))
 
     @property
     def _apart(self) -> bool:
@@ -201,6 +212,8 @@ class Quantity:
         """The links whose errors it has; none where it takes more than them, as a transmission angle does."""
         if self.kind in ("theta", "omega", "alpha"):
             return (self.of,)
+        if self.kind == "transmission":
+            return ()
         if self.symbol is None:
             slide = next(s for s in motion.slides if s.key == self.of)
             return slide.a, slide.b

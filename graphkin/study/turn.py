@@ -24,7 +24,7 @@ from graphkin.solver.engine import positions
 from graphkin.solver.pose import Drive
 from graphkin.solver.values import FlywheelStudy, flywheel_of
 from graphkin.structure import Dyad, DyadKind, Pair, Structure
-from graphkin.study.extremes import Extreme, Least, Traced, trace
+from graphkin.study.extremes import Extreme, Traced, trace
 from graphkin.study.quantities import Quantity, link_quantities, rates_of, slide_quantities
 
 __all__ = ["BasicLoop", "Output", "TurnStudy", "four_bar_class", "study_turn"]
@@ -70,6 +70,20 @@ class Output:
     def unbounded(self) -> bool:
         """Whether it goes away without bound at an end of the motion."""
         return any(not np.isfinite(e.value) for e in self.position.extremes)
+
+
+@dataclass(frozen=True)
+class Least:
+    """The least transmission angle of a group (rad), and the value of the driver there (None if it never changes)."""
+
+    group: Dyad
+    angle: float
+    driver: float | None
+
+    @property
+    def pressure(self) -> float:
+        """The greatest pressure angle (rad)."""
+        return float(np.pi / 2) - self.angle
 
 
 @dataclass(frozen=True)
@@ -389,9 +403,17 @@ def study_turn(reach: DriverRange, asked: Sequence[Quantity] = (), everything: b
             others = [q for link in scene.links for q in link_quantities(link.name)]
             others += [q for s in own_slides(scene, start.slides) for q in slide_quantities(s.key)]
         wanted += [q for q in others if q not in wanted]
-    traced, least = trace(reach, wanted)
+    groups = {Quantity("transmission", "-".join(d.links)): d for d in reach.structure.dyads.values()}
+    traced = trace(reach, (*wanted, *groups))
     outputs = tuple(_output(reach, t) for t in traced if t.quantity in mains)
-    return TurnStudy(reach, ranges(reach), outputs, traced, least, loops(reach.structure))
+    leasts = tuple(_least(groups[t.quantity], t) for t in traced if t.quantity in groups)
+    curves = tuple(t for t in traced if t.quantity not in groups)
+    return TurnStudy(reach, ranges(reach), outputs, curves, leasts, loops(reach.structure))
+
+
+def _least(group: Dyad, angle: Traced) -> Least:
+    at = angle.least
+    return Least(group, angle.constant or 0.0, None) if at is None else Least(group, at.value, at.driver)
 
 
 def output_links(scene: Mechanism) -> tuple[str, ...]:
