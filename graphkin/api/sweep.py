@@ -85,7 +85,7 @@ class Swept(OfScene, Result):
     @property
     def rows(self) -> int:
         """Positions of all designs."""
-        return self.found.rows
+        return self.over.rows
 
     @property
     def good(self) -> int:
@@ -386,7 +386,7 @@ def sweep(
         arrays = None if made.keys else over.base.arrays(positions)
         if arrays is not None:
             good = int(np.count_nonzero(arrays[1]))
-            return Swept(over, Found(over.rows, good, arrays=arrays), spoken, elsewhere, on_paper)
+            return Swept(over, Found(good, arrays=arrays), spoken, elsewhere, on_paper)
     if not made.keys and over.base.engine is None and not moves_by_law(given):
         _ = over.base.reach  # a start that cannot be assembled
     through = cluster(as_text("scheduler", scheduler)) if scheduler is not None else executor

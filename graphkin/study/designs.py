@@ -43,12 +43,15 @@ class Designs:
     """What is replaced in each design: keys of the scene file with dots, and their values.
 
     ``rows`` give one value for the first keys each, ``grid`` the values of the others; every combination is a design,
-    the last key changes fastest.
+    the last key changes fastest.  Of a part ``first`` is the number of its first design, and ``kinds`` are those of the
+    whole: for each key whether some of its values are words.
     """
 
     keys: tuple[str, ...] = ()
     grid: tuple[tuple[Value, ...], ...] = ()
     rows: tuple[tuple[Value, ...], ...] | None = None
+    first: int = 0
+    kinds: tuple[bool, ...] | None = None
 
     def __len__(self) -> int:
         each = math.prod(len(values) for values in self.grid)
@@ -57,9 +60,16 @@ class Designs:
     @cached_property
     def worded(self) -> tuple[bool, ...]:
         """For each key whether some of its values are words."""
+        if self.kinds is not None:
+            return self.kinds
         named = len(self.keys) - len(self.grid)
         words = [any(isinstance(r[k], str) for r in self.rows or ()) for k in range(named)]
         return (*words, *(any(isinstance(v, str) for v in values) for values in self.grid))
+
+    def part(self, first: int, last: int) -> Designs:
+        """The designs from one number to another, which is not included."""
+        rows = tuple(self[k] for k in range(first, min(last, len(self))))
+        return Designs(self.keys, (), rows if self.keys else None, first, self.worded)
 
     def __getitem__(self, index: int) -> tuple[Value, ...]:
         """The values of one design, in the order of the keys."""

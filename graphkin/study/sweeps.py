@@ -7,9 +7,10 @@ whenever: an interrupted sweep goes on in its folder from the pieces that are do
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, fields, replace
 from functools import cached_property
+from itertools import groupby
 from pathlib import Path
 
 import numpy as np
@@ -32,7 +33,7 @@ from graphkin.table import Column, Table, have, parquet_of_csv
 from graphkin.words import from_others
 
 __all__ = [
-    "MANY", "FollowedDesign", "Found", "Outcome", "Sweep", "collect", "designs_table", "make", "write_tables",
+    "MANY", "FollowedDesign", "Found", "Outcome", "Sweep", "collect", "designs_table", "write_tables",
 ]  # fmt: skip
 
 BLOCK = 16384
@@ -188,30 +189,28 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Found:
-    """What a sweep or a piece of it came to: rows in all, rows that are ok, and over designs how each came out.
+    """What a sweep came to: positions that are ok, and over designs how each came out.
 
     arrays : what is watched, where all of it was computed at once by a prepared mechanism
-    table : in memory; None where it is text, was written into files, or is made of ``arrays``
-    text : the rows of the table as those of a CSV file
+    table : in memory; None where it was written into files, or is made of ``arrays``
     damaged : pieces kept from before that were damaged, and were made again
     """
 
-    rows: int
     good: int
     outcomes: tuple[Outcome, ...] = ()
     arrays: Arrays | None = None
     table: Table | None = None
-    text: bytes = b""
     files: tuple[Path, ...] = ()
     damaged: int = 0
 
 
 @dataclass(frozen=True)
 class Sweep:
-    """A whole sweep: positions of one mechanism, or of many designs of it.
+    """A sweep: positions of one mechanism, or of many designs of it; what is cut off it is a sweep again.
 
     source : the scene, or the mapping of its file where designs replace numbers in it
     asked, at : as for a `FollowedDesign`
+    some : first and last position (not included) that alone are meant of each design; all where it is None
     """
 
     source: Mechanism | Tables
@@ -220,6 +219,7 @@ class Sweep:
     positions: int
     asked: tuple[Quantity, ...] = ()
     at: tuple[tuple[str, float], ...] = ()
+    some: tuple[int, int] | None = None
 
     def __getstate__(self) -> dict[str, object]:
         # what is pickled is what was asked: compiled functions are made anew
@@ -265,35 +265,25 @@ class Sweep:
         return len(self.designs) * each + self.numbers * 2e-7 > LONG
 
     @property
-    def pieces(self) -> int:
-        """How many pieces the sweep is cut into."""
-        if self.positions > BLOCK:
-            return len(self.designs) * -(-self.positions // BLOCK)
-        return -(-len(self.designs) // self._together)
+    def _shape(self) -> tuple[int, int]:
+        """Designs in a piece, and pieces in which the positions of one are."""
+        return max(1, min(BLOCK // self.positions, MOST_DESIGNS)), -(-self.positions // BLOCK)
 
     @property
-    def _together(self) -> int:
-        """Designs in a piece."""
-        return max(1, min(BLOCK // self.positions, MOST_DESIGNS))
+    def pieces(self) -> int:
+        """How many pieces the sweep is cut into."""
+        together, along = self._shape
+        return -(-len(self.designs) // together) * along
 
-    def piece(self, number: int) -> Piece:
-        """One piece, with all that is needed to make it: designs, or positions of one."""
-        if self.positions > BLOCK:
-            design, block = divmod(number, -(-self.positions // BLOCK))
-            some, first = range(design, design + 1), block * BLOCK
-            last = min(first + BLOCK, self.positions)
-        else:
-            some = range(number * self._together, min((number + 1) * self._together, len(self.designs)))
-            first, last = 0, self.positions
-        designs = tuple((k, self.designs[k]) for k in some)
+    def piece(self, number: int) -> Sweep:
+        """One piece: some designs, or some positions of one."""
+        together, along = self._shape
+        group, block = divmod(number, along)
+        some = block * BLOCK, min((block + 1) * BLOCK, self.positions)
         # the values of all other designs stay at home
-        alone = replace(self, designs=Designs(self.designs.keys))
-        return self.key, alone, self.designs.worded, designs, first, last
+        return replace(self, designs=self.designs.part(group * together, (group + 1) * together), some=some)
 
 
-Piece = tuple[str, Sweep, tuple[bool, ...], tuple[tuple[int, tuple[Value, ...]], ...], int, int]
-"""Key of the whole, the sweep with no designs, which of its keys take words, the designs with their numbers, and which
-positions of them."""
 _BASE: list[FollowedDesign] = []
 """The scene that was swept last: to sweep it again, it need not be prepared again."""
 
@@ -307,45 +297,31 @@ def _same(design: FollowedDesign) -> FollowedDesign:
     return design
 
 
-_LATEST: dict[tuple[str, int], FollowedDesign | tuple[str, str]] = {}
-"""The design that was followed last, or why there is none: the pieces of a long one share it."""
-
-
-def make(
-    key: str, sweep: Sweep, worded: tuple[bool, ...], numbered: tuple[tuple[int, tuple[Value, ...]], ...], first: int,
-    last: int, text: bool = False,
-) -> Found:  # fmt: skip
-    """Make one piece, its table as it is or as ``text``.  What goes wrong with a design is said in its rows; nothing is
-    raised for it."""
-    designs = {number: _design(key, sweep, number, values) for number, values in numbered}
-    whole = first == 0 and last == sweep.positions
-    arrays = _together(sweep, designs) if whole and sweep.designs.keys else {}
+def made(sweep: Sweep) -> tuple[Table, list[Outcome]]:
+    """The table of a piece, and how each of its designs came out there.  What goes wrong with a design is said in its
+    rows; nothing is raised for it."""
+    designs, keys = sweep.designs, sweep.designs.keys
+    followed = [_followed(sweep, designs[k]) for k in range(len(designs))]
+    first, last = sweep.some or (0, sweep.positions)
+    arrays = _together(sweep, followed) if last - first == sweep.positions and keys else {}
     tables, outcomes = [], []
-    for number, values in numbered:
-        table, outcome = _rows(sweep, number, designs[number], arrays.get(number), first, last)
-        shown = [str(v) if word else v for v, word in zip(values, worded, strict=True)]
-        tables.append(_with_design(table, sweep.designs.keys, number, shown))
+    for k, design in enumerate(followed):
+        number = designs.first + k
+        table, outcome = _rows(sweep, number, design, arrays.get(k), first, last)
+        shown = [str(v) if word else v for v, word in zip(designs[k], designs.worded, strict=True)]
+        tables.append(_with_design(table, keys, number, shown))
         outcomes.append(outcome)
-    table = Table.joined(tables)
-    made = Found(len(table), sum(o.good for o in outcomes), tuple(outcomes) if sweep.designs.keys else (), table=table)
-    if not text:
-        return made
-    out = io.BytesIO()
+    return Table.joined(tables), outcomes
+
+
+def made_text(sweep: Sweep) -> tuple[bytes, list[Outcome]]:
+    """The same with the rows of the table as those of a CSV file."""
+    (table, outcomes), out = made(sweep), io.BytesIO()
     table.write_csv(out, head=False)
-    return replace(made, table=None, text=out.getvalue())
+    return out.getvalue(), outcomes
 
 
-def _design(key: str, sweep: Sweep, number: int, values: tuple[Value, ...]) -> FollowedDesign | tuple[str, str]:
-    """A design whose way is known, or the status and the reason why it has none."""
-    design = _LATEST.get((key, number))
-    if design is None:
-        design = _followed(sweep, values)
-        _LATEST.clear()
-        _LATEST[key, number] = design
-    return design
-
-
-def _together(sweep: Sweep, designs: Mapping[int, FollowedDesign | tuple[str, str]]) -> dict[int, Arrays]:
+def _together(sweep: Sweep, designs: Sequence[FollowedDesign | tuple[str, str]]) -> dict[int, Arrays]:
     """What the prepared scene gives for those designs that are the scene itself with other dimensions, in the same
     assembly: as ``prepare(...).over(...)``, which is that of no others."""
     try:
@@ -355,7 +331,7 @@ def _together(sweep: Sweep, designs: Mapping[int, FollowedDesign | tuple[str, st
     if ready is None or ready.signs is None:
         return {}
     form, alike = ready.range.forms(np.zeros(1)), dict[int, Mapping[Dimension, complex]]()
-    for number, design in designs.items():
+    for number, design in enumerate(designs):
         if isinstance(design, FollowedDesign) and same_but_for_dimensions(sweep.scene, design.scene):
             here = design.reach.forms(np.zeros(1))
             if all(np.array_equal(here[i], form[i]) for i in form):
@@ -422,12 +398,12 @@ def _with_design(table: Table, keys: Sequence[str], number: int, values: Sequenc
 
 def collect(sweep: Sweep, workers: Workers, progress: Progress | None = None) -> Found:
     """A whole sweep in memory."""
-    made: list[Found] = []
-    for piece in workers.results(make, map(sweep.piece, range(sweep.pieces))):
-        made.append(piece)
-        _count(sweep, len(made), progress)
-    whole = _joined(sweep, ((m.outcomes, m.good) for m in made))
-    return replace(whole, table=Table.joined([m.table for m in made if m.table is not None]))
+    tables, outcomes = list[Table](), list[Outcome]()
+    for table, own in workers.results(made, ((sweep.piece(k),) for k in range(sweep.pieces))):
+        tables.append(table)
+        outcomes += own
+        _count(sweep, len(tables), progress)
+    return replace(_joined(sweep, outcomes), table=Table.joined(tables))
 
 
 def write_tables(
@@ -453,14 +429,11 @@ def write_tables(
             points.open(scene=sweep.name, pieces=sweep.pieces, rows=sweep.rows)
             finished, damaged = points.done()
             missing = [k for k in range(sweep.pieces) if k not in finished]
-            done = sweep.pieces - len(missing)
-            _count(sweep, done, progress)
-            results = workers.results(make, ((*sweep.piece(k), True) for k in missing))
-            for number, made in zip(missing, results, strict=True):
-                outcomes = [asdict(o) for o in made.outcomes]
-                points.save(number, {"outcomes": outcomes, "good": made.good}, made.text)
-                done += 1
-                _count(sweep, done, progress)
+            _count(sweep, len(finished), progress)
+            results = workers.results(made_text, ((sweep.piece(k),) for k in missing))
+            for k, (number, (text, outcomes)) in enumerate(zip(missing, results, strict=True), 1):
+                points.save(number, {"outcomes": [asdict(o) for o in outcomes]}, text)
+                _count(sweep, len(finished) + k, progress)
             return replace(_merged(sweep, points, folder, parquet), damaged=damaged)
     except OSError as error:
         raise CallError.of(str(folder), "cannot be written", "give another folder with o",
@@ -469,7 +442,7 @@ def write_tables(
 
 def _merged(sweep: Sweep, points: Checkpoints, folder: Path, parquet: bool) -> Found:
     """All pieces in their order as tables in the folder of results; the pieces are removed."""
-    facts = []
+    outcomes = list[Outcome]()
     files = [folder / "table.csv"]
     with whole_file(files[0], points.place) as out:
         sweep.head.write_csv(out)
@@ -478,8 +451,8 @@ def _merged(sweep: Sweep, points: Checkpoints, folder: Path, parquet: bool) -> F
                 wanted = "run the same command again; the disk may be failing"
                 raise CallError.of(str(points.place), "a piece was damaged while the table was", wanted)
             piece.copy(out)
-            facts.append(piece.facts)
-    found = _joined(sweep, ((tuple(Outcome(**o) for o in f["outcomes"]), f["good"]) for f in facts))
+            outcomes += [Outcome(**o) for o in piece.facts["outcomes"]]
+    found = _joined(sweep, outcomes)
     if sweep.designs.keys:
         files.append(folder / "designs.csv")
         with whole_file(files[-1], points.place) as out:
@@ -497,23 +470,17 @@ def _count(sweep: Sweep, done: int, progress: Progress | None) -> None:
         progress(min(sweep.rows, round(sweep.rows * done / sweep.pieces)), sweep.rows)
 
 
-def _joined(sweep: Sweep, made: Iterable[tuple[tuple[Outcome, ...], int]]) -> Found:
-    """What a sweep came to, from what its pieces say: a design is "ok", "partly" so (some positions could not be
-    given), or has the status of the first that could not."""
-    good = 0
-    parts: dict[int, list[Outcome]] = {}
-    for outcomes, rows in made:
-        good += rows
-        for outcome in outcomes:
-            parts.setdefault(outcome.design, []).append(outcome)
+def _joined(sweep: Sweep, outcomes: Sequence[Outcome]) -> Found:
+    """What a sweep came to, from what its pieces say in their order: a design is "ok", "partly" so (some positions
+    could not be given), or has the status of the first that could not."""
     whole = []
-    for design, own in sorted(parts.items()):
-        right = sum(o.good for o in own)
+    for design, pieces in groupby(outcomes, lambda outcome: outcome.design):
+        own = list(pieces)
+        good = sum(o.good for o in own)
         said = next((o for o in own if o.why), own[0])
-        status = "ok" if right == sweep.positions else "partly" if right else said.status
-        cells = next((o.cells for o in own if o.cells), {})
-        whole.append(Outcome(design, status, said.why, cells, right))
-    return Found(sweep.rows, good, tuple(whole))
+        status = "ok" if good == sweep.positions else "partly" if good else said.status
+        whole.append(Outcome(design, status, said.why, own[0].cells, good))
+    return Found(sum(o.good for o in whole), tuple(whole) if sweep.designs.keys else ())
 
 
 def designs_table(sweep: Sweep, outcomes: Sequence[Outcome]) -> Table:
