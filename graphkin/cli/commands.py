@@ -11,7 +11,6 @@ import signal
 import sys
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from importlib import import_module
 from types import FrameType
 from typing import TYPE_CHECKING, Annotated, TextIO
 
@@ -33,12 +32,11 @@ INTERRUPTED = 130
 _WRONG_CALL = typer.BadParameter.__mro__[1]
 """What is raised where an option or an argument is wrong (click's UsageError, whether typer brings click or not)."""
 
-PLACES = {
-    "scenes": "files", "draw": "figures", "check": "figures", "solve": "numbers", "centres": "figures",
-    "audit": "figures", "sweep": "numbers", "handout": "papers", "design": "figures", "cam": "figures",
-    "convert": "files", "explain": "files", "open": "files", "study": "numbers",
-}  # fmt: skip
-"""The module of each command, in the order of the help."""
+COMMANDS = (
+    "scenes", "draw", "check", "solve", "centres", "audit", "sweep", "handout", "design", "cam", "convert", "explain",
+    "open", "study",
+)  # fmt: skip
+"""The commands in the order of the help."""
 
 
 class Unwritable(OSError):
@@ -100,9 +98,11 @@ def app_of(arguments: Sequence[str] = ()) -> typer.Typer:
         rich_markup_mode=None,
         help="Velocity and acceleration polygons of mechanisms: constructed, measured, checked, drawn.",
     )
-    wanted = [name for name in arguments[:1] if name in PLACES]
-    for name in wanted or PLACES:
-        command = getattr(import_module(f"graphkin.cli.{PLACES[name]}"), name if name != "open" else "open_page")
+    from graphkin.cli import verbs
+
+    wanted = [name for name in arguments[:1] if name in COMMANDS]
+    for name in wanted or COMMANDS:
+        command = getattr(verbs, name if name != "open" else "open_page")
         if isinstance(command, typer.Typer):
             app.add_typer(command, name=name)
         else:

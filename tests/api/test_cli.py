@@ -90,7 +90,7 @@ def loaded(*call: str) -> set[str]:
 def test_a_check_waits_for_no_room_that_its_scene_does_not_need():
     rooms = ["forces", "centres", "limits", "measures", "trial", "cams_in_place", "rolling_on_paper"]
     idle = {f"graphkin.construction.{room}" for room in rooms}
-    idle |= {"graphkin.drawing", "graphkin.study", "graphkin.api.drawn", "graphkin.cli.papers", "multiprocessing"}
+    idle |= {"graphkin.drawing", "graphkin.study", "graphkin.api.drawn", "graphkin.papers", "multiprocessing"}
     idle |= {"matplotlib", "pyarrow", "rich.console", "scipy", "shapely", "svgwrite"}
     assert set() == idle & loaded("check", "shaper-scheme-2")
 

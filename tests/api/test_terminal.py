@@ -43,7 +43,7 @@ def test_a_full_disk_under_what_is_printed_is_a_sentence() -> None:
 
 
 @POSIX
-@pytest.mark.parametrize("module", ["typer", "graphkin.cli.figures", "numpy", "graphkin.construction.plan"])
+@pytest.mark.parametrize("module", ["typer", "graphkin.cli.verbs", "numpy", "graphkin.construction.plan"])
 def test_an_interruption_while_a_command_loads_ends_it_without_a_traceback(module: str) -> None:
     interrupting = f"""
 import os, signal, sys

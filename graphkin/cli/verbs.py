@@ -1,0 +1,584 @@
+"""All commands: each calls the public function of its name with what was given, prints what that made for people or
+for programs, and leaves with the status that belongs to it."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from graphkin.cli.options import Given, command, named_numbers, processes, split_words
+from graphkin.cli.output import (
+    complain,
+    finish,
+    print_json,
+    print_paths,
+    print_table,
+    progress_bar,
+    short_bar,
+    tell,
+    tell_unused,
+    unsolvable_as_json,
+)
+from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.words import Phrase, class_of, from_others, languages, listed, say, word
+
+if TYPE_CHECKING:
+    from graphkin.api.checked import Checked
+    from graphkin.api.course_designs import CourseDesigns
+    from graphkin.api.handouts import Handout
+    from graphkin.api.solved import Solved
+
+__all__ = [
+    "audit", "cam", "centres", "check", "convert", "design", "draw", "explain", "handout", "open_page", "scenes",
+    "solve", "study", "sweep",
+]  # fmt: skip
+
+# -- drawings ----------------------------------------------------------------------------------------------------------
+
+UNCHECKED = {"instrument": "exact", "ok": False, "status": "", "why": "", "readings": []}
+"""What a program reads where there is nothing to check."""
+
+
+@command(
+    "scene", "at", "position", "find", "out of check", "instrument", "seed", "lang", "convention", "json", "quiet"
+)
+def check(given: Given) -> None:
+    """Measure the drawn diagrams and compare every reading with the analytic solver."""
+    from graphkin.api.arguments import known_words, write_files
+    from graphkin.api.checked import check as checking
+
+    known_words(language=given.lang, convention=given.convention, instrument=given.instrument)
+    with unsolvable_as_json(given.json, UNCHECKED):
+        checked = given.call(checking)
+    language = given.lang or checked.mechanism.question.sheet.language
+    if given.out is not None:
+        from graphkin.api.report_text import report_text
+
+        checked.write(given.out)
+        write_files(given.out, {"report.txt": report_text(checked, language).encode()})
+    _tell_check(checked, language, given)
+
+
+def _tell_check(checked: Checked, language: str, given: Given) -> None:
+    """Print a check, and leave with the status that belongs to it."""
+    if given.json:
+        print_json(checked.data)
+    elif not given.quiet:
+        _print_readings(checked, language)
+    if not checked.ok:
+        wrong = any(row.ok is False for row in checked.report.rows)
+        raise typer.Exit(1 if wrong and checked.complete else 3)
+
+
+def _print_readings(checked: Checked, language: str) -> None:
+    from graphkin.api.arguments import passed_words
+    from graphkin.api.report_text import contact_lines, lever_lines, plain_said, reading_words, verdict
+    rows = [
+        [symbol, length, measured, exact, unit, {True: "ok", False: "off", None: "?"}[ok]]
+        for symbol, length, measured, exact, unit, ok in reading_words(checked)
+    ]
+    heads = [word(key, language) for key in ("quantity", "on paper", "measured", "exact", "unit")]
+    print_table([*heads, ""], rows, right=(1, 2, 3))
+    for line in (*lever_lines(checked, language), *contact_lines(checked, language)):
+        tell(line)
+    for note in checked.sheet.notes:
+        tell(plain_said(note, language))
+    if checked.advice:
+        tell(plain_said(checked.advice.phrase(), language))
+    for said in passed_words(checked.mechanism, checked.passed):
+        tell(say(said, language))
+    tell(verdict(checked, language))
+
+
+@command(
+    "scene", "out", "format", "at", "position", "find", "lang of sheets", "convention", "instrument", "seed", "figure",
+    "text", "driver", "beside", "json", "quiet",
+)  # fmt: skip
+def draw(given: Given) -> None:
+    """Draw the mechanism, the velocity and the acceleration polygon; measure and check them."""
+    from graphkin.api.arguments import known_words
+    from graphkin.api.drawn import draw as drawing
+
+    known_words(given.formats, text=given.text)
+    with unsolvable_as_json(given.json, UNCHECKED):
+        drawn = given.call(drawing)
+        paths = drawn.write(given.out, given.formats, given.text)
+    made = {name.split("-")[0] for name in drawn.figures}
+    missing = [name for name in given.figure or () if name not in made]
+    complain(*(Problem(f"figure {name}", Phrase("the scene has nothing of it")) for name in missing))
+    if given.speaks:
+        print_paths(paths)
+    _tell_check(drawn.checked, languages(given.lang or drawn.mechanism.question.sheet.language)[0], given)
+
+
+@command(
+    "scene", "answers", "at", "position", "out of audit", "variants of audit", "grading", "lang", "json", "quiet"
+)
+def audit(given: Given) -> None:
+    """Judge the scene's printed values, or people's answers: right, within drafting accuracy, or wrong and why."""
+    from graphkin.api.audited import audit as auditing
+
+    def wrong(text: str, _: str) -> Problem:
+        return Problem("grading", f'"{text[:40]}"', "write equations 20 drawing 30 values 50")
+
+    points = named_numbers([text for text in map(str.strip, given.grading.split(",")) if text], wrong) or None
+    audited = given.call(auditing, grading=points)
+    paths = audited.write(given.out) if given.out is not None else []
+    if given.speaks:
+        first = len(audited.heads) - 7
+        if audited.rows or not audited.scans:
+            print_table(audited.heads, audited.rows, right=(first + 1, first + 2, first + 4))
+        if audited.scans:
+            tell("\n".join(audited.scan_lines))
+        for summary in (audited.students, audited.matrix) if audited.is_class else ():
+            tell("")
+            print_table(list(summary.heads), [list(row) for row in summary.texts()])
+        if paths:
+            print_paths(paths)
+    tell_unused(audited.unused)
+    finish(given, audited)
+
+
+@command(
+    "scene", "out of centres", "format", "text", "at", "position", "centrode", "point", "motion", "lang of sheets",
+    "convention", "json", "quiet",
+)  # fmt: skip
+def centres(given: Given) -> None:
+    """All instant centres, how each was found, and the velocities by centres."""
+    from graphkin.api.arguments import known_words
+    from graphkin.api.centred import centres as finding
+    from graphkin.api.centred import centres_text
+
+    known_words(given.formats, text=given.text)
+    if given.point and given.centrode is None:
+        raise CallError.of("--point", "without centrode", "write centrode link point p")
+    if given.motion and given.centrode is not None:
+        raise CallError.of("--motion", "stands beside centrode", "write one of the two")
+    if given.centrode is not None:
+        from graphkin.api.centred import centrodes
+
+        rolled = given.call(centrodes, link=given.centrode)
+        finish(given, rolled, rolled.write(given.out, given.formats, given.text), files=True)
+        return
+    with unsolvable_as_json(given.json, {"links": [], "centres": {}, "ok": False}):
+        found = given.call(finding)
+    none_wanted = given.json and given.out is None
+    paths = [] if none_wanted else found.write(given.out, given.formats, given.text, given.motion)
+    if given.speaks:
+        print_paths(paths)
+        heads, rows, sentences = centres_text(found)
+        print_table(heads, rows)
+        tell("\n".join(sentences))
+    finish(given, found)
+
+
+@command("file of design", "out", "format", "lang of sheets", "instrument", "seed", "json", "quiet")
+def design(given: Given) -> None:
+    """Find the lengths of a mechanism for what it shall do: drawn, measured, checked; write it as a scene."""
+    from graphkin.api.designed import design as designing
+    with unsolvable_as_json(given.json, {"ok": False, "status": "", "why": "", "lengths": {}, "readings": []}):
+        designed = given.call(designing)
+        paths = designed.write(given.out, given.formats)
+    if given.speaks:
+        language = languages(given.lang or designed.given.sheet.language)[0]
+        print_paths(paths)
+        rows = [
+            [row.symbol, f"{row.on_paper:.3f}", f"{row.measured:.7g}", f"{row.exact:.7g}", designed.given.units.length,
+             "ok" if row.ok else "off"]
+            for row in designed.rows
+        ]  # fmt: skip
+        heads = [word(key, language) for key in ("length found", "on paper", "measured", "exact", "unit")]
+        print_table([*heads, ""], rows, right=(1, 2, 3))
+        told = [
+            [say(one.what, language), f"{one.asked:.7g}", f"{one.found:.7g}", one.unit, "ok" if one.ok else "off"]
+            for one in designed.confirmed
+        ]
+        print_table([word("confirmed", language), word("given wish", language), "", "", ""], told, right=(1, 2))
+        for sentence in designed.sentences(language):
+            typer.echo(sentence)
+    finish(given, designed)
+
+
+@command("scene", "out", "format", "lang of sheets", "step", "json", "quiet")
+def cam(given: Given) -> None:
+    """Cams drawn by inversion: pressure angles, curvature, undercutting, profile as CSV and DXF; discs measured."""
+    from graphkin.api.cams import cam as looking
+
+    with unsolvable_as_json(given.json, {"ok": False, "status": "", "why": "", "cams": {}}):
+        found = given.call(looking)
+        paths = found.write(given.out, given.formats)
+    if given.speaks:
+        print_paths(paths)
+        language = languages(given.lang or found.mechanism.question.sheet.language)[0]
+        tell("\n".join(found.sentences(language)))
+    finish(given, found)
+
+
+# -- the solver alone --------------------------------------------------------------------------------------------------
+
+
+@command(
+    "scene", "at", "position", "sweep", "loops", "out of solve", "lang", "convention", "instrument", "find", "json",
+    "quiet",
+)  # fmt: skip
+def solve(given: Given) -> None:
+    """The analytic solution alone, at one position or over a turn."""
+    from graphkin.api.arguments import known_words, write_files
+    from graphkin.api.solved import refused
+    from graphkin.api.solved import solve as solving
+
+    known_words(language=given.lang, convention=given.convention, instrument=given.instrument)
+    values = given.values
+    with unsolvable_as_json(given.json, lambda error: refused(given.scene, values, error)):
+        solved = given.call(solving)
+    if given.out is not None:
+        write_files(given.out, {"solution.json": solved.json()})
+    drawn = solved.loops(given.lang) if given.loops and solved.ok else None
+    if given.json and drawn:
+        print_json({**solved.data, "loops": drawn.data})
+    elif given.json:
+        for piece in solved.json():
+            typer.echo(piece.decode(), nl=False)
+    elif not given.quiet and drawn:
+        tell(f"{drawn.plain}\n\n{drawn.latex}")
+    elif not given.quiet:
+        _print_solution(solved, given.lang)
+    if not solved.ok:
+        complain(solved.said)
+        raise typer.Exit(3)
+
+
+def _print_solution(solved: Solved, lang: str | None) -> None:
+    from graphkin.api.arguments import passed_words
+    from graphkin.api.solution_text import solution_tables
+    scene, blocks = solved.mechanism, solved.blocks()
+    head: Mapping[str, Any] = solved.head
+    first = next(blocks)
+    language = lang or scene.question.sheet.language
+    tell(f"{scene.question.title_in(language)}   F = {head['mobility']}")
+    for group, assembly in zip(head["groups"], first.motion.assembly, strict=True):
+        links, order = listed(group["links"]), class_of(group["class"])
+        larger = Phrase("solved larger group", (links, order, assembly))
+        dyad = Phrase("solved group", (links, group["kind"], order, assembly))
+        tell(say(dyad if group["class"] == 2 else larger, language))
+    for said in passed_words(scene, first.motion.passed):
+        tell(say(said, language))
+    for some in (first, *blocks):
+        for k, (values, why, tables) in enumerate(solution_tables(some, language)):
+            tell("")
+            tell(say(Phrase("solved driver", (values,)), language))
+            if why:
+                tell(say(why, language))
+                continue
+            for table in tables:
+                print_table(table.heads, table.at(k), right=table.right)
+
+
+@command(
+    "scene", "out", "positions", "set", "designs", "workers", "scheduler", "measured", "differentiate", "integrate",
+    "format", "text", "at", "find", "lang", "json", "quiet",
+)  # fmt: skip
+def sweep(given: Given) -> None:
+    """Tables and motion diagrams over a turn, limit positions, strokes and K; and the same over designs."""
+    from graphkin.api.sweep import sweep as sweeping
+    from graphkin.drawing.write.pdf import leave_undocumented
+    from graphkin.scene import mechanism_of
+
+    target = given.out if given.out is not None else Path(mechanism_of(given.scene).name)
+    leave_undocumented()
+    with (
+        unsolvable_as_json(given.json, {}),
+        progress_bar(given.speaks, target) as progress,
+    ):
+        swept = given.call(
+            sweeping, out=target, designs=_replaced(given.set or ()), designs_file=given.designs, progress=progress,
+            workers=None if given.scheduler else processes(given.workers),
+        )  # fmt: skip
+    if given.json:
+        print_json(swept.data)
+    elif not given.quiet:
+        tell(swept.text)
+        print_paths(sorted(p for p in target.iterdir() if not p.name.startswith(".")))
+    if not swept.ok:
+        complain(Phrase("no position could be solved designs.csv or table.csv"))
+        raise typer.Exit(3)
+
+
+def _replaced(given: Iterable[str]) -> dict[str, str]:
+    """Designs as given on the command line: KEY=VALUES."""
+    found: dict[str, str] = {}
+    for text in given:
+        key, sign, values = text.partition("=")
+        if not sign or not key.strip():
+            raise CallError.of(f"--set {text}", "says no key or no values", "write set links.1.length 40 60 21")
+        if key.strip() in found:
+            raise CallError.of(f"--set {text}", "the key is given twice", "write key 40 50 60")
+        found[key.strip()] = values
+    return found
+
+
+study = typer.Typer(no_args_is_help=True, help="The charts of the methods against each other.")
+
+
+@study.command("speed-accuracy")
+@command("scene", "out of speed-accuracy", "repeats", "format of speed-accuracy", "lang", "json", "quiet")
+def speed_accuracy(given: Given) -> None:
+    """Cost of a position against the largest error, for all methods, measured on this machine."""
+    from graphkin.api.studied import speed_accuracy as racing
+
+    found = given.call(racing)
+    finish(given, found, found.write(given.out, given.formats))
+
+
+@study.command("stability")
+@command("out of stability", "format of stability", "lang", "json", "quiet")
+def stability(given: Given) -> None:
+    """Errors beside every kind of singular position: how fast they grow, where methods stop and how they say so."""
+    from graphkin.api.studied import stability as measuring
+
+    found = measuring(language=given.lang or "en")
+    finish(given, found, found.write(given.out, given.formats))
+
+
+# -- papers ------------------------------------------------------------------------------------------------------------
+
+TEMPLATES = ("papers", "course-design")
+
+
+@command(
+    "scene", "out", "format of handout", "at", "position", "find", "lang of sheets", "convention",
+    "positions of handout", "variants", "seed of handout", "rows", "workers of handout", "export", "template",
+    "students", "text of handout", "json", "quiet",
+)  # fmt: skip
+def handout(given: Given) -> None:
+    """Problem sheet, worked solution with every step, and answer key; a set of them with other numbers; or reports."""
+    from graphkin.scene.designs import is_design
+
+    if given.text != "glyphs":
+        raise CallError.of("text", "with papers", "their pdf has its letters with it and", text=given.text,
+                           scene=given.scene)
+    if given.template not in TEMPLATES:
+        raise CallError.of("template", f'"{given.template}"', did_you_mean(given.template, TEMPLATES))
+    if given.template == "course-design":
+        if given.export:
+            raise CallError.of("template course-design", "with export", "leave one of them out")
+        _course(given)
+        return
+    if given.students is not None:
+        raise CallError.of("students", "without a course design", "add template course-design")
+    if is_design(given.scene):
+        _design(given)
+    elif given.variants is not None or given.rows is not None:
+        if given.at or given.positions is not None:
+            raise CallError.of("variants", "with at or positions", "a set draws positions of its own one")
+        _problem_set(given)
+    else:
+        _papers(given)
+
+
+def _papers(given: Given) -> None:
+    from graphkin.api.handouts import handout as handing
+
+    with short_bar(given.speaks) as progress:
+        made = given.call(handing, progress=progress, exports=split_words(given.export))
+        paths = made.write(given.out)
+    _tell_written(given, made, paths, made.lesson.language)
+
+
+def _design(given: Given) -> None:
+    from graphkin.api.designed import design as designing
+    from graphkin.api.task_papers import write_design_papers
+
+    designed = designing(given.scene, language=given.lang)
+    files = write_design_papers(designed, given.out, given.formats)
+    if given.json:
+        print_json(designed.data | {"files": [str(path) for path in files]})
+    elif not given.quiet:
+        print_paths(files)
+
+
+def _course(given: Given) -> None:
+    from graphkin.api.course_designs import course_design
+
+    with short_bar(given.speaks) as progress:
+        made = given.call(course_design, progress=progress)
+        paths = made.write(given.out)
+    _tell_written(given, made, paths, given.lang or made.mechanism.question.sheet.language)
+
+
+def _tell_written(given: Given, made: Handout | CourseDesigns, paths: Sequence[Path], language: str) -> None:
+    """Say what was written, and what was not done as asked."""
+    for note in made.notes:
+        tell(f"graphkin: {say(note, languages(language)[0])}", err=True)
+    finish(given, made, paths, files=True)
+
+
+def _problem_set(given: Given) -> None:
+    from graphkin.api.handouts import papers_of
+    from graphkin.api.problem_sets import problem_set
+    from graphkin.scene import mechanism_of
+
+    target = given.out if given.out is not None else Path(mechanism_of(given.scene).name)
+    papers = papers_of(given.scene, given.formats, given.lang, given.convention, split_words(given.export))
+    with progress_bar(given.speaks, target) as progress:
+        made = given.call(
+            problem_set, out=target, workers=processes(given.workers), render=papers, progress=progress
+        )
+    if given.json:
+        print_json(made.data)
+    elif not given.quiet:
+        gaps = {"count": len(made.answers), "folder": target, "answers": target / "answers.csv"}
+        spoken = languages(given.lang or mechanism_of(given.scene).question.sheet.language)[0]
+        tell(say(Phrase("problems in a folder with all answers", **gaps), spoken))
+    tell_unused(made.unused)
+    for failure in made.failures:
+        complain(Phrase("where and what", where=failure.name, found=failure.why))
+    if not made.ok:
+        raise typer.Exit(min(failure.exit_code for failure in made.failures))
+
+
+# -- files of scenes ---------------------------------------------------------------------------------------------------
+
+
+@command("name", "file", "copy", "schema", "new", "set of new", "lang", "json")
+def scenes(given: Given) -> None:
+    """List the scenes that come along, print one, copy one out, or begin a new one."""
+    from graphkin import scene as room
+
+    if given.new is not None:
+        # the one name that is given is that of the file
+        _begin(given.new, given.set or [], Path(given.name) if given.name is not None else given.file)
+    elif given.schema:
+        typer.echo(json.dumps(room.schema(), ensure_ascii=False, indent=2))
+    elif given.name is not None:
+        text = room.library_text(given.name)
+        if given.copy:
+            _write_new(given.file or Path(f"{given.name}.toml"), text)
+        else:
+            typer.echo(text, nl=False)
+    elif given.copy:
+        raise CallError.of("--copy", "no scene is named", "write graphkin scenes name copy")
+    else:
+        _list(given.lang, given.json)
+
+
+def _begin(kind: str, lengths: list[str], file: Path | None) -> None:
+    """A new scene: what is not given is asked for in a terminal, and the usual elsewhere."""
+    from graphkin.scene.scene import NEW, new_scene
+
+    def wrong(text: str, number: str) -> Problem:
+        return Problem(f"--set {text}", "is no number", "write set crank 150", number=number)
+
+    values = named_numbers(lengths, wrong)
+    new_scene(kind, values)
+    if sys.stdin is not None and sys.stdin.isatty():
+        for name, usual in NEW[kind].items():
+            if name not in values:
+                values[name] = typer.prompt(name, default=usual, type=float, err=True)
+    made = new_scene(kind, values)
+    if file is None:
+        typer.echo(made, nl=False)
+    else:
+        _write_new(file, made)
+
+
+def _list(lang: str | None, as_json: bool) -> None:
+    from graphkin.api.arguments import known_words
+    from graphkin.api.scene_list import scenes as listed
+    known_words(language=lang)
+    found, language = listed(), lang or _spoken_here()
+    if as_json:
+        print_json(found.data)
+        return
+    heads = [word(head, language) for head in ("scene in a list", "title in a list")]
+    rows = [[n, z if language == "zh" else t, str(f)] for n, t, z, f in found.rows]
+    print_table([*heads, "F"], rows, right=(2,))
+
+
+def _spoken_here() -> str:
+    """The language of the terminal: Chinese where its locale is, else English."""
+    locale = next((value for name in ("LC_ALL", "LC_MESSAGES", "LANG") if (value := os.environ.get(name))), "")
+    return "zh" if locale.lower().startswith("zh") else "en"
+
+
+def _write_new(path: Path, text: str) -> None:
+    _must_be_new(path)
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise CallError.of(str(path), "cannot be written", reason=from_others(error.strerror or str(error))) from None
+    print_paths([path])
+
+
+def _must_be_new(path: Path) -> None:
+    """Raises CallError where a file of that name is there."""
+    if path.exists():
+        raise CallError.of(str(path), "a file of that name is there already", "name another file")
+
+
+@command("scene", "lang", "json")
+def explain(given: Given) -> None:
+    """Say in words what was understood: links, joints, mobility, drivers, groups, assembly, units."""
+    from graphkin.api.explained import explain as explaining
+
+    explained = given.call(explaining)
+    if given.json:
+        print_json(explained.data)
+    else:
+        tell(explained.text)
+    if not explained.ok:
+        complain(explained.why)
+        raise typer.Exit(explained.exit_code)
+
+
+@command("source", "out of convert", "lossy", "json", "quiet")
+def convert(given: Given) -> None:
+    """Make a scene of another program's mechanism, or give a scene to another program."""
+    from graphkin.api.converted import convert as converting
+
+    if given.out is not None:
+        _must_be_new(given.out)
+    made = converting(given.source, out=given.out, lossy=given.lossy)
+    if given.json:
+        print_json(made.data)
+    elif given.out is None:
+        typer.echo(made.text, nl=False)
+    elif not given.quiet:
+        print_paths([given.out])
+    for thing in made.left:
+        tell(f"graphkin: not carried over: {thing}", err=True)
+
+
+@command("scene of open", "port", "browser")
+def open_page(given: Given) -> None:
+    """Edit a mechanism in the browser: text, form and figures together; drag points, build from nothing, print papers.
+
+    The page is for this machine alone and lives until it is interrupted (Ctrl-C).
+    """
+    from graphkin.board.answers import LINK, Desk, text_of_link
+    from graphkin.board.server import Address, needs_live, serve
+    from graphkin.board.shelf import Shelf
+
+    needs_live()
+    if given.scene.startswith(LINK):
+        desk = Desk(text=text_of_link(given.scene))
+    else:
+        shelf, first = Shelf.of(given.scene)
+        desk = Desk(shelf, first)
+
+    def ready(address: Address) -> None:
+        tell(f"{address.url}\nCtrl-C ends it")
+        if given.browser:
+            import webbrowser
+
+            webbrowser.open(address.url)
+
+    with suppress(KeyboardInterrupt):  # which is how it ends
+        serve(desk, given.port, ready)
