@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import io
 import json
-import math
 import re
 import warnings
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
@@ -24,9 +23,10 @@ from itertools import groupby, pairwise
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from graphkin.drawing.font import FAMILY, FOLDER
-from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Scan, Text, walk
-from graphkin.drawing.text import Atom, is_italic, parsed, start_runs
+from graphkin.drawing.ink.primitives import Scan, map_tree
+from graphkin.drawing.text import Atom, is_italic, parsed
 from graphkin.drawing.write.drawing import Drawing
+from graphkin.drawing.write.svg import svg_element
 from graphkin.papers.blocks import (
     Beside,
     Block,
@@ -60,12 +60,12 @@ __all__ = [
 Data: TypeAlias = dict[str, object]
 """What the template reads, as JSON holds it."""
 
-SAG = 0.002  # mm: how far a chord may lie off its arc
 CHINESE = (
     "Noto Serif CJK SC", "Noto Serif SC", "Source Han Serif SC", "Source Han Serif CN", "Songti SC", "SimSun", "STSong",
     "Noto Serif CJK JP", "Noto Sans CJK SC", "Source Han Sans SC", "Noto Sans SC", "PingFang SC", "Microsoft YaHei",
     "SimHei", "WenQuanYi Zen Hei", "WenQuanYi Micro Hei", "Droid Sans Fallback",
 )  # fmt: skip
+EDGE = 0.5  # mm around a figure, for lines on its edge
 SIGNS = ("DejaVu Sans Mono", "New Computer Modern")  # come with Typst: for signs that no other face has
 
 
@@ -171,7 +171,7 @@ def _block(block: Leaf, bare: bool = False) -> Data:
     elif bare and isinstance(block, Plate):
         block = replace(block, svg="")
     told = {name: FORMS[name](value) if name in FORMS else value for name, value in vars(block).items()}
-    return {"kind": type(block).__name__, **told}
+    return {"kind": type(block).__name__, "edge": 0, **told}
 
 
 def _row(row: Row) -> Data:
@@ -196,44 +196,15 @@ def _atoms(atoms: tuple[Atom, ...]) -> list[Data]:
 
 
 def _drawing(drawing: Drawing) -> Data:
-    things = [inked for thing in walk(drawing.children) for inked in _ink(thing)]
-    alt = clean(re.sub(r"\s+", " ", f"{drawing.title}. {drawing.desc}").strip())
-    return {"width": _mm(drawing.width), "height": _mm(drawing.height), "alt": alt, "things": things}
-
-
-def _ink(thing: Primitive) -> list[Data]:
-    if isinstance(thing, Group | Scan):  # a handout has no picture under it
-        return []
-    if isinstance(thing, Text):
-        return [
-            {
-                "kind": "text", "at": (_mm(run.x), _mm(run.y)), "size": _mm(run.size), "italic": run.italic,
-                "bold": run.bold, "colour": thing.colour, "text": clean(run.text),
-            }
-            for run in start_runs(thing)
-        ]  # fmt: skip
-    pen = thing.stroke
-    stroke = pen and {"width": pen.width, "dash": pen.dash, "colour": pen.colour}
-    if isinstance(thing, Line):
-        return [{"kind": "line", "points": _pairs((thing.start, thing.inked_end)), "stroke": stroke}]
-    if isinstance(thing, Circle):
-        centre = (_mm(thing.centre.real), _mm(thing.centre.imag))
-        return [{"kind": "circle", "at": centre, "radius": _mm(thing.radius), "fill": thing.fill, "stroke": stroke}]
-    if isinstance(thing, Polygon):
-        return [{"kind": "polygon", "points": _pairs(thing.points), "fill": thing.fill, "stroke": stroke}]
-    points = _chords(thing) if isinstance(thing, Arc) else thing.points
-    return [{"kind": "polyline", "points": _pairs(points), "stroke": stroke}]
-
-
-def _chords(arc: Arc) -> tuple[complex, ...]:
-    """An arc as chords that lie less than ``SAG`` off it."""
-    step = 2 * math.acos(max(0.0, 1 - SAG / max(arc.radius, 2 * SAG)))
-    count = max(2, math.ceil(abs(arc.end - arc.start) / step))
-    return tuple(arc.at(arc.start + (arc.end - arc.start) * i / count) for i in range(count + 1))
-
-
-def _pairs(points: tuple[complex, ...]) -> list[tuple[float, float]]:
-    return [(_mm(z.real), _mm(z.imag)) for z in points]
+    """A figure as an SVG with the faces of the document, and what it shows in words; nothing of one without ink."""
+    told = clean(re.sub(r"\s+", " ", f"{drawing.title}. {drawing.desc}").strip())
+    # a handout has no picture under its figures
+    inked = map_tree(drawing.children, lambda thing: None if isinstance(thing, Scan) else thing.moved(EDGE * (1 + 1j)))
+    wide, high = drawing.width + 2 * EDGE, drawing.height + 2 * EDGE
+    faces = f'<svg xmlns="http://www.w3.org/2000/svg" font-family="{", ".join(_fonts()[0])}" '
+    svg = svg_element(replace(drawing, width=wide, height=high, children=inked)) if inked else ""
+    size = {"width": _mm(drawing.width), "height": _mm(drawing.height), "edge": EDGE}
+    return {**size, "seen": told, "svg": svg.replace("<svg ", faces, 1)}
 
 
 def _mm(value: float) -> float:
