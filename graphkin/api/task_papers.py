@@ -190,11 +190,11 @@ def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str
     spread = predict_cam(sheet, "pencil", scene.question.sheet.tools)
     for d, off in zip(sheet.divisions, spread, strict=True) if not cam.flat else ():
         angle = math.degrees(d.pressure)
-        within = _accepted(angle, math.degrees(off.pressure))
+        within = _accepted(angle, math.degrees(off["pressure"]))
         results.append((f"$α_{{{d.number}}}$", "°", f"{angle:.1f}", f"{angle:.3f}", within))
     metres = scene.units.metres
     for d, off in zip(sheet.divisions, spread, strict=True):
-        value, deviation = (math.degrees(x) if swings else x / metres for x in (d.lift, off.lift))
+        value, deviation = (math.degrees(x) if swings else x / metres for x in (d.lift, off["lift"]))
         letter, unit = ("ψ", "°") if swings else ("s", scene.units.length)
         within = _accepted(value, deviation, -math.inf)
         per = 1.0 if swings else sheet.scale / metres

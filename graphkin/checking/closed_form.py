@@ -3,16 +3,17 @@ far readings off a drawn cam may lie off."""
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
-from graphkin.checking.uncertainty import COVERAGE
-from graphkin.construction import EXACT, Instrument, nudged
-from graphkin.construction.cam_sheet import CamSheet, division_by_hand
+from graphkin.checking.uncertainty import COVERAGE, deviations
+from graphkin.construction import EXACT, Instrument
+from graphkin.construction.cam_sheet import CamDivision, CamSheet, division_by_hand
 from graphkin.construction.synthesis import DesignSheet, construct
 from graphkin.errors import Unsolvable
 from graphkin.scene.designs import DesignTask
@@ -49,17 +50,13 @@ class FoundLength:
 def predict_lengths(task: DesignTask, scale: float, name: str, tools: Tools) -> dict[str, float]:
     """Standard deviation (mm on paper) of each length that is drawn with an instrument, "pencil" or "cad"; infinite
     where one act alone keeps it from being found."""
-    still = nudged(name, tools)
-    base = construct(task, scale, still).lengths
-    squares = dict.fromkeys(base, 0.0)
-    for act in range(1, still.acts + 1):
-        try:
-            wrong: Mapping[str, float] = construct(task, scale, nudged(name, tools, {act: 1.0})).lengths
-        except Unsolvable:
-            wrong = dict.fromkeys(base, math.inf)
-        for key, value in base.items():
-            squares[key] += (wrong[key] - value) ** 2
-    return {key: math.sqrt(square) for key, square in squares.items()}
+
+    def read(hand: Instrument) -> Mapping[str, float] | None:
+        with suppress(Unsolvable):
+            return construct(task, scale, hand).lengths
+        return None
+
+    return deviations(read, name, tools)
 
 
 def compare_lengths(
@@ -99,31 +96,14 @@ def compare_cam(sheet: CamSheet) -> CamPoints:
     return CamPoints(*off, turned, max(*off) <= AGREES * sheet.cam.base and turned <= AGREES)
 
 
-@dataclass(frozen=True)
-class CamUncertainty:
-    """Standard deviations of what is read at a division: lift (m, rad) and pressure angle (rad); infinite where one act
-    alone keeps it from being drawn."""
+def predict_cam(sheet: CamSheet, name: str, tools: Tools) -> Sequence[Mapping[str, float]]:
+    """How far the "lift" (m, rad) and "pressure" angle (rad) of each division are read off, drawn with an instrument
+    ("pencil" or "cad"): standard deviations, infinite where one act alone keeps a division from being drawn."""
 
-    lift: float
-    pressure: float
+    def read(division: CamDivision, hand: Instrument) -> Mapping[str, float] | None:
+        drawn = division_by_hand(sheet.cam, division.degree, 1.0 / sheet.scale, hand)
+        # a normal has no sense
+        return drawn and {"lift": drawn[0], "pressure": math.remainder(drawn[1] - division.pressure, math.pi)}
 
-
-def predict_cam(sheet: CamSheet, name: str, tools: Tools) -> Sequence[CamUncertainty]:
-    """How far lift and pressure angle of each division are read off, drawn with an instrument ("pencil" or "cad"): each
-    act made wrong once by one standard deviation, the squares added up (as in `predict`)."""
-    return [_division(sheet, d.degree, name, tools) for d in sheet.divisions]
-
-
-def _division(sheet: CamSheet, degree: float, name: str, tools: Tools) -> CamUncertainty:
-    mm, still = 1.0 / sheet.scale, nudged(name, tools)
-    right = division_by_hand(sheet.cam, degree, mm, still)
-    if right is None:
-        return CamUncertainty(math.inf, math.inf)
-    squares = [0.0, 0.0]
-    for act in range(1, still.acts + 1):
-        wrong = division_by_hand(sheet.cam, degree, mm, nudged(name, tools, {act: 1.0}))
-        if wrong is None:
-            return CamUncertainty(math.inf, math.inf)
-        squares[0] += (wrong[0] - right[0]) ** 2
-        squares[1] += (cmath.phase(cmath.exp(2j * (wrong[1] - right[1]))) / 2) ** 2
-    return CamUncertainty(*map(math.sqrt, squares))
+    found = (deviations(partial(read, division), name, tools) for division in sheet.divisions)
+    return [one or {"lift": math.inf, "pressure": math.inf} for one in found]

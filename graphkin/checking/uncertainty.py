@@ -17,9 +17,10 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,9 +35,10 @@ from graphkin.scene.scene_tables import Tools
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 
-__all__ = ["COVERAGE", "Advice", "Uncertainty", "advise", "predict"]
+__all__ = ["COVERAGE", "Advice", "Uncertainty", "advise", "deviations", "predict"]
 
 Values = Mapping[Symbol, complex | float]
+T = TypeVar("T")
 
 
 NO_LIMITS: Mapping[Symbol, float] = MappingProxyType({})
@@ -215,6 +217,24 @@ def _summed(symbol: Symbol, shares: Mapping[int, float], causes: tuple[tuple[int
     cause = causes[worst][1] if worst < len(causes) else _reading(symbol)
     share = shares[worst] / whole if math.isfinite(whole) else 1.0
     return Uncertainty(math.sqrt(whole), cause, share, math.sqrt(whole))
+
+
+def deviations(read: Callable[[Instrument], Mapping[T, float] | None], name: str, tools: Tools) -> dict[T, float]:
+    """Standard deviation of first order of what is read off a construction drawn with an instrument, "pencil" or "cad":
+    each act made wrong once by one standard deviation, the squares added up; infinite where one act alone keeps it from
+    being drawn.
+
+    Parameters
+    ----------
+    read : what is read off the drawing of some hands, by name; None where they cannot draw it
+    """
+    still = nudged(name, tools)
+    right = read(still) or {}
+    drawn = [read(nudged(name, tools, {act: 1.0})) for act in range(1, still.acts + 1)]
+    return {
+        key: math.sqrt(added_up(math.inf if wrong is None else (wrong[key] - value) ** 2 for wrong in drawn))
+        for key, value in right.items()
+    }
 
 
 SMALL = 0.05  # readings below this part of the largest of their kind are no fair measure of a drawing

@@ -38,8 +38,8 @@ def test_a_pencil_keeps_what_is_predicted(name):
         right = division_by_hand(sheet.cam, d.degree, 1 / sheet.scale, EXACT)
         for seed in range(20):
             read = division_by_hand(sheet.cam, d.degree, 1 / sheet.scale, pencil(tools, seed))
-            beyond += abs(read[0] - right[0]) > COVERAGE * off.lift
-            beyond += abs(math.remainder(read[1] - right[1], math.pi)) > COVERAGE * off.pressure + 1e-12
+            beyond += abs(read[0] - right[0]) > COVERAGE * off["lift"]
+            beyond += abs(math.remainder(read[1] - right[1], math.pi)) > COVERAGE * off["pressure"] + 1e-12
             count += 2
     assert beyond <= 0.01 * count
 
@@ -47,7 +47,7 @@ def test_a_pencil_keeps_what_is_predicted(name):
 def test_a_drafting_program_reads_a_hundredth():
     sheet, tools = drawn("cam-offset-roller")
     for off in predict_cam(sheet, "cad", tools):
-        assert 0.01 / math.sqrt(12) == pytest.approx(math.degrees(off.pressure))
+        assert 0.01 / math.sqrt(12) == pytest.approx(math.degrees(off["pressure"]))
 
 
 def test_the_key_accepts_what_the_drawing_can_do(tmp_path):
@@ -55,7 +55,7 @@ def test_the_key_accepts_what_the_drawing_can_do(tmp_path):
     key = re.sub("<[^>]*>", " ", (tmp_path / "cam-key.html").read_text())
     bounds = [(float(a), float(b)) for a, b in re.findall(r"([\d.]+) … ([\d.]+)\s+°", key)]
     sheet, tools = drawn("cam-swinging-roller")
-    off = predict_cam(sheet, "pencil", tools)[2].pressure
+    off = predict_cam(sheet, "pencil", tools)[2]["pressure"]
     low, high = bounds[2]
     assert 2 * math.degrees(COVERAGE * off) == pytest.approx(high - low, abs=0.1)
     assert len({round(b - a, 1) for a, b in bounds}) > 3
