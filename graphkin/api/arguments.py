@@ -324,9 +324,9 @@ def hand_of(scene: Mechanism, name: str, seed: int) -> Instrument:
 def quantity_shown(scene: Mechanism, name: str) -> Quantity:
     """What a name shows in a table: a place ("C"), an angle, a travel or its rates, a force, or what ``find`` knows.
     Raises CallError for a name that means nothing here."""
-    from graphkin.study.quantities import named_quantity, symbol_quantity
+    from graphkin.study.quantities import Quantity, named_quantity
 
-    return named_quantity(scene, name) or symbol_quantity(*asked_symbols(scene, [name]))
+    return named_quantity(scene, name) or Quantity(asked_symbols(scene, [name])[0])
 
 
 def _unknown_names(scene: Mechanism, symbol: Symbol) -> list[Problem]:

@@ -15,9 +15,8 @@ from graphkin.solver import Forces, listed_points, own_slides
 from graphkin.study.quantities import (
     Quantity,
     link_quantities,
-    place_quantity,
+    load_quantity,
     slide_quantities,
-    symbol_quantity,
 )
 from graphkin.table import Array
 from graphkin.words import Phrase, Wording, say, word
@@ -83,8 +82,8 @@ def _whole(solved: Solved, language: str) -> list[SolutionTable]:
     pairs = own_slides(scene, motion.slides)
     for point, link in listed_points(scene, pairs):
         ref = PointRef(point, "" if point in scene.by_name[link].points else link)
-        rates = (symbol_quantity(Symbol(kind, ref)) for kind in ("v", "a"))
-        points.rows.append((f"{point}@{link}", columns(place_quantity(ref), *rates)))
+        rates = (Quantity(Symbol(kind, ref)) for kind in ("place", "v", "a"))
+        points.rows.append((f"{point}@{link}", columns(*rates)))
     for pair in pairs:
         term = push.of(motion.settled(motion.slide(pair.key).coriolis, "acceleration", 2.0))
         slides.rows.append((pair.key, [*columns(*slide_quantities(pair.key)), _texts(term.real, term.imag)]))
@@ -99,7 +98,7 @@ def _whole(solved: Solved, language: str) -> list[SolutionTable]:
 def _forces(found: Forces) -> Iterator[tuple[str, Sequence[Sequence[str]]]]:
     """Forces by components, size and direction."""
     for name in _names(found, found.forces):
-        x, y = (_there(found, name, part) for part in Quantity("force", name).parts(None, found.motion))
+        x, y = (_there(found, name, part) for part in load_quantity(name, "force").parts(None, found.motion))
         way = ["–" if a == b == 0.0 else f"{math.degrees(math.atan2(b, a)):.6g}" for a, b in zip(x, y, strict=True)]
         yield name, (_texts(x, y), _texts(np.hypot(x, y)), way)
 
@@ -107,9 +106,9 @@ def _forces(found: Forces) -> Iterator[tuple[str, Sequence[Sequence[str]]]]:
 def _moments(found: Forces) -> Iterator[tuple[str, Sequence[Sequence[str]]]]:
     """Moments with their unit; excess work and inertia of the flywheel that the scene asks for, where it has one."""
     motion = found.motion
-    shown = [Quantity("moment", name) for name in _names(found, found.moments)]
+    shown = [load_quantity(name, "moment") for name in _names(found, found.moments)]
     if motion.scene.loading.flywheel is not None:
-        shown += [symbol_quantity(Symbol.parse(name)) for name in ("excess_W", "J_F")]
+        shown += [Quantity(Symbol.parse(name)) for name in ("excess_W", "J_F")]
     for quantity in shown:
         try:
             (values,) = quantity.parts(None, motion)

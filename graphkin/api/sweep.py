@@ -181,7 +181,7 @@ class Swept(OfScene, Result):
     def figures(self) -> Mapping[str, ChartPage | Drawing]:
         """Motion diagrams of the outputs and coupler curves by name; none over designs."""
         from graphkin.study.diagrams import diagrams
-        from graphkin.study.quantities import symbol_quantity
+        from graphkin.study.quantities import Quantity
 
         if self.time is not None:
             return self.time.diagrams(self.language)
@@ -192,7 +192,7 @@ class Swept(OfScene, Result):
         over: dict[Quantity, list[tuple[float, float]]] = {}
         for symbol, place, value, along in self.elsewhere:
             offset = float(self.turn.reach.offsets(np.array([place]))[0])
-            over.setdefault(replace(symbol_quantity(symbol), along=along), []).append((offset, value))
+            over.setdefault(Quantity(symbol, along), []).append((offset, value))
         if over:
             signed = {replace(quantity, along=False): quantity for quantity in over}
             asked = list(dict.fromkeys((*(signed.get(q, q) for q in asked), *over)))
@@ -436,13 +436,13 @@ def _elsewhere(scene: Mechanism, measured: AnswersLike) -> tuple[tuple[Symbol, f
 
 def _asked(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Quantity, ...]:
     """What is asked, in its order.  Raises CallError, naming everything that names nothing."""
-    from graphkin.study.quantities import named_quantity, symbol_quantity
+    from graphkin.study.quantities import Quantity, named_quantity
 
     if find is None:
         find = scene.question.find
         shown = (s for s in find if s.scope not in ("turn", "cycle") and s.kind not in ("h", "arm") and not s.at)
         forces = {s: named_quantity(scene, str(s)) for s in find if s.scope == "force"}
-        return tuple(forces.get(s) or symbol_quantity(s) for s in shown)
+        return tuple(forces.get(s) or Quantity(s) for s in shown)
     found: list[Quantity] = []
     problems: list[Problem] = []
     for name in [find] if isinstance(find, Symbol) else as_list("find", find, Phrase("give symbols v_b omega_3")):
@@ -451,7 +451,7 @@ def _asked(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Quant
             problems.append(Problem(f"find {name}", "is of the whole turn no column", "it stands in the summary"))
             continue
         try:
-            found += [named] if named is not None else map(symbol_quantity, asked_symbols(scene, [name]))
+            found += [named] if named is not None else map(Quantity, asked_symbols(scene, [name]))
         except CallError as error:
             problems += error.problems
     if problems:

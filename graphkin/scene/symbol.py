@@ -131,6 +131,12 @@ KINDS = {
 """All kinds of quantities by name.  A further kind of quantity is a further entry."""
 
 VECTORS = tuple(name for name, kind in KINDS.items() if kind.is_vector)
+_OF_ALL = {
+    **KINDS,
+    "place": Kind("place", "length", "points", "motion", "C or B@3"),
+    "transmission": Kind("transmission", "angle", "links", "position", "4-5"),
+}
+"""With the place of a point, which has no letter of its own, and what only a group as a whole has."""
 _LONGEST_FIRST = sorted(KINDS, key=len, reverse=True)
 _ELSEWHERE = re.compile(r"(.*\S)\s+at\s+(\S+)", re.DOTALL)
 
@@ -152,9 +158,10 @@ class PointRef(NamedTuple):  # looked up by the ten thousand
 class Symbol:
     """A quantity by name.
 
-    ``kind`` is a name of `KINDS`; ``of`` and ``to`` are its points (``to`` that relative to which it is meant, or the
-    second of two), ``link`` and ``other`` its links (of a sliding pair the sliding and the guiding one; of a pin in a
-    slot ``link`` is the pin).  ``at`` names the position that is meant, "" this one.
+    ``kind`` is a name of `KINDS`, or "place" for that of a point, or "transmission" for the angle of a group, whose
+    links are its ``name``; ``of`` and ``to`` are its points (``to`` that relative to which it is meant, or the second of
+    two), ``link`` and ``other`` its links (of a sliding pair the sliding and the guiding one; of a pin in a slot
+    ``link`` is the pin).  ``at`` names the position that is meant, "" this one.
 
     Of forces ``link`` acts on ``other`` at the joint ``of`` (where they share two); ``name`` is that of a load, or of a
     force whose arm is meant; with ``plus`` the load that begins or ends exactly there acts.  ``turning`` is a load that
@@ -195,6 +202,19 @@ class Symbol:
         return cls.of_names(name, {part: given for part, given in match.groupdict().items() if given})
 
     @classmethod
+    def of_column(cls, text: str) -> Symbol:
+        """Read the name of a column: a symbol, the place of a point ("C", "B@3") or a rate of a sliding pair ("v_3/4",
+        "a_3/4").  Raises ValueError as `parse` does."""
+        kind, mark, rest = text.partition("_")
+        if not mark:
+            point, _, link = text.partition("@")
+            return cls("place", PointRef(point, link))
+        pair = re.fullmatch(_FORMS["pair"], rest) if kind in ("v", "a") else None
+        if pair is None or re.fullmatch(_FORMS["points"], rest):
+            return cls.parse(text)
+        return cls(kind, link=pair["link"], other=pair["other"])
+
+    @classmethod
     def of_names(cls, kind: str, found: Mapping[str, str]) -> Symbol:
         """The quantity of a kind by the names behind it, as `forms_of_names` calls them."""
         of, to = (PointRef(found[part], found.get(f"{part}_link", "")) if part in found else None
@@ -204,15 +224,16 @@ class Symbol:
 
     @property
     def is_vector(self) -> bool:
-        return self.kind in VECTORS and not self.turning
+        of_slide = self.of is None and self.kind in ("v", "a")
+        return self.kind in VECTORS and not self.turning and not of_slide
 
     @property
     def scope(self) -> Scope:
-        return KINDS[self.kind].scope
+        return _OF_ALL[self.kind].scope
 
     @property
     def measure(self) -> Measure:
-        return "moment" if self.turning else KINDS[self.kind].measure
+        return "moment" if self.turning else _OF_ALL[self.kind].measure
 
     @property
     def pair(self) -> str:
@@ -245,6 +266,8 @@ class Symbol:
             name = f"{self.kind}_{self.link or self.name}"
             name += f"{KINDS[self.kind].sign}{self.other}" if self.other else ""
             name += (f"@{self.of}" if self.of else "") + ("+" if self.plus else "")
+        elif self.kind == "place":
+            name = str(self.of)
         else:
             name = f"{self.kind}_{self.of}" + (f"/{self.to}" if self.to else "")
             name += f" seen from {self.seen}" if self.seen else ""

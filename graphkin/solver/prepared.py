@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -12,7 +12,8 @@ import numpy as np
 from graphkin.errors import CallError
 from graphkin.scene.force_names import force_names, opposite
 from graphkin.scene.model import Dimension, Mechanism, dimensions
-from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import Measure
 from graphkin.solver.bounds import error_bounds
 from graphkin.solver.dead_points import singular
 from graphkin.solver.driver_range import DriverRange, range_of
@@ -28,12 +29,14 @@ from graphkin.solver.program import DimensionedProgram, Program, program_of
 from graphkin.solver.quantities import ORDERS, VALUES, Posed, bound_of_symbol
 from graphkin.structure import Structure
 
-__all__ = ["Column", "PreparedMechanism", "Units", "force_heads", "force_rows", "formulas", "prepare"]
+__all__ = ["PreparedMechanism", "Units", "column_symbol", "force_heads", "force_rows", "formulas", "prepare"]
 
 CHUNK = 16384  # positions in a piece, so that all columns of one stay in the cache
 PRODUCTS = 4
 """Roundings in the cosine and sine of an angle, those of many even steps included."""
-_PER: tuple[Name, ...] = (("per metre",), ("per radian",), ("per metre of rates",))
+_PER: Mapping[Measure, int] = {"length": 0, "angle": 1, "velocity": 2, "acceleration": 2}
+"""Which of the units a measure has."""
+_NAMES: tuple[Name, ...] = (("per metre",), ("per radian",), ("per metre of rates",))
 RESIDUE = 16 * UNIT  # of what moves: a few roundings
 CLEAR = 3.0
 """Times the greatest turn of a link between two positions: a sine that is more than that at both is not zero between
@@ -87,12 +90,7 @@ class PreparedMechanism:
         def left(name: str) -> float:
             if name in self.loads:
                 return 0.0
-            if name not in self.wanted or "_" not in name:  # the place of a point
-                name = name.removesuffix(".x").removesuffix(".y")
-            try:
-                symbol = Symbol.parse(name)
-            except ValueError:
-                return RESIDUE * whole["length"]
+            symbol = Symbol.of_column(name if name in self.wanted else name.removesuffix(".x").removesuffix(".y"))
             return RESIDUE * whole.get(symbol.measure, 0.0)
 
         return np.array([left(name) for name in self.names])
@@ -155,7 +153,7 @@ class PreparedMechanism:
     @cached_property
     def _held(self) -> dict[Name, float]:
         """Units, rates of the drivers, and values of those but the first."""
-        held: dict[Name, float] = dict(zip(_PER, self.units, strict=True))
+        held: dict[Name, float] = dict(zip(_NAMES, self.units, strict=True))
         count = len(self.structure.scene.drivers)
         for k, driver in enumerate(self.structure.drivers):
             _, rate, second = driver.values
@@ -370,8 +368,8 @@ class PreparedMechanism:
         links = error_bounds(structure, state.poses, state.drive, state.slack, state.refined, errors)
         posed = Posed(structure, state.poses, structure.slides)
         for row, name in zip(out, self.wanted, strict=True):
-            column = Column(self.dimensioned.program, structure, name)
-            row[ok] = bound_of_symbol(posed, column.symbol, links) * column.factor(self.units)
+            symbol = column_symbol(name)
+            row[ok] = bound_of_symbol(posed, symbol, links) * _factor(symbol, self.units)
 
     def _state(self, value: Array) -> State:
         """The mechanism at values of the first driver that the motion reaches, in 16 digits."""
@@ -445,7 +443,7 @@ def prepare(
     Parameters
     ----------
     scene : a scene, or its structure
-    asked : columns by name, as in ``graphkin.solver.program.Column``: "B", "v_B", "a_B@3", "omega_3", ...
+    asked : columns by name, as in ``column_symbol``: "B", "v_B", "a_B@3", "omega_3", ...
     units : what one metre, one radian and one metre in rates are in the units of the columns
     bounded : after all others a column for each name, of how far rounding may have moved its values
     along : the range of its first driver, where that is known already
@@ -468,55 +466,21 @@ Units = tuple[float, float, float]
 """What one metre, one radian and one metre in rates are in the units of the columns."""
 
 
-@dataclass(frozen=True)
-class Column:
-    """What a name of a prepared mechanism asks for: "B", "B@3" (place of a point), "v_B", "a_B@3", "v_C/B", "theta_3",
-    "omega_3", "alpha_3", "s_2/3" (travel of a sliding pair).  Raises CallError for what is none of these."""
+def column_symbol(name: str) -> Symbol:
+    """What a column is of: "B", "B@3" (place of a point), "v_B", "a_B@3", "v_C/B", "theta_3", "omega_3", "alpha_3",
+    "s_2/3" (travel of a sliding pair).  Raises CallError for what is none of these."""
+    try:
+        symbol = Symbol.of_column(name)
+    except ValueError as error:
+        raise CallError.of(f'"{name}"', error.args[0]) from None
+    if symbol.kind not in ORDERS or (symbol.other and symbol.kind != "s"):
+        raise CallError.of(f'"{name}"', "is no column", "ask for places v_ a_ theta_ omega_ alpha_")
+    return symbol
 
-    program: Program
-    structure: Structure
-    name: str
 
-    def __post_init__(self) -> None:
-        if self.symbol.kind not in ORDERS:
-            raise CallError.of(f'"{self.name}"', "is no column", "ask for places v_ a_ theta_ omega_ alpha_")
-
-    @cached_property
-    def symbol(self) -> Symbol:
-        kind, mark, rest = self.name.partition("_")
-        if not mark:
-            point, _, link = self.name.partition("@")
-            return Symbol("place", PointRef(point, link))
-        if kind in ("s", "theta"):
-            link, _, other = rest.partition("/")
-            return Symbol(kind, link=link, other=other) if kind == "s" else Symbol(kind, link=rest)
-        try:
-            return Symbol.parse(self.name)
-        except ValueError as error:
-            raise CallError.of(f'"{self.name}"', error.args[0]) from None
-
-    @cached_property
-    def posed(self) -> Posed[Vec, Real]:
-        program = self.program
-        structure = self.structure
-        return Posed(structure, program.poses, structure.slides, program.number, program.angle)
-
-    @cached_property
-    def formula(self) -> Real | Vec:
-        """In SI."""
-        formula: Real | Vec = VALUES[self.symbol.kind](self.posed, self.symbol)
-        return formula
-
-    def factor(self, units: Units) -> float:
-        """What the quantity in SI is to be multiplied by."""
-        return {"v": units[2], "a": units[2], "theta": units[1], "omega": 1.0, "alpha": 1.0}.get(
-            self.symbol.kind, units[0]
-        )
-
-    def scale(self, units: Units) -> Real | float:
-        """The same as a number of the formulas."""
-        param = {"v": _PER[2], "a": _PER[2], "theta": _PER[1]}.get(self.symbol.kind, _PER[0])
-        return 1.0 if self.factor(units) == 1.0 else self.program.graph.param(param)
+def _factor(symbol: Symbol, units: Units) -> float:
+    """What a quantity in SI is to be multiplied by."""
+    return units[_PER[symbol.measure]] if symbol.measure in _PER else 1.0
 
 
 def formulas(
@@ -526,7 +490,7 @@ def formulas(
 
     Parameters
     ----------
-    asked : names as in ``Column``; of points two columns each, "B.x" and "B.y"
+    asked : names as in ``column_symbol``; of points two columns each, "B.x" and "B.y"
     units : of lengths, of angles and of lengths in rates; rates of angles are in radians always
 
     Raises
@@ -534,12 +498,16 @@ def formulas(
     CallError : a name that is no column, or names nothing in this mechanism
     """
     made: dict[str, Real] = {}
-    for column in (Column(program, structure, name) for name in asked):
-        formula = column.formula * column.scale(units)
+    posed = Posed(structure, program.poses, structure.slides, program.number, program.angle)
+    for name in asked:
+        symbol = column_symbol(name)
+        formula: Real | Vec = VALUES[symbol.kind](posed, symbol)
+        if _factor(symbol, units) != 1.0:
+            formula = formula * program.graph.param(_NAMES[_PER[symbol.measure]])
         if isinstance(formula, Vec):
-            made[f"{column.name}.x"], made[f"{column.name}.y"] = formula.real, formula.imag
+            made[f"{name}.x"], made[f"{name}.y"] = formula.real, formula.imag
         else:
-            made[column.name] = formula
+            made[name] = formula
     return made
 
 

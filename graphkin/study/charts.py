@@ -196,7 +196,7 @@ class DriverAxis(Axis):
     def shown(self, quantity: Quantity, places: Array, values: Array) -> Array:
         """Values (SI) in units of the figure; an angle of a link without a jump along the axis."""
         values = np.asarray(values, dtype=float)
-        if quantity.kind == "theta" and self.reach.full:
+        if quantity.is_angle and self.reach.full:
             values = np.where(places < self.first - 1e-12, values + self.gain(quantity), values)
             left = quantity.values(self.reach, self.beside_ends)[2]
             values = values - 2 * np.pi * np.rint(left / (2 * np.pi))
@@ -216,7 +216,7 @@ class DriverAxis(Axis):
         x, shown = self.at(offsets), self.shown(quantity, offsets, values)
         if self.reach.full:
             x[0], x[-1] = self.left, self.right
-            if quantity.kind == "theta":
+            if quantity.is_angle:
                 shown[-1] = shown[0] + quantity.unit(self.scene).of(self.gain(quantity))
         return np.stack([x, shown], axis=1)
 
@@ -225,7 +225,7 @@ class DriverAxis(Axis):
         if not len(pairs):
             return EMPTY
         at, read = np.array(pairs, dtype=float).T
-        if quantity.measure == "angle" and quantity.kind == "theta":
+        if quantity.is_angle:
             # an angle that is measured tells no whole turns
             read = read + 2 * np.pi * np.rint((self.values(quantity, at) - read) / (2 * np.pi))
         points = np.stack([self.at(at), self.shown(quantity, at, read)], axis=1)
@@ -278,7 +278,7 @@ class Panel:
 
     @property
     def counts_degrees(self) -> bool:
-        return self.quantity.kind == "theta" and self.span[1] - self.span[0] > 60 * (1 + 2 * MARGIN)
+        return self.quantity.is_angle and self.span[1] - self.span[0] > 60 * (1 + 2 * MARGIN)
 
 
 def panel_of(
@@ -332,12 +332,11 @@ def motion_panel(
 
 def quantity_title(scene: Mechanism, quantity: Quantity) -> str:
     """Symbol and unit of a quantity as markup."""
-    letter, name = str(quantity.kind), quantity.of.split("/")[0]
-    if quantity.symbol is not None:
-        letter, name = quantity.symbol.kind, str(quantity.symbol).removeprefix(f"{quantity.symbol.kind}_")
+    letter, symbol = quantity.kind, quantity.symbol
+    name = str(symbol).removeprefix(f"{letter}_") if quantity.order is None else symbol.link
     greek = {"theta": "θ", "omega": "ω", "alpha": "α", "gamma": "γ", "pressure": "α^{p}", "d": "l"}.get(letter, letter)
-    symbol = force_symbol(scene, quantity.of) if quantity.is_load else f"${greek}_{{{name.replace('@', '')}}}$"
-    return f"{symbol} ({quantity.unit(scene).written})"
+    shown = force_symbol(scene, quantity.of) if quantity.is_load else f"${greek}_{{{name.replace('@', '')}}}$"
+    return f"{shown} ({quantity.unit(scene).written})"
 
 
 def force_symbol(scene: Mechanism, name: str) -> str:
@@ -349,7 +348,7 @@ def _allowed(quantity: Quantity, scene: Mechanism) -> tuple[tuple[float, float] 
     """Within what (degrees) a transmission or pressure angle shall stay; of a cam's follower what the scene allows as
     it rises, and as it falls."""
     symbol = quantity.symbol
-    cam = next((c for c in scene.cams if symbol and symbol.kind == "pressure" and c.follower == symbol.link), None)
+    cam = next((c for c in scene.cams if symbol.kind == "pressure" and c.follower == symbol.link), None)
     if cam is not None and any(cam.allowed):
         rise, fall = (math.degrees(limit) if limit else None for limit in cam.allowed)
         return (0.0, float(rise or fall or 0.0)), fall if rise else None
@@ -357,8 +356,7 @@ def _allowed(quantity: Quantity, scene: Mechanism) -> tuple[tuple[float, float] 
 
 
 def _usual(quantity: Quantity) -> tuple[float, float] | None:
-    kind = quantity.symbol.kind if quantity.symbol is not None else ""
-    return {"gamma": (LEAST_GAMMA, 90.0), "pressure": (0.0, 90.0 - LEAST_GAMMA)}.get(kind)
+    return {"gamma": (LEAST_GAMMA, 90.0), "pressure": (0.0, 90.0 - LEAST_GAMMA)}.get(quantity.kind)
 
 
 def whole_span(low: float, high: float) -> tuple[float, float]:
@@ -478,7 +476,7 @@ def legend_of(panels: Sequence[Panel], language: str) -> list[tuple[Look, str]]:
             told = f"≥ {low:g}°" if high == 90.0 else f"≤ {high:g}°"
             if panel.falling:
                 told = say(Phrase("rising and falling", (f"{high:g}°", f"{panel.falling:g}°")), language)
-            own = panel.quantity.symbol is not None and panel.allowed != _usual(panel.quantity)
+            own = panel.allowed != _usual(panel.quantity)
             entries.append((look(LIMIT), say(Phrase("allowed by scene" if own else "allowed band", (told,)), language)))
     if any(panel.jumps for panel in panels):
         entries.append((look(LEAP), word("load jumps", language)))

@@ -39,7 +39,7 @@ from graphkin.study.charts import (
 )
 from graphkin.study.force_diagrams import flywheel_page, force_page, polar_page
 from graphkin.study.graphical import ordinate_chains
-from graphkin.study.quantities import Quantity, rates_of
+from graphkin.study.quantities import Quantity, load_quantity, rates_of
 from graphkin.study.turn import Output, TurnStudy
 from graphkin.words import Phrase, say, word
 from graphkin.words.written import in_markup
@@ -105,7 +105,7 @@ def _balance_pages(turn: TurnStudy, language: str) -> dict[str, ChartPage | Draw
     pages: dict[str, ChartPage | Drawing] = {}
     for name, kind in force_names(turn.scene).items():
         if name[:2] in ("F_", "M_") and "/" not in name:
-            pages[f"diagram-{name}"] = force_page(turn.reach, Quantity(kind, name), language)
+            pages[f"diagram-{name}"] = force_page(turn.reach, load_quantity(name, kind), language)
     if isinstance(turn.flywheel, FlywheelStudy):
         pages["flywheel"] = flywheel_page(turn.reach, turn.flywheel, language)
     return pages

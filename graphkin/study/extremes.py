@@ -240,7 +240,7 @@ def _traced(way: CurveParameter, curves: Sequence[Curve]) -> list[Traced]:
             most = max((e.value for e in extremes), default=0.0)
             extremes = tuple(replace(e, value=0.0) if e.value <= 1e-11 * most else e for e in extremes)
             zeros = np.array([e.offset for e in extremes if e.value == 0.0])
-        elif quantity.kind == "theta":
+        elif quantity.is_angle:
             zeros = np.zeros(0)
         found.append(Traced(quantity, extremes, tuple(driver_value(reach, float(z)) for z in zeros)))
     return found
@@ -264,7 +264,7 @@ def _polished(way: CurveParameter, curves: Sequence[Curve], turns: Sequence[Sequ
     reach = way.reach
     low, high = reach.ends
     found = [way.offset(np.array([turn.place for turn in own])) for own in turns]
-    which = [k for k, c in enumerate(curves) if c.quantity.kind in ("theta", "s") and len(found[k])]
+    which = [k for k, c in enumerate(curves) if c.quantity.order == 0 and len(found[k])]
     both = [q for k in which for q in rates_of(curves[k].quantity)[1:]]
     rates = _values(reach, both, [found[k] for k in which for _ in range(2)], unit=True) if which else []
     for k, rate, bend in zip(which, rates[::2], rates[1::2], strict=True):

@@ -51,7 +51,7 @@ from graphkin.study.charts import (
     title_of,
 )
 from graphkin.study.extremes import Extreme
-from graphkin.study.quantities import Quantity, named_quantity
+from graphkin.study.quantities import Quantity, load_quantity, named_quantity
 from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
@@ -212,7 +212,7 @@ def flywheel_page(reach: DriverRange, found: FlywheelStudy, language: str) -> Ch
     scene, axis = reach.scene, driver_axis(reach, language)
     per, force = scene.units.newtons, scene.units.force
     moment, inertia = f"{force}·m", f"{scene.units.mass}·{'ft' if scene.units.mass == 'lb' else 'm'}²"
-    offsets, moments = whole_turn(axis), Quantity("moment", f"M_{found.link}")
+    offsets, moments = whole_turn(axis), load_quantity(f"M_{found.link}", "moment")
     curve = axis.curve(moments, offsets, needed_moment(reach, offsets))
     (x, needed), driving = curve.T, found.driving / per
     # gained since the axis begins, by the trapezoidal rule: for the eye

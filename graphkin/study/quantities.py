@@ -4,9 +4,8 @@ and whatever else ``find`` names: each with its unit, its value in a motion, and
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Literal
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -23,31 +22,18 @@ from graphkin.table import Column, Table
 from graphkin.words import Wording
 
 __all__ = [
-    "Parts", "Quantity", "Words", "all_that_moves", "link_quantities", "motion_table", "named_quantity",
-    "place_quantity", "rates_of", "settled", "slide_quantities", "symbol_quantity", "word_column",
+    "Parts", "Quantity", "Words", "all_that_moves", "link_quantities", "load_quantity", "motion_table",
+    "named_quantity", "rates_of", "settled", "slide_quantities", "word_column",
 ]  # fmt: skip
 
-Kind = Literal["theta", "omega", "alpha", "s", "v", "a", "place", "force", "moment", "transmission", "symbol"]
 Parts = tuple[tuple[Array, ...], ...]
 """Of each quantity its values, two for a vector."""
 Words = Sequence[Wording] | Array
 IN_LINE = 1e-12
 """Two bars are in line where the square of the sine of their angle is no more: rounding tells no less."""
 
-_KINDS: Mapping[str, tuple[Measure, Callable[[Motion, str], Array | None]]] = {
-    "theta": ("angle", lambda motion, link: motion.angle(link)),
-    "omega": ("angular velocity", lambda motion, link: motion.omega(link)),
-    "alpha": ("angular acceleration", lambda motion, link: motion.alpha(link)),
-    "s": ("length", lambda motion, pair: motion.slide(pair).travel),
-    "v": ("velocity", lambda motion, pair: motion.slide(pair).velocity),
-    "a": ("acceleration", lambda motion, pair: motion.slide(pair).acceleration),
-    "place": ("length", lambda motion, ref: motion.position(*ref.split("@"))),
-    "force": ("force", lambda motion, name: forces_of(motion).value(name)),
-    "moment": ("moment", lambda motion, name: forces_of(motion).value(name)),
-    "transmission": ("angle", lambda motion, links: _transmission(motion, links)),
-}
-"""What a quantity of each kind measures, and its value (SI) in a motion by the name of what it is of; of a ``symbol``
-both are the symbol's own."""
+LOADS = ("F", "Fi", "G", "P", "M", "Mi")
+"""Kinds of forces and moments."""
 
 
 def _transmission(motion: Motion, links: str) -> Array:
@@ -58,34 +44,50 @@ def _transmission(motion: Motion, links: str) -> Array:
 
 @dataclass(frozen=True)
 class Quantity:
-    """One quantity that changes over the turn: ``theta_3`` (angle of a link), ``s_6/1`` (travel of a sliding pair),
-    their rates ``omega_3``, ``alpha_3``, ``v_6/1``, ``a_6/1``, the place of a point, a force or a moment by its name,
-    the transmission angle of a group of two links ("4-5"), or another symbol of ``find``.
+    """One quantity that changes over the turn, by its symbol: ``theta_3`` (angle of a link), ``s_6/1`` (travel of a
+    sliding pair), their rates ``omega_3``, ``alpha_3``, ``v_6/1``, ``a_6/1``, the place of a point, a force or a
+    moment, the transmission angle of a group of two links ("transmission_4-5"), or what else ``find`` knows.
 
     along : of a vector that lies on a guide its part along that, with its sign, stands for it instead of its size
     """
 
-    kind: Kind
-    of: str
-    symbol: Symbol | None = None
+    symbol: Symbol
     along: bool = False
 
     @property
     def name(self) -> str:
-        if self.is_load or self.kind == "place":
-            return self.of
-        return str(self.symbol) if self.symbol else f"{self.kind}_{self.of}"
+        return str(self.symbol)
+
+    @property
+    def kind(self) -> str:
+        return self.symbol.kind
+
+    @property
+    def of(self) -> str:
+        """The link or the sliding pair that it is of; the place of a point, a force or a moment itself."""
+        return self.name if self.kind == "place" or self.is_load else self.symbol.pair
 
     @property
     def measure(self) -> Measure:
         """What kind of number it is."""
-        return self.symbol.measure if self.symbol else _KINDS[self.kind][0]
+        return self.symbol.measure
+
+    @property
+    def order(self) -> int | None:
+        """How often the angle of a link or the travel of a sliding pair is derived by the time in it; None of what else
+        it is."""
+        kinds = ("s", "v", "a") if self.symbol.other else ("theta", "omega", "alpha")
+        return kinds.index(self.kind) if self.kind in kinds else None
+
+    @property
+    def is_angle(self) -> bool:
+        """Whether it is the angle of a link, which may turn on and on."""
+        return self.kind == "theta" and not self.symbol.other
 
     @property
     def is_position(self) -> bool:
-        """Whether it is an angle or a travel."""
-        known = self.kind in ("theta", "s", "transmission")
-        return known or (self.symbol is not None and self.symbol.scope == "position")
+        """Whether it is an angle, a travel, or another position."""
+        return self.symbol.scope == "position"
 
     @property
     def is_speed(self) -> bool:
@@ -95,12 +97,12 @@ class Quantity:
     @property
     def is_load(self) -> bool:
         """Whether it is a force or a moment."""
-        return self.kind in ("force", "moment")
+        return self.kind in LOADS
 
     @property
     def is_size(self) -> bool:
         """Whether one number of it is the size of a vector."""
-        return self.kind == "force" or (self.symbol is not None and self.symbol.is_vector and not self.along)
+        return self.symbol.is_vector and not self.along
 
     @property
     def is_vector(self) -> bool:
@@ -110,7 +112,8 @@ class Quantity:
     @property
     def can_be_prepared(self) -> bool:
         """Whether a prepared mechanism gives it, as it stands in tables."""
-        return self.symbol.kind in ("v", "a") if self.symbol else self.kind in ("place", "omega", "alpha", "s")
+        rate_of_slide = self.kind in ("v", "a") and self.symbol.of is None
+        return self.kind in ("place", "omega", "alpha", "s", "v", "a") and not rate_of_slide
 
     def unit(self, scene: Mechanism, radians: bool = False) -> Unit:
         """Its unit in tables; with ``radians`` that in JSON."""
@@ -118,27 +121,34 @@ class Quantity:
 
     def whole(self, motion: Motion) -> Array:
         """Its values in a motion (SI), complex for vectors, shape (n,)."""
-        found = value_of(motion, self.symbol) if self.symbol else _KINDS[self.kind][1](motion, self.of)
-        assert found is not None
-        return found
+        if self.is_angle:
+            return motion.angle(self.symbol.link)
+        if self.is_load:
+            found = forces_of(motion).value(self.name)
+            assert found is not None
+            return found
+        if self.kind == "transmission":
+            return _transmission(motion, self.symbol.name)
+        if self.symbol.other and self.order is not None:
+            return motion.slide(self.symbol.pair)[self.order]
+        return value_of(motion, self.symbol)
 
     def values(self, reach: DriverRange | None, motion: Motion) -> Array:
         """Its values as real numbers (SI), shape (n,); in a motion of a range angles go on from those before."""
         if reach is not None and self.kind == "theta":
-            return reach.angle(motion, self.of)
-        if reach is not None and self.symbol is not None and self.symbol.kind == "theta":  # between two links
-            return reach.angle(motion, self.symbol.link) - reach.angle(motion, self.symbol.other)
+            angle, other = reach.angle(motion, self.symbol.link), self.symbol.other
+            return angle - reach.angle(motion, other) if other else angle
         found = self.whole(motion)
-        senses = senses_along(motion, self.symbol) if self.symbol and self.along else None
+        senses = senses_along(motion, self.symbol) if self.along else None
         found = found if senses is None else found * senses.conjugate()
         return np.abs(found) if self.is_size else np.asarray(found.real)
 
     def parts(self, reach: DriverRange | None, motion: Motion) -> tuple[Array, ...]:
         """Its values in a motion (alone, or of a range) in the table's units, 0 where they are nothing but rounding:
         one array, or a vector's components."""
-        found = self.values(reach, motion) if self.kind == "theta" else self.whole(motion)
+        found = self.values(reach, motion) if self.is_angle else self.whole(motion)
         if self.is_load:
-            found = settled(found, forces_of(motion).floors[self.kind == "moment"])
+            found = settled(found, forces_of(motion).floors[self.measure == "moment"])
         else:
             found = motion.settled(found, self.measure, self._ends)
         value = self.unit(motion.scene).of(found)
@@ -181,12 +191,12 @@ class Quantity:
     @property
     def _folded(self) -> bool:
         """Whether it is an angle that is 90 degrees at most."""
-        return self.kind == "transmission" or (self.symbol is not None and self.symbol.kind in ("gamma", "pressure"))
+        return self.kind in ("gamma", "pressure", "transmission")
 
     @property
     def _apart(self) -> bool:
         """Whether it is a distance."""
-        return self.symbol is not None and self.symbol.kind == "d"
+        return self.kind == "d"
 
     @property
     def _ends(self) -> float:
@@ -196,7 +206,7 @@ class Quantity:
     def _bound(self, motion: Motion) -> Array:
         """How far rounding may have moved it; 0 where that is not known."""
         if self.is_load:
-            return np.nan_to_num(forces_of(motion).bound[self.kind == "moment"])
+            return np.nan_to_num(forces_of(motion).bound[self.measure == "moment"])
         of = motion.accuracy.of(self._links(motion))
         bound = {
             "angle": of.angle,
@@ -210,12 +220,10 @@ class Quantity:
 
     def _links(self, motion: Motion) -> Iterable[str]:
         """The links whose errors it has; none where it takes more than them, as a transmission angle does."""
-        if self.kind in ("theta", "omega", "alpha"):
-            return (self.of,)
-        if self.kind == "transmission":
-            return ()
-        if self.symbol is None:
-            slide = next(s for s in motion.slides if s.key == self.of)
+        if self.order is not None and not self.symbol.other:
+            return (self.symbol.link,)
+        if self.order is not None:
+            slide = next(s for s in motion.slides if s.key == self.symbol.pair)
             return slide.a, slide.b
         return links_for(motion.structure, self.symbol) if self.symbol.scope == "motion" else ()
 
@@ -229,50 +237,43 @@ def settled(value: Array, floor: Array) -> Array:
 
 def link_quantities(link: str) -> tuple[Quantity, Quantity, Quantity]:
     """Angle, angular velocity and angular acceleration of a link."""
-    return Quantity("theta", link), Quantity("omega", link), Quantity("alpha", link)
+    angle, rate, second = (Quantity(Symbol(kind, link=link)) for kind in ("theta", "omega", "alpha"))
+    return angle, rate, second
 
 
 def slide_quantities(key: str) -> tuple[Quantity, Quantity, Quantity]:
     """Travel, velocity and acceleration of a sliding pair."""
-    return Quantity("s", key), Quantity("v", key), Quantity("a", key)
+    sliding, _, guiding = key.partition("/")
+    travel, rate, second = (Quantity(Symbol(kind, link=sliding, other=guiding)) for kind in ("s", "v", "a"))
+    return travel, rate, second
 
 
 def rates_of(quantity: Quantity) -> tuple[Quantity, Quantity, Quantity]:
     """Position, rate and second rate of what an angle, a travel or a rate of one belongs to."""
-    of_link = quantity.kind in ("theta", "omega", "alpha")
-    return link_quantities(quantity.of) if of_link else slide_quantities(quantity.of)
+    symbol = quantity.symbol
+    return slide_quantities(symbol.pair) if symbol.other else link_quantities(symbol.link)
 
 
-def place_quantity(ref: PointRef) -> Quantity:
-    """The place of a point."""
-    return Quantity("place", str(ref))
-
-
-def symbol_quantity(symbol: Symbol) -> Quantity:
-    """What ``find`` names."""
-    if symbol.kind in ("omega", "alpha"):
-        return Quantity("omega" if symbol.kind == "omega" else "alpha", symbol.link)
-    if symbol.kind == "s" or (symbol.kind == "theta" and not symbol.other):
-        return Quantity("s" if symbol.kind == "s" else "theta", symbol.pair)
-    return Quantity("symbol", str(symbol), symbol)
+def load_quantity(name: str, kind: str) -> Quantity:
+    """A "force" or a "moment" by its name, as `force_names` tells them."""
+    return Quantity(replace(Symbol.parse(name), turning=kind == "moment"))
 
 
 def named_quantity(scene: Mechanism, name: str) -> Quantity | None:
-    """What a name shows that is no symbol of ``find``: the place of a point ("C", "B@3"), the angle of a link
-    ("theta_3"), travel, velocity and acceleration of a sliding pair ("s_3/4", "v_3/4", "a_3/4"), a force or a moment
-    ("F_5/6", "F_6/5", "F_5/6+", "M_2"); None for others."""
+    """What a name shows that is no symbol of ``find``: the place of a point ("C", "B@3"), travel, velocity and
+    acceleration of a sliding pair ("s_3/4", "v_3/4", "a_3/4"), a force or a moment ("F_5/6", "F_6/5", "F_5/6+", "M_2");
+    None for others."""
     kind, mark, rest = name.partition("_")
     forces, plain = force_names(scene), name.removesuffix("+")
     load = forces.get(plain) or forces.get(opposite(plain))
     if load is not None:
-        return Quantity(load, name)
+        return load_quantity(name, load)
     if not mark:
-        point, _, link = name.partition("@")
+        place = Symbol.of_column(name)
+        assert place.of is not None
+        point, link = place.of
         here = point in scene.holders or any(c.name == point for c in scene.contacts)
-        known = here and (not link or link in scene.by_name)
-        return place_quantity(PointRef(point, link)) if known else None
-    if kind == "theta" and any(link.name == rest for link in scene.links):
-        return Quantity("theta", rest)
+        return Quantity(place) if here and (not link or link in scene.by_name) else None
     if kind in ("s", "v", "a") and any(s.key == rest for s in scene.slidings):
         return slide_quantities(rest)["sva".index(kind)]
     return None
@@ -288,10 +289,10 @@ def all_that_moves(structure: Structure) -> tuple[Quantity, ...]:
         if ref in seen or (not ref.link and point in scene.frame.points):
             continue
         seen.add(ref)
-        found += [place_quantity(ref)] if not ref.link else []
-        found += [symbol_quantity(Symbol(kind, ref)) for kind in ("v", "a")]
+        found += [Quantity(Symbol("place", ref))] if not ref.link else []
+        found += [Quantity(Symbol(kind, ref)) for kind in ("v", "a")]
     found += [q for slide in slides for q in slide_quantities(slide.key)]
-    found += [Quantity(kind, name) for name, kind in force_names(scene).items()]
+    found += [load_quantity(name, kind) for name, kind in force_names(scene).items()]
     return tuple(found)
 
 

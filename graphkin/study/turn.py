@@ -392,8 +392,8 @@ def study_turn(reach: DriverRange, asked: Sequence[Quantity] = (), everything: b
     """
     scene = reach.scene
     start = reach.known
-    mains = [Quantity("theta", name) for name in output_links(scene)]
-    mains += [Quantity("s", key) for key in output_slides(start)]
+    mains = [link_quantities(name)[0] for name in output_links(scene)]
+    mains += [slide_quantities(key)[0] for key in output_slides(start)]
     wanted = list(mains)
     if everything:
         for main in mains:
@@ -403,7 +403,7 @@ def study_turn(reach: DriverRange, asked: Sequence[Quantity] = (), everything: b
             others = [q for link in scene.links for q in link_quantities(link.name)]
             others += [q for s in own_slides(scene, start.slides) for q in slide_quantities(s.key)]
         wanted += [q for q in others if q not in wanted]
-    groups = {Quantity("transmission", "-".join(d.links)): d for d in reach.structure.dyads.values()}
+    groups = {Quantity(Symbol("transmission", name="-".join(d.links))): d for d in reach.structure.dyads.values()}
     traced = trace(reach, (*wanted, *groups))
     outputs = tuple(_output(reach, t) for t in traced if t.quantity in mains)
     leasts = tuple(_least(groups[t.quantity], t) for t in traced if t.quantity in groups)

@@ -24,7 +24,7 @@ from graphkin.scene import library_text, mechanism_of
 from graphkin.scene.symbol import Symbol
 from graphkin.study import sweeps
 from graphkin.study.designs import designs_of
-from graphkin.study.quantities import Quantity, symbol_quantity
+from graphkin.study.quantities import Quantity
 from graphkin.study.sweeps import Found, Sweep, collect, write_tables
 
 
@@ -47,7 +47,7 @@ def run(
 
 
 def watched(name: str) -> Quantity:
-    return symbol_quantity(Symbol.parse(name))
+    return Quantity(Symbol.parse(name))
 
 
 def new_plan() -> Sweep:
