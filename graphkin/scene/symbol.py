@@ -159,8 +159,8 @@ class Symbol:
     """A quantity by name.
 
     ``kind`` is a name of `KINDS`, or "place" for that of a point, or "transmission" for the angle of a group, whose
-    links are its ``name``; ``of`` and ``to`` are its points (``to`` that relative to which it is meant, or the second of
-    two), ``link`` and ``other`` its links (of a sliding pair the sliding and the guiding one; of a pin in a slot
+    links are its ``name``; ``of`` and ``to`` are its points (``to`` that relative to which it is meant, or the second
+    of two), ``link`` and ``other`` its links (of a sliding pair the sliding and the guiding one; of a pin in a slot
     ``link`` is the pin).  ``at`` names the position that is meant, "" this one.
 
     Of forces ``link`` acts on ``other`` at the joint ``of`` (where they share two); ``name`` is that of a load, or of a

@@ -21,7 +21,7 @@ from graphkin.solver.engine import SINGULAR
 from graphkin.solver.expressions import Code, Name
 from graphkin.solver.kernel import Kernel
 from graphkin.solver.pose import Array, turned
-from graphkin.solver.prepared import CLEAR, PreparedMechanism, formulas, prepare
+from graphkin.solver.prepared import PreparedMechanism, formulas, prepare
 from graphkin.solver.program import program_of
 from graphkin.structure import analyse
 
@@ -29,6 +29,8 @@ __all__ = ["PreparedMechanisms"]
 
 NODES = 360
 """Positions of a turn at which the groups of a design are looked at."""
+CLEAR = 0.04
+"""A discriminant (no unit) that is greater at all of these, and changes slowly, is zero nowhere between them."""
 TOGETHER = 1 << 16
 """Positions that are computed together."""
 LOOP = 64
@@ -165,7 +167,7 @@ class PreparedMechanisms:
         seen = self._compute(self._code.checks, np.arange(self.count), *turn)
         # so near to each other that nothing happens between two nodes
         steps = np.abs(seen - np.roll(seen, 1, axis=2))
-        return np.asarray(((seen > CLEAR * CLEAR) & (steps < seen / 2)).all(axis=(0, 2)))
+        return np.asarray(((seen > CLEAR) & (steps < seen / 2)).all(axis=(0, 2)))
 
     def _alone(self, k: int) -> PreparedMechanism | None:
         """A design followed by itself; None where it cannot be assembled."""

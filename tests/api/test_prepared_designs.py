@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 import graphkin
-from graphkin.scene import library_text
+from graphkin.scene import library_text, mechanism_of
+from graphkin.solver.designs import PreparedMechanisms
+from graphkin.solver.prepared import prepare
 from graphkin.study.designs import applied
 
 SHAPER = tomllib.loads(library_text("shaper-scheme-2"))
@@ -89,6 +91,13 @@ def test_a_driven_slide_has_designs_too():
     key = next(f"links.{name}.length" for name, table in source["links"].items() if "length" in table)
     own = source["links"][key.split(".")[1]]["length"]
     assert off(source, {key: own * np.array([0.98, 1.02])}, ["omega_1"], 6) < 1e-9
+
+
+def test_designs_that_stay_away_from_dead_points_are_computed_together():
+    ready = prepare(mechanism_of("shaper-scheme-2"), ["v_C"])
+    lengths = np.linspace(0.08, 0.1, 5)
+    (crank,) = (name for name in ready.dimensions if name[:2] == ("point", "2") and ready.dimensions[name])
+    assert PreparedMechanisms(ready, {crank: lengths}).together.all()
 
 
 def test_at_gives_all_designs_at_one_position():
