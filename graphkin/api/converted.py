@@ -153,19 +153,17 @@ def _bodies(scene: Mechanism) -> Bodies:
     poses = {scene.frame.name: (0j, 1 + 0j)}
     for link in scene.links:
         poses[link.name] = _pose(link, made, float(motion.angle(link.name)[0]))
-    pairs: list[tuple[str, str | None, str, str, bool]]
-    pairs = [(s.link, s.pin, s.on, s.guide, False) for s in scene.slidings]
-    pairs += [(p.of, p.point, p.on, p.guide, True) for p in scene.pins]
-    for body, pin, on, guide, turns in pairs:
-        if pin is None:
-            made.lost.append(f"slide of {body} on {on} (link {body} has no point)")
+    for pair in scene.slides:
+        body = pair.of or pair.link
+        if pair.pin is None:
+            made.lost.append(f"slide of {body} on {pair.on} (link {body} has no point)")
             continue
-        line = scene.by_name[on].guides[guide]
-        origin, turn = poses[on]
+        line = scene.by_name[pair.on].guides[pair.guide]
+        origin, turn = poses[pair.on]
+        through, angle = origin + turn * line.through / unit, cmath.phase(turn * line.direction)
         made.slides.append(
-            BodySlide(_name(scene, body), pin, _name(scene, on), origin + turn * line.through / unit,
-                  cmath.phase(turn * line.direction), turns)
-        )  # fmt: skip
+            BodySlide(_name(scene, body), pair.pin, _name(scene, pair.on), through, angle, bool(pair.of))
+        )
     made.lost += [f"cam {cam.link} with its follower {cam.follower}" for cam in scene.cams]
     made.lost += [f"contact {c.name} of {' and '.join(c.links)}" for c in scene.contacts]
     made.lost += [f"gears {g.name} of {' and '.join(g.wheels)}" for g in scene.gears]

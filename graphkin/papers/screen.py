@@ -473,7 +473,7 @@ def motion_data(
     ]
     driver = scene.drivers[0]
     unit = scene.units.metres if "/" in driver.key else math.pi / 180.0
-    guides = dict.fromkeys([(s.on, s.guide) for s in scene.slidings] + [(p.on, p.guide) for p in scene.pins])
+    guides = dict.fromkeys((s.on, s.guide) for s in scene.slides)
     return {
         "at": [round(float(v) / unit, 3) for v in motion.values[rows, 0]],
         "driver": plain_words(f"${'s' if '/' in driver.key else 'φ'}_{{{driver.key}}}$"),

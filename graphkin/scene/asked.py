@@ -158,7 +158,7 @@ def _digits_of(number: float) -> str:
 
 def positions_named(table: Positions, reading: Reading) -> Positions:
     """The positions that a scene names, in SI; what is wrong with them is noted."""
-    slides = reading.slides
+    slides = reading.along
     if any(driver.law is not None for driver in reading.drivers.values()):
         reading.say("positions", "stand beside a driver with a law", "name a moment at time 0.25")
     if slides and (table.count or table.first is not None):

@@ -22,7 +22,7 @@ from graphkin.scene.tables import KeyPath, Units
 from graphkin.words import Phrase, Wording
 
 __all__ = [
-    "CircularSlot", "PinInSlot", "Reading", "SlidingPair", "check_own_points", "check_references", "driver_tables",
+    "CircularSlot", "Reading", "SlidingPair", "check_own_points", "check_references", "driver_tables",
     "islands", "listed", "not_held", "pins_in_slots", "references", "sliding_pairs", "with_bars", "with_carriages",
 ]  # fmt: skip
 
@@ -31,36 +31,34 @@ AnyBody = TypeVar("AnyBody", Frame, Link)
 
 @dataclass(frozen=True)
 class SlidingPair:
-    """``link`` slides by its own origin on a guide of link ``on``, at a fixed angle.
+    """``link`` slides by its own origin on a guide of link ``on``, at a fixed angle; or a pin runs in the guide, and
+    ``link`` is the block without mass, POINT/GUIDING, that stands for it between the guide and the link ``of``.
 
     ``turn`` is the unit complex number by which the link's own x axis is turned from the guide's
-    sense (``angle_on``).  ``pin`` names the link's first point if it has one.
+    sense (``angle_on``).  ``pin`` names the link's first point if it has one, or the pin that runs in the guide.
     """
 
     link: str
     on: str
     guide: str
-    turn: complex
-    pin: str | None
+    turn: complex = 1 + 0j
+    pin: str | None = None
+    of: str = ""
+
+    @classmethod
+    def of_pin(cls, point: str, of: str, on: str, guide: str) -> SlidingPair:
+        """A pin in a slot: point ``point`` of link ``of`` runs in a guide of link ``on``, one constraint."""
+        return cls(f"{point}/{on}", on, guide, pin=point, of=of)
 
     @property
     def key(self) -> str:
-        """The name of the pair: SLIDING/GUIDING."""
-        return f"{self.link}/{self.on}"
-
-
-@dataclass(frozen=True)
-class PinInSlot:
-    """Point ``point`` of link ``of`` runs in a guide of link ``on``: one constraint."""
-
-    point: str
-    of: str
-    on: str
-    guide: str
+        """The name of the pair: SLIDING/GUIDING, or POINT/GUIDING of a pin in a slot."""
+        return self.link if self.of else f"{self.link}/{self.on}"
 
     @property
-    def key(self) -> str:
-        return f"{self.point}/{self.on}"
+    def point(self) -> str:
+        """The point that runs in the guide, "" where it has no name."""
+        return self.pin or ""
 
 
 @dataclass(frozen=True)
@@ -106,7 +104,7 @@ class Reading:
     adds its own; and what was read of it already.
 
     ``frame``, ``links`` and ``pins`` are the tables of the file, with bars in place of circular ``slots``;
-    ``slidings`` and ``running`` are its sliding pairs and pins in slots; ``places`` the points of each link in its own
+    ``slides`` are its sliding pairs and pins in slots; ``places`` the points of each link in its own
     axes (m), once they are known.
     """
 
@@ -117,8 +115,7 @@ class Reading:
     links: Mapping[str, Link]
     pins: Mapping[str, Pin]
     slots: tuple[CircularSlot, ...] = ()
-    slidings: tuple[SlidingPair, ...] = ()
-    running: tuple[PinInSlot, ...] = ()
+    slides: tuple[SlidingPair, ...] = ()
     places: Mapping[str, Mapping[str, complex]] = field(default_factory=dict)
 
     @cached_property
@@ -136,14 +133,14 @@ class Reading:
         return driver_tables(self.file)
 
     @cached_property
-    def slides(self) -> bool:
-        """Whether the first driver is a slide."""
+    def along(self) -> bool:
+        """Whether the first driver is a slide, so that its values are travels."""
         return any(isinstance(table, DrivenSlide) for table in list(self.drivers.values())[:1])
 
     @cached_property
     def pairs(self) -> tuple[str, ...]:
         """The keys of the sliding pairs and pins in slots."""
-        return *(pair.key for pair in self.slidings), *(pin.key for pin in self.running)
+        return tuple(pair.key for pair in self.slides)
 
     @cached_property
     def positions(self) -> tuple[str, ...]:
@@ -359,9 +356,9 @@ def _sliding_problem(name: str, on: str, link: Link, reading: Reading, pairs: li
     return None
 
 
-def pins_in_slots(reading: Reading) -> tuple[PinInSlot, ...]:
-    """The pins in slots of the file; what is wrong with them is noted."""
-    pins: list[PinInSlot] = []
+def pins_in_slots(reading: Reading) -> tuple[SlidingPair, ...]:
+    """The pins in slots of a file of which the sliding pairs are known; what is wrong with them is noted."""
+    pins: list[SlidingPair] = []
     for point, pin in reading.pins.items():
         where = f"pins.{point}"
         unknown = reading.wrong(
@@ -372,14 +369,16 @@ def pins_in_slots(reading: Reading) -> tuple[PinInSlot, ...]:
             problem = reading.no_guide(f"{where}.in", ref) or _pin_problem(where, point, pin, ref, reading, pins)
             if reading.wrong(problem):
                 continue
-            if any(s.key == f"{point}/{on}" for s in reading.slidings):
+            if f"{point}/{on}" in reading.pairs:
                 reading.say(where, "is also the name of a sliding pair", "rename link", point=point, on=on)
             elif not unknown:
-                pins.append(PinInSlot(point, pin.of, on, guide))
+                pins.append(SlidingPair.of_pin(point, pin.of, on, guide))
     return tuple(pins)
 
 
-def _pin_problem(where: str, point: str, pin: Pin, ref: str, reading: Reading, pins: list[PinInSlot]) -> Problem | None:
+def _pin_problem(
+    where: str, point: str, pin: Pin, ref: str, reading: Reading, pins: list[SlidingPair]
+) -> Problem | None:
     on = ref.partition(".")[0]
     found: Wording
     if on == pin.of:

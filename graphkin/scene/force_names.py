@@ -38,8 +38,8 @@ def joints(mechanism: Mechanism) -> tuple[ForceJoint, ...]:
     for point, holders in mechanism.holders.items():
         first, *later = [name for name in holders if name in here] or [""]
         found += [ForceJoint("turning", first, second, point) for second in later]
-    found += [ForceJoint("sliding", s.on, s.link, s.pin or "") for s in mechanism.slidings if {s.on, s.link} <= here]
-    found += [ForceJoint("slot", p.on, p.of, p.point) for p in mechanism.pins if {p.on, p.of} <= here]
+    found += [ForceJoint("slot" if s.of else "sliding", s.on, s.of or s.link, s.point)
+              for s in mechanism.slides if {s.on, s.of or s.link} <= here]
     if mechanism.instead_of is None:
         found += [ForceJoint("cam", c.link, c.follower, "") for c in mechanism.cams if {c.link, c.follower} <= here]
     for contact in mechanism.contacts:
@@ -78,7 +78,7 @@ def force_names(mechanism: Mechanism) -> Mapping[str, Literal["force", "moment"]
         if driver.turns:
             made[_balance(True, driver.link)] = "moment"
         else:
-            pin = next((p.of for p in mechanism.pins if p.key == driver.key), driver.key.split("/")[0])
+            pin = next((s.of for s in mechanism.pins if s.key == driver.key), driver.link)
             made[_balance(False, pin)] = "force"
     return made
 

@@ -181,7 +181,7 @@ def _phase(reading: Reading, where: str, when: LoadPhase) -> Phase | None:
     for beside, said in (("sense", when.sense != 1.0), ("from", when.start != 0.0), ("to", when.end != 1.0)):
         if said:
             say(f"{where}.{beside}", "stands beside driver", "it is of a stroke the driver's two")
-    slides = reading.slides
+    slides = reading.along
     start, end = (value * reading.units.of("length" if slides else "angle").si for value in when.driver)
     found = Phrase("found of bounds and fast", bounds=f"{when.driver[0]:g}", fast=f"{when.driver[1]:g}")
     if slides and start >= end:

@@ -15,7 +15,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
-from graphkin.scene.bodies import CircularSlot, PinInSlot, SlidingPair
+from graphkin.scene.bodies import CircularSlot, SlidingPair
 from graphkin.scene.cams import LawCam
 from graphkin.scene.laws import MotionLaw
 from graphkin.scene.pictures import PlacedBackground, PlacedScan
@@ -397,7 +397,7 @@ class Mechanism:
 
     ``links`` are the moving links in the order of the file (redundant ones included, see ``PlacedLink.redundant``);
     ``sketch`` and ``drawn`` give places of points in world axes (m); ``slots`` are the circular ones, for which bars
-    and turning pairs stand among the links.
+    and turning pairs stand among the links.  ``slides`` are the sliding pairs (``slidings``) and the ``pins`` in slots.
     ``instead_of`` is the mechanism with cams in whose place this one moves alike at this position, in velocity and
     acceleration.  ``starts`` say where what rolls stands at the scene's own position: the angle of a link's own axis
     (rad), or the travel (m) of a sliding pair or of a contact by its block.
@@ -409,8 +409,7 @@ class Mechanism:
     name: str
     frame: PlacedLink
     links: tuple[PlacedLink, ...]
-    slidings: tuple[SlidingPair, ...]
-    pins: tuple[PinInSlot, ...]
+    slides: tuple[SlidingPair, ...]
     drivers: tuple[Driver, ...]
     units: Units = field(default_factory=Units)
     sketch: Mapping[str, complex] = field(default_factory=dict)
@@ -423,6 +422,8 @@ class Mechanism:
     starts: Mapping[str, float] = field(default_factory=dict)
     slots: tuple[CircularSlot, ...] = ()
     question: Question = field(default_factory=Question)
+    slidings: tuple[SlidingPair, ...] = field(init=False, repr=False, compare=False)
+    pins: tuple[SlidingPair, ...] = field(init=False, repr=False, compare=False)
     by_name: Mapping[str, PlacedLink] = field(init=False, repr=False, compare=False)
     order: Mapping[str, int] = field(init=False, repr=False, compare=False)
     holders: Mapping[str, tuple[str, ...]] = field(init=False, repr=False, compare=False)
@@ -451,6 +452,7 @@ class Mechanism:
             for point in link.points:
                 holders.setdefault(point, []).append(link.name)
         self.__dict__.update(
+            slidings=tuple(pair for pair in self.slides if not pair.of), pins=tuple(p for p in self.slides if p.of),
             by_name={link.name: link for link in each},
             order={link.name: i for i, link in enumerate((*self.links, self.frame))},
             holders={point: tuple(names) for point, names in holders.items()},
@@ -508,13 +510,13 @@ def with_dimensions(mechanism: Mechanism, changed: Mapping[Dimension, complex]) 
 
     return replace(
         mechanism, frame=link(mechanism.frame), links=tuple(map(link, mechanism.links)),
-        slidings=tuple(replace(pair, turn=own(pair.turn, "turn", pair.key)) for pair in mechanism.slidings),
+        slides=tuple(replace(pair, turn=own(pair.turn, "turn", pair.key)) for pair in mechanism.slides),
         drivers=tuple(driver(k, d) for k, d in enumerate(mechanism.drivers)),
         sketch={**mechanism.drawn, **mechanism.sketch}, drawn={},
     )  # fmt: skip
 
 
-_MOVING = ("frame", "links", "slidings", "pins", "drivers", "cams", "contacts", "gears", "starts", "slots")
+_MOVING = ("frame", "links", "slides", "drivers", "cams", "contacts", "gears", "starts", "slots")
 """The parts of a mechanism on which its motion depends."""
 
 

@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.plane import cross, cross_arcs, degrees, direction, dot
-from graphkin.scene.bodies import Reading, references
+from graphkin.scene.bodies import Reading, SlidingPair, references
 from graphkin.scene.model import Driver, PlacedContact, PlacedGuide
 from graphkin.scene.scene_tables import Compass, Guide, Polar
 from graphkin.scene.tables import in_si
@@ -30,6 +30,7 @@ GIVEN_TWICE = 1e-6
 FARTHEST = 4e10
 """So many times the shortest bar places may lie away: beyond, sixteen digits leave less than five of the bar."""
 Places = Mapping[str, complex]
+
 
 @dataclass
 class Placement:
@@ -137,6 +138,11 @@ def _guide_of(
         return Problem(f"{where}.angle", "found deg but toward it is deg", "leave one of the two out or correct",
                        angle=f"{entry.angle:g}", toward=entry.toward, degrees=f"{degrees(sense):.8g}")
     return PlacedGuide(name, through, given)
+
+
+AngleBetween = tuple[Wording, Placement, Placement, complex, complex]
+"""A given angle: where it stands in the file, the link, the one it is counted from, from which direction in its axes,
+and the angle as a unit complex number."""
 
 
 def bodies_of(reading: Reading, drawn: Places) -> dict[str, Placement]:
@@ -247,15 +253,24 @@ class DrawnPosition:
         if body.origin is None:
             body.origin, self.news = origin, True
 
+    def running(self, pair: SlidingPair) -> complex | None:
+        """Where the point lies that runs in a guide (m), None if it is not known."""
+        return self.places.get(pair.pin) if pair.pin else self.bodies[pair.link].origin
+
     def travel_of(self, key: str) -> float | None:
         """The travel of a sliding pair or pin in slot at the known position (m), None if it is not known."""
-        for pair in self.reading.slidings:
-            if pair.key == key:
-                return _along(self.bodies[pair.on], pair.guide, self.bodies[pair.link].origin)
-        for pin in self.reading.running:
-            if pin.key == key:
-                return _along(self.bodies[pin.on], pin.guide, self.places.get(pin.point))
-        return None
+        pair = next((pair for pair in self.reading.slides if pair.key == key), None)
+        return None if pair is None else _along(self.bodies[pair.on], pair.guide, self.running(pair))
+
+    def relations(self) -> Iterator[AngleBetween]:
+        """The given angles between links: of what slides, by its guide, and of drivers."""
+        for pair in self.reading.slides:
+            guide = self.bodies[pair.on].guides.get(pair.guide)
+            if not pair.of and guide is not None:
+                rail, slider = self.bodies[pair.on], self.bodies[pair.link]
+                yield f"links.{pair.link}.angle_on", slider, rail, guide.direction, pair.turn
+        for link, base, turn in self.angles:
+            yield Phrase("driver.angle of link", link=link), self.bodies[link], self.bodies[base], 1 + 0j, turn
 
     def value_of(self, driver: Driver) -> float:
         """The value of a driver (rad, m): its own, or what the known position gives; not a number if that is not
@@ -279,7 +294,7 @@ def drawn_position(reading: Reading, drivers: Collection[Driver]) -> DrawnPositi
     told = [d for d in drivers if not math.isnan(d.value)]
     drawn = {point: complex(*place) * reading.metres for point, place in reading.file.drawn.items()}
     bodies = bodies_of(reading, drawn)
-    referred = {pair.on for pair in reading.slidings} | {pin.on for pin in reading.running}
+    referred = {pair.on for pair in reading.slides}
     referred |= {name for d in drivers if d.turns for name in d.links}
     for other in sorted(referred):  # links that were taken out for something wrong are placed nowhere
         bodies.setdefault(other, Placement(other, f"links.{other}", (), {}, {}, guides={}))
@@ -300,8 +315,7 @@ def _find(position: DrawnPosition) -> None:
             _place_guides(position, body)
             _turn_by_points(position, body)
             _move_by_points(position, body)
-        _turn_by_slidings(position)
-        _turn_by_drivers(position)
+        _turn_by_angles(position)
         _move_by_travels(position)
         if not (position.news or _turn_to_positive_side(position) or _turn_to_drawn_point(position)):
             return
@@ -370,47 +384,26 @@ def _move_by_points(position: DrawnPosition, body: Placement) -> None:
             position.news = True
 
 
-def _turn_by_slidings(position: DrawnPosition) -> None:
-    for pair in position.reading.slidings:
-        slider, rail = position.bodies[pair.link], position.bodies[pair.on]
-        guide = rail.guides.get(pair.guide)
-        if guide is None:
-            continue
-        if rail.turn is not None:
-            position.set_turn(slider, rail.turn * guide.direction * pair.turn, rail.arm)
-        elif slider.turn is not None:
-            position.set_turn(rail, slider.turn / (guide.direction * pair.turn), slider.arm)
-
-
-def _turn_by_drivers(position: DrawnPosition) -> None:
-    for link, base, turn in position.angles:
-        driven, from_body = position.bodies[link], position.bodies[base]
-        if from_body.turn is not None:
-            position.set_turn(driven, from_body.turn * turn, from_body.arm)
-        elif driven.turn is not None:
-            position.set_turn(from_body, driven.turn / turn, driven.arm)
+def _turn_by_angles(position: DrawnPosition) -> None:
+    for _, body, base, zero, turn in position.relations():
+        if base.turn is not None:
+            position.set_turn(body, base.turn * zero * turn, base.arm)
+        elif body.turn is not None:
+            position.set_turn(base, body.turn / (zero * turn), body.arm)
 
 
 def _move_by_travels(position: DrawnPosition) -> None:
-    for pair in position.reading.slidings:
-        slider, rail = position.bodies[pair.link], position.bodies[pair.on]
+    for pair in position.reading.slides:
+        rail = position.bodies[pair.on]
         guide = rail.guides.get(pair.guide)
-        if pair.key not in position.travels or guide is None:
+        if pair.of or pair.key not in position.travels or guide is None:
             continue
+        slider = position.bodies[pair.link]
         along = guide.through + guide.direction * position.travels[pair.key]
         if (place := rail.world(along)) is not None and not slider.local.keys() & position.places.keys():
             position.set_origin(slider, place)
         elif rail.turn is not None and slider.origin is not None and not rail.local.keys() & position.places.keys():
             position.set_origin(rail, slider.origin - rail.turn * along)
-
-
-def _running_points(position: DrawnPosition) -> Iterable[tuple[str, str, str, complex | None]]:
-    """Each guiding link and guide with the point that runs in it: (link, guide, what runs, its place or None)."""
-    for pair in position.reading.slidings:
-        place = position.places.get(pair.pin) if pair.pin else position.bodies[pair.link].origin
-        yield pair.on, pair.guide, pair.link, place
-    for pin in position.reading.running:
-        yield pin.on, pin.guide, pin.point, position.places.get(pin.point)
 
 
 def _turn_to_positive_side(position: DrawnPosition) -> bool:
@@ -419,9 +412,9 @@ def _turn_to_positive_side(position: DrawnPosition) -> bool:
     With k the guide's place seen along its own direction, the running point lies at (k + s) w from the origin,
     w the guide's direction in the world and s its travel, here the larger root of |k + s| = distance.
     """
-    for name, guide_name, _, place in _running_points(position):
-        rail = position.bodies[name]
-        guide = rail.guides.get(guide_name)
+    for pair in position.reading.slides:
+        rail, place = position.bodies[pair.on], position.running(pair)
+        guide = rail.guides.get(pair.guide)
         if rail.turn is not None or guide is None or place is None:
             continue
         centre = position.places.get(rail.own[0]) if rail.own else None
@@ -439,9 +432,9 @@ def _turn_to_positive_side(position: DrawnPosition) -> bool:
 
 def _turn_to_drawn_point(position: DrawnPosition) -> bool:
     """Choose the x axis of a link that has one own point and nothing measured from its axis; True if there was one."""
-    slidings, running = position.reading.slidings, position.reading.running
-    used = {p.on for p in slidings if not p.guide} | {p.on for p in running if not p.guide}
-    used |= {p.link for p in slidings} | {name for link, base, _ in position.angles for name in (link, base)}
+    slides = position.reading.slides
+    used = {p.on for p in slides if not p.guide} | {p.link for p in slides}
+    used |= {name for link, base, _ in position.angles for name in (link, base)}
     for name, body in position.bodies.items():
         measured = any(isinstance(e, list) or (isinstance(e, Polar) and not e.toward) for e in body.at.values())
         aimed = all(g.toward and isinstance(g.through, str) for g in body.rails.values())
@@ -472,7 +465,7 @@ def check_starts(position: DrawnPosition) -> None:
     driven = {*position.travels, *(link for link, _, _ in position.angles)}
     said = starts_of(position, ())
     for name, link in position.reading.links.items():
-        key = next((pair.key for pair in position.reading.slidings if pair.link == name), name)
+        key = next((pair.key for pair in position.reading.slides if pair.link == name), name)
         if link.start is None or not driven.isdisjoint((name, key)):
             continue
         turn, travel = position.bodies[name].turn, position.travel_of(key)
@@ -489,10 +482,10 @@ def check_starts(position: DrawnPosition) -> None:
 def starts_of(position: DrawnPosition, contacts: Iterable[PlacedContact]) -> dict[str, float]:
     """Where what rolls stands: angles of links (rad), travels of sliding pairs and of contacts with a face (m), as far
     as the file or its drawn points tell."""
-    slidings, bodies = position.reading.slidings, position.bodies
+    slides, bodies = [pair for pair in position.reading.slides if not pair.of], position.bodies
     turns = {name: bodies[name].turn for name, link in position.reading.links.items() if link.start is None}
     seen = {name: cmath.phase(turn) for name, turn in turns.items() if turn is not None}
-    travels = {pair.key: position.travel_of(pair.key) for pair in slidings}
+    travels = {pair.key: position.travel_of(pair.key) for pair in slides}
     for contact in contacts:
         if contact.flat:
             place = position.places.get(contact.round[0].centre)
@@ -500,7 +493,7 @@ def starts_of(position: DrawnPosition, contacts: Iterable[PlacedContact]) -> dic
     told = dict[str, float]()
     for name, link in position.reading.links.items():
         if link.start is not None:
-            key = next((pair.key for pair in slidings if pair.link == name), name)
+            key = next((pair.key for pair in slides if pair.link == name), name)
             told[key] = link.start * position.reading.metres if key != name else math.radians(link.start)
     return {**seen, **{key: travel for key, travel in travels.items() if travel is not None}, **told}
 
@@ -559,31 +552,26 @@ def check_distances(position: DrawnPosition) -> None:
 
 def check_agreement(position: DrawnPosition) -> None:
     """Note what is given twice and differs by more than 1e-6 of the size, both values named."""
+    metres = position.reading.metres
     for body in position.bodies.values():
         _check_points(position, body)
-    for pair in position.reading.slidings:
-        slider, rail = position.bodies[pair.link], position.bodies[pair.on]
-        guide = rail.guides.get(pair.guide)
-        if guide and slider.turn is not None and rail.turn is not None:
-            seen = slider.turn / (rail.turn * guide.direction)
-            _check_angle(position, f"links.{pair.link}.angle_on", pair.turn, seen, slider, rail)
-    for name, guide_name, what, place in _running_points(position):
-        rail = position.bodies[name]
-        guide = rail.guides.get(guide_name)
-        local = None if place is None else rail.in_own_axes(place)
+    for pair in position.reading.slides:
+        rail, place = position.bodies[pair.on], position.running(pair)
+        guide, local = rail.guides.get(pair.guide), None if place is None else rail.in_own_axes(place)
         if guide and local is not None:
             beside = abs(cross(guide.direction, local - guide.through))
             if beside > position.tolerance * _reach(rail, local):
-                ref = f"{name}.{guide_name}" if guide_name else name
-                off = f"{beside / position.reading.metres:.6g}"
-                said = Phrase("the given places put it beside the guide", beside=off, ref=ref)
-                where = f"links.{what}.on" if what in position.bodies else f"pins.{what}.in"
-                position.reading.say(where, said, "correct a coordinate or the guide")
-    for link, base, turn in position.angles:
-        driven, from_body = position.bodies[link], position.bodies[base]
-        if driven.turn is not None and from_body.turn is not None:
-            where_driven = Phrase("driver.angle of link", link=link)
-            _check_angle(position, where_driven, turn, driven.turn / from_body.turn, driven, from_body)
+                ref = f"{pair.on}.{pair.guide}" if pair.guide else pair.on
+                where = f"pins.{pair.point}.in" if pair.of else f"links.{pair.link}.on"
+                position.reading.say(where, "the given places put it beside the guide",
+                                     "correct a coordinate or the guide", beside=f"{beside / metres:.6g}", ref=ref)
+    for where_angle, body, base, zero, turn in position.relations():
+        if body.turn is not None and base.turn is not None:
+            # by how far it moves the points that gave it
+            seen = body.turn / (base.turn * zero)
+            if abs(seen - turn) * min(body.arm, base.arm, position.size) > position.tolerance:
+                position.reading.say(where_angle, "found deg but the given places make it", "one of the two is wrong",
+                                     degrees=f"{degrees(turn):.10g}", other=f"{degrees(seen):.10g}")
     for key, travel in position.travels.items():
         seen_travel = position.travel_of(key)
         if seen_travel is not None and abs(seen_travel - travel) > position.tolerance:
@@ -595,16 +583,6 @@ def check_agreement(position: DrawnPosition) -> None:
 def _reach(body: Placement, local: complex) -> float:
     """How much an error of the places that gave a link's direction grows out at ``local``."""
     return max(1.0, abs(local) / body.arm)
-
-
-def _check_angle(
-    position: DrawnPosition, where: Wording, given: complex, seen: complex, one: Placement, other: Placement
-) -> None:
-    """Hold a given angle of two links against that of the known position, by how far it moves the points that gave
-    it."""
-    if abs(seen - given) * min(one.arm, other.arm, position.size) > position.tolerance:
-        position.reading.say(where, "found deg but the given places make it", "one of the two is wrong",
-                             degrees=f"{degrees(given):.10g}", other=f"{degrees(seen):.10g}")
 
 
 def _check_points(position: DrawnPosition, body: Placement) -> None:

@@ -68,8 +68,8 @@ def mechanism_said(file: SceneTables, name: str, problems: list[Problem], lost: 
     _check_texts(reading)
     reading = with_bars(with_carriages(reading))
     check_own_points(reading)
-    reading = dataclasses.replace(reading, slidings=sliding_pairs(reading))
-    reading = dataclasses.replace(reading, running=pins_in_slots(reading))
+    reading = dataclasses.replace(reading, slides=sliding_pairs(reading))
+    reading = dataclasses.replace(reading, slides=(*reading.slides, *pins_in_slots(reading)))
     discs = discs_of(reading) if any(body.discs for _, _, body in reading.bodies) else {}
     contacts = contacts_of(reading, discs) if file.contacts else ()
     gears = gears_of(reading) if file.gears else ()
@@ -118,7 +118,7 @@ def mechanism_said(file: SceneTables, name: str, problems: list[Problem], lost: 
     made = Mechanism(
         name=name, frame=_placed(reading.frame.name, position, discs),
         links=tuple(_placed(n, position, discs, link) for n, link in reading.links.items()),
-        slidings=reading.slidings, pins=reading.running, drivers=tuple(drivers), units=file.units,
+        slides=reading.slides, drivers=tuple(drivers), units=file.units,
         sketch={p: complex(*place) * metres for p, place in file.sketch.items()}, drawn=position.drawn,
         loading=loading, cams=cams, contacts=contacts, gears=gears,
         starts=places.starts_of(position, contacts) if contacts or gears else {}, slots=reading.slots,
@@ -161,7 +161,7 @@ def _check_forces(made: Mechanism) -> None:
 def _cams(reading: Reading, position: places.DrawnPosition) -> tuple[LawCam, ...]:
     """The cams, with the lines of the frame on which followers slide."""
     frame, file = position.bodies[reading.frame.name], reading.file
-    rails = {s.link: (s.key, frame.guides.get(s.guide)) for s in reading.slidings if s.on == frame.name}
+    rails = {s.link: (s.key, frame.guides.get(s.guide)) for s in reading.slides if s.on == frame.name}
     lines = {name: (pair, rail.through, rail.direction) for name, (pair, rail) in rails.items() if rail is not None}
     seen = {p: complex(*place) * reading.metres for p, place in file.sketch.items()} | dict(position.drawn)
     return cams_of(reading, lines, seen)

@@ -185,7 +185,7 @@ def _gear(where: str, name: str, gear: Gear, reading: Reading) -> PlacedGear | N
     for carrier in [gear.carrier] if gear.carrier else others:
         axis = _axis(reading, first, carrier)
         if rack:
-            pair = next((s for s in reading.slidings if {s.link, s.on} == {second, carrier}), None)
+            pair = next((s for s in reading.slides if {s.link, s.on} == {second, carrier}), None)
             if axis and pair:
                 return PlacedGear(name, (first, second), (z1, None), carrier, (axis, ""), guide, pair.key)
             continue
@@ -239,7 +239,7 @@ def wrong_distances(
             if abs(carried[g.axes[1]] - carried[g.axes[0]]) == 0:
                 reading.say(where, "both axes lie at the same place", "two wheels have axes apart")
             continue
-        height, tilt, far = rack_place(g, reading.slidings, points, guides)
+        height, tilt, far = rack_place(g, reading.slides, points, guides)
         if abs(tilt) > AGREE:
             reading.say(where, "the pitch line is not parallel to the", "name a guide of link along which it",
                         slide=g.slide, wheels=g.wheels[1])

@@ -15,12 +15,12 @@ import numpy as np
 
 from graphkin.errors import CallError, did_you_mean
 from graphkin.plane import dot
-from graphkin.scene.bodies import SlidingPair
-from graphkin.scene.model import Mechanism, PlacedLink
+from graphkin.scene.model import PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol, centre_links
 from graphkin.solver.cams import cam_at
 from graphkin.solver.pose import UNIT, Array, ErrorBound, Pose, R, V
 from graphkin.structure import Dyad, Pair, Structure
+from graphkin.structure.model import slide_pair
 from graphkin.structure.transmission import (
     TransmissionAngle,
     joint_between,
@@ -31,7 +31,7 @@ from graphkin.structure.transmission import (
 from graphkin.words import Phrase
 
 __all__ = [
-    "ORDERS", "VALUES", "Crossing", "Posed", "all_slides", "bound_of_symbol", "pole", "slide_pair", "transmission",
+    "ORDERS", "VALUES", "Crossing", "Posed", "all_slides", "bound_of_symbol", "pole", "transmission",
     "value_of_symbol",
 ]  # fmt: skip
 
@@ -120,11 +120,6 @@ def all_slides(structure: Structure) -> tuple[Pair, ...]:
     have = {s.key for s in structure.slides}
     scene = structure.scene
     return structure.slides + tuple(slide_pair(scene, s) for s in scene.slidings if s.key not in have)
-
-
-def slide_pair(scene: Mechanism, s: SlidingPair) -> Pair:
-    """A sliding pair of the file, that of a redundant link too."""
-    return Pair(s.key, s.link, s.on, scene.by_name[s.on].guides[s.guide], s.turn, s.pin)
 
 
 def value_of_symbol(posed: Posed, symbol: Symbol) -> Array:

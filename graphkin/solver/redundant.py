@@ -13,8 +13,8 @@ from graphkin.plane import cross, dot
 from graphkin.scene.bodies import SlidingPair
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.solver.pose import Array, ErrorBound, Pose, rest
-from graphkin.solver.quantities import slide_pair
 from graphkin.structure import Structure
+from graphkin.structure.model import slide_pair
 from graphkin.words import Phrase
 
 __all__ = ["Fit", "fit", "redundant_poses"]

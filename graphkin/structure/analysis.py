@@ -36,6 +36,7 @@ from graphkin.structure.model import (
     Structure,
     driver_pair,
     reached,
+    slide_pair,
 )
 from graphkin.structure.replacement import replacing_link
 from graphkin.structure.rolling import followers_of, meshes_of, relations_of, rolled_by, start_drivers, unrolled
@@ -91,14 +92,12 @@ def _placed(scene: Mechanism) -> Structure:
     """The links and blocks of a scene with the pairs that hold them, in no order of solution yet."""
     links: dict[str, PlacedLink] = {scene.frame.name: scene.frame}
     links.update({link.name: link for link in scene.links if not link.redundant})
-    slides = [
-        Pair(s.key, s.link, s.on, links[s.on].guides[s.guide], s.turn, s.pin)
-        for s in scene.slidings if s.link in links and s.on in links
-    ]  # fmt: skip
-    for pin in scene.pins:
-        if pin.of in links and pin.on in links:
-            links[pin.key] = PlacedLink(pin.key, {pin.point: 0j}, (pin.point,), OWN_AXIS)
-            slides.append(Pair(pin.key, pin.key, pin.on, links[pin.on].guides[pin.guide], 1 + 0j, pin.point, True))
+    slides: list[Pair] = []
+    for s in scene.slides:
+        if (s.of or s.link) in links and s.on in links:
+            if s.of:
+                links[s.link] = PlacedLink(s.link, {s.point: 0j}, (s.point,), OWN_AXIS)
+            slides.append(slide_pair(scene, s))
     contacts = [c for c in scene.contacts if {*c.links, c.carrier} - {""} <= links.keys()]
     gears = [g for g in scene.gears if {*g.wheels, g.carrier} <= links.keys()]
     cams = [c for c in scene.cams if scene.instead_of is None and {c.link, c.follower} <= links.keys()]

@@ -14,6 +14,7 @@ from typing import Any, ClassVar, Literal, TypeVar
 
 from graphkin.errors import CallError, did_you_mean
 from graphkin.plane import added_up
+from graphkin.scene.bodies import SlidingPair
 from graphkin.scene.cams import LawCam
 from graphkin.scene.model import Driver, Mechanism, PlacedGuide, PlacedLink
 from graphkin.scene.symbol import Symbol, centre_links
@@ -22,7 +23,7 @@ from graphkin.words import Phrase
 __all__ = [
     "Body", "Driven", "DrivenJoint", "DrivenTriangle", "Dyad", "DyadKind", "Element", "LargerGroup", "Mobility", "Pair",
     "Rolled", "RollingRelation", "Structure", "by_drivers_alone", "driver_pair", "leading", "links_for",
-    "named_with_contact", "needed", "part_of", "reached", "without",
+    "named_with_contact", "needed", "part_of", "reached", "slide_pair", "without",
 ]  # fmt: skip
 
 
@@ -70,6 +71,11 @@ class Pair:
     def other(self, link: str) -> str:
         """The link that it joins to one of its links."""
         return self.b if link == self.a else self.a
+
+
+def slide_pair(scene: Mechanism, s: SlidingPair) -> Pair:
+    """A sliding pair or a pin in a slot of the file with its guide, that of a redundant link too."""
+    return Pair(s.key, s.link, s.on, scene.by_name[s.on].guides[s.guide], s.turn, s.pin, bool(s.of))
 
 
 @dataclass(frozen=True)
@@ -481,8 +487,7 @@ def without(scene: Mechanism, gone: Collection[str]) -> Mechanism:
     return replace(
         scene,
         links=tuple(link for link in scene.links if link.name not in lost),
-        slidings=tuple(s for s in scene.slidings if lost.isdisjoint((s.link, s.on))),
-        pins=tuple(p for p in scene.pins if lost.isdisjoint((p.key, p.of, p.on))),
+        slides=tuple(s for s in scene.slides if lost.isdisjoint((s.link, s.of, s.on))),
         cams=tuple(c for c in scene.cams if lost.isdisjoint((c.link, c.follower))),
         contacts=tuple(c for c in scene.contacts if lost.isdisjoint((*c.links, c.block))),
         gears=tuple(g for g in scene.gears if lost.isdisjoint((*g.wheels, g.carrier))),

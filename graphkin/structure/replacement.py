@@ -20,7 +20,7 @@ from dataclasses import replace
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, unit
-from graphkin.scene.bodies import CircularSlot, PinInSlot
+from graphkin.scene.bodies import CircularSlot, SlidingPair
 from graphkin.scene.cams import SwingingFollower
 from graphkin.scene.model import Mechanism, PlacedContact, PlacedDisc, PlacedGuide, PlacedLink
 from graphkin.structure.model import OWN_AXIS, Mobility, Pair, Structure
@@ -54,7 +54,7 @@ def replacing_link(contact: PlacedContact, links: Mapping[str, PlacedLink]) -> t
 def pins_on_circles(scene: Mechanism, poses: Mapping[str, tuple[complex, complex]]) -> Mechanism:
     """The mechanism at one position with pins in its circular slots, instead of the bars that stand for them: in a
     straight guide along the tangent that carries the curvature; ``poses`` are origin (m) and direction of each link."""
-    links, pins = dict(scene.by_name), list(scene.pins)
+    links, slides = dict(scene.by_name), list(scene.slides)
     for slot in scene.slots:
         if slot.block or slot.bar not in links:
             continue
@@ -66,11 +66,11 @@ def pins_on_circles(scene: Mechanism, poses: Mapping[str, tuple[complex, complex
         way = 1j * unit(at - on.points[slot.centre])
         guide = PlacedGuide(slot.name, at, way, 1.0 / slot.radius)
         links[slot.on] = replace(on, guides={**on.guides, guide.name: guide})
-        pins.append(PinInSlot(slot.point, holder, slot.on, guide.name))
+        slides.append(SlidingPair.of_pin(slot.point, holder, slot.on, guide.name))
     places = {p: poses[link.name][0] + poses[link.name][1] * z
               for link in scene.links if link.name in poses for p, z in link.points.items()}  # fmt: skip
     return replace(
-        scene, frame=links.pop(scene.frame.name), links=tuple(links.values()), pins=tuple(pins),
+        scene, frame=links.pop(scene.frame.name), links=tuple(links.values()), slides=tuple(slides),
         slots=tuple(s for s in scene.slots if s.block), sketch=places, drawn={},
     )  # fmt: skip
 
@@ -121,7 +121,7 @@ def cams_replaced(
     Unsolvable : a follower that does not come to its base circle, a pitch curve with a cusp
     """
     links = {link.name: link for link in scene.links}
-    pins: list[PinInSlot] = []
+    pins: list[SlidingPair] = []
     made: dict[str, PlacedLink] = {}
     slots: list[CircularSlot] = []
     contacts: list[PlacedContact] = []
@@ -150,7 +150,7 @@ def cams_replaced(
                 name = next(letters)
                 contacts.append(PlacedContact(name, cam.link, cam.follower, (disc, None), face.name, True, False))
             else:
-                pins.append(PinInSlot(point, cam.link, cam.follower, face.name))
+                pins.append(SlidingPair.of_pin(point, cam.link, cam.follower, face.name))
             continue
         tangent = course.tangent
         if abs(tangent) < SHARP * cam.base:
@@ -174,10 +174,10 @@ def cams_replaced(
             continue
         slot = _guide(link, "t", course.point / turn, unit(tangent) / turn, bends)
         links[cam.link] = replace(link, guides={**link.guides, slot.name: slot})
-        pins.append(PinInSlot(point, cam.follower, cam.link, slot.name))
+        pins.append(SlidingPair.of_pin(point, cam.follower, cam.link, slot.name))
     whole = (*(links[link.name] for link in scene.links), *made.values())
     return replace(
-        scene, links=whole, pins=(*scene.pins, *pins), slots=(*scene.slots, *slots),
+        scene, links=whole, slides=(*scene.slides, *pins), slots=(*scene.slots, *slots),
         contacts=(*scene.contacts, *contacts),
         drivers=tuple(d.at_value(values.get(d.key, d.values[0])) for d in scene.drivers),
         sketch={**scene.sketch, **places}, drawn={}, instead_of=scene,

@@ -9,7 +9,7 @@ import pytest
 
 from graphkin.errors import SceneError
 from graphkin.scene import mechanism_of, mechanism_of_text
-from graphkin.scene.bodies import PinInSlot, SlidingPair
+from graphkin.scene.bodies import SlidingPair
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.symbol import Symbol
 
@@ -134,7 +134,7 @@ def test_a_pin_in_two_slots_is_one_constraint_for_each() -> None:
     text = changed(SIX_BAR, ('[links.4]\npoints = ["D"]\non     = "3"\n', ""),
                    ('points = ["D"]\non     = "6.h"', 'on = "6.h"\nat = { D = [0, 0] }'))
     scene = mechanism_of_text(text + '[pins.D]\nof = "5"\nin = ["3", "1"]\n', "pin")
-    assert scene.pins == (PinInSlot("D", "5", "3", ""), PinInSlot("D", "5", "1", ""))
+    assert scene.pins == (SlidingPair.of_pin("D", "5", "3", ""), SlidingPair.of_pin("D", "5", "1", ""))
 
 
 def test_a_driven_angle_is_in_radians() -> None:

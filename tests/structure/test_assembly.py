@@ -14,7 +14,7 @@ pytestmark = pytest.mark.quick
 
 OWN = {"": PlacedGuide("", 0j, 1 + 0j)}
 FRAME = PlacedLink("0", {"A": 0j, "D": 0.4 + 0j}, (), OWN)
-SCENE = Mechanism("s", FRAME, (PlacedLink("1", {"A": 0j, "B": 0.1 + 0j}, ("A", "B"), OWN),), (), (), ())
+SCENE = Mechanism("s", FRAME, (PlacedLink("1", {"A": 0j, "B": 0.1 + 0j}, ("A", "B"), OWN),), (), ())
 UP, DOWN = {"C": 0.2 + 0.1j}, {"C": 0.2 - 0.1j}
 
 

@@ -29,7 +29,7 @@ from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.construction.sheet import Reading, Sheet
 from graphkin.construction.touching import Touching
 from graphkin.plane import added_up, cross, unit
-from graphkin.scene.bodies import PinInSlot
+from graphkin.scene.bodies import SlidingPair
 from graphkin.scene.model import PlacedGuide
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, Dyad, analyse
@@ -129,7 +129,7 @@ def held_by_pairs(sheet: Sheet) -> Sheet:
     if not (scene.contacts or scene.gears or scene.cams):
         return sheet
     links = {link.name: link for link in (scene.frame, *scene.whole.links)}  # without bars for cams
-    pins, points, poses = list(scene.whole.pins), dict(sheet.points), dict(sheet.poses)
+    slides, points, poses = list(scene.whole.slides), dict(sheet.points), dict(sheet.poses)
 
     def local(link: str, at: complex) -> complex:
         return (at - sheet.poses[link].origin) / sheet.poses[link].axis / mm
@@ -151,11 +151,11 @@ def held_by_pairs(sheet: Sheet) -> Sheet:
             name += "'"
         guide = PlacedGuide(name, local(first, touch.at), along / sheet.poses[first].axis)
         links[first] = replace(links[first], guides={**links[first].guides, name: guide})
-        pins.append(PinInSlot(touch.name, second, first, name))
-        poses[pins[-1].key] = Pose(touch.at, along)
+        slides.append(SlidingPair.of_pin(touch.name, second, first, name))
+        poses[slides[-1].key] = Pose(touch.at, along)
     other = replace(
         scene, frame=links[scene.frame.name], links=tuple(links[link.name] for link in scene.whole.links),
-        pins=tuple(pins), contacts=(), gears=(), cams=(), slots=scene.whole.slots,
+        slides=tuple(slides), contacts=(), gears=(), cams=(), slots=scene.whole.slots,
     )  # fmt: skip
     return replace(sheet, structure=analyse(other), poses=poses, points=points)
 

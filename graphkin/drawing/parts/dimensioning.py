@@ -394,8 +394,7 @@ def driven_value(sheet: Sheet, key: str, runs: tuple[Run, ...], mark: Mark) -> L
 
 def _shown(sheet: Sheet) -> list[Slider]:
     """The sliding pairs of the scene, not those that stand for something else."""
-    scene = sheet.scene.whole
-    keys = {pair.key for pair in scene.slidings} | {pin.key for pin in scene.pins}
+    keys = {pair.key for pair in sheet.scene.whole.slides}
     return [one for one in sliders(sheet) if one.slide.key in keys]
 
 

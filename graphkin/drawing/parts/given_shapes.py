@@ -103,7 +103,7 @@ def _carries_its_axis(scene: Mechanism, link: PlacedLink) -> bool:
 
 def _ridden(scene: Mechanism) -> set[tuple[str, str]]:
     """The guides on which links or pins slide, with the links that have them."""
-    return {(s.on, s.guide) for s in scene.slidings} | {(p.on, p.guide) for p in scene.pins}
+    return {(s.on, s.guide) for s in scene.slides}
 
 
 def _axis_counts(scene: Mechanism, link: PlacedLink) -> bool:
