@@ -226,7 +226,7 @@ def _of_a_point(sheet: Sheet, symbol: Symbol) -> Iterator[Phrase]:
 
 def _shared(sheet: Sheet, of: PointRef, to: PointRef) -> str:
     """The link that has both points; a special point belongs to the link that it was found for."""
-    special = {s.point: s.link for s in sheet.steps if s.reason == "special point"}
+    special = sheet.special_points
     for ref in (of, to):
         if ref.point in special:
             return ref.link or special[ref.point]

@@ -94,7 +94,7 @@ class PolygonPoints:
         places = {0j: [PointRef(p) for p in self.sheet.scene.frame.points]}
         known = set(places[0j])
         marks = [stroke for step in self._steps for stroke in step.strokes if isinstance(stroke, Mark)]
-        special = {point for group in self.sheet.groups for point, _ in group.points}  # shown where on the paper
+        special = self.sheet.special_points  # shown where on the paper
         ends = {symbol.of for symbol in self._vectors if symbol.to is None}
         ends |= {mark.ref for mark in marks if mark.ref.point in special and self.seen(mark.at)}
         for mark in marks:
@@ -113,7 +113,7 @@ class PolygonPoints:
             if all(abs(foot.at - z) > SAME for z in taken):
                 taken.append(foot.at)
                 between.append(foot)
-        special = {s.point: s.link for s in self.sheet.steps if s.reason == "special point"}
+        special = self.sheet.special_points
         per_role = Counter(foot.role for foot in between)
         per_end: Counter[str] = Counter()
         feet: list[NamedPoint] = []

@@ -134,8 +134,8 @@ class Checked(OfScene, Result):
                                  for way in self.forces.ways if way != "driver"]}  # fmt: skip
         if not groups:
             return forces
-        ways = ", ".join(dict.fromkeys(g.way for g in groups))
-        rows = [{"links": list(g.group.links), "class": g.group.order, "construction": g.way} for g in groups]
+        ways = ", ".join(dict.fromkeys(groups.values()))
+        rows = [{"links": list(g.links), "class": g.order, "construction": way} for g, way in groups.items()]
         return {"construction": ways, "groups": rows, **forces}
 
     @property

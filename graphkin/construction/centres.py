@@ -24,6 +24,7 @@ from graphkin.construction.links_on_paper import LinkMotion, Pose
 from graphkin.construction.plan import draft
 from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import Sheet
+from graphkin.construction.steps import Superposed
 from graphkin.construction.touching import Touching
 from graphkin.plane import dot
 from graphkin.scene.model import Mechanism
@@ -210,7 +211,8 @@ class Centres:
     def kept(self) -> tuple[str, ...]:
         """What two superposed motions let fit, where the motion was found by trial: the bars or sliding pairs that the
         trial polygons leave open."""
-        return tuple(name for group in self.sheet.groups if group.way == "superposition" for name in group.closing)
+        divided = (step.data for step in self.sheet.steps if isinstance(step.data, Superposed))
+        return tuple(dict.fromkeys(name for data in divided for name in data.closing))
 
     @property
     def mm(self) -> float:

@@ -33,7 +33,7 @@ from graphkin.construction.net import Edge, Net, Path, Unknown, VectorChain, con
 from graphkin.construction.polygons import RATE, Polygons, letter
 from graphkin.construction.proportional_division import divide, magnified
 from graphkin.construction.seen_from import Joint, contours
-from graphkin.construction.sheet import DrawnGroup, Rate
+from graphkin.construction.sheet import Rate
 from graphkin.construction.steps import (
     ORDERS,
     Aid,
@@ -57,7 +57,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Pair, Rolled, driver_pair
 from graphkin.words.written import MOST, figures, on_paper
 
-__all__ = ["draw_element", "drawn_group"]
+__all__ = ["draw_element"]
 
 LETTERS = tuple("SQTUVWXYZ") + tuple(f"S{i}" for i in range(1, 30))  # of special points
 MOST_WAYS = 12  # choices of held links that are tried
@@ -160,18 +160,6 @@ def _draw_group(plot: Polygons, order: Order, group: LargerGroup) -> None:
         _draw_by(plot, order, group, plot.plans[group])
     else:
         _draw_first(plot, order, group)
-
-
-def drawn_group(plot: Polygons, group: LargerGroup, kept: Sequence[str]) -> DrawnGroup:
-    """How a group was drawn, said."""
-    plan = plot.plans[group]
-    points = tuple((m.letter, m.link) for m in plan.moves if isinstance(m, Special))
-    return DrawnGroup(group, plan.way, tuple(kept), tuple(t.name for t in plan.tried), closing_names(plan), points)
-
-
-def closing_names(plan: GroupPlan) -> tuple[str, ...]:
-    """What has to fit in the trial polygons of a plan: links, or sliding pairs."""
-    return tuple(edge.link or (edge.slide.key if edge.slide else "") for edge, _ in plan.open_ends)
 
 
 def _draw_first(plot: Polygons, order: Order, group: LargerGroup) -> None:
@@ -646,8 +634,9 @@ class Trials:
         plot.board.notice(order, "magnified", ", ".join(self.group.links), size=magnified(places, apart))
         found = self._as_noted(rates, apart)
         edges = [edge for edge, _ in plan.open_ends]
+        closing = tuple(edge.link or (edge.slide.key if edge.slide else "") for edge in edges)
         divided = Superposed(
-            self.as_symbols(found), closing_names(plan), tuple(map(tuple, apart)),
+            self.as_symbols(found), closing, tuple(map(tuple, apart)),
             tuple(Direction("square" if across else "along", e.bar if e.link else e.direction.names)
                   for e, across in plan.open_ends),
             tuple((plot.label(e.labels[0]), plot.label(e.labels[1])) for e in edges),

@@ -18,7 +18,6 @@ import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
-from typing import Literal
 
 from graphkin.construction.net import Edge, Net, Path, Unknown, VectorChain, split
 from graphkin.construction.steps import FarPoint
@@ -68,10 +67,6 @@ class GroupPlan:
     assumed: Mapping[str, tuple[tuple[float, ...], ...]] = field(default_factory=dict)
     far: FarPoint | None = None
     contours: tuple[tuple[str, LargerGroup], ...] = ()
-
-    @property
-    def way(self) -> Literal["special points", "superposition"]:
-        return "superposition" if self.tried else "special points"
 
 
 @dataclass

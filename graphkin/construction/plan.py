@@ -12,13 +12,13 @@ from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from graphkin.construction.elements import draw_element, drawn_group
+from graphkin.construction.elements import draw_element
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.net import VectorChain, contacts_of
 from graphkin.construction.polygons import NO_SLIP, RATE, Polygons, Slip, draw_asked
 from graphkin.construction.position import Assembly, assembly_at, place
 from graphkin.construction.scales import Room, Scales, chosen_scales
-from graphkin.construction.sheet import Board, DrawnGroup, Limits, Sheet, without_residues
+from graphkin.construction.sheet import Board, GroupWay, Limits, Sheet, without_residues
 from graphkin.construction.steps import ORDERS, Order
 from graphkin.construction.triangles import Inversion, inversions_of, opened_at_triangles, own_assembly
 from graphkin.errors import Unsolvable
@@ -137,6 +137,11 @@ def finished(task: Task, polygons: Polygons) -> Sheet:
     """What stands on the board as a sheet, with the vectors that only a question asks for."""
     draw_asked(polygons, task.asked)
     board, limits = polygons.board, task.limits
+    groups: dict[LargerGroup, GroupWay] = {}
+    for group in needed(task.structure, task.asked):
+        if isinstance(group, LargerGroup):
+            by_points = group in polygons.plans and not polygons.plans[group].tried
+            groups[group] = "special points" if by_points else "superposition"
     if limits:
         from graphkin.construction.limits import limits_on_paper
 
@@ -159,7 +164,7 @@ def finished(task: Task, polygons: Polygons) -> Sheet:
         assembly=board.assembly,
         noticed=tuple(board.noticed),
         left_out=task.left_out,
-        groups=tuple(_drawn_groups(task, polygons)),
+        groups=groups,
         causes=tuple(board.causes) if board.instrument.acts else (),
         asked=task.asked,
         acting=task.acting,
@@ -169,15 +174,6 @@ def finished(task: Task, polygons: Polygons) -> Sheet:
         readings=dict(board.readings),
     )
     return without_residues(sheet) if board.instrument.faultless else sheet
-
-
-def _drawn_groups(task: Task, polygons: Polygons) -> Iterator[DrawnGroup]:
-    for group in needed(task.structure, task.asked):
-        if isinstance(group, LargerGroup) and group in task.assembly.reduced:
-            yield drawn_group(polygons, group, task.assembly.reduced[group].left_out)
-        elif isinstance(group, LargerGroup):
-            # with one link held still its motion relative to that link is found, and laid over that link's motion
-            yield DrawnGroup(group, "superposition", (), (), (), ())
 
 
 class Redrawn:

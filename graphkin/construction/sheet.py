@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from graphkin.construction.trains import TrainPlan
 
 __all__ = [
-    "MOST_LOST", "Board", "DrawnGroup", "Equation", "LimitPosition", "Limits", "Rate", "Reading", "Remark", "Sheet",
+    "MOST_LOST", "Board", "Equation", "GroupWay", "LimitPosition", "Limits", "Rate", "Reading", "Remark", "Sheet",
     "either_way", "greatest_before", "without_residues",
 ]  # fmt: skip
 
@@ -185,18 +185,9 @@ class Limits(OnPaper):
     swing: float
 
 
-@dataclass(frozen=True)
-class DrawnGroup:
-    """How a group larger than a dyad was drawn: ``kept`` names the links (or drivers) left out for its trial positions,
-    ``assumed`` what was assumed in trial polygons and ``closing`` what had to fit in them (links, or sliding pairs),
-    ``points`` its special points with their links."""
-
-    group: LargerGroup
-    way: Literal["special points", "superposition"]
-    kept: tuple[str, ...]
-    assumed: tuple[str, ...]
-    closing: tuple[str, ...]
-    points: tuple[tuple[str, str], ...]
+GroupWay = Literal["special points", "superposition"]
+"""How a group larger than a dyad is drawn in polygons: by special points, or by superposing motions: trial polygons, or
+what is seen from a link held still and that link's motion."""
 
 
 @dataclass(frozen=True)
@@ -210,7 +201,7 @@ class Sheet:
     ``left_out`` says what nothing asked for needs; ``held_still`` are steps drawn apart, with one link for a frame.
     ``asked`` is what is asked for, if the drawing is limited to it; ``limits`` are the limit positions drawn for it, by
     sliding pair or link.
-    ``groups`` tells how each group larger than a dyad was drawn.
+    ``groups`` are those larger than a dyad, and how each was drawn.
     ``acting`` says of each load whether it acts here (None where it begins or ends exactly here), if forces are drawn;
     ``growing`` are then, where the mechanism rests or has several drivers, drawings with each driver's value alone
     growing at a unit rate.
@@ -238,7 +229,7 @@ class Sheet:
     held_still: tuple[Step, ...] = ()
     asked: tuple[Symbol, ...] = ()
     limits: Mapping[str, Limits] = field(default_factory=dict)
-    groups: tuple[DrawnGroup, ...] = ()
+    groups: Mapping[LargerGroup, GroupWay] = field(default_factory=dict)
     acting: Mapping[str, bool | None] = field(default_factory=dict)
     growing: tuple[Sheet, ...] = ()
     trains: tuple[TrainPlan, ...] = ()
@@ -296,6 +287,11 @@ class Sheet:
         return tuple(dict.fromkeys(remark.phrase for remark in self.remarks))
 
     @cached_property
+    def special_points(self) -> dict[str, str]:
+        """The special points of larger groups with their links."""
+        return {step.point: step.link for step in self.steps if step.reason == "special point"}
+
+    @cached_property
     def drawn_in(self) -> dict[Symbol, int]:
         """The step in which each vector is first drawn."""
         drawn = [(s.symbol, step.number) for step in self.steps for s in step.strokes if isinstance(s, Vector)]
@@ -328,7 +324,7 @@ class Sheet:
     def vectors_seen(self, diagram: DiagramName) -> Iterator[Aid]:
         """The vectors of a diagram that are seen from held links; those that lead to special points left out."""
         held = {step.held for step in self.steps if step.reason == "seen from"}
-        special = {step.point for step in self.steps if step.reason == "special point"}
+        special = self.special_points.keys()
         for step in self.steps if held else ():
             for stroke in step.strokes if step.diagram == diagram else ():
                 if isinstance(stroke, Aid) and stroke.symbol.to is not None:

@@ -116,7 +116,7 @@ def mechanism_picture(lesson: Lesson) -> Drawing:
     Names of angular velocities and accelerations that are to be found go with their arcs, so do special points and
     trial positions; those of drivers stay.
     """
-    special = {s.point for s in lesson.sheet.steps if s.reason == "special point"}
+    special = lesson.sheet.special_points
     aids = {f"{part}-{point}" for point in special for part in ("special", "point", "label-point")}
 
     def names_result(thing: Primitive | None) -> bool:

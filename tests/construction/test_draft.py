@@ -57,7 +57,7 @@ def test_the_coriolis_vector_is_the_sliding_velocity_turned_with_the_guide():
 @pytest.mark.parametrize("name", library())
 def test_every_equation_closes(name):
     sheet = draft(mechanism_of(name))
-    special = {point for group in sheet.groups for point, _ in group.points}
+    special = sheet.special_points
     for equation in sheet.equations:
         seen = {one.symbol: one for one in sheet.vectors_seen(equation.diagram)}
         vectors = {**seen, **sheet.vectors(equation.diagram)}
@@ -171,7 +171,7 @@ CLASS_III = {
 
 def test_a_group_of_class_three_is_drawn_by_its_special_point():
     sheet = draft(mechanism_of(CLASS_III))
-    assert [("special points", ("2", "3", "4", "5"))] == [(g.way, g.group.links) for g in sheet.groups]
+    assert [("special points", ("2", "3", "4", "5"))] == [(way, g.links) for g, way in sheet.groups.items()]
     assert {PointRef(p) for p in "CDHK"} <= set(sheet.ends["acceleration"])
 
 

@@ -38,7 +38,7 @@ def test_a_wheel_on_a_rail_is_drawn_as_turning_about_where_it_touches():
     sheet = draft(mechanism_of(wheel_at_its_rim()))
     first = sheet.equations[1]
     assert [["v_P"], ["v_P/K@3"], ["v_B", "v_P/B"]] == [[str(t.symbol) for t in side] for side in first.sides]
-    assert ["special points"] == [group.way for group in sheet.groups]
+    assert ["special points"] == [*sheet.groups.values()]
 
 
 def test_the_motion_of_the_contact_s_points_may_be_asked_for_alone():

@@ -398,7 +398,7 @@ def bare_mechanism(sheet: Sheet, letters: Letters) -> Piece:
     """Frame, links and points of the mechanism with their names, about the world's origin: no lengths, no senses, no
     special points, which serve its polygons alone."""
     here = MechanismOnPaper(sheet, letters)
-    special = {step.point for step in sheet.steps if step.reason == "special point"}
+    special = sheet.special_points
     return joined((links(here), _springs(here), joints(here, special), link_names(here), _marks(here)))
 
 
