@@ -27,9 +27,9 @@ from graphkin.construction.equations import (
     spread,
     turned,
 )
-from graphkin.construction.group_plan import GroupPlan, Move, Special, plan_group
+from graphkin.construction.group_plan import GroupPlan, Move, Special, equation_of, plan_group
 from graphkin.construction.links_on_paper import stuck
-from graphkin.construction.net import Edge, Net, Path, Unknown, VectorChain, contacts_of, equation_of, node, past
+from graphkin.construction.net import Edge, Net, Path, Unknown, VectorChain, contacts_of, node, past
 from graphkin.construction.polygons import RATE, Polygons, letter
 from graphkin.construction.proportional_division import divide, magnified
 from graphkin.construction.seen_from import Joint, contours

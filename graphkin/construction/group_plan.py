@@ -25,7 +25,7 @@ from graphkin.plane import cross, cross_lines, unit
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import LargerGroup
 
-__all__ = ["GroupPlan", "Move", "Special", "plan_group"]
+__all__ = ["GroupPlan", "Move", "Special", "equation_of", "plan_group"]
 
 FLAT = 1e-9  # sine below which the legs of a special point are parallel
 MOST_TRIALS = 4
@@ -143,7 +143,8 @@ class _Search:
             stack += [(*path, e) for e in self.net.edges[at] if e.end not in visited or (
                 e.end == start and len(path) > 1)]
 
-    def _strange(self, path: Path) -> int:
+    def strange(self, path: Path) -> int:
+        """How many points of a way are no joints."""
         return len({n for e in path for n in (e.start, e.end)} - self.net.natural)
 
     # -- moves, each tried in turn -------------------------------------------------------------------------------------
@@ -161,7 +162,7 @@ class _Search:
                 # from what was known before to what was found: from the frame where it can be
                 places = self.net.places
                 best = max(pairs, key=lambda e: (
-                    -self._strange((e,)), self.net.fixed(e.start), self.net.known(e.start),
+                    -self.strange((e,)), self.net.fixed(e.start), self.net.known(e.start),
                     abs(places[e.end.point] - places[e.start.point]), e.forward,
                 ))  # fmt: skip
                 return self.drawn(VectorChain.closing(self.seen(best)), (best,))
@@ -200,7 +201,7 @@ class _Search:
         for path in (path for start in self.in_order() for path in self.ways(start, 2, self.nodes.__contains__)):
             two = [e for e in path if e.unknown]
             sine = abs(cross(self.way(two[0]), self.way(two[1]))) if len(two) == 2 else 0.0
-            cost = (float(sine < 0.05), len(path) + 0.6 * self._strange(path) - sine,
+            cost = (float(sine < 0.05), len(path) + 0.6 * self.strange(path) - sine,
                     float(self.net.order[path[0].start]))  # fmt: skip
             if sine >= FLAT and (best is None or cost < best[0]):
                 best = cost, path
@@ -218,7 +219,7 @@ class _Search:
             if unknown is None or unknown == own:
                 continue
             old = best.get(unknown)
-            if old is None or (len(path), self._strange(path)) < (len(old), self._strange(old)):
+            if old is None or (len(path), self.strange(path)) < (len(old), self.strange(old)):
                 best[unknown] = path
         return list(best.values())
 
@@ -371,6 +372,27 @@ class _Search:
         turning = [e for e in edges if e.link]
         sliding = [e for e in edges if e.slide is not None]
         return list(dict.fromkeys(e.unknown for e in (*near, *turning, *sliding) if e.unknown))
+
+
+def equation_of(net: Net, drawn: Collection[PointRef]) -> VectorChain | None:
+    """The shortest equation with two unknown sizes of a dyad's links and all pairs that hold them; None where it has
+    none.
+
+    Parameters
+    ----------
+    drawn : nodes that stand in the polygon already (preferred as starting points)
+    """
+    search = _Search(net, lambda *_: 1j, iter(()), {n for n in net.nodes if net.known(n)}, set(), [])
+    paths = [path for start in search.in_order() for path in search.ways(start, 2, search.nodes.__contains__)
+             if sum(bool(e.unknown) for e in path) == 2]  # fmt: skip
+
+    def cost(path: Path) -> tuple[float, bool, int]:
+        ends = sum(n not in drawn for n in (path[0].start, path[-1].end))
+        start = path[0].start
+        return len(path) + 0.6 * search.strange(path) + 0.1 * ends, net.fixed(start), net.order[start]
+
+    best = min(reversed(paths), key=cost, default=None)
+    return None if best is None else split(best, [i for i, e in enumerate(best) if e.unknown][1])
 
 
 def plan_group(

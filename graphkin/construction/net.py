@@ -26,7 +26,7 @@ from graphkin.scene.model import PlacedContact, PlacedLink
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import DrivenJoint, Dyad, LargerGroup, Pair, Structure
 
-__all__ = ["Edge", "Net", "Path", "Unknown", "VectorChain", "contacts_of", "equation_of", "node", "past", "split"]
+__all__ = ["Edge", "Net", "Path", "Unknown", "VectorChain", "contacts_of", "node", "past", "split"]
 
 
 class Unknown(NamedTuple):
@@ -266,24 +266,6 @@ class Net:
             self._add_bar(ref, n, name)
         return ref
 
-    def paths(self, start: PointRef) -> Iterator[Path]:
-        """All paths from a known node through unknown ones to another known node, with two unknowns."""
-        stack: list[tuple[PointRef, Path]] = [(start, ())]
-        while stack:
-            at, path = stack.pop()
-            if path and self.known(at):
-                if sum(bool(e.unknown) for e in path) == 2:
-                    yield path
-                continue
-            if len(path) == 5:
-                continue
-            # a chain may come back to where it began: a pin that both guides of a group belong to
-            visited = {e.end for e in path}
-            for edge in reversed(self.edges[at]):
-                if edge.end in visited or sum(bool(e.unknown) for e in (*path, edge)) > 2:
-                    continue
-                stack.append((edge.end, (*path, edge)))
-
 
 def _near(
     links: Mapping[str, PlacedLink], beside: list[tuple[str, str]], contacts: Sequence[PlacedContact],
@@ -303,31 +285,6 @@ def _near(
         if not on[a] & on[b]:  # far from any point: what slides there is looked at somewhere
             on[a], on[b] = on[a] | on[b], on[a] | on[b]
     return on
-
-
-def equation_of(net: Net, drawn: Collection[PointRef]) -> VectorChain | None:
-    """Find the shortest equation with two unknown sizes of a dyad's links and all pairs that hold them.
-
-    Parameters
-    ----------
-    drawn : nodes that stand in the polygon already (preferred as starting points)
-    """
-    best: tuple[tuple[float, ...], VectorChain] | None = None
-    for start in (n for n in net.nodes if net.known(n)):
-        for path in net.paths(start):
-            first, second = (i for i, e in enumerate(path) if e.unknown)
-            if path[first].unknown == path[second].unknown:
-                continue
-            ends = (path[0].start, path[-1].end)
-            strangers = {n for e in path for n in (e.start, e.end)} - net.natural
-            cost = (
-                len(path) + 0.6 * len(strangers) + 0.1 * sum(n not in drawn for n in ends),
-                float(net.fixed(start)),
-                float(net.order[start]),
-            )
-            if best is None or cost < best[0]:
-                best = cost, split(path, second)
-    return best[1] if best else None
 
 
 def split(path: Path, at: int) -> VectorChain:

@@ -4,9 +4,8 @@ scene's own position as it is meant, others followed from it.
 Where larger groups lie is found by trial drawings (method of trial positions).  The trial driver of a reduced mechanism
 is moved until what was left out fits; from one position of the real driver to the next the trial starts where the last
 one ended.  At the scene's own position the gaps of trial drawings are closed over the whole range of a trial driver, on
-a grid of several, or near the sketch of the problem: two sketched points of a link tell its direction.  Sliding pairs
-and driven angles tell it of others; where links are joined so but none of them has two such points, a guide and what
-slides on it tell it, once for either sense.
+a grid of several, or at trial values that the sketch of the problem tells: two sketched points of a link tell its
+direction, sliding pairs and driven angles that of others.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
-from itertools import islice, pairwise, product
+from itertools import combinations, pairwise, product
 
 import numpy as np
 
@@ -42,14 +41,14 @@ from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.sheet import Board
 from graphkin.construction.steps import FINDS_A_POINT, Cause, Mark, Reason, Step
 from graphkin.construction.touching import coordinate_on_paper
-from graphkin.plane import added_up, cross, dot
+from graphkin.plane import added_up, dot, unit
 from graphkin.scene.symbol import PointRef
 from graphkin.search import last_true
 from graphkin.structure import Driven, Dyad, Element, Rolled, Structure, pick
 from graphkin.structure.model import LargerGroup
 from graphkin.words import Phrase
 
-__all__ = ["Assembly", "as_sketched", "assembly_at", "each_assembly", "fits_between", "own_position", "place"]
+__all__ = ["Assembly", "assembly_at", "each_assembly", "fits_between", "own_position", "place"]
 
 TRIALS = 3  # trial drivers used, one after the other, to find all assemblies
 TWINS = 1e-6  # of the size: as near as this places are the same
@@ -57,10 +56,6 @@ ROUGHLY = 0.1  # of the size: so far off a sketch may be
 GRID = 360  # trial values looked at over a turn
 COARSE = 12  # values of each of several trial drivers
 Branch = tuple[int, ...]  # which assembly each dyad of a reduced mechanism takes, in the order of drawing
-MOST = 8  # positions that a sketch is taken to mean
-ALIKE = 0.05  # directions nearer to each other, and distances (of the size) that differ less, are the same in a sketch
-ACROSS = 0.1  # sine of the least angle at which two guides tell a place
-Axes = dict[str, complex]
 
 
 @dataclass(frozen=True)
@@ -257,13 +252,10 @@ def _group_by_sketch(choices: Choices, paper: PlacedLinks, group: LargerGroup) -
     """The assembly of a larger group that is meant: one that is sketched, improved until everything fits; where the
     sketch does not tell it, of all that fit the one nearest to what is sketched."""
     structure = choices.structure
-    sketched = [
-        fit for rough in as_sketched(structure, group, paper)
-        if (fit := next(filter(None, (fitted(reduced, paper, rough) for reduced in choices.of[group])), None))
-    ]  # fmt: skip
-    found: list[dict[str, Pose]] = []
-    _add_new(found, (fit for fit in sketched if _is_told(structure, paper, fit)))
-    if not found:
+    sketched = list(_fits_by_sketch(choices, paper, group))
+    found = sketched[-1:]
+    if not found or not _is_told(structure, paper, found[0]):
+        found = []
         # by several trial drivers: what one passes over at its dead point another sees
         by_driver: dict[tuple[str, ...], ReducedMechanism] = {}
         for reduced in choices.of[group]:
@@ -276,6 +268,62 @@ def _group_by_sketch(choices: Choices, paper: PlacedLinks, group: LargerGroup) -
     found = _without_twins(structure, paper, group, found)
     candidates = [paper.fresh(poses) for poses in found]
     return found[pick(structure.scene, group.links, candidates, None).index]
+
+
+def _fits_by_sketch(choices: Choices, paper: PlacedLinks, group: LargerGroup) -> Iterator[dict[str, Pose]]:
+    """Positions of a group near its sketch, up to the first that is told by it: drawn at trial values that the sketch
+    tells, in the assembly that lies nearest to it, and improved until everything fits."""
+    structure = choices.structure
+    told, rough = {**structure.scene.sketch, **structure.scene.drawn}, sketched_poses(structure, group, paper)
+
+    def off(drawn: PlacedLinks) -> float:
+        return added_up(abs(z - told[p]) for p, z in paper.fresh(drawn.poses).items() if p in told)
+
+    for reduced in choices.of[group]:
+        if not rough.keys() >= {name for driver in reduced.trial for name in driver.links}:
+            continue
+        values = reduced.values(rough, paper.mm)
+        drawings = (drawn for _, drawn in each_assembly(reduced.opened(paper, values), reduced.elements))
+        near = min(((off(drawn), dict(drawn.poses)) for drawn in drawings), key=lambda one: one[0], default=None)
+        fit = None if near is None else fitted(reduced, paper, near[1], values)
+        if fit is not None:
+            yield fit
+            if _is_told(structure, paper, fit):
+                return
+
+
+def sketched_poses(structure: Structure, group: LargerGroup, known: PlacedLinks) -> dict[str, Pose]:
+    """The links known, and those of a group where they are sketched: of which a point is, and whose direction two
+    points tell, or sliding pairs and driven angles by that of another."""
+    scene, mm = structure.scene, known.mm
+    places = {p: z * mm for p, z in {**scene.sketch, **scene.drawn}.items()}
+    places |= {p: known.point(n, p) for n in known.poses for p in structure.links[n].points}
+    own = {n: {p: z * mm for p, z in structure.links[n].points.items() if p in places} for n in group.members}
+    axes = {name: pose.axis for name, pose in known.poses.items()}
+    # the second link's direction is the first's times this
+    joined = [(p.b, p.a, p.guide.direction * p.turn) for p in group.pairs if not p.turns]
+    joined += [(*d.links[::-1], cmath.rect(1.0, known.values[d.key])) for d in group.drivers if d.turns]
+
+    def spread() -> None:
+        for base, name, turn in joined * len(joined):
+            if base in axes:
+                axes.setdefault(name, axes[base] * turn)
+            elif name in axes:
+                axes[base] = axes[name] * turn.conjugate()
+
+    spread()
+    for name, points in own.items():
+        apart = [(abs(points[b] - points[a]), a, b) for a, b in combinations(points, 2) if places[a] != places[b]]
+        if apart and name not in axes:
+            _, a, b = max(apart)
+            axes[name] = unit((places[b] - places[a]) / (points[b] - points[a]))
+    spread()
+    found = dict(known.poses)
+    for name, points in own.items():
+        if name in axes and points:
+            point, place = next(iter(points.items()))
+            found[name] = Pose(places[point] - axes[name] * place, axes[name])
+    return found
 
 
 def _add_new(found: list[dict[str, Pose]], fits: Iterable[dict[str, Pose]]) -> None:
@@ -437,126 +485,3 @@ def _drawn(
     """A trial drawing of the group; None where two loci do not meet."""
     papers = each_assembly(reduced.opened(known, values), reduced.elements, only=branches)
     return next((paper for _, paper in papers), None)
-
-
-# -- where links lie roughly, by the sketch ----------------------------------------------------------------------------
-
-
-def as_sketched(structure: Structure, group: LargerGroup, known: PlacedLinks) -> list[dict[str, Pose]]:
-    """All links known and those of a group roughly where they are sketched, in each position that the sketch can mean;
-    none where it does not tell of all of them."""
-    scene = structure.scene
-    places = {p: z * known.mm for p, z in {**scene.sketch, **scene.drawn}.items()}
-    places |= {p: known.point(n, p) for n in known.poses for p in structure.links[n].points}
-    sketch = _Sketch(structure, group, known, places)
-    return list(islice(sketch.positions(dict(known.poses), {n: pose.axis for n, pose in known.poses.items()}), MOST))
-
-
-class _Sketch:
-    def __init__(
-        self, structure: Structure, group: LargerGroup, known: PlacedLinks, places: Mapping[str, complex]
-    ) -> None:
-        self.members, self.places = group.members, places
-        self.slides = [p for p in group.pairs if not p.turns]
-        self.points = {n: {p: z * known.mm for p, z in link.points.items()} for n, link in structure.links.items()}
-        self.mm = known.mm
-        # links whose directions tell each other's: the second's is the first's times this
-        self.joined = [(s.b, s.a, s.guide.direction * s.turn) for s in self.slides]
-        self.joined += [(*d.links[::-1], cmath.rect(1.0, known.values[d.key])) for d in group.drivers if d.turns]
-
-    def positions(self, poses: dict[str, Pose], axes: Axes) -> Iterator[dict[str, Pose]]:
-        """Every position from the links and directions known already."""
-        self._spread(axes)
-        found = next(((n, axis) for n in self.members if n not in axes and (axis := self._by_points(n))), None)
-        if found is not None:
-            yield from self.positions(poses, {**axes, found[0]: found[1]})
-            return
-        self._place(poses, axes)
-        left = next((n for n in self.members if n not in axes), None)
-        if left is None:
-            if poses.keys() >= set(self.members):
-                yield poses
-            return
-        for name in self.members:
-            if name in axes:
-                continue
-            for axis in self._by_guides(name, poses):
-                yield from self.positions(dict(poses), {**axes, name: axis})
-            return
-
-    def _spread(self, axes: Axes) -> None:
-        grown = True
-        while grown:
-            grown = False
-            for base, name, turn in self.joined:
-                if base in axes and name not in axes:
-                    axes[name], grown = axes[base] * turn, True
-                elif name in axes and base not in axes:
-                    axes[base], grown = axes[name] * turn.conjugate(), True
-
-    def _by_points(self, name: str) -> complex | None:
-        own = {p: z for p, z in self.points[name].items() if p in self.places}
-        a, b = max(((a, b) for a in own for b in own), key=lambda ab: abs(own[ab[0]] - own[ab[1]]), default=("", ""))
-        if a == b or self.places[a] == self.places[b]:
-            return None
-        axis = (self.places[b] - self.places[a]) / (own[b] - own[a])
-        return axis / abs(axis)
-
-    def _by_guides(self, name: str, poses: Mapping[str, Pose]) -> list[complex]:
-        """Directions of a link at which what slides on guides, of it or of links joined to it, lies on them."""
-        turned: Axes = {name: 1 + 0j}
-        self._spread(turned)
-        rows = []
-        for s in self.slides:
-            block, rail = self._one_point(s.a, poses), self._one_point(s.b, poses)
-            if s.b not in turned or block is None or rail is None or block[0] == rail[0]:
-                continue
-            offset = (s.turn * block[1]).imag + cross(s.guide.direction, s.guide.through * self.mm - rail[1])
-            rows.append((turned[s.b] * s.guide.direction, block[0] - rail[0], offset))
-        senses = []
-        for along, way, offset in rows:
-            lean = math.asin(min(1.0, max(-1.0, offset / abs(way))))
-            # towards what slides first, as a rod lies on its cylinder
-            senses += [cmath.rect(1.0, cmath.phase(way) + turn) / along for turn in (-lean, lean - math.pi)]
-        told: list[tuple[float, complex]] = []
-        for axis in senses:
-            off = max(abs(cross(axis * along, way) - offset) for along, way, offset in rows)
-            if all(abs(axis - other) > ALIKE for _, other in told):
-                told.append((off, axis))
-        least = min((off for off, _ in told), default=0.0)
-        return [axis for off, axis in told if off <= least + ALIKE]
-
-    def _one_point(self, name: str, poses: Mapping[str, Pose]) -> tuple[complex, complex] | None:
-        """Where a point of a link lies, and its place on the link."""
-        if name in poses:
-            return poses[name].origin, 0j
-        return next(((self.places[p], z) for p, z in self.points[name].items() if p in self.places), None)
-
-    def _place(self, poses: dict[str, Pose], axes: Axes) -> None:
-        """The links of known direction: by a point of them, or where two of their guides tell the place."""
-        grown = True
-        while grown:
-            grown = False
-            for name in self.members:
-                if name in poses or name not in axes:
-                    continue
-                at = self._one_point(name, poses)
-                origin = at[0] - axes[name] * at[1] if at is not None else self._by_two_guides(name, poses, axes)
-                if origin is not None:
-                    poses[name], grown = Pose(origin, axes[name]), True
-
-    def _by_two_guides(self, name: str, poses: Mapping[str, Pose], axes: Axes) -> complex | None:
-        ways, offs = [], []
-        for s in self.slides:
-            other = s.b if s.a == name else s.a
-            if name not in (s.a, s.b) or other not in poses:
-                continue
-            along = axes[s.b] * s.guide.direction
-            through = axes[s.b] * s.guide.through * self.mm
-            start = poses[other].origin + (through if s.a == name else -through)
-            ways.append((-along.imag, along.real))
-            offs.append(cross(along, start))
-        if len(ways) < 2 or np.linalg.svd(np.array(ways), compute_uv=False)[-1] < ACROSS:
-            return None
-        x, y = np.linalg.lstsq(np.array(ways), np.array(offs), rcond=None)[0]
-        return complex(x, y)

@@ -8,8 +8,11 @@ import pytest
 
 import graphkin
 from graphkin.construction.links_on_paper import PlacedLinks
-from graphkin.construction.position import as_sketched
-from graphkin.structure import LargerGroup
+from graphkin.construction.position import sketched_poses
+from graphkin.plane import dot
+from graphkin.scene import mechanism_of
+from graphkin.scene.symbol import PointRef
+from graphkin.structure import LargerGroup, analyse
 
 BESIDE_A_GUIDE: dict[str, Any] = {  # the guides of link 5 lie beside its pin: they tell how it is turned
     "frame": {"points": {"A": [0, 0], "C": [252.366, 194.709]}},
@@ -80,26 +83,25 @@ def test_the_links_lie_where_an_exact_sketch_shows_them(name: str) -> None:
     motion = graphkin.solve(scene).motion
     at = {p: 1e3 * complex(motion.point(p).z[0]) for p in scene["sketch"]}
     sheet = graphkin.check({**scene, "sketch": {p: [z.real, z.imag] for p, z in at.items()}}).sheet
-    (group,) = (e for e in sheet.structure.elements if isinstance(e, LargerGroup))
-    mm = 1.0 / sheet.scales.length
-    known = {name: pose for name, pose in sheet.poses.items() if name not in group.members}
-    frame = PlacedLinks(sheet.structure.links, mm, dict(sheet.drivers), known)
-    first = next(iter(as_sketched(sheet.structure, group, frame)))
-    size = mm * sheet.scene.size
-    assert dict.fromkeys(group.members, 0.0) == pytest.approx(
-        {n: abs(first[n].origin - sheet.poses[n].origin) / size for n in group.members}, abs=1e-4
-    )
-    assert {n: sheet.poses[n].axis for n in group.members} == pytest.approx(
-        {n: first[n].axis for n in group.members}, abs=1e-3
-    )
+    per = 1e3 * sheet.scales.length
+    assert {p: sheet.points[PointRef(p)] * per for p in at} == pytest.approx(at, abs=1e-6 * 1e3 * sheet.scene.size)
 
 
-def test_a_guide_of_which_nothing_but_its_pin_is_sketched_tells_either_sense() -> None:
-    """The rod may lie on the cylinder or behind it; the first is tried first."""
+def test_a_guide_of_which_nothing_but_its_pin_is_sketched_lies_towards_what_slides_on_it() -> None:
     sheet = graphkin.check(ROD).sheet
+    along = sheet.poses["4"].axis * sheet.structure.slide("8/4").guide.direction
+    assert dot(sheet.poses["8"].origin - sheet.poses["4"].origin, along) > 0.0
+
+
+def test_directions_are_told_by_two_sketched_points_and_by_sliding_pairs_from_them() -> None:
+    sheet = graphkin.check(BESIDE_A_GUIDE).sheet
     (group,) = (e for e in sheet.structure.elements if isinstance(e, LargerGroup))
+    per = 1e3 * sheet.scales.length
+    places = {p: sheet.points[PointRef(p)] * per for p in "BD"}
+    exact = mechanism_of({**BESIDE_A_GUIDE, "sketch": {p: [z.real, z.imag] for p, z in places.items()}})
     known = {name: pose for name, pose in sheet.poses.items() if name not in group.members}
-    frame = PlacedLinks(sheet.structure.links, 1.0 / sheet.scales.length, dict(sheet.drivers), known)
-    on, behind = as_sketched(sheet.structure, group, frame)
-    assert on["4"].axis == pytest.approx(-behind["4"].axis, abs=1e-12)
-    assert on["4"].axis == pytest.approx(sheet.poses["4"].axis, abs=0.02)
+    paper = PlacedLinks(sheet.structure.links, 1.0 / sheet.scales.length, dict(sheet.drivers), known)
+    told = sketched_poses(analyse(exact), group, paper)
+    assert set(group.members) & set(told) == {"3"}
+    here, drawn = told["3"], sheet.poses["3"]
+    assert (drawn.axis, drawn.origin) == pytest.approx((here.axis, here.origin), abs=1e-6)
