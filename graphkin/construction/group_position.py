@@ -20,7 +20,7 @@ from itertools import chain, pairwise
 
 import numpy as np
 
-from graphkin.construction.follow import best_first, drawn_near, fitted
+from graphkin.construction.follow import Pace, best_first, drawn_near, fitted, walk
 from graphkin.construction.instruments import EXACT
 from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, Story, drive, meet
 from graphkin.construction.proportional_division import divide, shares
@@ -48,7 +48,7 @@ POINTS = 7  # trial positions drawn
 BETWEEN = 6  # parts into which the curve between two of them is divided
 AWAY = 0.35  # of the trial driver (rad, or the mechanism's size): how far the first trial is from the last
 AGAIN = 2  # times that a trial drawing is drawn which does not close by hands that err
-PARTS = (1, 4, 16)  # steps in which links known already are moved to where hands put them
+AT_ONCE = Pace(1.0, 1.0, math.inf, math.inf, 1.0 / 16)  # by which links known already are moved to where hands put them
 BEFORE = 0.45  # part of the trial positions that lie before the place sought; so that none falls on it
 DIVISIONS, UNSEEN = 4, 0.02  # divisions at most, until so little (mm, degrees) is missed
 STEP = 0.06  # from trial to trial of several drivers (rad, or the mechanism's size), as many parts of it before
@@ -130,19 +130,18 @@ def _fit(known: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> dict[st
     closes."""
     there = replace(known, poses={name: guess.get(name, known.poses[name]) for name in known.poses}, pricked={})
     exact = {p: there.point(n, p) for n in there.poses for p in known.links[n].points if p in known.pricked}
-    for parts in PARTS:
-        poses = dict(guess)
-        for k in range(1, parts + 1):
-            part = k / parts
-            there.pricked = {p: z + part * (known.pricked[p] - z) for p, z in exact.items()}
-            there.poses = {n: _between(guess.get(n, pose), pose, part) for n, pose in known.poses.items()}
-            fit = fitted(reduced, there if k < parts else known, poses)
-            if fit is None:
-                break
-            if k == parts:
-                return fit
-            poses.update(fit)
-    raise _refused(reduced, Phrase("no trial position closes this group here"))
+
+    def near(part: float, expected: Poses, _: Poses) -> Poses | None:
+        there.pricked = {p: z + part * (known.pricked[p] - z) for p, z in exact.items()}
+        there.poses = {n: _between(guess.get(n, pose), pose, part) for n, pose in known.poses.items()}
+        fit = fitted(reduced, known if part == 1.0 else there, expected)
+        return None if fit is None else {**fit, **there.poses}
+
+    start = {**{name: guess[name] for name in reduced.group.members}, **there.poses}
+    *_, (part, found) = (0.0, start), *walk(near, start, 0.0, 1.0, AT_ONCE)
+    if part < 1.0:
+        raise _refused(reduced, Phrase("no trial position closes this group here"))
+    return {name: pose for name, pose in found.items() if name in reduced.group.members}
 
 
 def _refused(reduced: ReducedMechanism, found: Phrase) -> Unsolvable:
@@ -201,16 +200,9 @@ Tried = tuple[np.ndarray, PlacedLinks]
 
 def _trial_positions(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, values: np.ndarray) -> Step:
     """The step of the trial positions of a group, whose links lie so in the end, at these values."""
-    strokes: tuple[Stroke, ...] = ()
-    point, table = "", None
-    if len(values) == 1:
-        tried = _trial_drawings(replace(known, instrument=EXACT), reduced, poses, values)
-        point, strokes = _curve(known, reduced, poses, [drawn for _, drawn in tried])
-        table = _trial_table(known, reduced, poses, tried[::BETWEEN]) if tried else None
-    else:
-        tables = (_trials_about(known, reduced, poses, values, STEP / 2**i) for i in range(6))
-        about = next(filter(None, tables), None)
-        table = _trial_table(known, reduced, poses, about) if about else None
+    tried, alone = _trial_drawings(known, reduced, poses, values), len(values) == 1
+    point, strokes = _curve(known, reduced, poses, [drawn for _, drawn in tried]) if alone else ("", ())
+    table = _trial_table(known, reduced, poses, tried[:: BETWEEN if alone else 1]) if tried else None
     rolling = tuple(r.name for r in reduced.removed if r.rolling is not None)
     angles = [d for d in reduced.structure.scene.drivers if d.turns]
     instead = tuple(
@@ -222,36 +214,26 @@ def _trial_positions(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses
     return Step("trial", "positions", strokes=strokes, data=told)
 
 
-def _trial_drawings(
-    known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, values: np.ndarray
-) -> list[Tried]:
-    """Drawings at trial values on either side of the place sought, so near that all can be drawn; none where even the
-    nearest cannot."""
-    parts = (POINTS - 1) * BETWEEN
-    away = AWAY
+def _trial_drawings(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, values: np.ndarray) -> list[Tried]:
+    """Drawings at trial values about the place sought: of one trial driver on either side of it, of several each
+    further one with another of them changed; so near that all can be drawn, none where even the nearest cannot."""
+    exact, count, last = replace(known, instrument=EXACT), len(values), (POINTS - 1) * BETWEEN
+    if count == 1:
+        away, steps = AWAY, np.arange(last + 1)[:, None] / last - BEFORE
+    else:
+        away, steps = STEP, np.vstack([np.zeros(count), np.eye(count)]) - BEFORE
     for _ in range(6):
-        near: dict[int, PlacedLinks] = {}
-        for i in sorted(range(parts + 1), key=lambda i: abs(i - BEFORE * parts)):
-            beside = next((near[j].poses for j in (i - 1, i + 1) if j in near), poses)
-            drawn = drawn_near(reduced, known, beside, values + away * (i / parts - BEFORE))
-            if drawn is None:
+        drawn: dict[int, PlacedLinks] = {}
+        for i in sorted(range(len(steps)), key=lambda i: float(np.abs(steps[i]).max())):
+            beside = next((drawn[j].poses for j in (i - 1, i + 1) if count == 1 and j in drawn), poses)
+            made = drawn_near(reduced, exact, beside, values + away * steps[i])
+            if made is None:
                 break
-            near[i] = drawn
+            drawn[i] = made
         else:
-            return [(values + away * (i / parts - BEFORE), near[i]) for i in range(parts + 1)]
+            return [(values + away * steps[i], drawn[i]) for i in range(len(steps))]
         away /= 2.0
     return []
-
-
-def _trials_about(
-    known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, values: np.ndarray, step: float
-) -> list[Tried]:
-    """Drawings at trial values about the place sought, each further one with another of them changed; none where one
-    cannot be drawn."""
-    exact = replace(known, instrument=EXACT)
-    places = [values + step * (one - BEFORE) for one in (np.zeros(len(values)), *np.eye(len(values)))]
-    drawn = [(at, made) for at in places if (made := drawn_near(reduced, exact, poses, at)) is not None]
-    return drawn if len(drawn) == len(places) else []
 
 
 def _curve(

@@ -12,14 +12,14 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 from itertools import combinations, pairwise, product
 
 import numpy as np
 
-from graphkin.construction.follow import Choices, best_reduced, fitted, moved_to, standing
+from graphkin.construction.follow import Choices, best_reduced, fitted, moved, moved_to, standing
 from graphkin.construction.group_position import place_by_trial, trial_steps
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import (
@@ -253,19 +253,17 @@ def _group_by_sketch(choices: Choices, paper: PlacedLinks, group: LargerGroup) -
     sketch does not tell it, of all that fit the one nearest to what is sketched."""
     structure = choices.structure
     sketched = list(_fits_by_sketch(choices, paper, group))
-    found = sketched[-1:]
-    if not found or not _is_told(structure, paper, found[0]):
-        found = []
+    fits = [fit for fit in sketched[-1:] if _is_told(structure, paper, fit)]
+    if not fits:
         # by several trial drivers: what one passes over at its dead point another sees
         by_driver: dict[tuple[str, ...], ReducedMechanism] = {}
         for reduced in choices.of[group]:
             by_driver.setdefault(tuple(d.key for d in reduced.trial), reduced)
-        for reduced in list(by_driver.values())[:TRIALS]:
-            _add_new(found, all_fits(reduced, paper))
-        _add_new(found, sketched)
-    if not found:
+        some = list(by_driver.values())[:TRIALS]
+        fits = [fit for reduced in some for fit in all_fits(reduced, paper)] + sketched
+    if not fits:
         raise stuck("not assembled", group.links, "no trial position closes this group here")
-    found = _without_twins(structure, paper, group, found)
+    found = _without_twins(structure, paper, group, fits)
     candidates = [paper.fresh(poses) for poses in found]
     return found[pick(structure.scene, group.links, candidates, None).index]
 
@@ -326,13 +324,6 @@ def sketched_poses(structure: Structure, group: LargerGroup, known: PlacedLinks)
     return found
 
 
-def _add_new(found: list[dict[str, Pose]], fits: Iterable[dict[str, Pose]]) -> None:
-    """Add the positions that are not among those found yet: a fit at a value of the grid is met from both sides."""
-    for fit in fits:
-        if not any(_near(fit, other) for other in found):
-            found.append(fit)
-
-
 def _is_told(structure: Structure, paper: PlacedLinks, poses: Poses) -> bool:
     """Whether all points lie about where they are sketched."""
     told = {**structure.scene.sketch, **structure.scene.drawn}
@@ -343,8 +334,8 @@ def _is_told(structure: Structure, paper: PlacedLinks, poses: Poses) -> bool:
 def _without_twins(
     structure: Structure, paper: PlacedLinks, group: LargerGroup, found: Sequence[dict[str, Pose]]
 ) -> list[dict[str, Pose]]:
-    """Of positions whose points all lie in the same places, which differ only in the sense of a bar without length, the
-    one where what slides lies on the positive side."""
+    """Of positions whose points all lie in the same places the one where what slides lies on the positive side: a fit
+    at a value of the grid is met from both sides, and others differ only in the sense of a bar without length."""
     slides = [p for p in group.pairs if not p.turns and p.a in group.members and p.b in group.members]
 
     def positive(poses: Poses) -> float:
@@ -354,14 +345,12 @@ def _without_twins(
     kept: list[tuple[dict[str, Pose], dict[str, complex]]] = []
     for poses in sorted(found, key=positive, reverse=True):
         places = paper.fresh(poses)
-        twins = (max((abs(z - other[p]) for p, z in places.items()), default=math.inf) for _, other in kept)
+        # of links without points the links themselves
+        twins = (max((abs(z - other[p]) for p, z in places.items()), default=moved(poses, one) * structure.scene.size)
+                 for one, other in kept)  # fmt: skip
         if all(apart > TWINS * structure.scene.size for apart in twins):
             kept.append((poses, places))
     return [poses for poses in found if any(poses is one for one, _ in kept)]
-
-
-def _near(one: Poses, other: Poses) -> bool:
-    return all(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) < 1e-6 for n, p in one.items())
 
 
 # -- where the gaps of trial drawings close ----------------------------------------------------------------------------
