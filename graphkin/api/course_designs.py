@@ -54,11 +54,10 @@ from graphkin.papers.blocks import (
 from graphkin.papers.data_rows import table_of
 from graphkin.papers.documents import given as given_words
 from graphkin.papers.documents import key_rows, paper_title, scene_title, solution_blocks, way
-from graphkin.papers.lesson import Lesson
+from graphkin.papers.lesson import Lesson, compared, lesson_of, positions
 from graphkin.papers.paper import Paper, paper_of, paper_plan
-from graphkin.papers.pdf import can_join, can_typeset, one_after_another, papers_as
+from graphkin.papers.pdf import FORMATS, can_join, can_typeset, one_after_another, papers_as
 from graphkin.papers.pictures import bare_picture, mechanism_picture
-from graphkin.papers.prepare import FORMATS, compared, lesson_of, positions
 from graphkin.papers.variants import asked_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import safe_name

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, field, fields
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from graphkin import solver
 from graphkin.api.arguments import (
     ON_SHEETS,
     At,
@@ -23,19 +25,32 @@ from graphkin.api.arguments import (
 )
 from graphkin.api.checked import solved_here
 from graphkin.api.results import OfScene, Result, named
+from graphkin.drawing.figures.diagrams import diagram_figures
 from graphkin.errors import CallError, as_list
 from graphkin.files import Json, path_of
-from graphkin.papers.documents import KeyRow, key_rows
+from graphkin.jobs import Progress
+from graphkin.papers.blocks import Block, Document
+from graphkin.papers.documents import (
+    KeyRow,
+    answer_key,
+    answers_template,
+    beginning,
+    key_rows,
+    key_table,
+    problem,
+    solution,
+    solution_blocks,
+)
 from graphkin.papers.exports import PLATFORMS, Question, files_for, question_of
-from graphkin.papers.lesson import Lesson
+from graphkin.papers.lesson import Lesson, evidence_of, lesson_of, usual_count, views_of
 from graphkin.papers.paper import paper_plan
-from graphkin.papers.pdf import can_typeset
-from graphkin.papers.prepare import FORMATS, Papers, evidence_of, handout_files, lesson_of, usual_count, views_of
-from graphkin.papers.screen import Progress
+from graphkin.papers.pdf import FORMATS, can_typeset, papers_as
+from graphkin.papers.screen import handout_page, motion_data
+from graphkin.papers.variants import Variant, asked_of
 from graphkin.scene.drivers import moves_by_law
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.words import Phrase
+from graphkin.words import Phrase, languages
 
 if TYPE_CHECKING:
     from graphkin.table import Table
@@ -111,14 +126,29 @@ class Handout(OfScene, Result):
 
     @property
     def _papers(self) -> Mapping[str, bytes]:
-        if "html" not in self.formats:
-            return handout_files(self.lesson, formats=self.formats)
-        lesson, scales = self.lesson, self.lesson.sheet.scales
-        asked, language, convention = lesson.asked, lesson.language, lesson.convention
-        views, start = views_of(
-            lesson.sheet.structure, self.values, asked, language, convention, scales, self.count, self._half(0)
-        )
-        return handout_files(lesson, views, start, self.formats, self._half(1), self.values)
+        """``problem.html`` and ``problem.pdf`` (without answers), ``handout.html`` (the solution to step through),
+        ``solution.pdf``, ``key.html``, ``key.pdf`` and ``key.csv``."""
+        lesson = self.lesson
+        worked = tuple(solution_blocks(lesson, beginning(lesson)))
+        sheets = {"problem": problem(lesson), "key": answer_key(lesson)}
+        # typesetting runs beside Python
+        with ThreadPoolExecutor(1) as beside:
+            typeset = beside.submit(_typeset, lesson, sheets, worked) if "pdf" in self.formats else None
+            made: dict[str, bytes] = {}
+            if "html" in self.formats:
+                asked, scales = lesson.asked, lesson.sheet.scales
+                views, start = views_of(
+                    lesson.sheet.structure, self.values, asked, lesson.language, lesson.convention, scales,
+                    self.count, self._half(0),
+                )  # fmt: skip
+                moving = motion_data(lesson.sheet, lesson.letters, self.values)
+                page = handout_page(lesson, views, start, self._half(1), moving, worked)
+                made |= papers_as(("html",), sheets) | {"handout.html": page.encode()}
+            if typeset is not None:
+                made |= typeset.result()
+        blank = answers_template(lesson.questions, self.mechanism.units, languages(lesson.language)[0])
+        return made | {"key.csv": key_table(lesson).csv().encode(),
+                       "answers_template.csv": blank.csv().encode("utf-8-sig")}  # fmt: skip
 
     def _half(self, done: int) -> Progress | None:
         """Progress of one half of the work: placing every position, and then drawing it."""
@@ -129,7 +159,6 @@ class Handout(OfScene, Result):
         return f"<Handout {self.mechanism.name}: {', '.join(self.formats)}>"
 
     def _repr_html_(self) -> str:
-        from graphkin.papers.documents import answer_key
         from graphkin.papers.html import blocks_html
 
         return blocks_html(answer_key(self.lesson).blocks)
@@ -212,3 +241,45 @@ def known_platforms(exports: Sequence[str]) -> tuple[str, ...]:
     if wrong := unknown_words("export", named, PLATFORMS):
         raise CallError(*wrong)
     return tuple(dict.fromkeys(named))
+
+
+def _typeset(
+    lesson: Lesson, sheets: Mapping[str, Document], worked: Sequence[Block] | None = None
+) -> dict[str, bytes]:
+    """Problem sheet, key and worked solution typeset, or the figure sheets where nothing can be typeset."""
+    if can_typeset():
+        return papers_as(("pdf",), {**sheets, "solution": solution(lesson, worked)})
+    drawn = diagram_figures(lesson.sheet, language=lesson.language, convention=lesson.convention)
+    return {f"{name}.pdf": figure.content("pdf") for name, figure in drawn.items()}
+
+
+@dataclass(frozen=True)
+class Papers:
+    """Writes the papers of a variant: problem sheet and key in each format, and the worked solution as PDF; questions
+    for learning platforms are called by the ``name`` of the set.
+
+    A value that can be sent to another process.
+    """
+
+    language: str
+    convention: str
+    formats: tuple[str, ...]
+    exports: tuple[str, ...] = ()
+    name: str = "scene"
+
+    def __call__(self, variant: Variant) -> Mapping[str, bytes]:
+        scene = variant.scene
+        asked = asked_of(scene)
+        motion = solver.solve(scene)
+        what = paper_plan(motion.structure, None, asked, share=False)
+        lesson = lesson_of(what, motion, self.language, self.convention)
+        made = {"key.csv": key_table(lesson).csv().encode()}
+        sheets = {"problem": problem(lesson), "key": answer_key(lesson)}
+        if "html" in self.formats:
+            made |= papers_as(("html",), sheets)
+        if "pdf" in self.formats:
+            made |= _typeset(lesson, sheets)
+        if self.exports:
+            question = question_of(lesson, evidence_of(what, motion, lesson), f"{self.name}-{variant.name}")
+            made |= files_for(question, self.exports)
+        return made

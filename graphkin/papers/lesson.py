@@ -1,25 +1,52 @@
-"""A drawing as a lesson: what belongs together, equation by equation, and what is asked and found."""
+"""A drawing as a lesson: what belongs together, equation by equation, what is asked and found; and lessons of a scene:
+its drawing held against the solver, and those of the positions for a screen."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, reduce
 
+import numpy as np
+
+from graphkin import solver
 from graphkin.account.account import Account
 from graphkin.account.notation import Letters, letters_of
-from graphkin.checking.report import Compared, Report
-from graphkin.checking.uncertainty import Uncertainty
-from graphkin.construction.centres import Centres
-from graphkin.construction.forces import ForceSheet, forces_on
+from graphkin.checking.readings import read_off
+from graphkin.checking.report import Compared, Report, compare, rounding_of
+from graphkin.checking.slips import Evidence
+from graphkin.checking.uncertainty import Uncertainty, predict
+from graphkin.construction import Plan, execute, plan
+from graphkin.construction.centres import Centres, find_centres
+from graphkin.construction.forces import ForceSheet, force_scale, forces_on
+from graphkin.construction.scales import Scales, next_of_series
 from graphkin.construction.sheet import Equation, Sheet
 from graphkin.construction.steps import DiagramName, Step
+from graphkin.drawing.box import Box
+from graphkin.drawing.parts.polygon import extent
 from graphkin.drawing.text import Atom, parsed
+from graphkin.errors import Unsolvable
+from graphkin.jobs import Progress
 from graphkin.papers.blocks import Said, in_each
+from graphkin.scene.drivers import moves_by_law
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
+from graphkin.solver import Motion
+from graphkin.solver.pose import Array
+from graphkin.solver.values import force_values
+from graphkin.structure import Structure
 from graphkin.words import Phrase
 
-__all__ = ["Lesson", "Stage", "plain_words", "stages"]
+__all__ = [
+    "MECHANISM", "POSITIONS", "Lesson", "Stage", "common_scales", "compared", "evidence_of", "lesson_of", "plain_words",
+    "positions", "rows_in_order", "stages", "usual_count", "views_of",
+]  # fmt: skip
+
+POSITIONS = 12
+MANY_LINKS = 10
+MECHANISM, POLYGON = (160.0, 218.0), 190.0  # mm that the mechanism in all positions and a polygon may fill
+
 
 
 @dataclass(frozen=True)
@@ -163,3 +190,154 @@ def _plain_atom(atom: Atom) -> str:
     up = "".join(map(_plain_atom, atom.sup))
     down = "".join(map(_plain_atom, atom.sub))
     return atom.text + (f"^{up}" if up else "") + (f"_{down}" if down else "")
+
+
+# -- lessons of a scene ------------------------------------------------------------------------------------------------
+
+
+def lesson_of(what: Plan, motion: Motion, language: str, convention: str) -> Lesson:
+    """The lesson of a plan, with its check and with the tolerances of a pencil drawing.
+
+    Raises
+    ------
+    Disagreement : its own check finds a value out of tolerance
+    """
+    lesson = compared(execute(what), motion, language, convention, what.asked)
+    scene = lesson.sheet.scene
+    lesson.report.must_agree(scene)
+    return replace(lesson, tolerance=predict(what, "pencil", scene.question.sheet.tools))
+
+
+def compared(sheet: Sheet, motion: Motion, language: str, convention: str, asked: tuple[Symbol, ...]) -> Lesson:
+    """The lesson of a sheet, its readings held against the motion; without tolerances of a pencil."""
+    motion = solver.as_drawn(motion, sheet.structure)
+    exact = solver.exact_values(motion, asked)
+    scale, lost = (force_scale(sheet), force_values(motion)[1]) if sheet.has_forces else (0.0, 0.0)
+    rounding = rounding_of(motion, lost)
+    report = compare(sheet, read_off(sheet), exact, asked, rounding=rounding, force_scale=scale)
+    return Lesson(sheet, report, {}, language, convention, asked)
+
+
+def evidence_of(what: Plan, motion: Motion, lesson: Lesson) -> Evidence:
+    """What the slips of a lesson are looked for in: everything drawn, so that one in what leads to the asked counts."""
+    whole = plan(what.structure, what.values, ())
+    drawn = what if set(what.elements) == set(whole.elements) else whole
+    exact = solver.exact_values(solver.as_drawn(motion, what.structure), what.asked)
+    return Evidence(drawn, exact, lesson.tolerance, lambda symbol: ())
+
+
+def usual_count(scene: Mechanism) -> int:
+    """How many positions of the driver a page shows where nobody says: fewer of a mechanism of many links, of which
+    each takes its time to draw and to load; only its own of one whose drivers move by laws over the time."""
+    if moves_by_law(scene):
+        return 1
+    return POSITIONS if len(scene.links) <= MANY_LINKS else POSITIONS // 2
+
+
+def positions(
+    of: Mechanism | Structure, values: Mapping[str, float] | None, count: int = POSITIONS
+) -> tuple[list[dict[str, float]], int]:
+    """Driver values (rad, m) spread over a turn or over what the motion reaches, and which of them is the given one."""
+    motion = solver.solve(of, at=values, sweep=count)
+    drivers = motion.scene.drivers
+    keys = [d.key for d in drivers]
+    own = {d.key: d.values[0] for d in drivers} | dict(values or {})
+    rows = [dict(zip(keys, map(float, motion.values[i]), strict=True)) for i in rows_in_order(motion.ok)]
+    first = keys[0]
+    at = next((i for i, row in enumerate(rows) if np.isclose(row[first], own[first], rtol=0, atol=1e-9)), None)
+    if at is None:
+        at = sum(row[first] < own[first] for row in rows)
+        rows.insert(at, own)
+    rows[at] = own
+    return rows, at
+
+
+def views_of(
+    structure: Structure,
+    values: Mapping[str, float] | None,
+    asked: Sequence[Symbol],
+    language: str,
+    convention: str,
+    paper: Scales,
+    count: int = POSITIONS,
+    progress: Progress | None = None,
+) -> tuple[list[Lesson], int]:
+    """The positions that the screen shows, each drawn and with its centres, and which of them is the given one.
+
+    ``progress`` is called with the number of positions done and the number of all.  ``paper`` are the scales of the
+    solution on paper, kept wherever the figures fit.  Positions in which the construction fails (dead points), or its
+    check, are left out.
+    """
+    rows, start = positions(structure, values, count)
+    made = {start: plan(structure, rows[start], asked)}
+    for way in (range(start + 1, len(rows)), range(start - 1, -1, -1)):
+        last = made[start]
+        for i in way:
+            with suppress(Unsolvable):
+                try:
+                    made[i] = last = plan(structure, rows[i], asked, near=last.exact)
+                except Unsolvable:  # the way from its neighbour is barred, from the scene's own position it may not be
+                    made[i] = last = plan(structure, rows[i], asked)
+    given = sum(i < start for i in made)
+    plans = [made[i] for i in sorted(made)]
+    sheets = [execute(replace(w, scales=s)) for w, s in zip(plans, common_scales(plans, paper), strict=True)]
+    centres = _centres(structure, sheets, given, progress)
+    views: list[Lesson] = []
+    start = given
+    for number, (sheet, here) in enumerate(zip(sheets, centres, strict=True)):
+        motion = solver.solve(structure, at=sheet.drivers)
+        lesson = compared(sheet, motion, language, convention, tuple(asked))
+        if number != given and any(row.ok is False for row in lesson.report.rows):
+            start -= number < given
+        else:
+            views.append(replace(lesson, centres=here))
+    return views, start
+
+
+def _centres(
+    structure: Structure, sheets: Sequence[Sheet], given: int, progress: Progress | None
+) -> list[Centres | None]:
+    """The centres in each position, from the given one onwards and then backwards: each starts from its neighbour."""
+    found: dict[int, Centres | None] = {}
+    for i in (*range(given, len(sheets)), *range(given - 1, -1, -1)):
+        near = found.get(i - 1) if i > given else found.get(i + 1)
+        found[i] = None
+        for start in (near, None) if near is not None else (None,):
+            with suppress(Unsolvable):
+                found[i] = find_centres(structure, sheets[i].drivers, sheet=sheets[i], near=start)
+                break
+        if progress is not None:
+            progress(len(found), len(sheets))
+    return [found[i] for i in range(len(sheets))]
+
+
+def common_scales(plans: Sequence[Plan], paper: Scales) -> list[Scales]:
+    """Scales for several positions: those of the paper, and coarser ones for the polygons that would be too large.
+
+    The mechanism has one scale in all positions.
+    """
+    sheets = [execute(plan) for plan in plans]
+    metres = sheets[0].scene.units.rates.metres
+    whole = reduce(Box.joined, (Box.around(sheet.points.values()) for sheet in sheets))
+    size = sheets[0].scales.length / paper.length * max(whole.width / MECHANISM[0], whole.height / MECHANISM[1])
+    length = _coarser(paper.length * 1e3, size) * 1e-3
+
+    def fitting(sheet: Sheet, diagram: DiagramName) -> float:
+        scale, box = paper.of(diagram), extent(sheet, diagram)
+        size = max(box.width, box.height) * sheet.scales.of(diagram)
+        return _coarser(scale / metres, size / scale / POLYGON) * metres
+
+    return [Scales(length, fitting(sheet, "velocity"), fitting(sheet, "acceleration")) for sheet in sheets]
+
+
+def _coarser(scale: float, factor: float) -> float:
+    """The scale itself where it is coarse enough, else the first of the series so many times coarser."""
+    return scale if factor <= 1.0 else next_of_series(scale * factor)
+
+
+def rows_in_order(ok: Array) -> list[int]:
+    """The rows of a motion that stand, beginning behind the gap where there is one, so that neighbours in the list are
+    neighbours in the motion."""
+    good = [bool(one) for one in ok]
+    cut = next((i for i in range(len(good)) if good[i] and not good[i - 1]), 0)
+    return [i for i in (*range(cut, len(good)), *range(cut)) if good[i]]

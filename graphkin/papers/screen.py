@@ -21,8 +21,6 @@ from graphkin.account.headings import FIGURE_WORDS, drivers, number, term
 from graphkin.account.notation import Letters, scale_statement
 from graphkin.account.voice import capital
 from graphkin.checking.uncertainty import COVERAGE
-from graphkin.construction import Plan, execute
-from graphkin.construction.scales import Scales, next_of_series
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName, Step, Vector
 from graphkin.drawing.box import Box
@@ -41,6 +39,7 @@ from graphkin.drawing.stepwise import stepped
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.drawing.write.svg import svg_element
 from graphkin.files import Json
+from graphkin.jobs import Progress
 from graphkin.papers.blocks import Block, Heading, Said, StepItem, said
 from graphkin.papers.documents import (
     given,
@@ -53,7 +52,7 @@ from graphkin.papers.documents import (
     way,
 )
 from graphkin.papers.html import blocks_html, rendered, said_html, spoken_words, whole_page, words_html
-from graphkin.papers.lesson import Lesson, plain_words
+from graphkin.papers.lesson import MECHANISM, Lesson, plain_words, rows_in_order
 from graphkin.papers.pictures import POLYGONS, ROOM, bare_picture, equation_picture
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion, solve
@@ -61,11 +60,8 @@ from graphkin.solver.motion import instant_centre
 from graphkin.solver.pose import Array
 from graphkin.words import about, languages, word
 
-__all__ = ["POSITIONS", "Progress", "common_scales", "handout_page", "motion_data", "positions_data", "rows_in_order"]
+__all__ = ["handout_page", "motion_data", "positions_data"]
 
-Progress = Callable[[int, int], None]  # positions done, and all of them
-POSITIONS = 12
-MECHANISM, POLYGON = (160.0, 218.0), 190.0  # mm that the mechanism in all positions and a polygon may fill
 WIDE = 96.0  # mm of the sketch of a group, its polygon below
 LISTED = ("figures", "steps")
 LEAST, MOST = 0.01, 0.08  # parts of a value: what is taken for right at least, and at most
@@ -75,38 +71,6 @@ FAR = 3.0  # mechanisms: a centre that lies farther away is not shown
 FigureName: TypeAlias = Literal["mechanism", "velocity", "acceleration", "centres", "force"]
 Figure: TypeAlias = dict[str, str]
 """A figure of the page: its name, its drawing as SVG, its caption as HTML."""
-
-
-def common_scales(plans: Sequence[Plan], paper: Scales) -> list[Scales]:
-    """Scales for several positions: those of the paper, and coarser ones for the polygons that would be too large.
-
-    The mechanism has one scale in all positions.
-    """
-    sheets = [execute(plan) for plan in plans]
-    metres = sheets[0].scene.units.rates.metres
-    whole = reduce(Box.joined, (Box.around(sheet.points.values()) for sheet in sheets))
-    size = sheets[0].scales.length / paper.length * max(whole.width / MECHANISM[0], whole.height / MECHANISM[1])
-    length = _coarser(paper.length * 1e3, size) * 1e-3
-
-    def fitting(sheet: Sheet, diagram: DiagramName) -> float:
-        scale, box = paper.of(diagram), extent(sheet, diagram)
-        size = max(box.width, box.height) * sheet.scales.of(diagram)
-        return _coarser(scale / metres, size / scale / POLYGON) * metres
-
-    return [Scales(length, fitting(sheet, "velocity"), fitting(sheet, "acceleration")) for sheet in sheets]
-
-
-def _coarser(scale: float, factor: float) -> float:
-    """The scale itself where it is coarse enough, else the first of the series so many times coarser."""
-    return scale if factor <= 1.0 else next_of_series(scale * factor)
-
-
-def rows_in_order(ok: Array) -> list[int]:
-    """The rows of a motion that stand, beginning behind the gap where there is one, so that neighbours in the list are
-    neighbours in the motion."""
-    good = [bool(one) for one in ok]
-    cut = next((i for i in range(len(good)) if good[i] and not good[i - 1]), 0)
-    return [i for i in (*range(cut, len(good)), *range(cut)) if good[i]]
 
 
 def handout_page(

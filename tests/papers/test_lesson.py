@@ -10,7 +10,7 @@ from graphkin.checking.readings import read_off
 from graphkin.construction import execute, plan
 from graphkin.construction.centres import find_centres
 from graphkin.papers import prepare
-from graphkin.papers.prepare import usual_count
+from graphkin.papers.lesson import usual_count
 from graphkin.scene import mechanism_of
 from graphkin.structure import analyse
 from tests.command import run
