@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, field, fields
 from functools import cached_property
@@ -29,7 +29,7 @@ from graphkin.drawing.figures.diagrams import diagram_figures
 from graphkin.errors import CallError, as_list
 from graphkin.files import Json, path_of
 from graphkin.jobs import Progress
-from graphkin.papers.blocks import Block, Document
+from graphkin.papers.blocks import Block
 from graphkin.papers.documents import (
     KeyRow,
     answer_key,
@@ -109,8 +109,10 @@ class Handout(OfScene, Result):
     def files(self) -> Mapping[str, bytes]:
         """Content of each file: problem.html, handout.html, problem.pdf, solution.pdf, key.html, key.pdf, key.csv,
         answers_template.csv for a class to fill in, and those for learning platforms."""
+        made = papers_in(self.lesson, self.formats, self._page)
+        blank = answers_template(self.lesson.questions, self.mechanism.units, languages(self.lesson.language)[0])
         questions = files_for(self.question, self.exports) if self.question is not None else {}
-        return {**self._papers, **self._of_cams, **questions}
+        return {**made, "answers_template.csv": blank.csv().encode("utf-8-sig"), **self._of_cams, **questions}
 
     @property
     def _of_cams(self) -> Mapping[str, bytes]:
@@ -124,31 +126,15 @@ class Handout(OfScene, Result):
             found |= cam_papers(one, self.formats, self.lesson.language, prefix)
         return found
 
-    @property
-    def _papers(self) -> Mapping[str, bytes]:
-        """``problem.html`` and ``problem.pdf`` (without answers), ``handout.html`` (the solution to step through),
-        ``solution.pdf``, ``key.html``, ``key.pdf`` and ``key.csv``."""
-        lesson = self.lesson
-        worked = tuple(solution_blocks(lesson, beginning(lesson)))
-        sheets = {"problem": problem(lesson), "key": answer_key(lesson)}
-        # typesetting runs beside Python
-        with ThreadPoolExecutor(1) as beside:
-            typeset = beside.submit(_typeset, lesson, sheets, worked) if "pdf" in self.formats else None
-            made: dict[str, bytes] = {}
-            if "html" in self.formats:
-                asked, scales = lesson.asked, lesson.sheet.scales
-                views, start = views_of(
-                    lesson.sheet.structure, self.values, asked, lesson.language, lesson.convention, scales,
-                    self.count, self._half(0),
-                )  # fmt: skip
-                moving = motion_data(lesson.sheet, lesson.letters, self.values)
-                page = handout_page(lesson, views, start, self._half(1), moving, worked)
-                made |= papers_as(("html",), sheets) | {"handout.html": page.encode()}
-            if typeset is not None:
-                made |= typeset.result()
-        blank = answers_template(lesson.questions, self.mechanism.units, languages(lesson.language)[0])
-        return made | {"key.csv": key_table(lesson).csv().encode(),
-                       "answers_template.csv": blank.csv().encode("utf-8-sig")}  # fmt: skip
+    def _page(self, worked: Sequence[Block]) -> str:
+        """The solution to step through, with the positions of the driver and the mechanism in motion."""
+        sheet, asked, language = self.lesson.sheet, self.lesson.asked, self.lesson.language
+        views, start = views_of(
+            sheet.structure, self.values, asked, language, self.lesson.convention, sheet.scales, self.count,
+            self._half(0),
+        )  # fmt: skip
+        moving = motion_data(sheet, self.lesson.letters, self.values)
+        return handout_page(self.lesson, views, start, self._half(1), moving, worked)
 
     def _half(self, done: int) -> Progress | None:
         """Progress of one half of the work: placing every position, and then drawing it."""
@@ -243,20 +229,38 @@ def known_platforms(exports: Sequence[str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(named))
 
 
-def _typeset(
-    lesson: Lesson, sheets: Mapping[str, Document], worked: Sequence[Block] | None = None
+def papers_in(
+    lesson: Lesson, formats: Sequence[str], page: Callable[[Sequence[Block]], str] | None = None
 ) -> dict[str, bytes]:
-    """Problem sheet, key and worked solution typeset, or the figure sheets where nothing can be typeset."""
-    if can_typeset():
-        return papers_as(("pdf",), {**sheets, "solution": solution(lesson, worked)})
-    drawn = diagram_figures(lesson.sheet, language=lesson.language, convention=lesson.convention)
-    return {f"{name}.pdf": figure.content("pdf") for name, figure in drawn.items()}
+    """The papers of a lesson by name: problem sheet and key in each format, the key as CSV, with "pdf" the worked
+    solution typeset, or the figure sheets where nothing can be typeset.
+
+    Parameters
+    ----------
+    page : makes handout.html of the stages of the solution
+    """
+    worked = tuple(solution_blocks(lesson, beginning(lesson))) if "pdf" in formats or page is not None else ()
+    sheets = {"problem": problem(lesson), "key": answer_key(lesson)}
+
+    def typeset() -> dict[str, bytes]:
+        if can_typeset():
+            return papers_as(("pdf",), {**sheets, "solution": solution(lesson, worked)})
+        drawn = diagram_figures(lesson.sheet, language=lesson.language, convention=lesson.convention)
+        return {f"{name}.pdf": figure.content("pdf") for name, figure in drawn.items()}
+
+    with ThreadPoolExecutor(1) as beside:  # typesetting runs beside Python
+        pdf = beside.submit(typeset) if "pdf" in formats else None
+        made = {"key.csv": key_table(lesson).csv().encode()}
+        if "html" in formats:
+            made |= papers_as(("html",), sheets)
+            made |= {"handout.html": page(worked).encode()} if page is not None else {}
+        return made | (pdf.result() if pdf is not None else {})
 
 
 @dataclass(frozen=True)
 class Papers:
-    """Writes the papers of a variant: problem sheet and key in each format, and the worked solution as PDF; questions
-    for learning platforms are called by the ``name`` of the set.
+    """Writes the papers of a variant in each format, and questions for learning platforms, called by the ``name`` of
+    the set.
 
     A value that can be sent to another process.
     """
@@ -269,16 +273,10 @@ class Papers:
 
     def __call__(self, variant: Variant) -> Mapping[str, bytes]:
         scene = variant.scene
-        asked = asked_of(scene)
         motion = solver.solve(scene)
-        what = paper_plan(motion.structure, None, asked, share=False)
+        what = paper_plan(motion.structure, None, asked_of(scene), share=False)
         lesson = lesson_of(what, motion, self.language, self.convention)
-        made = {"key.csv": key_table(lesson).csv().encode()}
-        sheets = {"problem": problem(lesson), "key": answer_key(lesson)}
-        if "html" in self.formats:
-            made |= papers_as(("html",), sheets)
-        if "pdf" in self.formats:
-            made |= _typeset(lesson, sheets)
+        made = papers_in(lesson, self.formats)
         if self.exports:
             question = question_of(lesson, evidence_of(what, motion, lesson), f"{self.name}-{variant.name}")
             made |= files_for(question, self.exports)
