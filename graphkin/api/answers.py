@@ -17,7 +17,7 @@ from graphkin.scene.spelling import Way, is_blank, plain_text, read_cell, read_w
 from graphkin.scene.symbol import KINDS, Printed, Symbol, Unreadable
 from graphkin.words import Phrase, Wording
 
-__all__ = ["Answers", "AnswersLike", "Unread", "as_answers"]
+__all__ = ["Answers", "AnswersLike", "Cell", "as_answers"]
 
 Role = Literal["at", "variant", "person", "id", "equations", "drawing"]
 AnswersLike = str | os.PathLike[str] | Mapping[str, Mapping[str, object]]
@@ -36,13 +36,8 @@ _OTHER_COLUMNS: Mapping[Role, set[str]] = {
 }  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Unread:
-    """A cell without a value: nothing was answered (``why`` is None), or nobody can read it."""
-
-    symbol: Symbol
-    text: str = ""
-    why: Phrase | None = None
+Cell = Printed | tuple[str, Phrase] | None
+"""A stated value; the text of a cell that nobody can read, and why; nothing where nothing was answered."""
 
 
 @dataclass(frozen=True)
@@ -50,20 +45,22 @@ class Answers:
     """What one person states, at which driver value or named position (None: the scene's, or that of the call), and how
     it was found.
 
-    ``unread`` are the cells without a value, ``variant`` the name of the problem that was the person's ("" for the
-    scene itself), ``id`` another name of theirs, ``marks`` what a teacher gave (points by part),
-    ``order`` that of the columns.
+    ``cells`` stand in the order of the columns; ``variant`` is the name of the problem that was the person's ("" for
+    the scene itself), ``id`` another name of theirs, ``marks`` what a teacher gave (points by part).
     """
 
     person: str
     at: float | str | None
-    values: tuple[Printed, ...]
+    cells: Mapping[Symbol, Cell]
     by: str = "drawing"
-    unread: tuple[Unread, ...] = ()
     variant: str = ""
     id: str = ""
     marks: Mapping[str, float] = field(default_factory=dict)
-    order: tuple[Symbol, ...] = ()
+
+    @property
+    def values(self) -> tuple[Printed, ...]:
+        """The values that can be judged."""
+        return tuple(cell for cell in self.cells.values() if isinstance(cell, Printed))
 
 
 def as_answers(scene: Mechanism, given: AnswersLike) -> tuple[tuple[Answers, ...], tuple[str, ...]]:
@@ -203,8 +200,7 @@ def _row(
     scene: Mechanism, sheet: Rows, columns: _Columns, line: int, cells: Sequence[str], at: float | str | None,
     silent: frozenset[str],
 ) -> Answers:  # fmt: skip
-    values: list[Printed] = []
-    unread: list[Unread] = []
+    made: dict[Symbol, Cell] = {}
     ways: dict[Symbol, Way] = {}
     bad: dict[Symbol, Unreadable] = {}
     for i, symbol in columns.ways.items():
@@ -218,23 +214,19 @@ def _row(
         if sheet.heads[i] in silent:
             continue
         text = cells[i] if i < len(cells) else ""
-        if is_blank(text):
-            unread.append(Unread(symbol))
-            continue
         try:
-            if symbol in bad:
+            if symbol in bad and not is_blank(text):
                 raise bad[symbol]
-            made = read_cell(text, symbol, scene.units, columns.units[i], sheet.sign, ways.get(symbol))
-            values.append(made)
+            way, unit = ways.get(symbol), columns.units[i]
+            made[symbol] = None if is_blank(text) else read_cell(text, symbol, scene.units, unit, sheet.sign, way)
         except Unreadable as error:
-            unread.append(Unread(symbol, text, error.phrase))
+            made[symbol] = text, error.phrase
     person = columns.cell("person", cells)
     marks = {role: _mark(columns.cell(role, cells)) for role in ("equations", "drawing") if role in columns.roles}
-    return Answers(
-        person or ("" if at is not None else str(Phrase("line", line=line))), at, tuple(values), unread=tuple(unread),
-        variant=columns.cell("variant", cells), id=columns.cell("id", cells) if "id" in columns.roles else "",
-        marks={role: mark for role, mark in marks.items() if mark is not None}, order=tuple(columns.values.values()),
-    )  # fmt: skip
+    name = person or ("" if at is not None else str(Phrase("line", line=line)))
+    other = columns.cell("id", cells) if "id" in columns.roles else ""
+    known = {role: mark for role, mark in marks.items() if mark is not None}
+    return Answers(name, at, made, variant=columns.cell("variant", cells), id=other, marks=known)
 
 
 def _mark(text: str) -> float | None:

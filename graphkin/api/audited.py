@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 import os
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from numbers import Real
@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from graphkin import solver
-from graphkin.api.answers import Answers, AnswersLike, Unread, as_answers
+from graphkin.api.answers import Answers, AnswersLike, Cell, as_answers
 from graphkin.api.arguments import At, SceneLike, as_scene, driver_values, known_words, placed
 from graphkin.api.checked import solved_here
 from graphkin.api.results import OfScene, Result, named
@@ -30,7 +30,7 @@ from graphkin.files import Json, path_of
 from graphkin.plane import added_up
 from graphkin.scene.asked import spelling_of
 from graphkin.scene.model import Mechanism
-from graphkin.scene.symbol import Symbol, Value
+from graphkin.scene.symbol import Printed, Symbol, Value
 from graphkin.solver import Motion, as_drawn, driver_range, exact_values, structure_of
 from graphkin.words import Phrase, say, word
 
@@ -107,10 +107,8 @@ class Audited(OfScene, Result):
         """Whether no value is wrong, nor one that cannot be read, nor a line of a scan off."""
         if not all(scan.ok for scan in self.scans):
             return False
-        wrong = ("wrong", "right from own values")
-        return not any(j.verdict in wrong for _, judged in self.people for j in judged) and not any(
-            u.why for who, _ in self.people for u in who.unread
-        )
+        wrong = {"wrong", "right from own values", "not readable"}
+        return not any(wrong & set(_verdicts(who, judged).values()) for who, judged in self.people)
 
     @cached_property
     def data(self) -> dict[str, Json]:
@@ -203,27 +201,14 @@ class Audited(OfScene, Result):
     @cached_property
     def students(self) -> Table:
         """A row for each person: verdicts counted, points, the slip to talk about."""
-        from graphkin.table import Table
-
-        rows = list(people_of(self.people, self.scheme, self.language))
-        points = [row.pop("points", {}) for row in rows]
-        flat = [row | own for row, own in zip(rows, points, strict=True)]
-        keys = list(dict.fromkeys(k for row in flat for k in row))
-        last = [k for k in ("total", "of", "slip") if k in keys]
-        keys = [*(k for k in keys if k not in last), *last]
-        heads = [_head(k, self.language) for k in keys]
-        return Table.of(heads, [[_cell(row.get(k)) for k in keys] for row in flat])
+        rows = [row | row.pop("points", {}) for row in people_of(self.people, self.scheme, self.language)]
+        return _tabled(rows, ("total", "of", "slip"), self.language)
 
     @cached_property
     def matrix(self) -> Table:
         """A row for each quantity: verdicts of the class counted, the commonest slip."""
-        from graphkin.table import Table
-
         rows = list(quantities_of(self.people, self.language))
-        keys = list(dict.fromkeys(k for row in rows for k in row))
-        keys.sort(key=lambda k: k in ("commonest_slip", "made_by"))
-        heads = [word("quantity" if k == "symbol" else k.replace("_", " "), self.language) for k in keys]
-        return Table.of(heads, [[_cell(row.get(k)) for k in keys] for row in rows])
+        return _tabled(rows, ("commonest_slip", "made_by"), self.language)
 
     @property
     def files(self) -> Mapping[str, bytes]:
@@ -241,7 +226,17 @@ class Audited(OfScene, Result):
 
 
 def _head(key: str, language: str) -> str:
-    return word(f"{key} in a class" if key in ("id", "at") else key, language)
+    named = {"id": "id in a class", "at": "at in a class", "symbol": "quantity"}
+    return word(named.get(key, key.replace("_", " ")), language)
+
+
+def _tabled(rows: Sequence[Mapping[str, object]], last: Sequence[str], language: str) -> Table:
+    """Rows as a table with a head for each of their keys, some of them at the end."""
+    from graphkin.table import Table
+
+    known = dict.fromkeys(key for row in rows for key in row)
+    keys = [*(key for key in known if key not in last), *(key for key in last if key in known)]
+    return Table.of([_head(key, language) for key in keys], [[_cell(row.get(key)) for key in keys] for row in rows])
 
 
 def _cell(value: object) -> str:
@@ -388,11 +383,13 @@ def _with_signs(people: Sequence[Answers]) -> tuple[Answers, ...]:
     }  # fmt: skip
     if not signed:
         return tuple(people)
-    return tuple(
-        replace(who, values=tuple(
-            replace(p, signed=(who.person, who.variant, who.by, p.symbol) in signed) for p in who.values
-        )) for who in people
-    )  # fmt: skip
+
+    def told(who: Answers, cell: Cell) -> Cell:
+        if not isinstance(cell, Printed):
+            return cell
+        return replace(cell, signed=(who.person, who.variant, who.by, cell.symbol) in signed)
+
+    return tuple(replace(who, cells={s: told(who, cell) for s, cell in who.cells.items()}) for who in people)
 
 
 def _stated(scene: Mechanism) -> tuple[Answers, ...]:
@@ -403,10 +400,9 @@ def _stated(scene: Mechanism) -> tuple[Answers, ...]:
             rows, _ = as_answers(scene, own.file)
             found += [replace(row, person="", by=own.by) for row in rows]
             continue
-        values = tuple(own.values.values())
-        for place in dict.fromkeys(p.symbol.at for p in values):
-            there = tuple(replace(p, symbol=p.symbol.here) for p in values if p.symbol.at == place)
-            found.append(Answers("", place or own.at, there, own.by))
+        for place in dict.fromkeys(symbol.at for symbol in own.values):
+            there = (replace(p, symbol=s.here) for s, p in own.values.items() if s.at == place)
+            found.append(Answers("", place or own.at, {p.symbol: p for p in there}, own.by))
     return tuple(found)
 
 
@@ -544,20 +540,20 @@ def people_of(people: Sequence[Person], scheme: Scheme | None, language: str) ->
     The slip is the first one made: values that only follow from it are no slips.
     """
     for who, judged in people:
-        asked = [*(j.printed.symbol for j in judged), *(u.symbol for u in who.unread)]
         slip = next((j.looks_like for j in judged if j.verdict == "wrong" and j.looks_like is not None), None)
         row: dict[str, Json] = {"person": who.person}
         row |= {k: v for k, v in (("id", who.id), ("variant", who.variant), ("at", who.at)) if v not in ("", None)}
-        row |= _counted(judged, who.unread)
+        row |= _counted(_verdicts(who, judged).values())
         if slip is not None:
             row["slip"] = say(slip, language)
         if scheme is not None:
-            row |= _points_of(who, judged, asked, scheme)
+            row |= _points_of(who, judged, scheme)
         yield row
 
 
-def _points_of(who: Answers, judged: Sequence[Judged], asked: Sequence[Symbol], scheme: Scheme) -> dict[str, Json]:
+def _points_of(who: Answers, judged: Sequence[Judged], scheme: Scheme) -> dict[str, Json]:
     """Points by part, their sum, and of how many; a part that nobody has marked yet is None and not counted."""
+    asked = list(who.cells)
     good = [j.printed.symbol for j in judged if j.verdict in FULL]
     values = added_up(scheme.of(s, asked) for s in good)
     most = added_up(scheme.of(s, asked) for s in asked)
@@ -574,22 +570,25 @@ def _points_of(who: Answers, judged: Sequence[Judged], asked: Sequence[Symbol], 
             "total": round(total, 4), "of": round(most, 4)}  # fmt: skip
 
 
-def _counted(judged: Sequence[Judged], unread: Sequence[Unread]) -> dict[str, Json]:
-    """How often each verdict was given; of cells without a value they are two more."""
-    counts = Counter([*(j.verdict for j in judged), *("not readable" if u.why else "missing" for u in unread)])
+def _verdicts(who: Answers, judged: Sequence[Judged]) -> dict[Symbol, str]:
+    """The verdict on each cell; of those without a value it is one of two more."""
+    unread = {s: "missing" if cell is None else "not readable" for s, cell in who.cells.items()}
+    return unread | {j.printed.symbol: j.verdict for j in judged}
+
+
+def _counted(verdicts: Iterable[str]) -> dict[str, Json]:
+    """How often each verdict was given."""
+    counts = Counter(verdicts)
     return {verdict: counts[verdict] for verdict in COUNTED}
 
 
 def quantities_of(people: Sequence[Person], language: str) -> Iterator[dict[str, Json]]:
     """For each quantity: the verdicts of the class counted, and the commonest slip with how many made it."""
-    symbols: dict[Symbol, None] = {}
-    for who, judged in people:
-        symbols |= dict.fromkeys([*(j.printed.symbol for j in judged), *(u.symbol for u in who.unread)])
-    for symbol in symbols:
+    verdicts = [_verdicts(who, judged) for who, judged in people]
+    for symbol in dict.fromkeys(symbol for own in verdicts for symbol in own):
         own = [j for _, judged in people for j in judged if j.printed.symbol == symbol]
-        unread = [u for who, _ in people for u in who.unread if u.symbol == symbol]
         slips: Counter[Phrase] = Counter(j.looks_like for j in own if j.verdict == "wrong" and j.looks_like)
-        row: dict[str, Json] = {"symbol": str(symbol), **_counted(own, unread)}
+        row: dict[str, Json] = {"symbol": str(symbol), **_counted(of[symbol] for of in verdicts if symbol in of)}
         if slips:
             phrase, made = slips.most_common(1)[0]
             row |= {"commonest_slip": say(phrase, language), "made_by": made}
@@ -604,21 +603,20 @@ def rows_of(scene: Mechanism, who: Answers, judged: Sequence[Judged], language: 
     """The rows of one person, answered or not."""
     lead: Row = {k: v for k, v in (("person", who.person), ("id", who.id), ("variant", who.variant)) if v}
     lead |= {"at": who.at} if who.at is not None else {}
-    rows = [(one.printed.symbol, _value(scene, one, language)) for one in judged]
-    rows += [(cell.symbol, _unread(scene, cell, language)) for cell in who.unread]
-    place = {symbol: i for i, symbol in enumerate(who.order)}
-    for _, row in sorted(rows, key=lambda row: place.get(row[0], 0)):
-        yield lead | row
+    values = {one.printed.symbol: _value(scene, one, language) for one in judged}
+    for symbol, cell in who.cells.items():
+        yield lead | (values[symbol] if symbol in values else _unread(scene, symbol, cell, language))
 
 
-def _unread(scene: Mechanism, cell: Unread, language: str) -> Row:
+def _unread(scene: Mechanism, symbol: Symbol, cell: Cell, language: str) -> Row:
+    text, why = cell if isinstance(cell, tuple) else ("", None)
     row: Row = {
-        "symbol": str(cell.symbol), "written": cell.text, "printed": None, "exact": None,
-        "unit": cell.symbol.unit(scene.units).text, "deviation_pct": None,
+        "symbol": str(symbol), "written": text, "printed": None, "exact": None, "unit": symbol.unit(scene.units).text,
+        "deviation_pct": None,
     }  # fmt: skip
-    if cell.why:
-        return row | {"verdict": "not readable", "why": say(cell.why, language)}
-    return row | {"verdict": "missing", "why": "no answer"}
+    if why is None:
+        return row | {"verdict": "missing", "why": "no answer"}
+    return row | {"verdict": "not readable", "why": say(why, language)}
 
 
 def _value(scene: Mechanism, judged: Judged, language: str) -> Row:
