@@ -162,7 +162,7 @@ def rounding_of(motion: Motion, forces: float = 0.0) -> Rounding:
     Where it is more than slight beside the motion of the drivers it is told of the links of each quantity alone: beside
     a dead point of one group the links before it are as certain as ever.
     """
-    size = motion.scene.size
+    size = motion.structure.scene.size
     rate, second = (float(driven[0]) for driven in motion.driven)
 
     def lost(position: Array, velocity: Array, acceleration: Array) -> Lost:

@@ -72,15 +72,16 @@ def parsed(text: str) -> OwnTables:
     """The mapping of a TOML text.  Raises SceneError with the line that is wrong."""
     if len(text) > LARGEST_FILE:
         raise SceneError(_too_large())
-    deep = Problem(Phrase("the file"), Phrase("is nested too deeply"), Phrase("a scene needs at most four levels"))
-    if _depth(text) > DEEPEST:
-        raise SceneError(deep)
     try:
+        if _depth(text) > DEEPEST:
+            raise RecursionError
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise SceneError(_syntax(str(error), text)) from None
     except RecursionError:
-        raise SceneError(deep) from None
+        raise SceneError.of(
+            Phrase("the file"), "is nested too deeply", "a scene needs at most four levels"
+        ) from None
     except ValueError as error:
         if "int_max_str_digits" in str(error):
             raise SceneError.of(Phrase("the file"), "is not toml a number of thousands of",
