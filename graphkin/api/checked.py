@@ -257,7 +257,8 @@ def checked(what: Plan, motion: Motion, hand: Instrument, at_contacts: bool = Tr
         tools = what.structure.scene.question.sheet.tools
         predicted = predict(what, hand.name, tools)
         advice = advise(what, hand.name, tools, readings, predicted)
-    report = compare(sheet, readings, value, what.asked, predicted, rounding_of(exact, lost), scale)
+    values = {r.symbol: value(r.symbol) for r in readings}
+    report = compare(sheet, readings, values.__getitem__, what.asked, predicted, rounding_of(exact, lost), scale)
     there = None if other is None else checked(other, motion, again, at_contacts=False)
     return Checked(sheet, report, advice, what.asked, motion.passed, turning, forces, there)
 
