@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal, Self, TypeAlias, TypeVar
 
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase, filled, listed, word
+from graphkin.words import Phrase, gaps_of, listed, word
 from graphkin.words.written import MOST, amount, computed, figures, increase, on_paper, product, true_minus
 
 __all__ = [
@@ -225,8 +225,8 @@ class Step:
     @property
     def phrase(self) -> Phrase:
         """The step as a sentence to be, without the letters of any school."""
-        told = filled([self.sentence], self.gap)
-        assert told is not None
+        key = self.sentence
+        told = Phrase(key, **{name: self.gap(name) for name in gaps_of(key)})
         for block, link, turned in self.data.instead if isinstance(self.data, TrialPositions) else ():
             told = Phrase("driven in its stead", (told, block, link, f"{math.degrees(turned) + 0.0:.6g}"))
         return told
@@ -260,14 +260,14 @@ class Step:
                 if data.rolling:
                     return f"trial positions rolling{' and others' * bool(data.left_out)}"
                 return "trial positions" if data.point else "trial positions without curve"
-        return SENTENCES.get(self.reason, self.reason)
+        turning = "cw" if self.value < 0.0 else "ccw" if self.value > 0.0 else "zero"
+        key = SENTENCES.get(self.reason, self.reason)
+        return key.format(kind=self.kind, turning=turning, diagram=self.diagram)
 
     def gap(self, name: str) -> object:
         """What stands in a gap of its sentence: an argument by its name, ``points.1`` the second of several, lengths on
         paper as a ruler shows them; or what follows from its arguments."""
         match name:
-            case "turning":
-                return "cw" if self.value < 0.0 else "ccw" if self.value > 0.0 else "zero"
             case "degrees":
                 return f"{math.degrees(self.value):.6g}"
             case "amount":
@@ -613,8 +613,8 @@ SENTENCES: Mapping[Reason, str] = {
     "plan": "plan line {kind} {turning}", "held still": "held still {kind}", "seen from": "seen from {diagram}",
     "polygon": "trial polygon", "open ends": "superposed", "plans": "plan tried",
 }  # fmt: skip
-"""The key in the table of words of steps that are told in one way, with gaps of its own (`Step.gap`) where a word for
-each kind is there; of others the reason is the key."""
+"""The key in the table of words of steps that are told in one way, or in one for each kind; of others the reason is the
+key."""
 
 
 def end_of(vector: Symbol | None) -> Phrase:

@@ -21,8 +21,8 @@ from typing import TypeAlias
 
 __all__ = [
     "BOTH", "LANGUAGES", "Markup", "Neutral", "Phrase", "RichText", "Wording", "about", "alternatives", "area",
-    "as_markup", "as_plain", "class_of", "clause_of", "clauses", "filled", "from_others", "in_all", "in_turn",
-    "languages", "listed", "parts", "rich_text", "say", "word",
+    "as_markup", "as_plain", "class_of", "clause_of", "clauses", "filled", "from_others", "gaps_of", "in_all",
+    "in_turn", "languages", "listed", "parts", "rich_text", "say", "word",
 ]  # fmt: skip
 
 _TABLES = {path.stem: path for path in Path(__file__).parent.glob("*.toml")}
@@ -139,6 +139,15 @@ def _pieces(key: str, language: str) -> tuple[tuple[str, str | None], ...]:
     return (*found, (before, None))
 
 
+def gaps_of(key: str) -> tuple[str, ...]:
+    """The names of the gaps of a sentence.
+
+    >>> gaps_of("points")
+    ('points', 'link')
+    """
+    return tuple(dict.fromkeys(name for _, name in _pieces(key, "en") if name))
+
+
 def filled(keys: Iterable[str], gap: Callable[[str], object]) -> Phrase | None:
     """The first of some sentences all of whose gaps can be filled by their names; None where there is none.
 
@@ -156,7 +165,7 @@ def filled(keys: Iterable[str], gap: Callable[[str], object]) -> Phrase | None:
         if None in variants.values():
             continue
         key = pattern.format_map(variants)
-        gaps = {name: gap(name) for _, name in _pieces(key, "en") if name}
+        gaps = {name: gap(name) for name in gaps_of(key)}
         if None not in gaps.values():
             return Phrase(key, **gaps)
     return None
