@@ -7,7 +7,7 @@ same; its figures are those that the drawing carries.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 from graphkin.account.headings import number, slide_index, written
@@ -15,7 +15,7 @@ from graphkin.account.notation import Letters
 from graphkin.construction.instruments import EXACT
 from graphkin.construction.links_on_paper import pushed_by_driver
 from graphkin.construction.sheet import Sheet, either_way
-from graphkin.construction.steps import Aid, DiagramName, Direction, RateTrial, Size, Step, Superposed, Vector
+from graphkin.construction.steps import Aid, DiagramName, RateTrial, Size, Step, Superposed, Vector
 from graphkin.plane import added_up
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Units
@@ -36,8 +36,8 @@ from graphkin.words.written import (
 )
 
 __all__ = [
-    "Division", "RatePart", "bound", "carried_by", "divisions", "factors_of", "laid_sum", "lengths_measured",
-    "parts_by_rates", "plan_sum", "rate_sum", "rule_sum", "scale_of", "substituted", "times_scale", "trials_of",
+    "Division", "bound", "carried_by", "divisions", "factors_of", "laid_sum", "lengths_measured",
+    "plan_sum", "rate_sum", "rule_sum", "scale_of", "substituted", "times_scale", "trials_of",
     "unit_of",
 ]  # fmt: skip
 
@@ -312,42 +312,6 @@ def laid_sum(sheet: Sheet, diagram: DiagramName, rule: Size | None, mm: float) -
     middle = f"{substituted(rule, factors)} = " if factors else ""
     shown = f"{written(value)} {unit}"
     return f"{middle}{shown}", f"{shown} ÷ {number(per)} ({unit})/mm = {written(length)} mm"
-
-
-@dataclass(frozen=True)
-class RatePart:
-    """A part of the way from one end point of a link to another that its rates give: its ``span`` on paper (mm)."""
-
-    symbol: Symbol
-    rule: Size
-    direction: Direction
-    span: complex
-
-
-def parts_by_rates(sheet: Sheet, step: Step) -> list[RatePart]:
-    """What is laid off to go from an end point to another of its link by the rates of that, one part after the other;
-    none where a place or a rate is not known, or where it turns at none."""
-    (start,), point = step.refs, step.ref
-    links = (step.link, step.held) if step.held else (step.link,)
-    places = [sheet.points.get(PointRef(ref.point)) for ref in (start, point)]
-    if places[0] is None or places[1] is None or not all(name in sheet.omega for name in links):
-        return []
-    arm, ends = (places[1] - places[0]) * sheet.scales.length, (point.point, start.point)
-    way: Literal["square", "towards"] = "square"
-    rules = [("v", Size("rate", links, ends), way)]
-    if step.diagram == "acceleration":
-        if not all(name in sheet.alpha for name in links):
-            return []
-        inwards = Size("rate", links, ends, square=True)
-        rules = [("an", inwards, "towards"), ("at", Size("rate", links, ends, "alpha"), way)]
-    found = []
-    for kind, rule, relation in rules:
-        rate = _turning(sheet, rule.rate, links)
-        span = arm * (-rate * rate if rule.square else 1j * rate) / sheet.scales.of(step.diagram)
-        if span:
-            symbol = replace(Symbol(kind, point, start), seen=step.held)
-            found.append(RatePart(symbol, rule, Direction(relation, ends), span))
-    return found
 
 
 def bound(text: str) -> str:

@@ -13,7 +13,6 @@ from graphkin.account.arithmetic import (
     bound,
     divisions,
     laid_sum,
-    parts_by_rates,
     plan_sum,
     rate_sum,
     rule_sum,
@@ -283,17 +282,23 @@ class InPolygon(Telling):
             yield bound(f"△${self.gap('abc')}$ ∽ △${self.gap('ABC')}$")
 
     @property
+    def parts(self) -> list[tuple[Term, complex]]:
+        """What the rates of a link give, each with its vector (mm)."""
+        data = self.step.data if isinstance(self.step.data, tuple) else ()
+        return [(part, part.span) for part in data if part.span is not None]
+
+    @property
     def laid(self) -> object:
         """To an end point from another of its link: what the rates give, laid off one behind the other."""
         start = end_of(self.step.begins[0]) if self.step.held else Phrase("the point", (self.gap("a"),))
         if not self.step.held and self.gap("a") is None:
             return None
         told = list[Phrase]()
-        for part in parts_by_rates(self.sheet, self.step):
-            square = part.rule.square
-            rule = Phrase("as normal" if square else "as vector", (_ruled(part.symbol, part.rule),))
-            way = part.direction if square else Phrase("pointing", (part.direction, pointing(part.span)))
-            told.append(Phrase("lay off from", start=start, rule=rule, length=on_paper(abs(part.span)), way=way))
+        for part, span in self.parts:
+            normal = part.symbol.kind == "an"
+            rule = Phrase("as normal" if normal else "as vector", (_ruled(part.symbol, part.size),))
+            way = part.direction if normal else Phrase("pointing", (part.direction, pointing(span)))
+            told.append(Phrase("lay off from", start=start, rule=rule, length=on_paper(abs(span)), way=way))
             start = Phrase("the end of", (part.symbol,))
         return in_turn(told) if told else None
 
@@ -303,17 +308,18 @@ class InPolygon(Telling):
     def _by_rates_sums(self) -> Iterator[str]:
         """The parts of a relative vector that follow from the rates of a link, each with its length and direction."""
         per, unit = scale_of(self.sheet, self.step.diagram), unit_of(self.sheet, self.step.diagram)
-        for said, part in zip(self._by_rates_lines(""), parts_by_rates(self.sheet, self.step), strict=True):
+        for said, (_, span) in zip(self._by_rates_lines(""), self.parts, strict=True):
             yield said
-            yield f"÷ {number(per)} ({unit})/mm = {written(on_paper(abs(part.span)))} mm,  {pointing(part.span)}°"
+            yield f"÷ {number(per)} ({unit})/mm = {written(on_paper(abs(span)))} mm,  {pointing(span)}°"
         yield from self.measured()
 
     def _by_rates_lines(self, language: str) -> Iterator[str]:
         """``v_CB = ω_3 l_CB = 1.4737 × 151.21 = 222.84 mm/s,  ⊥CB``."""
         letters = self.voice.letters
-        for part in parts_by_rates(self.sheet, self.step):
+        for part, _ in self.parts:
+            assert part.size is not None
             way = letters.direction(part.direction, self.sheet.scene.frame.name)
-            rule = f"${letters.size(part.rule)}$ =\u00a0{bound(rule_sum(self.sheet, part.rule, self.step.diagram))}"
+            rule = f"${letters.size(part.size)}$ =\u00a0{bound(rule_sum(self.sheet, part.size, self.step.diagram))}"
             yield f"{self.voice.symbol(part.symbol)} =\u00a0{rule},  ${way}$"
 
     # -- rates ---------------------------------------------------------------------------------------------------------
@@ -427,9 +433,10 @@ class InPolygon(Telling):
                 said = Phrase(f"open {across} bar", (*ends, *names))
             else:
                 said = Phrase(f"open {across} guide", (*ends, "".join(way.names)))
-            for one in (one for one in less if abs(one.mm) >= SEEN):
-                rule = one.symbol if one.size is None else Phrase("rule of size", (one.symbol, one.size))
-                said = Phrase("open less", (said, rule, true_minus(on_paper(one.mm))))
+            for one, mm in less:
+                if abs(mm) >= SEEN:
+                    rule = one.symbol if one.size is None else Phrase("rule of size", (one.symbol, one.size))
+                    said = Phrase("open less", (said, rule, true_minus(on_paper(mm))))
             told.append(said)
         return listed(told)
 

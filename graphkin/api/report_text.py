@@ -201,7 +201,7 @@ def _size(term: Term, plain: Callable[[object], str]) -> str:
 def _direction(term: Term, plain: Callable[[object], str]) -> str:
     if not term.direction_known:
         return "?"
-    return (plain(term.direction) if term.direction else "") or "√"
+    return plain(term.direction) or "√"
 
 
 MOST_CURVES = 40

@@ -22,8 +22,7 @@ from graphkin.checking.readings import read_off
 from graphkin.checking.slip_likelihood import Suspect, Suspects
 from graphkin.checking.uncertainty import Uncertainty
 from graphkin.construction import NO_SLIP, GoneOn, Plan, Sheet, Slip, execute
-from graphkin.construction.polygons import Component
-from graphkin.construction.steps import Order
+from graphkin.construction.steps import Order, Term
 from graphkin.errors import GraphkinError
 from graphkin.plane import added_up, unit
 from graphkin.scene.model import LinkMass, Loading, LoadOn, Mechanism, PlacedGear, PlacedLink
@@ -221,8 +220,8 @@ def _terms(plan: Plan, sheet: Sheet) -> Iterator[Alteration]:
                 yield Phrase(f"slip {role} {key}", (shown,)), share / len(groups), partial(_drawn, plan, slip)
 
 
-def _times(symbols: tuple[Symbol, ...], factor: float) -> Callable[[Component], Component]:
-    def changed(part: Component) -> Component:
+def _times(symbols: tuple[Symbol, ...], factor: float) -> Callable[[Term], Term]:
+    def changed(part: Term) -> Term:
         if part.span is None or part.symbol not in symbols:
             return part
         return replace(part, span=part.span * factor)
@@ -407,7 +406,7 @@ def _own_values(plan: Plan, base: Sheet, own: Mapping[Symbol, Value]) -> Slip:
             return value / scale
         return drawn / abs(drawn) * (abs(value) / scale) if drawn else drawn
 
-    def term(part: Component) -> Component:
+    def term(part: Term) -> Term:
         """A known term with the person's own size, or made from the person's own velocities."""
         if part.span is None:
             return part

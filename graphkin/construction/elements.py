@@ -45,7 +45,7 @@ from graphkin.construction.steps import (
     RateTrial,
     Step,
     Superposed,
-    TakenOff,
+    Term,
     Vector,
 )
 from graphkin.construction.trains import rolled
@@ -645,12 +645,12 @@ class Trials:
         plot.do(Step("divide", "open ends", order, data=divided))
         return found
 
-    def _taken_off(self, trial: Polygons, edge: Edge, across: bool) -> Iterator[TakenOff]:
+    def _taken_off(self, trial: Polygons, edge: Edge, across: bool) -> Iterator[tuple[Term, float]]:
         """What is known of an edge and has a part in the direction in which it is left open."""
         way = self.along(edge, across)
         for p in parts_of(trial, self.order, replace(edge, unknown=None)):
             if p.span and abs(dot(p.span, way)) > NAUGHT * abs(p.span):
-                yield TakenOff(p.symbol, p.size, dot(p.span, way))
+                yield p, dot(p.span, way)
 
     def _as_noted(self, rates: Sequence[Sequence[float]], apart: Sequence[Sequence[float]]) -> list[float]:
         """The divided rates as they are written down: the way from the first that was assumed with the figures of the

@@ -8,10 +8,11 @@ lines along them cross in the end point.  The angular rates follow from the vect
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from typing import Literal
 
 from graphkin.construction.net import Edge, Unknown, VectorChain, contacts_of, node
-from graphkin.construction.polygons import PARTS, RATE, Component, Polygons, letter
+from graphkin.construction.polygons import PARTS, RATE, Polygons, letter
 from graphkin.construction.sheet import Equation, Rate
 from graphkin.construction.steps import GIVEN, ORDERS, Aid, Bar, Direction, Mark, Order, Ray, Size, Step, Term, Vector
 from graphkin.plane import added_up, cross, dot, unit
@@ -24,7 +25,7 @@ __all__ = [
     "spread", "symbol_of", "turned",
 ]  # fmt: skip
 
-Side = list[tuple[Edge, list[Component]]]
+Side = list[tuple[Edge, list[Term]]]
 
 
 # -- links that turn alike ---------------------------------------------------------------------------------------------
@@ -123,17 +124,17 @@ def _side_of(plot: Polygons, order: Order, path: Sequence[Edge]) -> Side:
     return [(edge, [plot.slip.term(part) for part in parts_of(plot, order, edge)]) for edge in path]
 
 
-def _parts(side: Side) -> list[Component]:
+def _parts(side: Side) -> list[Term]:
     return [part for _, parts in side for part in parts]
 
 
-def _open(side: Side) -> list[Component]:
+def _open(side: Side) -> list[Term]:
     """The terms of unknown size."""
     return [part for part in _parts(side) if part.span is None]
 
 
 def _written(side: Side) -> tuple[Term, ...]:
-    return tuple(Term(part.symbol, part.span is not None, True, part.size, part.written) for part in _parts(side))
+    return tuple(replace(part, along=0j, span=None) for part in _parts(side))
 
 
 def _from_pole(plot: Polygons, order: Order, side: Side) -> tuple[Term, ...]:
@@ -226,19 +227,19 @@ def _cross(plot: Polygons, order: Order, end: PointRef, sides: Sequence[Side], e
     plot.reach(order, end, meeting, equation)
 
 
-def _carry(plot: Polygons, order: Order, parts: Iterable[Component], at: complex, equation: int | None) -> complex:
+def _carry(plot: Polygons, order: Order, parts: Iterable[Term], at: complex, equation: int | None) -> complex:
     """Add known vectors before their turn; returns where they end."""
     for part in parts:
         if part.span is not None:
             bar = Bar(at, at + part.span, "")
             plot.do(Step("carry over", "before its turn", order, (bar,), equation, symbol=part.symbol, size=part.size,
-                         mm=abs(part.span), direction=part.written))  # fmt: skip
+                         mm=abs(part.span), direction=part.direction))  # fmt: skip
             at += part.span
     return at
 
 
 def _lines_meet(
-    plot: Polygons, order: Order, symbol: Symbol, tail: complex, lines: Sequence[tuple[complex, Component]],
+    plot: Polygons, order: Order, symbol: Symbol, tail: complex, lines: Sequence[tuple[complex, Term]],
     equation: int | None,
 ) -> complex:  # fmt: skip
     """Lines along two vectors of unknown size, each through a point; where they cross the vector ``symbol`` from
@@ -246,8 +247,8 @@ def _lines_meet(
     (p, left), (q, right) = ((at, plot.slip.line(part.symbol, part.along)) for at, part in lines)
     meeting = plot.slip.found(symbol, tail, plot.board.cross(order, p, left, q, right, str(symbol)))
     for through, part in lines:
-        ray = Ray(through, part.along, meeting, part.written, part.symbol)
-        plot.do(Step("line", "direction", order, (ray,), equation, symbol=part.symbol, direction=part.written))
+        ray = Ray(through, part.along, meeting, part.direction, part.symbol)
+        plot.do(Step("line", "direction", order, (ray,), equation, symbol=part.symbol, direction=part.direction))
     return meeting
 
 
@@ -289,7 +290,7 @@ def _draw_parallel_legs(plot: Polygons, order: Order, group: LargerGroup, legs: 
     _rate(plot, order, edge, turning.symbol, meeting - start, group)
 
 
-def _lay_off(plot: Polygons, order: Order, part: Component, at: complex, equation: int | None) -> complex:
+def _lay_off(plot: Polygons, order: Order, part: Term, at: complex, equation: int | None) -> complex:
     """Lay off a known vector."""
     assert part.span is not None
     size = abs(part.span)
@@ -300,7 +301,7 @@ def _lay_off(plot: Polygons, order: Order, part: Component, at: complex, equatio
     vector = Vector(part.symbol, at, tip, part.role)
     plot.board.notice(order, "zero vector", part.symbol, size=size)
     plot.record(vector, Step("lay off", part.role, order, (), equation, symbol=part.symbol, size=part.size, mm=size,
-                             direction=part.written))  # fmt: skip
+                             direction=part.direction))  # fmt: skip
     return tip
 
 
@@ -347,7 +348,7 @@ def _rate(plot: Polygons, order: Order, edge: Edge, symbol: Symbol, span: comple
 # -- terms -------------------------------------------------------------------------------------------------------------
 
 
-def parts_of(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
+def parts_of(plot: Polygons, order: Order, edge: Edge) -> list[Term]:
     """The terms of the motion of an edge's end relative to its start."""
     if edge.joint is not None:
         return _driven_joint_parts(plot, order, edge, edge.joint)
@@ -376,7 +377,7 @@ def symbol_of(plot: Polygons, kind: str, edge: Edge) -> Symbol:
 def _term(
     plot: Polygons, edge: Edge, kind: str, along: complex, mm: float | None, written: Direction,
     size: Size | None = None,
-) -> Component:  # fmt: skip
+) -> Term:  # fmt: skip
     """A term of an edge.
 
     Parameters
@@ -388,7 +389,8 @@ def _term(
     size : the rule of its size
     """
     role = PARTS.get(kind) or ("resultant" if plot.fixed(edge.start) else "relative")
-    return Component(symbol_of(plot, kind, edge), role, along, None if mm is None else along * mm, written, size)
+    span = None if mm is None else along * mm
+    return Term(symbol_of(plot, kind, edge), mm is not None, True, size, written, role=role, along=along, span=span)
 
 
 def _by_rate(
@@ -400,13 +402,13 @@ def _by_rate(
     return Size("rate", links, factor, rate, square, twice)
 
 
-def _coriolis(plot: Polygons, edge: Edge, link: str, along: complex, mm: float, written: Direction) -> Component:
+def _coriolis(plot: Polygons, edge: Edge, link: str, along: complex, mm: float, written: Direction) -> Term:
     """The term of Coriolis: twice the rate of a link times the relative velocity of the edge."""
     size = _by_rate(plot, (link,), symbol_of(plot, "v", edge), twice=True)
     return _term(plot, edge, "ak", along, mm, written, size)
 
 
-def _rigid_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
+def _rigid_parts(plot: Polygons, order: Order, edge: Edge) -> list[Term]:
     """Two points of one link: omega times their distance, square to it; omega squared towards the start, and alpha."""
     if edge.link in plot.still:
         return []
@@ -426,7 +428,7 @@ def _rigid_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     return [normal, _term(plot, edge, "at", square, mm, edge.direction, rule)]
 
 
-def _driven_joint_parts(plot: Polygons, order: Order, edge: Edge, joint: DrivenJoint) -> list[Component]:
+def _driven_joint_parts(plot: Polygons, order: Order, edge: Edge, joint: DrivenJoint) -> list[Term]:
     """A point of a link that a driver turns about a hinge of another link, relative to that link."""
     hinge, per = joint.pair.point, plot.per[order]
     arm = plot.places[edge.end.point] - plot.places[hinge]
@@ -446,7 +448,7 @@ def _driven_joint_parts(plot: Polygons, order: Order, edge: Edge, joint: DrivenJ
     ]
 
 
-def _contour_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
+def _contour_parts(plot: Polygons, order: Order, edge: Edge) -> list[Term]:
     """The point of one link of a contour relative to that of another, as a polygon with one of them held still gave it;
     with the term of Coriolis, for that one turns."""
     seen = plot.seen[edge.held]
@@ -473,7 +475,7 @@ def _slip_read(plot: Polygons, edge: Edge, sense: complex) -> tuple[float, float
     return speed, speed if dot(slip, sense) >= 0 else -speed
 
 
-def _slide_parts(plot: Polygons, order: Order, edge: Edge, slide: Pair) -> list[Component]:
+def _slide_parts(plot: Polygons, order: Order, edge: Edge, slide: Pair) -> list[Term]:
     """Both sides of a sliding pair: the rest runs along the guide, Coriolis square to it; a curved guide adds the
     square of the sliding velocity over the radius of curvature, towards its centre."""
     sense = plot.paper.poses[slide.b].axis * slide.guide.direction * (1 if edge.forward else -1)
@@ -496,7 +498,7 @@ def _slide_parts(plot: Polygons, order: Order, edge: Edge, slide: Pair) -> list[
     return [*parts, _term(plot, edge, "ar", sense, mm, edge.direction, size)]
 
 
-def _contact_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
+def _contact_parts(plot: Polygons, order: Order, edge: Edge) -> list[Term]:
     """The material point of one body at a contact relative to that of the other: slip along the tangent; with the term
     of Coriolis, and along the normal what the curvatures of both outlines give."""
     one, two = (ref.link for ref in edge.labels)
@@ -524,7 +526,7 @@ def _contact_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     return parts[1:] if one in plot.still else parts
 
 
-def _rolling_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
+def _rolling_parts(plot: Polygons, order: Order, edge: Edge) -> list[Term]:
     """The material point of one link where it rolls relative to that of the other: they have one velocity, and their
     accelerations differ along the normal alone, by what the curvatures give."""
     if order == "velocity":

@@ -32,34 +32,23 @@ from graphkin.construction.steps import (
     Role,
     Size,
     Step,
+    Term,
     Vector,
 )
 from graphkin.construction.touching import Touch, Touching
 from graphkin.construction.trains import PlansDrawn
 from graphkin.errors import CallError, Problem, Unsolvable
-from graphkin.plane import cross, dot, unit
+from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Dyad, LargerGroup, Pair, Structure
 from graphkin.words import Phrase
 
-__all__ = ["NO_SLIP", "PARTS", "RATE", "Component", "Polygons", "Slip", "draw_asked", "letter"]
+__all__ = ["NO_SLIP", "PARTS", "RATE", "Polygons", "Slip", "draw_asked", "letter"]
 
 RATE: Mapping[Order, Literal["omega", "alpha"]] = {"velocity": "omega", "acceleration": "alpha"}
 PARTS: Mapping[str, Role] = {"an": "normal", "at": "tangential", "ak": "coriolis", "ar": "sliding"}
 """Of a relative acceleration."""
 SHARED = {"chains", "plans", "contours"}  # by all drawings of a task
-
-
-@dataclass(frozen=True)
-class Component:
-    """One term of a relative motion in an equation: its vector on paper (mm) if known, else only its direction."""
-
-    symbol: Symbol
-    role: Role
-    along: complex
-    span: complex | None
-    written: Direction
-    size: Size | None = None
 
 
 @dataclass(frozen=True)
@@ -72,7 +61,7 @@ class Slip:
     ``line`` the direction of each line along which a vector of unknown size is drawn.
     """
 
-    term: Callable[[Component], Component] = lambda part: part
+    term: Callable[[Term], Term] = lambda part: part
     found: Callable[[Symbol, complex, complex], complex] = lambda _, tail, tip: tip
     rate: Callable[[Symbol, float], float | None] = lambda _, value: None
     line: Callable[[Symbol, complex], complex] = lambda _, along: along
@@ -320,8 +309,9 @@ class Polygons:
         bar = self.places[b.point] - self.places[a.point]
         if abs(bar) <= self.tiny or (order, name) in self.believed:
             start = refs[0]  # a fixed point, if the link has one
-            at = self._by_rates(order, ends[start], (start.point, ref.point), name)
-            self._reach_by(ref, at, Step("image", "rates", order, refs=(self.label(start),), link=name))
+            parts = self._by_rates(order, start, ref, name)
+            at = added_up((part.span for part in parts if part.span is not None), ends[start])
+            self._reach_by(ref, at, Step("image", "rates", order, refs=(self.label(start),), link=name, data=parts))
             return
         own = self.links[name].points
         if {a.point, b.point, ref.point} <= own.keys():  # the shape of the link is given
@@ -356,15 +346,23 @@ class Polygons:
         """Whether a node is a point of a link."""
         return ref.link == name or (not ref.link and ref.point in self.links[name].points)
 
-    def _by_rates(self, order: Order, end: complex, between: tuple[str, str], name: str) -> complex:
-        """From one end point to another of the same link by its measured rates."""
-        drawn = self.places[between[1]] - self.places[between[0]]
-        arm = drawn / abs(drawn) * self.length(drawn, between) if drawn else 0j  # m
-        omega = self.rates["velocity"][name].value
-        if order == "velocity":
-            return end + 1j * omega * arm / self.scales.velocity
-        alpha = self.rates["acceleration"][name].value
-        return end + (1j * alpha - omega**2) * arm / self.scales.acceleration
+    def _by_rates(self, order: Order, start: PointRef, end: PointRef, name: str) -> tuple[Term, ...]:
+        """From one end point to another of the same link by its measured rates, one part behind the other."""
+        names = end.point, start.point
+        drawn = self.places[end.point] - self.places[start.point]
+        arm = drawn / abs(drawn) * self.length(drawn, names[::-1]) / self.scales.of(order) if drawn else 0j
+        links = (name, self.held) if self.held else (name,)
+        omega, alpha = (self.rates[each][name].value if name in self.rates[each] else 0.0 for each in ORDERS)
+        inward, square = Direction("towards", names), Direction("square", names)
+        parts = [
+            ("an", Size("rate", links, names, square=True), inward, -omega * omega * arm),
+            ("at", Size("rate", links, names, "alpha"), square, 1j * alpha * arm),
+        ] if order == "acceleration" else [("v", Size("rate", links, names), square, 1j * omega * arm)]  # fmt: skip
+        between = self.label(end), self.label(start)
+        return tuple(
+            Term(replace(Symbol(kind, *between), seen=self.held), True, True, size, way, span=span)
+            for kind, size, way, span in parts if span
+        )
 
 
 _Kept = TypeVar("_Kept")

@@ -18,9 +18,9 @@ from graphkin.words import Phrase, gaps_of, listed, word
 from graphkin.words.written import MOST, amount, computed, figures, increase, on_paper, product, true_minus
 
 __all__ = [
-    "DIAGRAMS", "FINDS_A_POINT", "GIVEN", "LENGTHS", "ORDERS", "SENTENCES", "Aid", "Arrow", "Bar", "Cause",
-    "CompassArc", "DiagramName", "Direction", "FarPoint", "Image", "Mark", "Missed", "Moved", "OnPaper", "Order",
-    "Part", "RateTrial", "Ray", "Reason", "Role", "Size", "Step", "Stroke", "Superposed", "TakenOff",
+    "DIAGRAMS", "FINDS_A_POINT", "GIVEN", "LENGTHS", "NO_DIRECTION", "ORDERS", "SENTENCES", "Aid", "Arrow",
+    "Bar", "Cause", "CompassArc", "DiagramName", "Direction", "FarPoint", "Image", "Mark", "Missed", "Moved",
+    "OnPaper", "Order", "Part", "RateTrial", "Ray", "Reason", "Role", "Size", "Step", "Stroke", "Superposed",
     "Term", "TrialCurve", "TrialPositions", "TrialRow", "TrialTable", "Vector", "Verb", "end_of", "phrase_of",
     "plain_in",
 ]  # fmt: skip
@@ -50,6 +50,9 @@ class Direction:
             return "→".join(self.names)
         sign = {"along": "∥", "found": ""}.get(self.relation, "⊥")
         return sign + "".join(self.names)
+
+
+NO_DIRECTION = Direction("found", ())
 
 
 @dataclass(frozen=True)
@@ -133,21 +136,65 @@ Part = Literal["", "t", "n"]
 """All of a force, or its part that moments give (t) or its part along the bar or guide (n)."""
 
 
+# -- on paper ----------------------------------------------------------------------------------------------------------
+
+Value = TypeVar("Value")
+LENGTHS = {
+    "tail", "tip", "through", "to", "centre", "radius", "at", "a", "b", "curve", "corners", "mm", "apart", "origin",
+    "poses", "low", "high", "less", "table", "span",
+}  # fmt: skip
+"""Places and lengths on paper (mm), and what has such, which a scale changes; a direction stays."""
+
+
+class OnPaper:
+    """What has places or lengths on paper (mm)."""
+
+    def scaled(self, times: float) -> Self:
+        """The same so many times as large."""
+        return _changed(self, **{name: _times(value, times) for name, value in vars(self).items() if name in LENGTHS})
+
+
+def _changed(value: Value, **fields: object) -> Value:
+    """As ``replace``, of values that do nothing when they are made: a sheet is scaled for each figure, and taking the
+    fields as they are is ten times faster than asking for each of them."""
+    copy = object.__new__(type(value))
+    vars(copy).update(vars(value), **fields)
+    return copy
+
+
+def _times(value: Any, times: float) -> Any:
+    if isinstance(value, tuple):
+        return tuple(_times(part, times) for part in value)
+    if isinstance(value, dict):
+        return {name: _times(part, times) for name, part in value.items()}
+    if isinstance(value, OnPaper | TrialTable):
+        return value.scaled(times)
+    return value * times if isinstance(value, float | complex) else value
+
+
 @dataclass(frozen=True)
-class Term:
+class Term(OnPaper):
     """A term of a vector equation: is its size known, is its direction known, and as what.
 
-    ``size`` is the rule that gives the size (None where it was drawn before or is unknown); of a force it may be a
-    ``part``, and be ``turned`` where it is the opposite of its symbol's.
+    Parameters
+    ----------
+    size : the rule that gives the size (None where it was drawn before or is unknown)
+    direction : as it is written
+    part, turned : of a force: which part of it this is, and whether it is the opposite of its symbol's
+    role : its part in the motion of one point relative to another
+    along, span : on paper, while it is drawn: a unit vector along it, and the vector (mm; None: of unknown size)
     """
 
     symbol: Symbol
     size_known: bool
     direction_known: bool
     size: Size | None = None
-    direction: Direction | None = None
+    direction: Direction = NO_DIRECTION
     part: Part = ""
     turned: bool = False
+    role: Role = "relative"
+    along: complex = 0j
+    span: complex | None = None
 
 
 # -- steps -------------------------------------------------------------------------------------------------------------
@@ -169,8 +216,7 @@ Reason = Role | Literal[
 ]  # fmt: skip
 FINDS_A_POINT: Collection[Reason] = ("arcs", "arc on path", "paths")
 """Reasons of steps by which a point of the mechanism is found, before it is marked on its link."""
-Value = TypeVar("Value")
-NO_SYMBOL, NO_POINT, NO_DIRECTION = Symbol(""), PointRef(""), Direction("found", ())
+NO_SYMBOL, NO_POINT = Symbol(""), PointRef("")
 
 
 @dataclass(frozen=True)
@@ -193,6 +239,7 @@ class Step:
     value, other : what is given or read (rad, m, rad/s, ...), and the value that is added to it
     per_mm : the scale of a plan of its own, whose lengths stay; 0 of the diagram's
     mm, radii : lengths on paper; a scale changes these, and what ``data`` has of them
+    data : of trials and their division, and what the rates of a link give, laid off one behind the other
     """
 
     verb: Verb
@@ -220,7 +267,7 @@ class Step:
     per_mm: float = 0.0
     mm: float = 0.0
     radii: tuple[float, ...] = ()
-    data: TrialPositions | RateTrial | Superposed | None = None
+    data: TrialPositions | RateTrial | Superposed | tuple[Term, ...] | None = None
 
     @property
     def phrase(self) -> Phrase:
@@ -334,9 +381,8 @@ class Step:
         """The same step with all its lengths on paper so many times as large."""
         strokes = tuple(stroke.scaled(times) for stroke in self.strokes)
         growth = 1.0 if self.per_mm else times
-        data = self.data.scaled(growth) if isinstance(self.data, OnPaper) else self.data
         radii = tuple(radius * growth for radius in self.radii)
-        return _changed(self, strokes=strokes, data=data, mm=self.mm * growth, radii=radii)
+        return _changed(self, strokes=strokes, data=_times(self.data, growth), mm=self.mm * growth, radii=radii)
 
     @property
     def links_drawn(self) -> tuple[str, ...]:
@@ -361,39 +407,6 @@ def phrase_of(cause: Cause) -> Phrase:
 
 
 # -- strokes -----------------------------------------------------------------------------------------------------------
-
-
-LENGTHS = {
-    "tail", "tip", "through", "to", "centre", "radius", "at", "a", "b", "curve", "corners", "mm", "apart", "origin",
-    "poses", "low", "high", "less", "table",
-}  # fmt: skip
-"""Places and lengths on paper (mm), and what has such, which a scale changes; a direction stays."""
-
-
-class OnPaper:
-    """What has places or lengths on paper (mm)."""
-
-    def scaled(self, times: float) -> Self:
-        """The same so many times as large."""
-        return _changed(self, **{name: _times(value, times) for name, value in vars(self).items() if name in LENGTHS})
-
-
-def _changed(value: Value, **fields: object) -> Value:
-    """As ``replace``, of values that do nothing when they are made: a sheet is scaled for each figure, and taking the
-    fields as they are is ten times faster than asking for each of them."""
-    copy = object.__new__(type(value))
-    vars(copy).update(vars(value), **fields)
-    return copy
-
-
-def _times(value: Any, times: float) -> Any:
-    if isinstance(value, tuple):
-        return tuple(_times(part, times) for part in value)
-    if isinstance(value, dict):
-        return {name: _times(part, times) for name, part in value.items()}
-    if isinstance(value, OnPaper | TrialTable):
-        return value.scaled(times)
-    return value if value is None else value * times
 
 
 @dataclass(frozen=True)
@@ -581,26 +594,17 @@ class RateTrial:
 
 
 @dataclass(frozen=True)
-class TakenOff(OnPaper):
-    """A known vector with the rule of its size, and how long it is (mm) in the direction in which something is open."""
-
-    symbol: Symbol
-    size: Size | None
-    mm: float
-
-
-@dataclass(frozen=True)
 class Superposed(OnPaper):
     """The true rates by proportional division; ``apart`` (mm) is what is left open in each trial at ``closing``, along
     ``ways``: from the end point of the first of ``between`` to that of the second, less what is known between them,
-    ``less``; of plans of a train only what each leaves open."""
+    ``less``, with its length in that direction; of plans of a train only what each leaves open."""
 
     found: tuple[tuple[Symbol, float], ...]
     closing: tuple[str, ...]
     apart: tuple[tuple[float, ...], ...]
     ways: tuple[Direction, ...] = ()
     between: tuple[tuple[PointRef, PointRef], ...] = ()
-    less: tuple[tuple[TakenOff, ...], ...] = ()
+    less: tuple[tuple[tuple[Term, float], ...], ...] = ()
 
 
 # -- in words ----------------------------------------------------------------------------------------------------------

@@ -19,7 +19,6 @@ from graphkin.account.arithmetic import (
     factors_of,
     laid_sum,
     lengths_measured,
-    parts_by_rates,
     plan_sum,
     rate_sum,
     rule_sum,
@@ -203,7 +202,7 @@ def test_what_a_held_link_shows_is_laid_off_by_the_rates_as_the_other_vectors_ar
     for step in steps:
         drawn_ = {s.symbol: s for s in step.strokes if isinstance(s, Aid)}
         (start,) = (s.tip for t in sheet.steps for s in t.strokes if isinstance(s, Aid) and s.symbol == step.begins[0])
-        parts = parts_by_rates(sheet, step)
+        parts = step.data
         assert drawn_[step.symbol].tip - start == pytest.approx(sum(part.span for part in parts), abs=1e-9)
 
 
@@ -378,16 +377,21 @@ def test_two_links_turn_on_each_other_by_the_difference_of_their_rates(more, tol
     assert told == pytest.approx(float(once), rel=1e-4, abs=1e-20)
 
 
-def test_by_rates_that_are_nought_or_unknown_nothing_is_laid_off():
-    sheet, _ = drawn("sixbar-guide-40deg")
-    link = next(link for link in sheet.scene.links if len(link.points) > 1 and link.name in sheet.alpha)
-    start, end = map(PointRef, link.bar[:2])
-    step = Step("image", "rates", "velocity", ref=end, refs=(start,), link=link.name)
-    (velocity,) = parts_by_rates(sheet, step)
-    arm = (sheet.points[end] - sheet.points[start]) * sheet.scales.length / sheet.scales.velocity
-    assert 1j * sheet.omega[link.name].value * arm == pytest.approx(velocity.span)
-    assert [] == parts_by_rates(turning(sheet, **{link.name: 0.0}), step)
-    assert [] == parts_by_rates(replace(sheet, alpha={}), replace(step, diagram="acceleration"))
+def test_by_rates_is_laid_off_what_they_give_over_the_length_between_two_points():
+    sheet, (step, _) = seen_from_a_held_link()
+    (velocity,) = step.data
+    start, end = (sheet.points[PointRef(ref.point)] for ref in (step.refs[0], step.ref))
+    omega = sheet.omega[step.link].value - sheet.omega[step.held].value
+    expected = 1j * omega * (end - start) * sheet.scales.length / sheet.scales.velocity
+    assert expected == pytest.approx(velocity.span)
+
+
+def test_by_rates_that_are_nought_nothing_is_laid_off():
+    evenly = {**BY_RATE, "driver": {**BY_RATE["driver"], "alpha": 0.0}}
+    steps = [step for step in draft(mechanism_of(evenly)).steps if step.reason == "rates" and step.held]
+    assert [("velocity", ["v"]), ("acceleration", ["an"])] == [
+        (step.diagram, [part.symbol.kind for part in step.data]) for step in steps
+    ]
 
 
 def test_quotients_come_to_what_was_measured_and_what_is_laid_off_to_its_length():

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
-from graphkin.construction.steps import Direction, Part, Term
+from graphkin.construction.steps import NO_DIRECTION, Direction, Part, Term
 from graphkin.plane import cross, unit
 from graphkin.scene.symbol import Symbol
 
@@ -68,9 +68,8 @@ class ForceVector:
     @property
     def term(self) -> Term:
         """It as a term of the vector equation of its polygon."""
-        sized = self.by != "closing"
-        return Term(self.symbol, sized, sized or self.direction is not None, None, self.direction, self.part,
-                    self.turned)  # fmt: skip
+        sized, way = self.by != "closing", self.direction or NO_DIRECTION
+        return Term(self.symbol, sized, sized or self.direction is not None, None, way, self.part, self.turned)
 
     def between(self, tail: complex, tip: complex) -> ForceVector:
         """It as it stands in a polygon (mm)."""
