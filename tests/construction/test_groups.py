@@ -436,12 +436,12 @@ def test_why_trial_polygons_are_drawn_is_known() -> None:
 def test_what_is_known_of_the_end_left_open_is_taken_off_in_the_sense_in_which_it_is_measured() -> None:
     sheet = draft(mechanism_of("double-butterfly"))
     act = [step.data for step in sheet.steps if isinstance(step.data, Superposed)][1]
-    ((taken,),) = act.less
+    (((taken, mm),),) = act.less
     at = {str(ref): z for ref, z in sheet.points.items()}
     normal = -(sheet.omega["8"].value ** 2) * (at["D"] - at["K"]) * sheet.scales.length / sheet.scales.acceleration
     along = (at["D"] - at["K"]) / abs(at["D"] - at["K"])
     assert "an_D/K" == str(taken.symbol)
-    assert taken.mm == pytest.approx((normal * along.conjugate()).real, abs=1e-9)
+    assert mm == pytest.approx((normal * along.conjugate()).real, abs=1e-9)
 
 
 def test_a_pencil_keeps_what_it_promises() -> None:
