@@ -50,7 +50,7 @@ class CamMade:
     @cached_property
     def sheet(self) -> CamSheet:
         """The construction at the scale of its figure."""
-        from graphkin.drawing.figures.cam import scaled_cam
+        from graphkin.drawing.figures.constructions import scaled_cam
 
         return scaled_cam(self.mechanism, self.cam)
 
@@ -178,7 +178,7 @@ class CamMade:
 
     def figure(self, language: str) -> Drawing:
         """The cam by inversion, on a page of its own."""
-        from graphkin.drawing.figures.cam import cam_figure
+        from graphkin.drawing.figures.constructions import cam_figure
 
         return cam_figure(self.mechanism, self.sheet, self.phrases(), language)
 

@@ -35,7 +35,7 @@ from graphkin.words import LANGUAGES, Neutral, Phrase, say
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
     from graphkin.drawing.chart import ChartPage
-    from graphkin.drawing.figures.synthesis import Confirmed
+    from graphkin.drawing.figures.constructions import Confirmed
     from graphkin.solver.synthesis import FreeDatum, Synthesis
     from graphkin.study.turn import TurnStudy
     from graphkin.table import Table
@@ -94,7 +94,7 @@ class Designed(Result):
         return tuple(self._confirmed())
 
     def _confirmed(self) -> list[Confirmed]:
-        from graphkin.drawing.figures.synthesis import Confirmed
+        from graphkin.drawing.figures.constructions import Confirmed
 
         task, metres = self.given.task, self.given.units.metres
 
@@ -244,7 +244,7 @@ class Designed(Result):
     @cached_property
     def figures(self) -> dict[str, Drawing | ChartPage]:
         """The construction ("design"), and where a datum is free the chart of its choice ("choice")."""
-        from graphkin.drawing.figures.synthesis import choice_chart, design_figure
+        from graphkin.drawing.figures.constructions import choice_chart, design_figure
 
         spoken = self.language or self.given.sheet.language
         made: dict[str, Drawing | ChartPage] = {
@@ -298,7 +298,7 @@ def design(
     >>> f"crank {found['AB'].measured:.4f}, rod {found['BC'].measured:.4f}, {found.ok}"
     'crank 23.8220, rod 58.3700, True'
     """
-    from graphkin.drawing.figures.synthesis import design_scale
+    from graphkin.drawing.figures.constructions import design_scale
     from graphkin.solver.synthesis import synthesise
 
     known_words(formats, language, None, instrument, known_languages=ON_SHEETS)

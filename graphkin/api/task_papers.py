@@ -14,8 +14,13 @@ from graphkin.api.cams import CamMade
 from graphkin.api.designed import Designed
 from graphkin.checking.closed_form import predict_cam, predict_lengths
 from graphkin.checking.uncertainty import COVERAGE
-from graphkin.drawing.figures.cam import cam_given, cam_pictures
-from graphkin.drawing.figures.synthesis import asked_words, construction_picture, step_words
+from graphkin.drawing.figures.constructions import (
+    asked_words,
+    cam_given,
+    cam_pictures,
+    construction_picture,
+    step_words,
+)
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.blocks import (
     Block,
@@ -138,7 +143,7 @@ def design_papers(designed: Designed, formats: Sequence[str]) -> Mapping[str, by
                _each(language, lambda each: labelled("find", find, each))),
         start=(construction_picture(given, sheet, language, 1),),
         whole={said("design figure", language): construction_picture(given, sheet, language)},
-        steps=[_each(language, partial(step_words, step.phrase)) for step in sheet.steps],
+        steps=[_each(language, partial(step_words, phrase)) for phrase, _ in sheet.steps],
         results=results,
         notes=_notes(designed, language),
         language=language,

@@ -3,12 +3,13 @@
 Each construction is drawn at its true scale and measured; only what the task gives, and angles reckoned from it, are
 taken as given.  Slider-crank, crank-rocker and guide bar by K after Sun Huan, Mechanical Principles, ch. 8; places of a
 bar by the circles of its points, or by inversion (Hartenberg and Denavit, Kinematic Synthesis of Linkages, ch. 9).
-What stands on the paper are strokes in mm, y up, in numbered steps.
+What stands on the paper are strokes in mm, y up, in steps.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import singledispatch
 from typing import Literal
@@ -28,10 +29,7 @@ from graphkin.scene.designs import (
 )
 from graphkin.words import Markup, Phrase
 
-__all__ = [
-    "DesignAngle", "DesignCircle", "DesignLine", "DesignPoint", "DesignSheet", "DesignStep", "DesignStroke", "LineKind",
-    "construct",
-]  # fmt: skip
+__all__ = ["DesignSheet", "DesignStroke", "construct"]
 
 DECIMALS = range(2, 9)
 """Of lengths (mm) from which others are reckoned, until that is true as it is written."""
@@ -44,53 +42,57 @@ mechanism that is found."""
 
 
 @dataclass(frozen=True)
-class DesignLine:
-    """A line from a to b."""
+class DesignStroke:
+    """What the hand leaves on paper.
 
-    a: complex
-    b: complex
-    kind: LineKind
+    Parameters
+    ----------
+    kind : of lines (`LineKind`); or a circle, an angle, a point, or the point of a fixed pivot
+    places : from which to which lines run; the centre of a circle and the points near which it is drawn (none: all of
+        it); the apex of an angle and a place on each of its legs, counter-clockwise; a point (mm)
+    size : radius (mm), angle (degrees)
+    name : of a point or an angle, "" for one that needs none
+    """
 
-
-@dataclass(frozen=True)
-class DesignCircle:
-    """A circle, or of it only the arcs near the points ``near``."""
-
-    centre: complex
-    radius: float
-    near: tuple[complex, ...] = ()
-
-
-@dataclass(frozen=True)
-class DesignPoint:
-    """A point with its name ("" for one that needs none); a fixed pivot, or another."""
-
-    name: str
-    at: complex
-    pivot: bool = False
-
-
-@dataclass(frozen=True)
-class DesignAngle:
-    """An angle (degrees) drawn about a point from one direction to another, counter-clockwise."""
-
-    apex: complex
-    first: complex
-    second: complex
-    value: float
+    kind: LineKind | Literal["circle", "angle", "point", "pivot"]
+    places: tuple[complex, ...]
+    size: float = 0.0
     name: str = ""
 
 
-DesignStroke = DesignLine | DesignCircle | DesignPoint | DesignAngle
+def line(kind: LineKind, *places: complex) -> DesignStroke:
+    """Lines from place to place."""
+    return DesignStroke(kind, places)
 
 
-@dataclass(frozen=True)
-class DesignStep:
-    """One action: the sentence to be, and the strokes that it leaves."""
+def fan(kind: LineKind, apex: complex, *ends: complex) -> list[DesignStroke]:
+    """Lines from one place."""
+    return [line(kind, apex, end) for end in ends]
 
-    number: int
-    phrase: Phrase
-    strokes: tuple[DesignStroke, ...]
+
+def circle(centre: complex, radius: float, *near: complex) -> DesignStroke:
+    """A circle, or its arcs near some points."""
+    return DesignStroke("circle", (centre, *near), radius)
+
+
+def angle(apex: complex, first: complex, second: complex, value: float, name: str = "") -> DesignStroke:
+    """An angle (degrees) from one direction to another."""
+    return DesignStroke("angle", (apex, apex + first, apex + second), value, name)
+
+
+def dots(*places: complex) -> list[DesignStroke]:
+    """Points that need no names."""
+    return [DesignStroke("point", (at,)) for at in places]
+
+
+def points(**named: complex) -> list[DesignStroke]:
+    """Points with their names."""
+    return [DesignStroke("point", (at,), name=name) for name, at in named.items()]
+
+
+def pivots(**named: complex) -> list[DesignStroke]:
+    """Fixed pivots with their names."""
+    return [DesignStroke("pivot", (at,), name=name) for name, at in named.items()]
 
 
 def _not_drawn(what: str, found: str, wanted: str) -> Unsolvable:
@@ -104,7 +106,7 @@ class DesignSheet:
     Parameters
     ----------
     scale : units of the task's length for one mm
-    steps : what was done, in order
+    steps : what was done, in order: each a sentence to be, and the strokes that it leaves
     lengths : what was measured, mm on paper, by the two points of a bar ("ram": distance of its line from C)
     turned : bars that were found opposite to the angles asked
     """
@@ -112,25 +114,29 @@ class DesignSheet:
     task: DesignTask
     scale: float
     hand: Instrument
-    steps: list[DesignStep] = field(default_factory=list)
+    steps: list[tuple[Phrase, tuple[DesignStroke, ...]]] = field(default_factory=list)
     lengths: dict[str, float] = field(default_factory=dict)
     turned: list[str] = field(default_factory=list)
 
     @property
+    def strokes(self) -> list[DesignStroke]:
+        """Everything that stands on the paper."""
+        return [stroke for _, strokes in self.steps for stroke in strokes]
+
+    @property
     def points(self) -> dict[str, complex]:
         """The places of the named points."""
-        strokes = (stroke for step in self.steps for stroke in step.strokes)
-        return {stroke.name: stroke.at for stroke in strokes if isinstance(stroke, DesignPoint) and stroke.name}
-
-    # -- acts of the hand ----------------------------------------------------------------------------------------------
-
-    def do(self, key: str, args: tuple[object, ...], *strokes: DesignStroke) -> None:
-        """Record one step with the strokes that it leaves."""
-        self.steps.append(DesignStep(len(self.steps) + 1, Phrase(key, args), strokes))
+        return {s.name: s.places[0] for s in self.strokes if s.kind in ("point", "pivot") and s.name}
 
     def mm(self, length: float) -> float:
         """A length of the task on paper."""
         return length / self.scale
+
+    def do(self, key: str, args: tuple[object, ...], *strokes: DesignStroke) -> None:
+        """Record one step, told by a sentence, with the strokes that it leaves."""
+        self.steps.append((Phrase(key, args), strokes))
+
+    # -- acts of the hand ----------------------------------------------------------------------------------------------
 
     def lay_off(self, start: complex, along: complex, mm: float) -> complex:
         """A length in a direction that the set square gives."""
@@ -162,10 +168,15 @@ class DesignSheet:
         """A point and the direction of the perpendicular bisector, drawn by two pairs of compass arcs."""
         return self.hand.point((a + b) / 2), self.hand.direction(1j * unit(b - a))
 
-    def measure(self, *bars: tuple[str, complex, complex]) -> list[str]:
-        """The lengths of bars off the paper (mm), each by its name, and as they are written."""
-        self.lengths |= {name: self.hand.read(abs(b - a)) for name, a, b in bars}
-        return [f"{name if name == 'ram' else f'${name}$'} = {self.lengths[name]:.2f} mm" for name, _, _ in bars]
+    def measure(self, **bars: tuple[complex, complex]) -> None:
+        """The lengths of bars off the paper (mm), each by its name."""
+        self.lengths |= {name: self.hand.read(abs(b - a)) for name, (a, b) in bars.items()}
+
+    def told(self, *strokes: DesignStroke, **bars: tuple[complex, complex]) -> None:
+        """A step in which bars are measured."""
+        self.measure(**bars)
+        written = (f"{name if name == 'ram' else f'${name}$'} = {_mm(self.lengths[name])} mm" for name in bars)
+        self.do("design measured", (",  ".join(written),), *strokes)
 
 
 # -- the tasks ---------------------------------------------------------------------------------------------------------
@@ -188,6 +199,11 @@ def _mm(length: float) -> str:
     return f"{length:.2f}"
 
 
+def _theta(K: float) -> float:
+    """Acute angle between the crank's limit positions (rad)."""
+    return math.pi * (K - 1.0) / (K + 1.0)
+
+
 @singledispatch
 def draw(task: DesignTask, paper: DesignSheet) -> None:
     """Draw a task on paper, by its kind."""
@@ -196,49 +212,63 @@ def draw(task: DesignTask, paper: DesignSheet) -> None:
 
 @draw.register
 def _(task: SliderCrankTask, paper: DesignSheet) -> None:
-    theta = _theta(task.K)
+    stroke, offset = paper.mm(task.stroke), paper.mm(task.offset)
     near = paper.hand.point(0j)
-    far = paper.lay_off(near, 1 + 0j, paper.mm(task.stroke))
-    paper.do("design stroke", (Markup("C_{2}C_{1}"), _mm(paper.mm(task.stroke))),
-            DesignLine(near, far, "given"), DesignPoint("C1", far), DesignPoint("C2", near))  # fmt: skip
-    middle, radius = _locus(paper, far, near, 1, theta, task.K)
+    far = paper.lay_off(near, 1 + 0j, stroke)
+    paper.do("design stroke", (Markup("C_{2}C_{1}"), _mm(stroke)), line("given", near, far), *points(C1=far, C2=near))
+    middle, radius = _locus(paper, far, near, 1, task.K)
     # A lies beyond the near end of the stroke, the offset above its line
-    height = near + 1j * paper.hand.length(paper.mm(task.offset))
-    along = paper.hand.direction(1 + 0j)
-    A = paper.cut("A", height, along, middle, radius)[1]
-    paper.do("design parallel", (_mm(paper.mm(task.offset)),),
-            DesignLine(A, complex(far.real, A.imag), "direction"), DesignPoint("A", A, pivot=True))  # fmt: skip
+    height = near + 1j * paper.hand.length(offset)
+    A = paper.cut("A", height, paper.hand.direction(1 + 0j), middle, radius)[1]
+    paper.do("design parallel", (_mm(offset),), line("direction", A, complex(far.real, A.imag)), *pivots(A=A))
     _crank_from_limits(paper, A, far, near)
 
 
 @draw.register
 def _(task: CrankRockerTask, paper: DesignSheet) -> None:
-    theta, half = _theta(task.K), task.swing / 2
+    half, arm = task.swing / 2, paper.mm(task.rocker)
     D = paper.hand.point(0j)
-    arm = paper.mm(task.rocker)
-    first = paper.lay_off_angle(D, direction(90.0 + half), arm)
-    second = paper.lay_off_angle(D, direction(90.0 - half), arm)
-    paper.do("design swing", (f"{task.swing:.6g}", _mm(arm)), DesignPoint("D", D, pivot=True),
-            DesignLine(D, first, "given"), DesignLine(D, second, "given"), DesignPoint("C1", first),
-            DesignPoint("C2", second),
-            DesignAngle(D, second - D, first - D, task.swing, "ψ"))  # fmt: skip
-    A = _pivot_on_line(paper, D, first, second, task) if theta == 0.0 else _pivot_on_circle(
-        paper, D, _locus(paper, first, second, -1, theta, task.K), task
-    )
+    first, second = (paper.lay_off_angle(D, direction(90.0 + side * half), arm) for side in (1, -1))
+    paper.do("design swing", (f"{task.swing:.6g}", _mm(arm)), *fan("given", D, first, second), *pivots(D=D),
+             *points(C1=first, C2=second), angle(D, second - D, first - D, task.swing, "ψ"))  # fmt: skip
+    if _theta(task.K) == 0.0:
+        A = _pivot_on_line(paper, D, first, second, task)
+    else:
+        A = _pivot_on_circle(paper, D, _locus(paper, first, second, -1, task.K), task)
     _between_limits(paper, A, D, first, second)
 
 
-def _between_limits(paper: DesignSheet, A: complex, D: complex, first: complex, second: complex) -> None:
-    """The crank and the rod from both limit positions of a rocker, then the rocker and the frame."""
-    swapped = abs(first - A) < abs(second - A)
-    far, near = (second, first) if swapped else (first, second)
-    _crank_from_limits(paper, A, far, near, swapped)
-    paper.measure(("CD", first, D), ("AD", A, D))
+@draw.register
+def _(task: LimitsTask, paper: DesignSheet) -> None:
+    A, D, arm = paper.plot(task.A), paper.plot(task.D), paper.mm(task.rocker)
+    first, second = (paper.lay_off_angle(D, direction(angle), arm) for angle in task.angles)
+    paper.do("design limit positions", (_mm(arm), *(f"{angle:.6g}" for angle in task.angles)),
+             *fan("given", D, first, second), *pivots(A=A, D=D), *points(C1=first, C2=second))  # fmt: skip
+    _between_limits(paper, A, D, first, second)
 
 
-def _pivot_on_circle(paper: DesignSheet, D: complex, circle: tuple[complex, float], task: CrankRockerTask) -> complex:
+def _locus(paper: DesignSheet, first: complex, second: complex, above: int, K: float) -> tuple[complex, float]:
+    """The circle over C1C2 from whose points above the chord (-1: below) it is seen under theta: centre and radius."""
+    left, right = sorted((first, second), key=lambda z: z.real)
+    tilt, shown = math.pi / 2 - _theta(K), f"{math.degrees(_theta(K)):.6g}"
+    midway, square = paper.bisector(first, second)
+    leg = paper.hand.angle(unit(right - left) * complex(math.cos(tilt), above * math.sin(tilt)))
+    centre = paper.meet("O", left, leg, midway, square)
+    radius = paper.hand.compass(abs(first - centre))
+    paper.do("design theta", (f"{K:.6g}", shown))
+    legs = right - left, (centre - left) or leg
+    turn = legs if (tilt > 0) == (above > 0) else legs[::-1]
+    paper.do("design centre", (f"{math.degrees(tilt):.6g}", shown), angle(left, *turn, abs(math.degrees(tilt))),
+             *fan("construction", left, centre, right), line("direction", midway, centre), *points(O=centre),
+             circle(centre, radius))  # fmt: skip
+    return centre, radius
+
+
+def _pivot_on_circle(
+    paper: DesignSheet, D: complex, locus: tuple[complex, float], task: CrankRockerTask
+) -> complex:
     """The crank's pivot, where the arc of the frame about D cuts the circle over C1C2."""
-    middle, radius = circle
+    middle, radius = locus
     reach = paper.hand.compass(paper.mm(task.frame))
     if abs(middle - D) < 1e-9 * radius:
         raise _not_drawn("A", "the circle over c1c2 is one about d", "another k or swing")
@@ -246,216 +276,165 @@ def _pivot_on_circle(paper: DesignSheet, D: complex, circle: tuple[complex, floa
     if met is None:
         raise _not_drawn("A", "the arc about d does not reach the", "another frame")
     A = paper.hand.point(min(met, key=lambda z: z.real))
-    paper.do("design arc", (Markup("D"), _mm(paper.mm(task.frame)), Markup("A")),
-             DesignCircle(D, reach, (A,)), DesignPoint("A", A, pivot=True))  # fmt: skip
+    told = Markup("D"), _mm(paper.mm(task.frame)), Markup("A")
+    paper.do("design arc", told, circle(D, reach, A), *pivots(A=A))
     return A
 
 
-def _pivot_on_line(
-    paper: DesignSheet, D: complex, first: complex, second: complex, task: CrankRockerTask
-) -> complex:
+def _pivot_on_line(paper: DesignSheet, D: complex, first: complex, second: complex, task: CrankRockerTask) -> complex:
     """The same for K = 1: crank and rod lie in the line C1C2 in both limit positions."""
     reach = paper.hand.compass(paper.mm(task.frame))
     A = paper.cut("A", second, unit(first - second), D, reach)[0]
     paper.do("design theta", (f"{task.K:.6g}", "0"))
-    paper.do("design line", (Markup("D"), _mm(paper.mm(task.frame)), Markup("A")),
-             DesignLine(second, A, "construction"), DesignCircle(D, reach, (A,)),
-             DesignPoint("A", A, pivot=True))  # fmt: skip
+    told = Markup("D"), _mm(paper.mm(task.frame)), Markup("A")
+    paper.do("design line", told, line("construction", second, A), circle(D, reach, A), *pivots(A=A))
     return A
 
 
-def _locus(
-    paper: DesignSheet, first: complex, second: complex, above: int, theta: float, K: float
-) -> tuple[complex, float]:
-    """The circle over C1C2 from whose points above the chord (-1: below) it is seen under theta: centre and radius."""
-    left, right = sorted((first, second), key=lambda z: z.real)
-    tilt = math.pi / 2 - theta
-    midway, square = paper.bisector(first, second)
-    leg = paper.hand.angle(unit(right - left) * complex(math.cos(tilt), above * math.sin(tilt)))
-    centre = paper.meet("O", left, leg, midway, square)
-    radius = paper.hand.compass(abs(first - centre))
-    shown = f"{math.degrees(theta):.6g}"
-    paper.do("design theta", (f"{K:.6g}", shown))
-    legs = right - left, (centre - left) or leg
-    turn = legs if (tilt > 0) == (above > 0) else legs[::-1]
-    paper.do("design centre", (f"{math.degrees(tilt):.6g}", shown), DesignAngle(left, *turn, abs(math.degrees(tilt))),
-            DesignLine(left, centre, "construction"), DesignLine(left, right, "construction"),
-            DesignLine(midway, centre, "direction"),
-            DesignPoint("O", centre), DesignCircle(centre, radius))  # fmt: skip
-    return centre, radius
+def _between_limits(paper: DesignSheet, A: complex, D: complex, first: complex, second: complex) -> None:
+    """The crank and the rod from both limit positions of a rocker, then the rocker and the frame."""
+    swapped = abs(first - A) < abs(second - A)
+    far, near = (second, first) if swapped else (first, second)
+    _crank_from_limits(paper, A, far, near, swapped)
+    paper.measure(CD=(first, D), AD=(A, D))
 
 
 def _crank_from_limits(paper: DesignSheet, A: complex, far: complex, near: complex, swapped: bool = False) -> None:
     """The crank as half the difference of AC1 and AC2, laid off by the compass, with both limit positions."""
-    names = ("C_{2}", "C_{1}") if swapped else ("C_{1}", "C_{2}")
+    i, j = (2, 1) if swapped else (1, 2)
     reach = paper.hand.compass(abs(near - A))
     on_far = paper.hand.point(A + reach * unit(far - A))  # AC2 laid on AC1: what remains is twice the crank
     crank = paper.hand.compass(abs(far - on_far) / 2)
-    ends = (near, far) if cross(near - A, far - A) > 0 else (far, near)
-    theta = math.degrees(math.atan2(abs(cross(near - A, far - A)), dot(near - A, far - A)))
-    shown = [DesignAngle(A, ends[0] - A, ends[1] - A, theta, "θ")] if theta > SEEN else []
-    paper.do("design halve", (Markup("A" + names[0]), Markup("A" + names[1])), *shown, DesignLine(A, far, "limit"),
-            DesignLine(A, near, "limit"), DesignCircle(A, reach, (on_far,)))  # fmt: skip
+    ends = (near - A, far - A) if cross(near - A, far - A) > 0 else (far - A, near - A)
+    theta = math.degrees(math.atan2(abs(cross(*ends)), dot(*ends)))
+    shown = [angle(A, *ends, theta, "θ")] if theta > SEEN else []
+    paper.do("design halve", (Markup(f"AC_{{{i}}}"), Markup(f"AC_{{{j}}}")), *shown, *fan("limit", A, far, near),
+             circle(A, reach, on_far))  # fmt: skip
     out, back = paper.hand.point(A + crank * unit(far - A)), paper.hand.point(A - crank * unit(near - A))
-    labels = ("B2", "B1") if swapped else ("B1", "B2")
-    paper.do("design crank circle", (), DesignCircle(A, crank), DesignPoint(labels[0], out),
-            DesignPoint(labels[1], back), DesignLine(A, back, "limit"),
-            DesignLine(A, out, "mechanism"), DesignLine(out, far, "mechanism"))  # fmt: skip
-    paper.do("design measured", (",  ".join(paper.measure(("AB", A, out), ("BC", out, far))),))
+    paper.do("design crank circle", (), circle(A, crank), *points(**{f"B{i}": out, f"B{j}": back}),
+             line("limit", A, back), line("mechanism", A, out, far))  # fmt: skip
+    paper.told(AB=(A, out), BC=(out, far))
 
 
 @draw.register
 def _(task: GuideBarTask, paper: DesignSheet) -> None:
-    theta = _theta(task.K)
+    hand, theta, centres, reach = paper.hand, _theta(task.K), paper.mm(task.centres), paper.mm(task.stroke) / 2
     half = theta / 2
-    C = paper.hand.point(0j)
-    A = paper.lay_off(C, 1j, paper.mm(task.centres))
-    paper.do("design centres", (_mm(paper.mm(task.centres)),), DesignLine(C, A, "given"),
-            DesignPoint("A", A, pivot=True), DesignPoint("C", C, pivot=True))  # fmt: skip
+    C = hand.point(0j)
+    A = paper.lay_off(C, 1j, centres)
+    paper.do("design centres", (_mm(centres),), line("given", C, A), *pivots(A=A, C=C))
     paper.do("design theta", (f"{task.K:.6g}", f"{math.degrees(theta):.6g}"))
-    left = paper.hand.angle(unit(A - C) * complex(math.cos(half), math.sin(half)))
-    right = paper.hand.angle(unit(A - C) * complex(math.cos(half), -math.sin(half)))
-    foot = paper.meet("B1", C, left, A, paper.hand.direction(1j * left))
-    other = paper.meet("B2", C, right, A, paper.hand.direction(1j * right))
-    reach = abs(A - C)
+    left, right = (hand.angle(unit(A - C) * complex(math.cos(half), side * math.sin(half))) for side in (1, -1))
+    foot = paper.meet("B1", C, left, A, hand.direction(1j * left))
+    other = paper.meet("B2", C, right, A, hand.direction(1j * right))
+    far = abs(A - C)
     paper.do("design bar limits", (f"{math.degrees(half):.6g}",),
-            DesignLine(C, C + 1.15 * reach * left, "direction"),
-            DesignLine(C, C + 1.15 * reach * right, "direction"),
-            DesignAngle(C, reach * right, reach * left, math.degrees(theta), "θ"))  # fmt: skip
-    paper.do("design feet", (), DesignLine(A, foot, "mechanism"), DesignLine(A, other, "limit"),
-            DesignPoint("B1", foot), DesignPoint("B2", other), DesignCircle(A, abs(foot - A)))  # fmt: skip
-    apart = paper.hand.length(paper.mm(task.stroke) / 2)
-    first = paper.meet("D1", C, left, C - apart, paper.hand.direction(1j))
-    second = paper.meet("D2", C, right, C + apart, paper.hand.direction(1j))
-    middle = C + 1j * abs(first - C)
-    paper.do("design bar ends", (_mm(paper.mm(task.stroke) / 2),),
-            DesignLine(C - apart, first, "construction"), DesignLine(C + apart, second, "construction"),
-            DesignPoint("D1", first), DesignPoint("D2", second), DesignLine(C, first, "mechanism"),
-            DesignLine(C, second, "limit"))  # fmt: skip
-    top = paper.hand.point(middle)
+             *fan("direction", C, C + 1.15 * far * left, C + 1.15 * far * right),
+             angle(C, far * right, far * left, math.degrees(theta), "θ"))  # fmt: skip
+    paper.do("design feet", (), line("mechanism", A, foot), line("limit", A, other), *points(B1=foot, B2=other),
+             circle(A, abs(foot - A)))  # fmt: skip
+    apart = hand.length(reach)
+    first = paper.meet("D1", C, left, C - apart, hand.direction(1j))
+    second = paper.meet("D2", C, right, C + apart, hand.direction(1j))
+    top = C + 1j * abs(first - C)
+    paper.do("design bar ends", (_mm(reach),), line("construction", C - apart, first),
+             line("construction", C + apart, second), *points(D1=first, D2=second), line("mechanism", C, first),
+             line("limit", C, second))  # fmt: skip
+    top = hand.point(top)
     chord = paper.meet("chord", first, unit(second - first), C, 1j)
-    line = paper.hand.point((top + chord) / 2)
-    rod = paper.hand.compass(paper.mm(task.rod_length))
-    paper.do("design sagitta", (), DesignCircle(C, abs(first - C), (first, top, second)),
-            DesignLine(first, second, "construction"),
-            DesignLine(line - apart, line + apart + rod, "direction"))  # fmt: skip
-    E = paper.cut("E", line, 1 + 0j, first, rod)[0]
-    paper.do("design ram", (_mm(paper.mm(task.rod_length)),), DesignCircle(first, rod, (E,)),
-            DesignPoint("E1", E), DesignLine(first, E, "mechanism"))  # fmt: skip
-    told = paper.measure(("AB", A, foot), ("AC", A, C), ("CD", C, first), ("ram", C, line))
-    paper.do("design measured", (",  ".join(told),))
-
-
-@draw.register
-def _(task: LimitsTask, paper: DesignSheet) -> None:
-    A, D = paper.plot(task.A), paper.plot(task.D)
-    arm = paper.mm(task.rocker)
-    first, second = (paper.lay_off_angle(D, direction(angle), arm) for angle in task.angles)
-    shown = tuple(f"{angle:.6g}" for angle in task.angles)
-    paper.do("design limit positions", (_mm(arm), *shown), DesignPoint("A", A, pivot=True),
-            DesignPoint("D", D, pivot=True), DesignLine(D, first, "given"), DesignLine(D, second, "given"),
-            DesignPoint("C1", first), DesignPoint("C2", second))  # fmt: skip
-    _between_limits(paper, A, D, first, second)
+    level = hand.point((top + chord) / 2)
+    rod = hand.compass(paper.mm(task.rod_length))
+    paper.do("design sagitta", (), circle(C, abs(first - C), first, top, second), line("construction", first, second),
+             line("direction", level - apart, level + apart + rod))  # fmt: skip
+    E = paper.cut("E", level, 1 + 0j, first, rod)[0]
+    paper.do("design ram", (_mm(paper.mm(task.rod_length)),), circle(first, rod, E), *points(E1=E),
+             line("mechanism", first, E))  # fmt: skip
+    paper.told(AB=(A, foot), AC=(A, C), CD=(C, first), ram=(C, level))
 
 
 @draw.register
 def _(task: BarPositionsTask, paper: DesignSheet) -> None:
     bars = [(paper.plot(bar.B), paper.plot(bar.C)) for bar in task.positions]
-    named = [(f"{name}{i}", at) for i, bar in enumerate(bars, 1) for name, at in zip("BC", bar, strict=True)]
-    marks = [DesignPoint(name, at) for name, at in named]
-    lines = [DesignLine(*bar, "given" if i == 0 else "limit") for i, bar in enumerate(bars)]
-    paper.do("design places", (), *lines, *marks)
+    ends = {f"{name}{i}": at for i, bar in enumerate(bars, 1) for name, at in zip("BC", bar, strict=True)}
+    lines = [line("limit" if i else "given", *bar) for i, bar in enumerate(bars)]
+    paper.do("design places", (), *lines, *points(**ends))
+    (B, C), *_ = bars
     if task.A is None or task.D is None:
-        A = _circle_centre(paper, "A", "B", [bar[0] for bar in bars], pivot=True)
-        D = _circle_centre(paper, "D", "C", [bar[1] for bar in bars], pivot=True)
-        chain = ("A", A), ("B", bars[0][0]), ("C", bars[0][1]), ("D", D)
-    else:
-        A, D = paper.plot(task.A), paper.plot(task.D)
-        paper.do("design pivots", (), DesignPoint("A", A, pivot=True), DesignPoint("D", D, pivot=True))
-        found = []
-        for name, at, new in (("A", A, "M"), ("D", D, "N")):
-            turned = [at, *(_carried(paper, at, bar, bars[0]) for bar in bars[1:])]
-            paper.do("design inverted", (Markup(name),), *(
-                stroke for i, z in enumerate(turned[1:], 2)
-                for stroke in (DesignPoint(f"{name}{i}", z), DesignLine(bars[0][0], z, "construction"),
-                               DesignLine(bars[0][1], z, "construction"))))  # fmt: skip
-            found.append(_circle_centre(paper, new, name, turned, numbered=(2, 3)))
-        chain = ("A", A), ("M", found[0]), ("N", found[1]), ("D", D)
-    _chain(paper, chain, close="DN" if len(chain) and chain[2][0] == "N" else "CD")
-
-
-def _carried(paper: DesignSheet, at: complex, bar: tuple[complex, complex], to: tuple[complex, complex]) -> complex:
-    """A point carried along with the bar, by overlay."""
-    turn = unit(to[1] - to[0]) / unit(bar[1] - bar[0])
-    return paper.hand.point(to[0] + (at - bar[0]) * turn)
+        A, D = (_circle_centre(paper, name, [f"{of}_{{{i}}}" for i in (1, 2, 3)], on, pivots)
+                for name, of, on in zip("AD", "BC", zip(*bars, strict=True), strict=True))  # fmt: skip
+        _chain(paper, "CD", A=A, B=B, C=C, D=D)
+        return
+    A, D = paper.plot(task.A), paper.plot(task.D)
+    paper.do("design pivots", (), *pivots(A=A, D=D))
+    centres = []
+    for name, at, new in (("A", A, "M"), ("D", D, "N")):
+        # carried along with the bar, by overlay
+        turned = [at, *(paper.hand.point(B + (at - b) * (unit(C - B) / unit(c - b))) for b, c in bars[1:])]
+        strokes: list[DesignStroke] = []
+        for i, z in enumerate(turned[1:], 2):
+            strokes += [*points(**{f"{name}{i}": z}), line("construction", B, z), line("construction", C, z)]
+        paper.do("design inverted", (Markup(name),), *strokes)
+        centres.append(_circle_centre(paper, new, [name, f"{name}_{{2}}", f"{name}_{{3}}"], turned, points))
+    _chain(paper, "DN", A=A, M=centres[0], N=centres[1], D=D)
 
 
 def _circle_centre(
-    paper: DesignSheet, name: str, of: str, points: list[complex], pivot: bool = False,
-    numbered: tuple[int, ...] = (1, 2, 3),
-) -> complex:
-    """The centre of the circle through three points: where the perpendicular bisectors of two chords meet."""
+    paper: DesignSheet, name: str, of: Sequence[str], on: Sequence[complex],
+    marked: Callable[..., list[DesignStroke]],
+) -> complex:  # fmt: skip
+    """The centre of the circle through three points, called ``of``: where the perpendicular bisectors of two chords
+    meet."""
     # the two longest sides give the best crossing
-    sides = sorted(((i, j) for i, j in ((0, 1), (1, 2), (0, 2))), key=lambda s: -abs(points[s[1]] - points[s[0]]))
+    sides = sorted(((i, j) for i, j in ((0, 1), (1, 2), (0, 2))), key=lambda side: -abs(on[side[1]] - on[side[0]]))
     (i, j), (k, m) = sorted(sides[:2])
-    p, d = paper.bisector(points[i], points[j])
-    q, e = paper.bisector(points[k], points[m])
+    p, d = paper.bisector(on[i], on[j])
+    q, e = paper.bisector(on[k], on[m])
     at = paper.meet(name, p, d, q, e)
-
-    def written(n: int) -> str:
-        return of if len(numbered) == 2 and n == 0 else f"{of}_{{{n + 1}}}"
-
-    paper.do("design bisectors", (Markup(name), Markup(written(i) + written(j)), Markup(written(k) + written(m))),
-            DesignLine(points[i], points[j], "construction"), DesignLine(points[k], points[m], "construction"),
-            DesignLine(p, at, "direction"), DesignLine(q, at, "direction"),
-            DesignCircle(at, abs(points[0] - at), tuple(points)), DesignPoint(name, at, pivot))  # fmt: skip
+    paper.do("design bisectors", (Markup(name), Markup(of[i] + of[j]), Markup(of[k] + of[m])),
+             line("construction", on[i], on[j]), line("construction", on[k], on[m]), line("direction", p, at),
+             line("direction", q, at), circle(at, abs(on[0] - at), *on), *marked(**{name: at}))  # fmt: skip
     return at
 
 
-def _chain(paper: DesignSheet, chain: tuple[tuple[str, complex], ...], close: str) -> None:
-    """The four bars of a linkage measured, drawn as it stands."""
-    (a, A), (b, B), (c, C), (d, D) = chain
-    bars = [DesignLine(A, B, "mechanism"), DesignLine(B, C, "mechanism"), DesignLine(C, D, "mechanism")]
-    told = paper.measure((a + b, A, B), (b + c, B, C), (close, C, D), (a + d, A, D))
-    paper.do("design measured", (",  ".join(told),), *bars)
+def _chain(paper: DesignSheet, close: str, **chain: complex) -> None:
+    """The four bars of a linkage measured, drawn as it stands; ``close`` is what the third bar is called."""
+    (a, A), (b, B), (c, C), (d, D) = chain.items()
+    bars = {a + b: (A, B), b + c: (B, C), close: (C, D), a + d: (A, D)}
+    paper.told(line("mechanism", A, B, C, D), **bars)
 
 
 @draw.register
 def _(task: FunctionTask, paper: DesignSheet) -> None:
     """Two trial cranks, each with the rockers that two pairs of pairs ask for; between the reciprocals of crank and
     rocker each relation is a straight line (Freudenstein's equation is linear in them)."""
-    frame = paper.mm(task.frame)
-    A = paper.hand.point(0j)
+    hand, frame = paper.hand, paper.mm(task.frame)
+    A = hand.point(0j)
     D = paper.lay_off(A, 1 + 0j, frame)
-    phi = [paper.hand.angle(direction(pair[0])) for pair in task.pairs]
-    psi = [paper.hand.angle(direction(pair[1])) for pair in task.pairs]
-    rays = [DesignLine(A, A + 0.6 * frame * way, "direction") for way in phi]
-    rays += [DesignLine(D, D + 0.6 * frame * way, "direction") for way in psi]
-    paper.do("design pairs", (_mm(frame),), DesignLine(A, D, "given"), DesignPoint("A", A, pivot=True),
-            DesignPoint("D", D, pivot=True), *rays)  # fmt: skip
+    phi, psi = ([hand.angle(direction(pair[i])) for pair in task.pairs] for i in (0, 1))
+    rays = [line("direction", at, at + 0.6 * frame * way) for at, ways in ((A, phi), (D, psi)) for way in ways]
+    paper.do("design pairs", (_mm(frame),), line("given", A, D), *pivots(A=A, D=D), *rays)
     trials = [_trials(paper, A, D, frame, phi, psi, other) for other in (1, 2)]
     # one unit of the diagram, so that what was tried fits beside the mechanism
-    one = frame / max(1.0, *(max(abs(z.real), abs(z.imag)) for line in trials for z in line))
-    (p, q), (r, s) = ([paper.hand.point(one * z) for z in line] for line in trials)
+    one = frame / max(1.0, *(max(abs(z.real), abs(z.imag)) for ends in trials for z in ends))
+    (p, q), (r, s) = ([hand.point(one * z) for z in ends] for ends in trials)
     crossing = paper.meet("AB", p, unit(q - p), r, unit(s - r))
     corner = complex(2.2 * frame, 0.0)
-    axes = [DesignLine(corner, corner + way * max(0.3 * frame, 1.1 * z), "direction")
-            for way, z in ((1, crossing.real), (1j, crossing.imag))]  # fmt: skip
-    strokes: list[DesignStroke] = [DesignPoint("", corner + z) for z in (p, q, r, s)]
+    strokes = [line("direction", corner, corner + way * max(0.3 * frame, 1.1 * z))
+               for way, z in ((1, crossing.real), (1j, crossing.imag))]  # fmt: skip
+    strokes += dots(*(corner + z for z in (p, q, r, s)))
     for a, b in ((p, q), (r, s)):
-        along = sorted((a, b, crossing), key=lambda z: (z.real, z.imag))
-        strokes.append(DesignLine(corner + along[0], corner + along[-1], "construction"))
-    paper.do("design reciprocals", (_mm(one),), *axes, *strokes, DesignPoint("Q", corner + crossing))
-    across, upward = paper.hand.read_signed(crossing.real), paper.hand.read_signed(crossing.imag)
+        first, _, last = sorted((a, b, crossing), key=lambda z: (z.real, z.imag))
+        strokes.append(line("construction", corner + first, corner + last))
+    paper.do("design reciprocals", (_mm(one),), *strokes, *points(Q=corner + crossing))
+    across, upward = hand.read_signed(crossing.real), hand.read_signed(crossing.imag)
     if min(abs(across), abs(upward)) < 1e-9 * one:
         raise _not_drawn("design.pairs", "they ask for a bar without end", "other angles")
     crank, rocker = frame * one / across, frame * one / upward
     paper.turned += [name for name, mm in (("AB", crank), ("CD", rocker)) if mm < 0]
-    B = paper.hand.point(A + paper.hand.length(abs(crank)) * math.copysign(1.0, crank) * phi[0])
-    C = paper.hand.point(D + paper.hand.length(abs(rocker)) * math.copysign(1.0, rocker) * psi[0])
-    paper.do("design reckoned", _reckoned(frame, one, across, upward),
-            DesignPoint("B", B), DesignPoint("C", C))  # fmt: skip
-    _chain(paper, (("A", A), ("B", B), ("C", C), ("D", D)), close="CD")
+    B = hand.point(A + hand.length(abs(crank)) * math.copysign(1.0, crank) * phi[0])
+    C = hand.point(D + hand.length(abs(rocker)) * math.copysign(1.0, rocker) * psi[0])
+    paper.do("design reckoned", _reckoned(frame, one, across, upward), *points(B=B, C=C))
+    _chain(paper, "CD", A=A, B=B, C=C, D=D)
 
 
 def _reckoned(frame: float, one: float, across: float, upward: float) -> tuple[str, ...]:
@@ -464,8 +443,8 @@ def _reckoned(frame: float, one: float, across: float, upward: float) -> tuple[s
     lengths = [abs(frame * one / side) for side in (across, upward)]
     for decimals in DECIMALS:
         base, unit, *sides = (round(value, decimals) for value in (frame, one, across, upward))
-        told = [f"{length:.2f}" for length in lengths]
-        if all(f"{abs(base * unit / side):.2f}" == text for side, text in zip(sides, told, strict=True) if side):
+        told = [_mm(length) for length in lengths]
+        if all(_mm(abs(base * unit / side)) == text for side, text in zip(sides, told, strict=True) if side):
             break
     return (*tuple(f"{side:.{decimals}f}" for side in sides), *told, f"{unit:.{decimals}f}")
 
@@ -495,16 +474,11 @@ def _trials(
     strokes: list[DesignStroke] = []
     ends = []
     for crank, reciprocal, B, moved, p in found:
+        strokes += [*dots(B, moved), line("construction", B, moved)]
         at = D + psi[0] * (frame / reciprocal) if abs(reciprocal) > 1e-9 else None
-        strokes += [DesignPoint("", B), DesignPoint("", moved), DesignLine(B, moved, "construction")]
         if at is not None and abs(at - D) < 3 * frame:
-            strokes += [DesignLine(p, at, "direction"), DesignPoint("", at)]
+            strokes += [line("direction", p, at), *dots(at)]
             reciprocal = frame / paper.hand.read_signed(math.copysign(abs(at - D), reciprocal))
         ends.append(complex(frame / paper.hand.read(crank), reciprocal))
     paper.do("design trial", (str(other + 1),), *strokes)
     return ends[0], ends[1]
-
-
-def _theta(K: float) -> float:
-    """Acute angle between the crank's limit positions (rad)."""
-    return math.pi * (K - 1.0) / (K + 1.0)

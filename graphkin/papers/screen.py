@@ -25,8 +25,8 @@ from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName, Step, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import FigurePage
-from graphkin.drawing.figures.cam import cam_pictures, scaled_cam
 from graphkin.drawing.figures.centres import background, centre_marks, near_box
+from graphkin.drawing.figures.constructions import cam_pictures, scaled_cam
 from graphkin.drawing.figures.forces import group_equation, group_picture, lever_figure
 from graphkin.drawing.figures.train import moving_plans, train_figure
 from graphkin.drawing.ink.primitives import Group, Primitive

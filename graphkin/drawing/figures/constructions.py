@@ -1,0 +1,600 @@
+"""The figures of tasks that are worked out by one construction, on a page of its own at its true scale: its steps in
+words, a table, and what is found.
+
+Of a synthesis the lengths measured beside the exact ones, and what a turn of the found mechanism confirms.  Of a cam
+the displacement diagram divided and numbered, the cam by inversion, and the pressure angle at each division.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from graphkin.account.headings import number, once, term, written
+from graphkin.checking.closed_form import FoundLength
+from graphkin.construction.cam_sheet import CamDivision, CamSheet, cam_sheet
+from graphkin.construction.scales import Extent, fitting_scale
+from graphkin.construction.synthesis import DesignSheet, DesignStroke
+from graphkin.drawing.box import Box
+from graphkin.drawing.boxes import STEP, WORKED, Block, picture, row, steps, table, worked_page
+from graphkin.drawing.chart import ChartPage
+from graphkin.drawing.figures import Figure
+from graphkin.drawing.ink import strokes, symbols
+from graphkin.drawing.ink.primitives import (
+    Arc,
+    Circle,
+    Group,
+    Line,
+    Polygon,
+    Polyline,
+    Primitive,
+    Run,
+    Stroke,
+    Text,
+    on_page,
+)
+from graphkin.drawing.place.piece import Piece, cut_to, ink_box
+from graphkin.drawing.plate import Plate, centred
+from graphkin.drawing.text import plain, rich, runs_width, symbol
+from graphkin.drawing.write.drawing import Drawing
+from graphkin.scene.cams import LawCam, SlidingFollower, SwingingFollower
+from graphkin.scene.designs import BarPositionsTask, Design
+from graphkin.scene.laws import TURN
+from graphkin.scene.model import Mechanism
+from graphkin.version import __version__
+from graphkin.words import Phrase, as_markup, as_plain, languages, rich_text, say, word
+from graphkin.words.written import amount, on_paper, product
+
+if TYPE_CHECKING:
+    from graphkin.drawing.chart import Figure as Chart
+
+__all__ = [
+    "FIGURES", "Confirmed", "asked_words", "cam_figure", "cam_given", "cam_pictures", "choice_chart",
+    "construction_picture", "design_figure", "design_scale", "scaled_cam", "step_words",
+]  # fmt: skip
+
+
+# -- a synthesis -------------------------------------------------------------------------------------------------------
+
+ROOM = 9.0  # mm around the construction, for names
+PANEL = (168.0, 128.0)  # mm that the construction may fill
+FAR, WHOLE = 2.2, 1.3  # a help point, or the whole of a circle, that makes the figure so many times larger is cut off
+_LINES: dict[str, Stroke] = {
+    "given": strokes.LINK, "construction": strokes.CONSTRUCTION, "direction": strokes.DIRECTION,
+    "limit": Stroke(0.35, (3.0, 1.0)), "mechanism": Stroke(0.7),
+}  # fmt: skip
+_NAME = re.compile(r"([A-Z])(\d+)")
+
+
+@dataclass(frozen=True)
+class Confirmed:
+    """What was asked beside what the found mechanism does, in words and numbers of a unit ("mm", "deg", "")."""
+
+    what: Phrase
+    asked: float
+    found: float
+    ok: bool
+    unit: str = ""
+
+    def shown(self, value: float) -> str:
+        """One of the two with its unit."""
+        if not math.isfinite(value):
+            return "–"
+        return number(value) + {"deg": "°", "": ""}.get(self.unit, f" {self.unit}")
+
+
+def design_scale(design: Design, natural: DesignSheet) -> float:
+    """Units of length for one mm of paper: the file's own, or the finest of the series at which the construction
+    fits; ``natural`` is it at any scale."""
+    if design.sheet.length_scale:
+        return design.sheet.length_scale / (design.units.metres * 1e3)
+    box = _content(natural)
+    return fitting_scale(Extent(box.width, box.height), PANEL, natural.scale)
+
+
+def _content(sheet: DesignSheet) -> Box:
+    """What must be seen (mm, y down): all points, help points that lie far off left out."""
+    far = [sheet.points[name] for name in ("O",) if name in sheet.points]
+    near = [s.places[0] for s in sheet.strokes if s.kind in ("point", "pivot") and s.name != "O"]
+    near += [z for s in sheet.strokes if s.kind in _LINES and s.kind != "direction" for z in s.places if z not in far]
+    box = Box.around(map(on_page, near))
+    circles = [Box.around((on_page(s.places[0]),)).grown(s.size)
+               for s in sheet.strokes if s.kind == "circle" and len(s.places) == 1]  # fmt: skip
+    for most, more in (*((FAR, Box.around((on_page(z),))) for z in far), *((WHOLE, one) for one in circles)):
+        wider = box.joined(more)
+        if max(wider.width, wider.height) <= most * max(box.width, box.height):
+            box = wider
+    return box
+
+
+def design_figure(
+    design: Design, sheet: DesignSheet, rows: Sequence[FoundLength], confirmed: Sequence[Confirmed],
+    notes: Iterable[Phrase], language: str,
+) -> Drawing:  # fmt: skip
+    """Draw a synthesis on a page of its own.
+
+    Parameters
+    ----------
+    rows : the lengths measured and compared
+    notes : sentences to be said of the result
+    language : "en", "zh" or "both"
+    """
+    unit, every = design.units.length, languages(language)
+    told = [phrase for phrase, _ in sheet.steps]
+    parts = [
+        _construction(sheet), *(steps(enumerate((step_words(one, each) for one in told), 1)) for each in every),
+        _tables(design, sheet.scale, rows, confirmed, language),
+    ]  # fmt: skip
+    spoken = " ".join(as_plain(rich_text(one, every[0])) + "." for one in told)
+    found = "; ".join(f"{row.symbol} = {row.measured:.6g} {unit}" for row in rows)
+    facts = {"kind": design.task.kind, "units": {"length": unit, "paper": "mm"}, "instrument": sheet.hand.name}
+    return worked_page(
+        (design.title_in(each) or design.name for each in every), asked_words(design, language), parts, notes,
+        _design_scale(design, sheet), title="design figure", said=f"{spoken} {found}", language=language,
+        metadata=_design_facts(design, sheet) | facts,
+    )  # fmt: skip
+
+
+def _design_scale(design: Design, sheet: DesignSheet) -> str:
+    return f"1 mm = {number(sheet.scale)} {design.units.length}"
+
+
+def _design_facts(design: Design, sheet: DesignSheet) -> dict[str, object]:
+    return {"figure": "design", "design": design.name, "scales": {"length": sheet.scale}, "graphkin": __version__}
+
+
+def step_words(phrase: Phrase, language: str) -> str:
+    """A step in words, its symbols between dollar signs."""
+    return as_markup(rich_text(phrase, language))
+
+
+def construction_picture(design: Design, sheet: DesignSheet, language: str, upto: int | None = None) -> Drawing:
+    """The construction by itself, as far as a step, on a figure as large as all of it."""
+    return picture(_construction(sheet, upto), "design figure", language, _design_facts(design, sheet),
+                   _design_scale(design, sheet))  # fmt: skip
+
+
+def asked_words(design: Design, language: str) -> str:
+    """What the file asks, in its own names."""
+    task, unit = design.task, design.units.length
+    parts = []
+    for key, value in vars(task).items():
+        if isinstance(value, float):
+            size = {"K": "", "swing": "°"}.get(key, f" {unit}")
+            parts.append(f"{key if key in ('K', 'BC') else term(f'datum {key}', language)} = {number(value)}{size}")
+        elif key == "pairs":
+            parts += [f"{number(a)}° → {number(b)}°" for a, b in value]
+        elif key == "angles" and value and task.kind == "limits":
+            parts.append(f"{number(value[0])}°, {number(value[1])}°")
+        elif isinstance(task, BarPositionsTask) and key == "positions":
+            for k, place in enumerate(task.positions, 1):
+                lies = f", {number(task.angles[k - 1])}°" if task.BC else f", $C_{{{k}}}$ {_at(place.C)}"
+                parts.append(f"$B_{{{k}}}$ {_at(place.B)}{lies}")
+        elif isinstance(value, complex):
+            parts.append(f"{key} {_at(value)}")
+    if not parts:
+        return term("design figure", language)
+    last = languages(language)[-1] if len(languages(language)) == 1 else "en"
+    mark = word("list semicolon" if getattr(task, "positions", None) else "list comma", last)
+    return f"{term('given wish', language)}{word('colon', last)}{mark.join(parts)}"
+
+
+def _at(z: complex) -> str:
+    return f"({number(z.real)}, {number(z.imag)})"
+
+
+def _construction(sheet: DesignSheet, upto: int | None = None) -> Block:
+    """The construction, as far as a step, in the room of all of it."""
+    content = _content(sheet)
+
+    def drawn(room: Box) -> Piece:
+        plate = Plate()
+        for step, (_, made) in enumerate(sheet.steps[:upto], 1):
+            _draw(plate, made, step, room)
+        return plate.piece
+
+    return centred(content, WORKED, max(content.height, 40.0) + 2 * ROOM, drawn)
+
+
+def _draw(plate: Plate, made: Sequence[DesignStroke], step: int, room: Box) -> None:
+    """The strokes of one step, cut at the room that there is: help lines, and over them the mechanism with its
+    points."""
+    lines: list[Primitive] = []
+    for one in made:
+        at, *others = one.places
+        if one.kind in _LINES:
+            cut = cut_to((Line(on_page(a), on_page(b), _LINES[one.kind]) for a, b in pairwise(one.places)), room)
+            if one.kind not in ("given", "mechanism"):
+                lines += cut
+                continue
+            for line in cut:
+                plate.put("mechanism", line, step=step)
+        elif one.kind == "circle":
+            lines += _arcs(at, one.size, others, room)
+        elif one.kind == "angle":
+            first, second = (cmath.phase(z - at) for z in others)
+            second += TURN * (second < first)
+            radius, middle = min(12.0, 0.4 * abs(others[0] - at)), (first + second) / 2
+            lines.append(Arc(on_page(at), radius, first, second, strokes.DIMENSION))
+            said = f"${one.name}$ = {number(one.size)}°" if one.name else f"{number(one.size)}°"
+            plate.name(rich(said, 2.8), at + (radius + 1.0) * cmath.rect(1.0, middle), toward=(middle,), rank=1)
+        elif room.distance(on_page(at)) == 0.0:
+            pivot, radius = one.kind == "pivot", 0.9 if one.name else 0.5
+            shape = symbols.fixed_pivot(on_page(at)) if pivot else symbols.turning_pair(on_page(at), radius=radius)
+            own = f"point-{one.name}" if one.name else ""
+            plate.put("mechanism", *shape, id=own, classes=("point",), step=step)
+            if own:
+                letter = _NAME.sub(r"\1_{\2}", one.name)
+                plate.name(rich(f"${letter}$"), at, f"label-{own}", step=step)
+    if lines:
+        plate.put("construction", *lines, classes=("strokes",), step=step)
+
+
+def _arcs(centre: complex, radius: float, near: Sequence[complex], room: Box) -> list[Primitive]:
+    """A circle as far as it lies in the room, or its arcs near points."""
+    middle = on_page(centre)
+
+    def arc(start: float, end: float) -> Arc:
+        return Arc(middle, radius, start, end, strokes.CONSTRUCTION)
+
+    if near:
+        half = min(0.35, 6.0 / radius)
+        return [arc(angle - half, angle + half) for angle in (cmath.phase(z - centre) for z in near)]
+    if room.holds(Box.around((middle,)).grown(radius)):
+        return [Circle(middle, radius, stroke=strokes.CONSTRUCTION)]
+    cuts: list[float] = []
+    for share in ((edge - middle.real) / radius for edge in (room.left, room.right)):
+        cuts += [math.acos(share), -math.acos(share)] if abs(share) < 1.0 else []
+    for share in ((edge - middle.imag) / radius for edge in (room.top, room.bottom)):
+        cuts += [-math.asin(share), math.pi + math.asin(share)] if abs(share) < 1.0 else []
+    ordered = sorted(angle % TURN for angle in cuts)
+    ends = zip(ordered, [*ordered[1:], ordered[0] + TURN] if ordered else [], strict=True)
+    return [arc(a, b) for a, b in ends if room.distance(middle + radius * cmath.rect(1.0, -(a + b) / 2)) == 0.0]
+
+
+def _tables(
+    design: Design, scale: float, rows: Sequence[FoundLength], confirmed: Sequence[Confirmed], language: str
+) -> Block:
+    """Lengths on paper, measured, exact; beside them what a turn confirms."""
+    unit, per, every = design.units.length, amount(scale, 12), languages(language)
+    lengths = table(
+        [[word("length found", each), word("on paper", each), f"{word('measured', each)} ({unit})",
+          f"{word('exact', each)} ({unit})"] for each in every],
+        [[one.symbol if one.symbol == "ram" else f"${one.symbol}$", on_paper(one.on_paper),
+          written(product(on_paper(one.on_paper), per)), number(one.exact)] for one in rows],
+        (26.0, 24.0, 28.0, 28.0), layer="answers",
+    )  # fmt: skip
+    if not confirmed:
+        return lengths
+    turned = table(
+        [[word(key, each) for key in ("confirmed", "given wish", "by the turn")] for each in every],
+        [[" ".join(dict.fromkeys(say(one.what, each) for each in every)), one.shown(one.asked), one.shown(one.found)]
+         for one in confirmed], (34.0, 20.0, 22.0), layer="answers",
+    )  # fmt: skip
+    return row(lengths, turned, gap=4.0)
+
+
+CHART_WIDTH, CHART_HEIGHT = 150.0, 95.0
+
+
+def choice_chart(
+    design: Design, key: str, at: Callable[[float], float | None], span: tuple[float, float],
+    here: tuple[float, float], best: tuple[float, float], language: str,
+) -> ChartPage:  # fmt: skip
+    """The least transmission angle over the values that a free datum may have, with the design's own and the best."""
+    import numpy as np
+
+    from graphkin.drawing.chart import (
+        SOLID_AND_DASHED,
+        add_labels,
+        add_panel,
+        add_words,
+        count_steps,
+        degree_step,
+        look,
+        marker,
+    )
+
+    # a range without end is shown as far as it tells
+    low, high = max(span[0], min(here[0], best[0]) / 4), min(span[1], 4 * max(here[0], best[0]))
+    low = span[0] if span[0] > low / 3 else low
+    x = np.linspace(low, high, 241)
+    y = np.array([angle if (angle := at(float(value))) is not None else np.nan for value in x])
+    title = say(Phrase("choice chart", (word(f"datum {key}", language),)), language)
+
+    def paint(figure: Chart) -> None:
+        add_words(figure, Text(complex(8.0, 10.0), rich(title, 4.0, bold=True)))
+        box = Box(20.0, 22.0, CHART_WIDTH - 8.0, CHART_HEIGHT - 16.0)
+        axes = add_panel(figure, box, "choice", f"{word('least angle', language)} (°)",
+                         f"{word(f'datum {key}', language)} ({design.units.length})")  # fmt: skip
+        axes.set_xlim(low, high)
+        top = 5.0 * math.ceil((float(np.nanmax(y)) + 3.0) / 5.0)
+        axes.set_ylim(0.0, top)
+        count_steps(axes.xaxis)
+        count_steps(axes.yaxis, degree_step(top, 9))
+        axes.plot(x, y, **look(SOLID_AND_DASHED[0]))
+        axes.plot([here[0]], [here[1]], **marker("circle"))
+        axes.plot([best[0]], [best[1]], **marker("up"))
+        both = dict.fromkeys((here, best))
+        marks = [(f"{number(value, 4)}: {number(angle, 4)}°", (value, angle)) for value, angle in both]
+        add_labels(axes, marks, toward=((-math.pi / 2,), (math.pi / 2,))[: len(marks)])
+
+    facts = {"figure": "choice", "design": design.name, "graphkin": __version__}
+    return ChartPage(CHART_WIDTH, CHART_HEIGHT, paint, title=title, desc=title, lang=language, metadata=facts)
+
+
+# -- a cam -------------------------------------------------------------------------------------------------------------
+
+GUTTER = 8.0  # mm between columns of the table
+CAM_PANEL = (150.0, 140.0)
+"""mm that the cam may fill."""
+SMALL = 2.4
+LONG = 180.0
+"""mm for a turn of the cam in the diagram."""
+HIGH = (16.0, 40.0)
+"""mm that the lifts take there."""
+PAST = 5.0
+"""mm that a ray goes on beyond what it carries."""
+PITCH, THIN = Stroke(0.25, (5.0, 1.0, 0.6, 1.0)), Stroke(0.13)
+ROWS = 10
+
+
+def scaled_cam(scene: Mechanism, cam: LawCam) -> CamSheet:
+    """The construction of a cam at the scale of its figure: as the scene wishes, or the finest of the series at which
+    the cam fits the page."""
+    if scene.question.sheet.length_scale:
+        return cam_sheet(cam, scene.question.sheet.length_scale * 1e-3)
+    natural = cam_sheet(cam, cam.base / 50.0)
+    far = [*natural.profile, *natural.pitch, *(d.at.point for d in natural.divisions)]
+    far += [d.at.line for d in natural.divisions] if isinstance(cam.motion, SwingingFollower) else []
+    room = CAM_PANEL[0] - 2 * PAST - 8.0, CAM_PANEL[1] - 2 * PAST - 8.0
+    per = scene.units.metres
+    return cam_sheet(cam, fitting_scale(Extent.around(far, 1.0), room, natural.scale / per) * per)
+
+
+def cam_figure(scene: Mechanism, sheet: CamSheet, told: Sequence[Phrase], language: str) -> Drawing:
+    """Draw a cam on a page of its own.
+
+    Parameters
+    ----------
+    told : what is found of it
+    language : "en", "zh" or "both"
+    """
+    first, every = languages(language)[0], languages(language)
+    parts = [
+        _diagram(scene, sheet, language), _cam(scene, sheet),
+        *(steps(enumerate((say(step, each) for step in sheet.steps), 1)) for each in every),
+        _table(scene, sheet, language),
+    ]  # fmt: skip
+    spoken = " ".join([*(say(step, first) + "." for step in sheet.steps), *(say(found, first) for found in told)])
+    facts = {"units": {"length": scene.units.length, "paper": "mm"},
+             "scales": {"length": sheet.scale / scene.units.metres}, "instrument": "exact"}  # fmt: skip
+    return worked_page(
+        (scene.question.title_in(each) or scene.name for each in every), _given(scene, sheet.cam, language), parts,
+        told, _scale(scene, sheet), title="cam figure", said=spoken, language=language,
+        metadata=_facts(scene, sheet) | facts,
+    )  # fmt: skip
+
+
+def _scale(scene: Mechanism, sheet: CamSheet) -> str:
+    return f"$μ_{{l}}$ = {number(sheet.scale / scene.units.metres)} {scene.units.length}/mm"
+
+
+def _facts(scene: Mechanism, sheet: CamSheet) -> dict[str, object]:
+    return {"figure": "cam", "scene": scene.name, "cam": sheet.cam.link, "graphkin": __version__}
+
+
+def cam_pictures(scene: Mechanism, sheet: CamSheet, language: str, begun: bool = False) -> tuple[Drawing, Drawing]:
+    """The displacement diagram and the cam, each by itself; ``begun`` leaves out all that is to be found."""
+    facts = _facts(scene, sheet)
+    return (picture(_diagram(scene, sheet, language, begun), "cam diagram", language, facts),
+            picture(_cam(scene, sheet, begun), "cam figure", language, facts, _scale(scene, sheet)))  # fmt: skip
+
+
+def cam_given(scene: Mechanism, cam: LawCam, language: str) -> str:
+    """What is given of a cam, the pieces of its law among it, in one language."""
+    unit, told = _unit(scene, cam), []
+    for piece in cam.law.pieces:
+        said = f"{number(math.degrees(piece.start))}°–{number(math.degrees(piece.end))}°"
+        way = _lift(scene, cam, piece.high - piece.low)
+        told.append(f"{said} {_law(piece.by, language)}"
+                    + (f" {'+' if way > 0 else '−'}{number(abs(way))}{unit}" if piece.by else ""))  # fmt: skip
+    comma = word("list comma", language)
+    return f"{_given(scene, cam, language)}{'；' if comma == '，' else '; '}{comma.join(told)}"
+
+
+def _law(by: str, language: str) -> str:
+    """The law of a piece; that of a dwell is none."""
+    return term(f"law {by}", language, by) if by else term("law dwell", language)
+
+
+def _given(scene: Mechanism, cam: LawCam, language: str) -> str:
+    """Base circle, roller, offset, and the law, as they are given."""
+    lengths = {"r_{0}": cam.base, "r_{r}": cam.roller}
+    if isinstance(cam.motion, SlidingFollower):
+        lengths["e"] = cam.motion.offset
+    else:
+        lengths |= {"l": cam.motion.arm, "a": abs(cam.axis - cam.motion.centre)}
+    parts = (f"${letter}$ = {number(length / scene.units.metres)} {scene.units.length}"
+             for letter, length in lengths.items() if length)  # fmt: skip
+    kind = term("cam flat" if cam.flat else "cam roller" if cam.roller else "cam edge", language)
+    sense = "counter-clockwise" if cam.sense > 0 else "clockwise"
+    turns = once(say(Phrase("cam turns", (word(sense, each),)), each) for each in languages(language))
+    return f"{kind}; {',  '.join(parts)}; {turns}"
+
+
+def _lift(scene: Mechanism, cam: LawCam, lift: float) -> float:
+    """A lift in the scene's unit, or degrees."""
+    return math.degrees(lift) if isinstance(cam.motion, SwingingFollower) else lift / scene.units.metres
+
+
+def _unit(scene: Mechanism, cam: LawCam) -> str:
+    """The unit of a lift, as it stands behind a number."""
+    return "°" if isinstance(cam.motion, SwingingFollower) else f" {scene.units.length}"
+
+
+def _diagram(scene: Mechanism, sheet: CamSheet, language: str, begun: bool = False) -> Block:
+    """The displacement diagram; only ``begun``, its axes with the pieces of the law."""
+    cam, law = sheet.cam, sheet.cam.law
+    span, low = _lift(scene, cam, law.greatest - law.least) or 1.0, _lift(scene, cam, law.least)
+    own = (law.greatest - law.least) / sheet.scale
+    same = isinstance(cam.motion, SlidingFollower) and HIGH[0] <= own <= HIGH[1]
+    per = span / own if same else fitting_scale(Extent(span, span), (HIGH[1], HIGH[1]), 1.0)
+    left, floor = 5.0, span / per + 6.0
+    origin, top = complex(left, floor), complex(left, floor - span / per)
+
+    def at(degree: float, lift: float) -> complex:
+        return complex(left + LONG * degree / TURN, floor - (_lift(scene, cam, lift) - low) / per)
+
+    def cell(z: complex, runs: tuple[Run, ...], anchor: str = "middle") -> None:
+        labels.append(Text(z, runs, anchor, classes=("cell",)))
+
+    curve: list[complex] = []
+    for part in law.parts:
+        count = max(2, math.ceil(120 * (part.end - part.start) / TURN))
+        degrees = [part.start + (part.end - part.start) * k / count for k in range(count + 1)]
+        curve += [at(degree, part.at(degree).lift) for degree in degrees]
+    drawn: list[Primitive] = [Line(origin, origin + LONG + 5.0, strokes.DIMENSION),
+                              Line(origin, top - 5.0j, strokes.DIMENSION)]  # fmt: skip
+    labels: list[Primitive] = []
+    divided = [] if begun else [(d.degree, d.lift, str(d.number)) for d in sheet.divisions]
+    for degree, lift, name in (*divided, *((TURN, lift, "") for _, lift, _ in divided[:1])):
+        foot = at(degree, law.least)
+        drawn.append(Line(foot, at(degree, lift), THIN))
+        if name:
+            cell(foot + 3.2j, plain(name, SMALL))
+    for piece in law.pieces:
+        start, end = at(piece.start, law.least) + 6.8j, at(piece.end, law.least) + 6.8j
+        short = f"{number(math.degrees(piece.end - piece.start))}°"
+        text = rich(f"{short} {_law(piece.by, language)}", SMALL)
+        fits = runs_width(text) <= (end - start).real - 2.0
+        cell((start + end) / 2 + 1.0j, text if fits else rich(short, SMALL))
+        drawn += [Line(z - 1.4j, z + 1.4j, THIN) for z in (start, end)]
+    unit, h, s = _unit(scene, cam), "h", "s"
+    if unit == "°":
+        h = s = "ψ"
+    scale = f"$μ_{{φ}}$ = {number(360.0 / LONG)}°/mm,  $μ_{{s}}$ = {number(per)}{unit}/mm"
+    scale += f",  ${h}$ = {number(span)}{unit}"
+    cell(origin + 13.0j, rich(scale, SMALL + 0.4), "start")
+    labels += [Text(top + (1.0 - 3.0j), symbol(s, STEP)), Text(origin + (LONG + 5.5 - 1.0j), symbol("φ", STEP))]
+    if not begun:
+        drawn.append(Polyline(tuple(curve), strokes.LINK))
+    shape = Group(tuple(drawn), id="displacement", classes=("diagram",))
+    return Block(Piece({"construction": (shape,), "labels": tuple(labels)}), floor + 14.0, WORKED)
+
+
+def _cam(scene: Mechanism, sheet: CamSheet, begun: bool = False) -> Block:
+    """The cam with all that finds it; only ``begun``, the circles and the follower where it starts."""
+    plate, cam, start = Plate(), sheet.cam, sheet.divisions[0].at
+    swings = isinstance(cam.motion, SwingingFollower)
+    colour, other = (strokes.colour_of_link(scene, link) for link in (cam.link, cam.follower))
+    far = max(abs(d.at.point) for d in sheet.divisions)
+    shown = [] if begun else _shown(sheet)
+    profile = Polygon(tuple(map(on_page, sheet.profile)), strokes.tint(colour), Stroke(0.7, (), colour))
+    # what finds the cam lies over its tint
+    plate.put("construction", *[profile] * (not begun), id=f"cam-{cam.link}", classes=("cam",))
+    rings = [sheet.base, *[sheet.offset] * (sheet.offset > 0.3), *[sheet.base - sheet.roller] * (cam.roller > 0.0)]
+    lines: list[Primitive] = [Circle(0j, radius, stroke=THIN) for radius in rings]
+    for d in shown:
+        part, end = _ray(sheet, d, far)
+        lines += part
+        plate.name(plain(str(d.number), SMALL), end, f"label-division-{d.number}", toward=(cmath.phase(end),), rank=1)
+    if cam.flat:
+        half = 0.35 * sheet.base
+        lines += [_face(d, half, strokes.CONSTRUCTION) for d in shown]
+    elif shown:
+        lines += [Circle(on_page(d.at.point), sheet.roller, stroke=THIN) for d in shown if cam.roller]
+        lines += [Polyline(tuple(map(on_page, sheet.pitch)), PITCH)] * bool(cam.roller)
+        lines += [Line(on_page(d.at.contact), on_page(d.at.point + 6.0 * d.at.normal), strokes.DIRECTION)
+                  for d in shown]  # fmt: skip
+    lines += symbols.sense_arc(0j, max(5.0, 0.3 * sheet.base), 0.6, cam.sense, math.radians(60))
+    plate.put("construction", *lines, id="inversion", classes=("strokes",))
+    bar = strokes.LINK.coloured(other)
+    follower: list[Primitive] = [Circle(on_page(start.point), sheet.roller, stroke=bar)] if cam.roller else []
+    follower += [_face(sheet.divisions[0], 8.0, bar)] if cam.flat else []
+    end = start.line if swings else start.point + (far - abs(start.point) + 12.0) * start.way
+    follower.append(Line(on_page(start.point), on_page(end), bar))
+    if swings:
+        follower += symbols.fixed_pivot(on_page(start.line))
+    elif not cam.flat:
+        follower += symbols.pin(on_page(start.point), other)
+    plate.put("mechanism", *follower, id=f"link-{cam.follower}", classes=("link",))
+    plate.put("mechanism", *symbols.fixed_pivot(0j), id=f"point-{cam.point}", classes=("point",))
+    named = {cam.point: 0j}
+    if isinstance(cam.motion, SwingingFollower):
+        named |= {cam.motion.pivot: start.line, cam.motion.tip: start.point}
+    for name, z in named.items():
+        plate.name(symbol(name), z, f"label-point-{name}")
+    box = ink_box(plate.piece.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
+    box = box.joined(Box.around(map(on_page, sheet.profile))).grown(6.0)
+    return centred(box, WORKED, box.height, lambda around: plate.piece)
+
+
+def _shown(sheet: CamSheet) -> list[CamDivision]:
+    """The divisions that are drawn: neighbours keep a millimetre and a half from each other at the base circle."""
+    found: list[CamDivision] = []
+    for d in sheet.divisions:
+        if all(abs(d.at.base - other.at.base) >= 1.5 for other in found):
+            found.append(d)
+    return found
+
+
+def _face(d: CamDivision, half: float, stroke: Stroke) -> Line:
+    """A face, ``half`` mm to both sides and beyond its contact."""
+    across = 1j * d.at.way
+    contact = ((d.at.contact - d.at.point) * across.conjugate()).real
+    low, high = min(-half, contact - 3.0), max(half, contact + 3.0)
+    return Line(on_page(d.at.point + low * across), on_page(d.at.point + high * across), stroke)
+
+
+def _ray(sheet: CamSheet, d: CamDivision, far: float) -> tuple[list[Primitive], complex]:
+    """What carries a division, turned back about the cam, and where its number stands."""
+    if isinstance(sheet.cam.motion, SlidingFollower):
+        beyond = math.sqrt(max((far + sheet.roller + PAST) ** 2 - sheet.offset**2, 0.0))
+        end = d.at.line + beyond * d.at.way
+        return [Line(on_page(d.at.line), on_page(end), THIN)], end
+    pivot = d.at.line
+    arm = abs(d.at.point - pivot)
+    start, end = (cmath.phase(z - pivot) for z in (d.at.base, d.at.point))
+    half = math.remainder(end - start, TURN) / 2
+    middle, reach = start + half, abs(half) + 3.0 / arm
+    return [Arc(on_page(pivot), arm, middle - reach, middle + reach, THIN),
+            Circle(on_page(pivot), 0.5, stroke=THIN)], pivot  # fmt: skip
+
+
+def _table(scene: Mechanism, sheet: CamSheet, language: str) -> Block:
+    """Number, cam degree, lift and pressure angle of each division, in columns beside each other."""
+    unit = _unit(scene, sheet.cam).strip()
+    heads = ["", "$φ$ (°)", f"${'ψ' if unit == '°' else 's'}$ ({unit})", "$α$ (°)"]
+    columns = -(-len(sheet.divisions) // ROWS)
+    count = -(-len(sheet.divisions) // columns)
+    cells = [[str(d.number), f"{math.degrees(d.degree):.2f}", f"{_lift(scene, sheet.cam, d.lift):.3f}",
+              f"{math.degrees(d.pressure):.2f}"] for d in sheet.divisions]  # fmt: skip
+    wide = (WORKED - GUTTER * (columns - 1)) / columns
+    widths = [share * wide for share in (0.16, 0.26, 0.32, 0.26)]
+    tables = (table([heads], cells[k : k + count], widths, layer="answers") for k in range(0, len(cells), count))
+    return row(*tables, gap=GUTTER)
+
+
+def cams_figure(
+    scene: Mechanism, cams: Sequence[tuple[CamSheet, Sequence[Phrase]]], *, language: str | None = None,
+    convention: str | None = None,
+) -> Drawing | None:  # fmt: skip
+    """A page for each cam; None where there is none.
+
+    Parameters
+    ----------
+    cams : what was drawn of each, and what is found of it
+    language : "en", "zh" or "both"; the scene's own if None
+    convention : says nothing here, since the letters of cams are those of all books
+    """
+    pages = [cam_figure(scene, sheet, told, language or scene.question.sheet.language) for sheet, told in cams]
+    return replace(pages[0], further=tuple(pages[1:])) if pages else None
+
+
+FIGURES = (Figure("cam", cams_figure, "cams", lambda scene: bool(scene.cams), place=9),)
