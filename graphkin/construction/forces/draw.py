@@ -21,7 +21,7 @@ from dataclasses import replace
 
 from graphkin.construction.forces.force_sheet import ForceSheet, ForceState, ForceVector, Lever, MomentTerm
 from graphkin.construction.forces.groups import NORMAL, TANGENT, CutFree, at_driver, of_dyad, of_larger_group
-from graphkin.construction.forces.joints import BalanceForm, Images, JointNames, balance_of, force_groups
+from graphkin.construction.forces.joints import Images, JointNames, force_groups
 from graphkin.construction.forces.known import from_outside, inertias
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import Pose
@@ -30,7 +30,7 @@ from graphkin.construction.sheet import Reading, Sheet
 from graphkin.construction.touching import Touching
 from graphkin.plane import added_up, cross, unit
 from graphkin.scene.bodies import SlidingPair
-from graphkin.scene.model import PlacedGuide
+from graphkin.scene.model import Driver, PlacedGuide
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, Dyad, analyse
 
@@ -88,7 +88,7 @@ def _state(held: Sheet, hand: Instrument, per_mm: float, known: tuple[ForceVecto
     cut, groups = CutFree(Images(held), hand, per_mm, JointNames(structure)), []
     cut.push(*known)
     for element in reversed(force_groups(structure)):
-        balances = {driver.key: balance_of(structure, driver) for driver in element.drivers}
+        balances = {driver.key: cut.images.balance(driver) for driver in element.drivers}
         if isinstance(element, Driven):
             groups.append(at_driver(cut, element, balances[element.driver.key]))
         elif isinstance(element, Dyad):
@@ -168,28 +168,27 @@ def levers_of(sheet: Sheet, state: ForceState, hand: Instrument) -> tuple[Lever,
     """A lever for each driver, or for what balances instead; none where that does not move."""
     drivers = sheet.scene.drivers if sheet.scene.loading.balance is None else sheet.scene.drivers[:1]
     made = (
-        _lever(sheet, drawn, state, balance_of(sheet.structure, driver), hand)
+        _lever(sheet, drawn, state, driver, hand)
         for driver, drawn in zip(drivers, sheet.growing or (sheet,), strict=True)
     )
     return tuple(lever for lever in made if lever is not None)
 
 
-def _lever(sheet: Sheet, drawn: Sheet, state: ForceState, balance: BalanceForm, hand: Instrument) -> Lever | None:
+def _lever(sheet: Sheet, drawn: Sheet, state: ForceState, driver: Driver, hand: Instrument) -> Lever | None:
     images = Images(drawn)
+    balance = images.balance(driver)
     ends = {str(ref): TURN * z for ref, z in drawn.ends["velocity"].items()}
     # the forces with their places on the figure from which the images are
     times = sheet.scales.length / drawn.scales.length
     rows = tuple(_on_lever(images, replace(one, at=one.at * times), hand) for one in state.known)
-    along, at = (0j, 0j) if balance.is_moment else images.of_balance(balance)
-    unit_force = ForceVector(balance.symbol, balance.link, along, at, float(balance.is_moment))
-    unknown = _on_lever(images, unit_force, hand)
-    if balance.other != sheet.scene.frame.name:  # between both links that it acts on
-        other = _on_lever(images, replace(unit_force, link=balance.other), hand)
+    unknown = _on_lever(images, balance, hand)
+    if balance.off != sheet.scene.frame.name:  # between both links that it acts on
+        other = _on_lever(images, replace(balance, link=balance.off), hand)
         unknown = replace(unknown, moment=unknown.moment - other.moment)
     if abs(unknown.moment) <= 1e-12 * max((abs(z) for z in ends.values()), default=0.0):
         return None
     value = -added_up(row.moment for row in rows) / unknown.moment
-    return Lever(drawn.scales.velocity, drawn is not sheet, ends, rows, unknown, value, value * along)
+    return Lever(drawn.scales.velocity, drawn is not sheet, ends, rows, unknown, value, value * balance.force)
 
 
 def _on_lever(images: Images, one: ForceVector, hand: Instrument) -> MomentTerm:

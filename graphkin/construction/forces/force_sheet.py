@@ -37,6 +37,7 @@ class ForceVector:
     ----------
     symbol, part : what it is called, and which part of it this is
     link, at : on which it acts, and at which place of the mechanism (mm)
+    off : the other link, on which its opposite acts, of a force of a pair or of what balances
     force, moment : of a force the vector (N; of a direction alone the direction), of a couple the moment (N m)
     turned : whether it is the opposite of its symbol's
     by : how it is known: given, by moments before its polygon is drawn, or by closing a polygon
@@ -55,6 +56,7 @@ class ForceVector:
     direction: Direction | None = None
     tail: complex = 0j
     tip: complex = 0j
+    off: str = ""
 
     @property
     def known(self) -> bool:
@@ -75,11 +77,17 @@ class ForceVector:
         """It as it stands in a polygon (mm)."""
         return replace(self, tail=tail, tip=tip)
 
-    def back(self, link: str) -> ForceVector:
+    @property
+    def back(self) -> ForceVector:
         """What acts for it on the other link."""
         named = opposite(self.symbol) if self.symbol.other else self.symbol
         turned = self.turned if self.symbol.other else not self.turned
-        return replace(self, symbol=named, link=link, force=-self.force, moment=-self.moment, turned=turned)
+        return replace(self, symbol=named, link=self.off, off=self.link, force=-self.force, moment=-self.moment,
+                       turned=turned)  # fmt: skip
+
+    def on(self, link: str) -> ForceVector:
+        """What acts on one of its two links."""
+        return self if link == self.link else self.back
 
 
 @dataclass(frozen=True)

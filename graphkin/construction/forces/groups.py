@@ -17,12 +17,11 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple
 
 import numpy as np
 
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceVector, MomentEquation, MomentTerm, opposite
-from graphkin.construction.forces.joints import BalanceForm, Images, JointNames
+from graphkin.construction.forces.joints import Images, JointNames
 from graphkin.construction.instruments import Instrument
 from graphkin.construction.steps import Direction, Part
 from graphkin.errors import Problem, Unsolvable
@@ -104,24 +103,22 @@ class CutFree:
 
     def at_pair(self, pair: Pair, links: Sequence[str]) -> ForceVector:
         """The force of a pair on that of some links which it holds, of no size yet."""
-        link = pair.a if pair.a in links else pair.b
+        link, off = (pair.a, pair.b) if pair.a in links else (pair.b, pair.a)
         if pair.turns:
             symbol, at = self.names.of_pin(pair.point, pair.a), self.images.point(pair.a, pair.point)
         else:
             symbol, at = self.names.of_slide(pair), self.images.foot(pair)
             symbol = symbol if link == pair.a else opposite(symbol)
-        return ForceVector(symbol, link, at=at, by="closing")
+        return ForceVector(symbol, link, at=at, by="closing", off=off)
 
     def set_slide(self, slide: Pair, force: ForceVector, couple: float, inside: Iterable[str]) -> None:
         """The force of a sliding pair on one of its links, with its couple; both load the other link, if that comes
         later."""
-        forward = force if force.link == slide.a else force.back(slide.a)
-        moment = couple if force.link == slide.a else -couple
+        forward, moment = force.on(slide.a), couple if force.link == slide.a else -couple
         self.slides[slide.key] = forward.force, moment
-        turned = ForceVector(self.names.of_slide(slide, "M"), slide.a, moment=moment)
-        for one in (forward, turned):
-            one = replace(one, by="given", direction=None, part="")
-            self.push(*(acting for acting in (one, one.back(slide.b)) if acting.link not in inside))
+        turned = ForceVector(self.names.of_slide(slide, "M"), slide.a, moment=moment, off=slide.b)
+        for one in (replace(forward, by="given", direction=None, part=""), turned):
+            self.push(*(acting for acting in (one, one.back) if acting.link not in inside))
 
     # -- moments -------------------------------------------------------------------------------------------------------
 
@@ -258,7 +255,7 @@ def _shift_line(cut: CutFree, group: ForceGroup, force: ForceVector, couple: flo
 # -- a dyad ------------------------------------------------------------------------------------------------------------
 
 
-def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, BalanceForm]) -> ForceGroup:
+def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, ForceVector]) -> ForceGroup:
     """The forces of a dyad: those of its outer pairs, then the force inside, then those between links that drivers
     hold together.
 
@@ -297,13 +294,15 @@ def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, BalanceForm]) -> Fo
             at, letter, acting = opposed.at, dyad.inner.point, [force]
         else:
             known = group.couples[-1]
-            acting.append(ForceVector(known.unknown.symbol, inner[0].link, moment=known.value).back(opposed.link))
+            couple = ForceVector(known.unknown.symbol, inner[0].link, moment=known.value, off=opposed.link)
+            acting.append(couple.back)
         _slide_found(cut, group, body.links, pair, force, at, letter, acting, dyad.members)
     for body, force, opposed in zip(dyad.bodies, outer, inner, strict=True):
         acting = [opposed, force]
         for slide in (pair for pair in dyad.pairs if not pair.turns):
-            couple = ForceVector(cut.names.of_slide(slide, "M"), slide.a, moment=cut.slides[slide.key][1])
-            acting += [one for one in (couple, couple.back(slide.b)) if one.link in body.links]
+            turned = cut.slides[slide.key][1]
+            couple = ForceVector(cut.names.of_slide(slide, "M"), slide.a, moment=turned, off=slide.b)
+            acting += [one for one in (couple, couple.back) if one.link in body.links]
         # links that drivers hold together, from the outermost on
         for joint in reversed(body.joints):
             on_leaf = [one for one in acting if one.link == joint.b]
@@ -380,9 +379,9 @@ def _inner_forces(
             symbol = names.of_pin(point, first)
         cut.pins[point, first] += force
         cut.pins[point, second] -= force
-        on_first = ForceVector(symbol, first, force, cut.images.point(first, point), by="closing")
+        on_first = ForceVector(symbol, first, force, cut.images.point(first, point), by="closing", off=second)
         group.inner[first] = [*own, on_first.between(end, corner)]
-        return on_first, on_first.back(second)
+        return on_first, on_first.back
     square = 1j * cut.images.along(slide)
     on_first = cut.at_pair(slide, links)
     on_first = replace(on_first, force=square * dot(force, square))
@@ -390,14 +389,14 @@ def _inner_forces(
     _slide_found(
         cut, group, links, slide, on_first, outer.at, dyad.outer_first.point, (on_first, outer), dyad.members
     )  # fmt: skip
-    return on_first, on_first.back(slide.b if on_first.link == slide.a else slide.a)
+    return on_first, on_first.back
 
 
 # -- where drivers act -------------------------------------------------------------------------------------------------
 
 
 def _at_driven_joint(
-    cut: CutFree, group: ForceGroup, joint: DrivenJoint, balance: BalanceForm, extra: Sequence[ForceVector],
+    cut: CutFree, group: ForceGroup, joint: DrivenJoint, balance: ForceVector, extra: Sequence[ForceVector],
     inside: tuple[str, ...],
 ) -> list[ForceVector]:  # fmt: skip
     """The force and the moment of a driven pair on the link that hangs on it; returns what acts on the other link.
@@ -410,34 +409,35 @@ def _at_driven_joint(
     chain: Chain = []
     cut.lay_known(chain, (leaf,))
     cut.lay(chain, *(replace(one, by="given") for one in extra if one.symbol.is_vector))
-    end = _end_of(chain)
-    force, mine = -end * cut.per_mm, balance.link == leaf
+    end, push = _end_of(chain), balance.on(leaf)
+    force, sign = -end * cut.per_mm, 1.0 if push is balance else -1.0
     if pair.turns:
         symbol = cut.names.of_pin(pair.point, leaf)
         if leaf == cut.names.holders.get(pair.point, ("",))[0]:
             symbol = cut.names.between(other, leaf, pair.point)
-        on = ForceVector(symbol, leaf, force, cut.images.point(leaf, pair.point), by="closing")
+        on = ForceVector(symbol, leaf, force, cut.images.point(leaf, pair.point), by="closing", off=other)
         equation = cut.couple((leaf,), on.at, pair.point, balance.symbol, extra)
         group.couples.append(equation)
-        cut.balances[balance.symbol] = equation.value if mine else -equation.value
+        cut.balances[balance.symbol] = sign * equation.value
         cut.pins[pair.point, leaf] += force
         cut.pins[pair.point, other] -= force
         group.inner[leaf] = [*chain, on.between(end, 0j)]
-        return [on.back(other), ForceVector(balance.symbol, leaf, moment=equation.value, turned=not mine).back(other)]
-    along, mine = cut.images.along(pair), pair.a == leaf
+        return [on.back, replace(push, moment=equation.value).back]
+    along = cut.images.along(pair)
     on = cut.at_pair(pair, (leaf,))
     on = replace(on, force=1j * along * dot(force, 1j * along))
-    push = replace(on, symbol=balance.symbol, force=along * dot(force, along), turned=not mine)
+    push = replace(push, at=on.at, force=along * dot(force, along), by="closing")
     corner = end + push.force / cut.per_mm
     group.inner[leaf] = [*chain, push.between(end, corner), on.between(corner, 0j)]
-    cut.balances[balance.symbol] = push.force if mine else -push.force
+    cut.balances[balance.symbol] = sign * push.force
     couple = _slide_found(
         cut, group, (leaf,), pair, on, on.at, _foot_name(pair), (*extra, on, push), inside
     )  # fmt: skip
-    return [on.back(other), push.back(other), ForceVector(couple.unknown.symbol, leaf, moment=couple.value).back(other)]
+    turned = ForceVector(couple.unknown.symbol, leaf, moment=couple.value, off=other)
+    return [on.back, push.back, turned.back]
 
 
-def at_driver(cut: CutFree, element: Driven, balance: BalanceForm) -> ForceGroup:
+def at_driver(cut: CutFree, element: Driven, balance: ForceVector) -> ForceGroup:
     """The forces of a link that is driven from links still to come, and what balances it there.
 
     Raises
@@ -447,12 +447,10 @@ def at_driver(cut: CutFree, element: Driven, balance: BalanceForm) -> ForceGroup
     link, pair = element.link, element.pair
     cut.load_pins((link,))
     group = ForceGroup((link,) if link not in cut.names.blocks else (), "driver", "driver")
-    chain, on, mine = group.polygon, cut.at_pair(pair, (link,)), balance.link == link
-    other = balance.other if mine else balance.link
-    along, at = (0j, 0j) if balance.is_moment else cut.images.of_balance(balance)
-    push = ForceVector(balance.symbol, link, along if mine else -along, at, turned=not mine, by="closing")
+    chain, on = group.polygon, cut.at_pair(pair, (link,))
+    push = replace(balance.on(link), by="closing")
     if pair.turns:
-        if balance.is_moment:
+        if balance.moment:
             equation = cut.couple((link,), on.at, pair.point, balance.symbol)
             group.couples.append(equation)
             push = replace(push, moment=equation.value)
@@ -472,10 +470,10 @@ def at_driver(cut: CutFree, element: Driven, balance: BalanceForm) -> ForceGroup
         corner = cut.closed((link,), chain, on, push)
         on, push = replace(on, force=(corner - end) * cut.per_mm), replace(push, force=-corner * cut.per_mm)
         _slide_found(cut, group, (link,), pair, on, on.at, _foot_name(pair), (on, push), (link,))
-    whole = push.moment if balance.is_moment else push.force
-    cut.balances[balance.symbol] = whole if mine else -whole
+    whole = push.moment if balance.moment else push.force
+    cut.balances[balance.symbol] = whole if link == balance.link else -whole
     # what drives a link from another one loads that one
-    cut.push(replace(push.back(other), by="given", direction=None))
+    cut.push(replace(push.back, by="given", direction=None))
     cut.done.add(link)
     return group
 
@@ -483,21 +481,12 @@ def at_driver(cut: CutFree, element: Driven, balance: BalanceForm) -> ForceGroup
 # -- a larger group ----------------------------------------------------------------------------------------------------
 
 
-class UnknownForce(NamedTuple):
-    """A force along the direction of ``one``, or a couple where that has none, on its link, its opposite on ``off``."""
-
-    one: ForceVector
-    off: str
-    point: str = ""
-    slide: Pair | None = None
-
-    @property
-    def sides(self) -> tuple[tuple[str, float], tuple[str, float]]:
-        """Both links, each with the sign with which it acts there."""
-        return (self.one.link, 1.0), (self.off, -1.0)
+Unknown = tuple[ForceVector, str, Pair | None]
+"""A force along the direction of a vector, or a couple where that has none, on its link, its opposite on the other; and
+the point of its pin, or its sliding pair."""
 
 
-def of_larger_group(cut: CutFree, group: LargerGroup, balances: Sequence[BalanceForm]) -> ForceGroup:
+def of_larger_group(cut: CutFree, group: LargerGroup, balances: Sequence[ForceVector]) -> ForceGroup:
     """The forces of a group larger than a dyad, or of one that a balance holds otherwise than by a driven link.
 
     Raises
@@ -513,29 +502,26 @@ def of_larger_group(cut: CutFree, group: LargerGroup, balances: Sequence[Balance
     return made
 
 
-def _unknown_forces(cut: CutFree, members: Sequence[str], balances: Sequence[BalanceForm]) -> list[UnknownForce]:
-    found, inside, structure = list[UnknownForce](), set(members), cut.names.structure
+def _unknown_forces(cut: CutFree, members: Sequence[str], balances: Sequence[ForceVector]) -> list[Unknown]:
+    found, inside, structure = list[Unknown](), set(members), cut.names.structure
     for point, holders in structure.hinges.items():
         mine = [n for n in holders if n in inside]
         if not mine:
             continue
         held = any(n not in inside and n not in cut.done for n in holders)
-        at = cut.images.point(mine[0], point)
+        at, off = cut.images.point(mine[0], point), "" if held else mine[0]
         for link in mine if held else mine[1:]:
-            symbol, off = cut.names.of_pin(point, link), "" if held else mine[0]
-            found += [UnknownForce(ForceVector(symbol, link, along, at), off, point) for along in (1 + 0j, 1j)]
+            one = ForceVector(cut.names.of_pin(point, link), link, at=at, off=off)
+            found += [(replace(one, force=along), point, None) for along in (1 + 0j, 1j)]
     for slide in structure.slides:
         if slide.key not in cut.slides and {slide.a, slide.b} & inside:
             at, square = cut.images.foot(slide), 1j * cut.images.along(slide)
-            found += [UnknownForce(ForceVector(cut.names.of_slide(slide, kind), slide.a, along, at), slide.b,
-                                   slide=slide) for kind, along in (("F", square), ("M", 0j))]  # fmt: skip
-    for balance in balances:
-        along, at = (0j, 0j) if balance.is_moment else cut.images.of_balance(balance)
-        found.append(UnknownForce(ForceVector(balance.symbol, balance.link, along, at), balance.other))
-    return found
+            found += [(ForceVector(cut.names.of_slide(slide, kind), slide.a, along, at, off=slide.b), "", slide)
+                      for kind, along in (("F", square), ("M", 0j))]  # fmt: skip
+    return found + [(balance, "", None) for balance in balances]
 
 
-def _solved(cut: CutFree, members: Sequence[str], unknowns: Sequence[UnknownForce]) -> list[float]:
+def _solved(cut: CutFree, members: Sequence[str], unknowns: Sequence[Unknown]) -> list[float]:
     """Sizes of the unknowns, N and N m."""
     mm, size = cut.images.mm, cut.images.sheet.scene.size
     row = {name: 3 * i for i, name in enumerate(members)}
@@ -547,9 +533,9 @@ def _solved(cut: CutFree, members: Sequence[str], unknowns: Sequence[UnknownForc
         return one.force.real, one.force.imag, arm + one.moment / size
 
     left, right = np.zeros((3 * len(members), len(unknowns))), np.zeros(3 * len(members))
-    for k, unknown in enumerate(unknowns):
-        couple = replace(unknown.one, moment=0.0 if unknown.one.force else size)
-        for link, sign in unknown.sides:
+    for k, (one, _, _) in enumerate(unknowns):
+        couple = replace(one, moment=0.0 if one.force else size)
+        for link, sign in ((one.link, 1.0), (one.off, -1.0)):
             if link in row:
                 left[row[link] : row[link] + 3, k] += sign * np.array(parts(couple, link))
     for link, i in row.items():
@@ -559,42 +545,41 @@ def _solved(cut: CutFree, members: Sequence[str], unknowns: Sequence[UnknownForc
         raise _dead_point(members)
     found = np.linalg.solve(left, right)
     found += np.linalg.solve(left, right - left @ found)  # a second pass takes back the rounding of the first
-    return [float(v * (1.0 if u.one.force else size)) for v, u in zip(found, unknowns, strict=True)]
+    return [float(v * (1.0 if one.force else size)) for v, (one, _, _) in zip(found, unknowns, strict=True)]
 
 
 def _carry_over(
-    cut: CutFree, group: ForceGroup, members: Sequence[str], unknowns: Sequence[UnknownForce], values: Sequence[float]
+    cut: CutFree, group: ForceGroup, members: Sequence[str], unknowns: Sequence[Unknown], values: Sequence[float]
 ) -> None:
     """Put what was found (N, N m) to the pairs, and draw the polygon of each link."""
-    forces: dict[tuple[Symbol, str, str], UnknownForce] = {}
+    forces: dict[tuple[Symbol, str, str], Unknown] = {}
     couples: dict[str, float] = {}
-    for unknown, value in zip(unknowns, values, strict=True):
-        one = unknown.one
+    for (one, point, slide), value in zip(unknowns, values, strict=True):
         if one.force:
-            key = one.symbol, one.link, unknown.off
-            so_far = forces[key].one.force if key in forces else 0j
-            forces[key] = unknown._replace(one=replace(one, force=so_far + value * one.force))
-        elif unknown.slide is not None:
-            couples[unknown.slide.key] = value
+            key = one.symbol, one.link, one.off
+            so_far = forces[key][0].force if key in forces else 0j
+            forces[key] = replace(one, force=so_far + value * one.force), point, slide
+        elif slide is not None:
+            couples[slide.key] = value
         else:
             cut.balances[one.symbol] = value
             couple = replace(one, moment=value)  # what drives a link of the group from one still to come loads that
-            cut.push(*(c for c in (couple, couple.back(unknown.off)) if c.link not in members))
+            cut.push(*(c for c in (couple, couple.back) if c.link not in members))
     polygons: dict[str, Chain] = {name: [] for name in members}
     for name in members:
         cut.lay_known(polygons[name], (name,))
-    for one, off, point, slide in forces.values():
+    for one, point, slide in forces.values():
         if point:
             cut.pins[point, one.link] += one.force
-            if off:
-                cut.pins[point, off] -= one.force
+            if one.off:
+                cut.pins[point, one.off] -= one.force
         elif slide is not None:
             cut.set_slide(slide, one, couples[slide.key], members)
             _shift_line(cut, group, one, couples[slide.key])
         else:
             cut.balances[one.symbol] = one.force
-            cut.push(*(f for f in (one, one.back(off)) if f.link not in members))
-        for force in (one, one.back(off)):
+            cut.push(*(f for f in (one, one.back) if f.link not in members))
+        for force in (one, one.back):
             if force.link in polygons:
                 cut.lay(polygons[force.link], replace(force, by="closing"))
     group.inner |= {name: chain for name, chain in polygons.items() if name not in cut.names.blocks}

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from graphkin.construction.forces.force_sheet import ForceVector
 from graphkin.construction.sheet import Sheet
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
@@ -20,7 +21,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Element, LargerGroup, Pair, Structure, analyse
 from graphkin.words import Phrase
 
-__all__ = ["BalanceForm", "Images", "JointNames", "balance_of", "force_groups"]
+__all__ = ["Images", "JointNames", "force_groups"]
 
 
 @dataclass(frozen=True)
@@ -81,40 +82,6 @@ class JointNames:
                 yield point, names[0], later
 
 
-@dataclass(frozen=True)
-class BalanceForm:
-    """What balances at a driver: a moment (``along`` is 0) or a force on ``link`` at a place of its own axes (m), its
-    opposite on ``other``; ``along`` is a direction in the frame, ``square`` one square to the link's own axis."""
-
-    symbol: Symbol
-    link: str
-    other: str
-    at: complex = 0j
-    along: complex = 0j
-    square: bool = False
-    slide: str = ""
-
-    @property
-    def is_moment(self) -> bool:
-        return self.symbol.kind == "M"
-
-
-def balance_of(structure: Structure, driver: Driver) -> BalanceForm:
-    """What balances in place of a driver of a structure: what the scene says, else a moment where it turns and a force
-    along the guide where it slides."""
-    scene = structure.scene
-    said = scene.loading.balance
-    if said is not None:
-        symbol = Symbol("M" if said.kind == "moment" else "F", link=said.link)
-        along = 0j if said.kind == "moment" else said.turn
-        return BalanceForm(symbol, said.link, scene.frame.name, said.at, along, said.square)
-    if driver.turns:
-        return BalanceForm(Symbol("M", link=driver.link), driver.link, driver.relative_to)
-    slide = structure.slide(driver.key)
-    of = next((pin.of for pin in scene.pins if pin.key == driver.key), slide.a)
-    return BalanceForm(Symbol("F", link=of), slide.a, slide.b, slide=slide.key)
-
-
 def force_groups(structure: Structure) -> tuple[Element, ...]:
     """The groups of the mechanism, in the order of solution, were it driven where it is balanced: a force or a moment
     there leaves so many equations to each group as it has unknown forces.
@@ -173,13 +140,20 @@ class Images:
         """The direction of a guide."""
         return self.sheet.poses[slide.b].axis * slide.guide.direction
 
-    def of_balance(self, balance: BalanceForm) -> tuple[complex, complex]:
-        """The direction of a balancing force, and where it acts (mm)."""
-        if balance.slide:
-            slide = self.sheet.structure.slide(balance.slide)
-            return self.along(slide), self.foot(slide)
-        along = 1j * self.sheet.poses[balance.link].axis if balance.square else balance.along
-        return along, self.place(balance.link, balance.at)
+    def balance(self, driver: Driver) -> ForceVector:
+        """What balances in place of a driver, of size 1: what the scene says, else a moment where it turns and a force
+        along the guide where it slides."""
+        scene = self.sheet.scene
+        said, frame = scene.loading.balance, scene.frame.name
+        if said is not None and said.kind == "force":
+            along = 1j * self.sheet.poses[said.link].axis if said.square else said.turn
+            return ForceVector(Symbol("F", link=said.link), said.link, along, self.place(said.link, said.at), off=frame)
+        if said is not None or driver.turns:
+            link, off = (driver.link, driver.relative_to) if said is None else (said.link, frame)
+            return ForceVector(Symbol("M", link=link), link, moment=1.0, off=off)
+        slide = self.sheet.structure.slide(driver.key)
+        of = next((pin.of for pin in scene.pins if pin.key == driver.key), slide.a)
+        return ForceVector(Symbol("F", link=of), slide.a, self.along(slide), self.foot(slide), off=slide.b)
 
     def slip(self, slide: Pair) -> tuple[float, float]:
         """The sliding velocity along the guide, and the greatest speed that leads to it (m/s)."""
