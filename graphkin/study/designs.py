@@ -20,7 +20,7 @@ from itertools import islice
 from numbers import Real
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from graphkin.errors import CallError, Problem, SceneError, as_text, unfit
 from graphkin.files import OwnTables, Tables, opened, path_of
@@ -236,14 +236,22 @@ SAME = 1e-12
 
 @dataclass(frozen=True)
 class _Law:
-    """A number of the mechanism by the value of a key: fixed + slope value, or fixed + slope direction(value)."""
+    """A number of the mechanism by the value of a key: it moves from where it is at ``begin`` as far as it was seen to
+    move over one ``step``, times how far the value is on its way, or its direction (deg) is turned."""
 
-    fixed: complex
-    slope: complex
+    first: complex
+    change: complex
+    begin: float
+    step: float
     turning: bool
 
     def __call__(self, values: Reals) -> Complexes:
-        return np.asarray(self.fixed + self.slope * (turned(np.radians(values)) if self.turning else values))
+        def along(value: ArrayLike) -> Complexes:
+            own = np.asarray(value, dtype=float)
+            return turned(np.radians(own)) if self.turning else own.astype(complex)
+
+        start, end = along(self.begin), along(self.begin + self.step)
+        return np.asarray(self.first + self.change * ((along(values) - start) / (end - start)))
 
 
 @dataclass(frozen=True)
@@ -303,7 +311,7 @@ def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> Design
         begin, step = _begin(source, key)
         changed[key] = begin + step
         read = [_read(source, {key: begin + k * step}) for k in range(3)]
-        laws[key] = _laws(key, begin, step, [dimensions(mechanism) for mechanism in read], scene)
+        laws[key] = _laws(key, begin, step, [dimensions(mechanism) for mechanism in read])
         beside = dict.fromkeys(part for mechanism in read for part in changed_beside(written, mechanism))
         if beside:
             hint = "sweep over it: graphkin.sweep(..., designs=...)"
@@ -332,7 +340,7 @@ def _read(source: Tables, values: Mapping[str, float]) -> Mechanism:
 
 
 def _laws(
-    key: str, begin: float, step: float, found: Sequence[Mapping[Dimension, complex]], scene: Mechanism
+    key: str, begin: float, step: float, found: Sequence[Mapping[Dimension, complex]]
 ) -> dict[Dimension, _Law]:
     """The laws of all numbers that a key changes, from three readings a step apart."""
     laws: dict[Dimension, _Law] = {}
@@ -343,33 +351,15 @@ def _laws(
         if abs(b - a) <= size and abs(c - b) <= size:
             continue
         if abs((c - b) - (b - a)) <= size:
-            slope = _plain((c - a) / (2 * step), scene)
-            law = _Law(_none(a - slope * begin, a), slope, False)
+            laws[name] = _Law(a, b - a, begin, step, turning=False)
         elif abs((c - b) - w * (b - a)) <= size:
-            first = complex(turned(np.radians(np.array([begin])))[0])
-            slope = (b - a) / (first * (w - 1))
-            slope = slope / abs(slope) if abs(abs(slope) - 1) < SAME else slope
-            law = _Law(_none(a - slope * first, a), slope, True)
+            laws[name] = _Law(a, b - a, begin, step, turning=True)
         else:
             raise CallError.of(f"designs {key}", "changes neither as a line nor as a",
                                "sweep over it graphkin.sweep designs", name=name[1])
-        laws[name] = law
     if not laws:
         raise CallError.of(f"designs {key}", "changes no dimension of the mechanism and no")
     return laws
-
-
-def _plain(slope: complex, scene: Mechanism) -> complex:
-    """A slope without the rounding of its finding, where it is one of the units."""
-    for unit in (scene.units.metres, scene.units.rates.metres, 1.0, math.radians(1.0), math.pi / 30):
-        for turn in (1, -1, 1j, -1j):
-            if abs(slope - turn * unit) <= 1e-11 * unit:
-                return turn * unit
-    return slope
-
-
-def _none(value: complex, beside: complex) -> complex:
-    return 0j if abs(value) <= 4 * SAME * abs(beside) else value
 
 
 def _side_by_side(keys: DesignKeys, values: Mapping[str, float], read_so: Mapping[Dimension, complex]) -> None:
