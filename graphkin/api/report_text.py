@@ -325,9 +325,9 @@ def _curves(turn: TurnStudy, language: str) -> list[str]:
         for key, extreme in (("greatest", traced.furthest(1.0, "max")), ("least", traced.furthest(-1.0, "min"))):
             if extreme is not None:
                 value = unit.of(extreme.value)
-                named = word(f"local {key}" if turn.is_local(traced, extreme) else key, language)
+                named = word(f"local {key}" if extreme.local else key, language)
                 parts.append(f"{named} {value:.6g} @ {_at(scene, extreme)}")
-        if turn.is_unbounded(traced):
+        if traced.unbounded:
             parts.append(word("unbounded", language))
         if traced.zeros:
             places = ", ".join(scene.unit_of(scene.drivers[0]).said(z) for z in traced.zeros)

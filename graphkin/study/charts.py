@@ -256,8 +256,8 @@ class Panel:
     """What one panel shows, in units of the figure.
 
     curve, dots, laid_over : shape (n, 2), place on the axis and value; the last are values from elsewhere
-    extremes : with place and value as they are shown, in ``span`` alone; ``local`` those beyond which the quantity goes
-        elsewhere in a range that ends, ``unbounded`` whether it grows without bound towards an end
+    extremes : with place and value as they are shown, in ``span`` alone
+    unbounded : whether it grows without bound towards an end of the range
     allowed : the values within which a transmission or pressure angle shall stay; ``falling``: up to which that of a
         cam's follower may go as it falls
     jumps : after which points the curve jumps
@@ -269,7 +269,6 @@ class Panel:
     dots: Array
     extremes: tuple[tuple[Extreme, float, float], ...]
     span: tuple[float, float]
-    local: frozenset[Extreme] = frozenset()
     unbounded: bool = False
     allowed: tuple[float, float] | None = None
     falling: float | None = None
@@ -324,10 +323,7 @@ def motion_panel(
     extremes = [e for e in (traced.extremes if traced else ()) if e.kind != "end"]
     panel = panel_of(axis, quantity, curve, extremes, turn.reach.full or quantity.is_position,
                      axis.points(quantity, dots), axis.points(quantity, laid_over))  # fmt: skip
-    if traced is None:
-        return panel
-    local = frozenset(e for e, _, _ in panel.extremes if turn.is_local(traced, e))
-    return replace(panel, local=local, unbounded=turn.is_unbounded(traced))
+    return replace(panel, unbounded=traced is not None and traced.unbounded)
 
 
 def quantity_title(scene: Mechanism, quantity: Quantity) -> str:
@@ -443,7 +439,7 @@ def draw_panel(axes: Axes, panel: Panel, axis: Axis, language: str, limits: Sequ
     for extreme, x, value in panel.extremes:
         kind = extreme.kind
         axes.plot([x], [value], **marker("up" if kind == "max" else "down"))
-        mark = f" ({word('local', language)})" if extreme in panel.local else ""
+        mark = f" ({word('local', language)})" if extreme.local else ""
         nothing = abs(value) < ROUNDING * (panel.span[1] - panel.span[0])
         labels.append((("0" if nothing else number(value)) + mark, (x, value)))
         toward.append((math.pi / 2 if kind == "max" else -math.pi / 2,))
@@ -466,7 +462,7 @@ def legend_of(panels: Sequence[Panel], language: str) -> list[tuple[Look, str]]:
     if any(len(panel.laid_over) for panel in panels):
         entries.append((marker("cross"), word("laid over", language)))
     for kind, key in (("max", "greatest"), ("min", "least")):
-        shown = [e in panel.local for panel in panels for e, _, _ in panel.extremes if e.kind == kind]
+        shown = [e.local for panel in panels for e, _, _ in panel.extremes if e.kind == kind]
         if shown:
             named = f"local {key}" if all(shown) else key
             entries.append((marker("up" if kind == "max" else "down"), word(named, language)))

@@ -22,6 +22,10 @@ __all__ = ["CurveParameter", "Extreme", "Traced", "driver_value", "trace"]
 
 NOTHING = 5e-11
 """A driver value this small (rad, m) is 0: no extreme of an acceleration is placed better."""
+SAMPLES, LOCAL = 400, 1e-9
+"""Positions over a range that ends, and how much, of the largest value there, goes beyond an extreme."""
+GROWS = 5.0
+"""A hundred times nearer to an end a rate like the root of the distance is ten times as much."""
 EQUAL = 1e-11
 """Of a value: extremes that differ by less are equal."""
 NEAR_END = 1e-5
@@ -34,22 +38,25 @@ HAIR = 1e-6
 @dataclass(frozen=True)
 class Extreme:
     """A greatest or least value, or the value at an end of the motion: where (offset, and value of the driver, SI) and
-    how much (SI)."""
+    how much (SI); ``local`` where the quantity goes beyond it elsewhere in a range that ends."""
 
     kind: Literal["max", "min", "end"]
     offset: float
     driver: float
     value: float
+    local: bool = False
 
 
 @dataclass(frozen=True)
 class Traced:
-    """A quantity over the driver's range: its extremes in the order of the motion, and where it is zero (driver)."""
+    """A quantity over the driver's range: its extremes in the order of the motion, and where it is zero (driver);
+    ``unbounded`` where it grows without bound towards an end of the range."""
 
     quantity: Quantity
     extremes: tuple[Extreme, ...]
     zeros: tuple[float, ...]
     constant: float | None = None
+    unbounded: bool = False
 
     def furthest(self, sense: float, kind: str = "") -> Extreme | None:
         """The extreme (of a kind) of the greatest value, with -1 for ``sense`` of the least; the first of equal ones.
@@ -190,7 +197,8 @@ def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[Traced, .
         # near the end of a motion, a distance x away, velocities grow as x^-1/2 and accelerations as x^-3/2
         power = np.array([(1.0 if q.is_speed else 3.0) * (2 if q.is_size else 1) for q in rates])
         curves += resolved(rates, _floor(reach, rates), None if reach.full else power)
-    found = {t.quantity: t for t in _traced(way, curves) if t.constant is None or np.isfinite(t.constant)}
+    traced = _traced(way, curves) if reach.full else _beside_ends(reach, _traced(way, curves))
+    found = {t.quantity: t for t in traced if t.constant is None or np.isfinite(t.constant)}
     return tuple(found[q] for q in quantities if q in found)
 
 
@@ -243,6 +251,27 @@ def _traced(way: CurveParameter, curves: Sequence[Curve]) -> list[Traced]:
         elif quantity.is_angle:
             zeros = np.zeros(0)
         found.append(Traced(quantity, extremes, tuple(driver_value(reach, float(z)) for z in zeros)))
+    return found
+
+
+def _beside_ends(reach: DriverRange, curves: Sequence[Traced]) -> list[Traced]:
+    """Curves over a range that ends, with what goes beyond their extremes, and what grows without bound."""
+    low, high = reach.ends
+    near = np.array([1e-8, 1e-6])
+    part = np.concatenate([near, np.sin(np.linspace(0.0, np.pi / 2, SAMPLES)[1:-1]) ** 2, 1.0 - near[::-1]])
+    motion, found = reach.motion(low + (high - low) * part), list[Traced]()
+    for curve in curves:
+        values = curve.quantity.values(reach, motion)
+        size, known = np.abs(values), values[np.isfinite(values)]
+        slack = LOCAL * float(np.max(np.abs(known), initial=0.0))
+        most, least = float(np.max(known, initial=-np.inf)) - slack, float(np.min(known, initial=np.inf)) + slack
+        extremes = tuple(
+            replace(e, local=e.kind != "end" and (most > e.value if e.kind == "max" else least < e.value))
+            for e in curve.extremes
+        )
+        grows = size[0] > GROWS * size[1], size[-1] > GROWS * size[-2]
+        unbounded = curve.constant is None and any(np.logical_and(grows, reach.limited))
+        found.append(replace(curve, extremes=extremes, unbounded=unbounded))
     return found
 
 

@@ -31,8 +31,6 @@ __all__ = ["BasicLoop", "Output", "TurnStudy", "four_bar_class", "study_turn"]
 
 EQUAL = 1e-9
 """Lengths that differ by less than this part of the longest count as equal: a change point."""
-WAY = 400
-GROWS = 5.0  # a hundred times nearer to an end a rate like the root of the distance is ten times as much
 
 
 @dataclass(frozen=True)
@@ -326,14 +324,6 @@ class TurnStudy:
         return not_searched(self.reach)
 
     @cached_property
-    def _way(self) -> Motion:
-        """Positions over a range that ends, close together near its ends."""
-        low, high = self.reach.ends
-        near = np.array([1e-8, 1e-6])
-        part = np.concatenate([near, np.sin(np.linspace(0.0, np.pi / 2, WAY)[1:-1]) ** 2, 1.0 - near[::-1]])
-        return self.reach.motion(low + (high - low) * part)
-
-    @cached_property
     def flywheel(self) -> FlywheelStudy | Unsolvable | None:
         """The flywheel that the scene asks for, or why it has none; None where it asks for none."""
         if self.scene.loading.flywheel is None:
@@ -342,24 +332,6 @@ class TurnStudy:
             return flywheel_of(self.reach)
         except Unsolvable as stop:
             return stop
-
-    def is_local(self, traced: Traced, extreme: Extreme) -> bool:
-        """Whether a quantity goes beyond an extreme of it elsewhere in a range that ends."""
-        if self.reach.full or extreme.kind == "end":
-            return False
-        values = traced.quantity.values(self.reach, self._way)
-        values = values[np.isfinite(values)]
-        slack = 1e-9 * float(np.max(np.abs(values), initial=0.0))
-        beyond = values > extreme.value + slack if extreme.kind == "max" else values < extreme.value - slack
-        return bool(beyond.any())
-
-    def is_unbounded(self, traced: Traced) -> bool:
-        """Whether a quantity grows without bound towards an end of the range."""
-        if self.reach.full or traced.constant is not None:
-            return False
-        values = np.abs(traced.quantity.values(self.reach, self._way))
-        low, high = self.reach.limited
-        return bool((low and values[0] > GROWS * values[1]) or (high and values[-1] > GROWS * values[-2]))
 
     def quick_return(self, output: Output) -> tuple[float, float] | None:
         """K of an output, and the crank angle theta (rad) between its limit positions; None where it has none.

@@ -126,7 +126,7 @@ def _driver(scene: Mechanism, value: float) -> float:
 def _extreme(turn: TurnStudy, traced: Traced, extreme: Extreme) -> dict[str, Json]:
     found: dict[str, Json] = {"kind": extreme.kind, "driver": _driver(turn.scene, extreme.driver)}
     if math.isfinite(extreme.value):
-        local = {"local": True} if turn.is_local(traced, extreme) else {}
+        local = {"local": True} if extreme.local else {}
         return {**found, "value": traced.quantity.unit(turn.scene, radians=True).of(extreme.value), **local}
     return {**found, "value": None, "why": UNBOUNDED}
 
