@@ -19,7 +19,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.search import intervals
 from graphkin.solver import DriverRange, Motion, own_slides
 from graphkin.solver.continuity import FAR
-from graphkin.solver.driver_range import Extremes, extremes
+from graphkin.solver.driver_range import Extremes
 from graphkin.solver.engine import positions
 from graphkin.solver.pose import Drive
 from graphkin.solver.values import FlywheelStudy, flywheel_of
@@ -344,10 +344,6 @@ class TurnStudy:
         if low is None or high is None or self.reach.turns != 1:
             return None
         ends = Extremes(low.value, high.value, low.offset, high.offset)
-        if any(output.quantity.of in (c.follower, getattr(c.motion, "pair", "")) for c in self.reach.scene.cams):
-            # a follower may stand still where it is highest or lowest
-            name = output.quantity.of
-            ends = extremes(self.reach, Symbol.parse(f"{'stroke' if '/' in name else 'swing'}_{name}"))
         if ends.lag > np.pi * (1 - 2e-12):
             return None
         return ends.ratio, ends.lag
