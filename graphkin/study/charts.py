@@ -8,27 +8,13 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.account.notation import force_letters
 from graphkin.construction.scales import next_of_series
-from graphkin.drawing import Box, Primitive, Text
-from graphkin.drawing.chart import (
-    BEHIND,
-    SOLID_AND_DASHED,
-    ChartPage,
-    add_labels,
-    add_legend,
-    add_panel,
-    add_words,
-    count_steps,
-    degree_step,
-    look,
-    marker,
-)
+from graphkin.drawing import Box, Primitive, Text, chart
 from graphkin.drawing.ink.primitives import Stroke
 from graphkin.drawing.text import rich
 from graphkin.scene.model import Mechanism
@@ -40,9 +26,6 @@ from graphkin.study.quantities import Quantity
 from graphkin.study.turn import TurnStudy
 from graphkin.words import Phrase, say, word
 from graphkin.words.written import in_markup, true_minus
-
-if TYPE_CHECKING:
-    from graphkin.drawing.chart import Axes, Figure, Look
 
 __all__ = [
     "EMPTY", "HEIGHT", "LEFT", "MARGIN", "RIGHT", "TOP", "WIDTH", "ZERO", "Axis", "DriverAxis", "Panel", "chart_page",
@@ -242,7 +225,7 @@ def driver_axis(reach: DriverRange, language: str) -> DriverAxis:
     else:
         low, high = sorted(float(scene.unit_of(driver).of(reach.value(np.array(e)))) for e in reach.ends)
     wide = high - low or scene.size / scene.units.metres  # a slide that its own place alone lets stand has no way
-    step = degree_step(high - low) if driver.turns else next_of_series(wide / 12)
+    step = chart.degree_step(high - low) if driver.turns else next_of_series(wide / 12)
     first = float((-reach.start[0] * reach.sense) % reach.ends[1]) if reach.full else reach.ends[0]
     left, right = (low, high) if reach.sense > 0 else (high, low)
     return DriverAxis(left, right, step, say(Phrase("of the driver", (symbol,)), language), reach, first)
@@ -387,7 +370,7 @@ def span_of(curve: Array, dots: Array = EMPTY, bounded: bool = True) -> tuple[fl
 def chart_page(
     scene: Mechanism, heads: tuple[str, Sequence[str]], panels: Sequence[Panel], axis: Axis, language: str, of: str,
     metadata: Mapping[str, object], limits: Sequence[float] = (),
-) -> ChartPage:  # fmt: skip
+) -> chart.ChartPage:  # fmt: skip
     """A page with one panel under the other.
 
     Parameters
@@ -399,73 +382,73 @@ def chart_page(
     title, facts = heads
     tall = THIRD if len(panels) > 1 else ALONE
 
-    def paint(figure: Figure) -> None:
-        add_words(figure, *heading(scene, title, facts, language))
-        marks = [(look(LIMIT), word("limit marks", language))] if limits else []
-        add_legend(figure, complex(LEFT, TOP - 9.5), [*legend_of(panels, language), *marks])
+    def paint(figure: chart.Figure) -> None:
+        chart.add_words(figure, *heading(scene, title, facts, language))
+        marks = [(chart.look(LIMIT), word("limit marks", language))] if limits else []
+        chart.add_legend(figure, complex(LEFT, TOP - 9.5), [*legend_of(panels, language), *marks])
         for k, panel in enumerate(panels):
             top, last = TOP + k * (tall + GAP), k == len(panels) - 1
             name = panel.quantity.name.replace("/", "-")
             headed = panel.title + (word("list comma", language) + word("unbounded", language)) * panel.unbounded
-            axes = add_panel(figure, Box(LEFT, top, WIDTH - RIGHT, top + tall), name, headed, axis.title * last)
+            axes = chart.add_panel(figure, Box(LEFT, top, WIDTH - RIGHT, top + tall), name, headed, axis.title * last)
             draw_panel(axes, panel, axis, language, limits)
             axes.tick_params(labelbottom=last)
 
-    return ChartPage(
+    return chart.ChartPage(
         WIDTH, TOP + len(panels) * (tall + GAP) - GAP + 20.0, paint, title=f"{of}: {title_of(scene, language)}",
         desc=" ".join(facts) or of, lang=language,
         metadata={"scene": scene.name, "units": scene.units.length, **metadata},
     )  # fmt: skip
 
 
-def draw_panel(axes: Axes, panel: Panel, axis: Axis, language: str, limits: Sequence[float] = ()) -> None:
+def draw_panel(axes: chart.Axes, panel: Panel, axis: Axis, language: str, limits: Sequence[float] = ()) -> None:
     """One panel; zero lines and limit positions lie behind the curve."""
     axes.set_xlim(axis.left, axis.right)
     axes.set_ylim(*panel.span)
-    count_steps(axes.xaxis, axis.step)
-    count_steps(axes.yaxis, degree_step(panel.span[1] - panel.span[0], 7) if panel.counts_degrees else None)
+    chart.count_steps(axes.xaxis, axis.step)
+    chart.count_steps(axes.yaxis, chart.degree_step(panel.span[1] - panel.span[0], 7) if panel.counts_degrees else None)
     if panel.allowed is not None:
         axes.axhspan(*panel.allowed, color=ALLOWED, linewidth=0.0, zorder=0.5)
         inside = [value for value in (*panel.allowed, panel.falling) if value and 0.0 < value < 90.0]
         for value in inside:
-            axes.axhline(value, zorder=BEHIND, **look(LIMIT))
-    axes.axhline(0.0, zorder=BEHIND, **look(ZERO))
+            axes.axhline(value, zorder=chart.BEHIND, **chart.look(LIMIT))
+    axes.axhline(0.0, zorder=chart.BEHIND, **chart.look(ZERO))
     for limit in limits:
-        axes.axvline(limit, zorder=BEHIND, **look(LIMIT))
+        axes.axvline(limit, zorder=chart.BEHIND, **chart.look(LIMIT))
     draw_pieces(axes, panel.curve, panel.jumps)
-    axes.plot(*panel.dots.T, **marker("circle"))
-    axes.plot(*panel.laid_over.T, **marker("cross"))
+    axes.plot(*panel.dots.T, **chart.marker("circle"))
+    axes.plot(*panel.laid_over.T, **chart.marker("cross"))
     labels, toward = [], []
     for extreme, x, value in panel.extremes:
         kind = extreme.kind
-        axes.plot([x], [value], **marker("up" if kind == "max" else "down"))
+        axes.plot([x], [value], **chart.marker("up" if kind == "max" else "down"))
         mark = f" ({word('local', language)})" if extreme.local else ""
         nothing = abs(value) < ROUNDING * (panel.span[1] - panel.span[0])
         labels.append((("0" if nothing else number(value)) + mark, (x, value)))
         toward.append((math.pi / 2 if kind == "max" else -math.pi / 2,))
-    add_labels(axes, labels, toward=toward)
+    chart.add_labels(axes, labels, toward=toward)
 
 
-def draw_pieces(axes: Axes, curve: Array, jumps: Sequence[int]) -> None:
+def draw_pieces(axes: chart.Axes, curve: Array, jumps: Sequence[int]) -> None:
     """A curve, shape (n, 2), its jumps dashed."""
     for piece in np.split(curve, [k + 1 for k in jumps]):
-        axes.plot(*piece.T, **look(SOLID_AND_DASHED[0]))
+        axes.plot(*piece.T, **chart.look(chart.SOLID_AND_DASHED[0]))
     for k in jumps:
-        axes.plot(*curve[k : k + 2].T, **look(LEAP))
+        axes.plot(*curve[k : k + 2].T, **chart.look(LEAP))
 
 
-def legend_of(panels: Sequence[Panel], language: str) -> list[tuple[Look, str]]:
+def legend_of(panels: Sequence[Panel], language: str) -> list[tuple[chart.Look, str]]:
     """What the marks of some panels mean, as entries of a legend."""
-    entries = [(look(SOLID_AND_DASHED[0]), word("analytic curve", language))]
+    entries = [(chart.look(chart.SOLID_AND_DASHED[0]), word("analytic curve", language))]
     if any(len(panel.dots) for panel in panels):
-        entries.append((marker("circle"), word("measured dots", language)))
+        entries.append((chart.marker("circle"), word("measured dots", language)))
     if any(len(panel.laid_over) for panel in panels):
-        entries.append((marker("cross"), word("laid over", language)))
+        entries.append((chart.marker("cross"), word("laid over", language)))
     for kind, key in (("max", "greatest"), ("min", "least")):
         shown = [e.local for panel in panels for e, _, _ in panel.extremes if e.kind == kind]
         if shown:
             named = f"local {key}" if all(shown) else key
-            entries.append((marker("up" if kind == "max" else "down"), word(named, language)))
+            entries.append((chart.marker("up" if kind == "max" else "down"), word(named, language)))
     for panel in panels:
         if panel.allowed is not None:
             low, high = panel.allowed
@@ -473,7 +456,8 @@ def legend_of(panels: Sequence[Panel], language: str) -> list[tuple[Look, str]]:
             if panel.falling:
                 told = say(Phrase("rising and falling", (f"{high:g}°", f"{panel.falling:g}°")), language)
             own = panel.allowed != _usual(panel.quantity)
-            entries.append((look(LIMIT), say(Phrase("allowed by scene" if own else "allowed band", (told,)), language)))
+            key = "allowed by scene" if own else "allowed band"
+            entries.append((chart.look(LIMIT), say(Phrase(key, (told,)), language)))
     if any(panel.jumps for panel in panels):
-        entries.append((look(LEAP), word("load jumps", language)))
+        entries.append((chart.look(LEAP), word("load jumps", language)))
     return entries

@@ -29,14 +29,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Unit
 from graphkin.solver import DriverRange
 from graphkin.solver.values import FlywheelStudy
-from graphkin.study.charts import (
-    DriverAxis,
-    chart_page,
-    driver_axis,
-    motion_panel,
-    number,
-    title_of,
-)
+from graphkin.study import charts
 from graphkin.study.force_diagrams import flywheel_page, force_page, polar_page
 from graphkin.study.graphical import ordinate_chains
 from graphkin.study.quantities import Quantity, load_quantity, rates_of
@@ -62,7 +55,7 @@ def diagrams(
     positions : where the values measured off the drawn polygons are laid over the curves; 0 for none
     over : what somebody else has measured, laid over the curves
     """
-    axis = driver_axis(turn.reach, language)
+    axis = charts.driver_axis(turn.reach, language)
     if asked:
         made: dict[str, ChartPage | Drawing] = {}
         for quantity in asked:
@@ -112,12 +105,12 @@ def _balance_pages(turn: TurnStudy, language: str) -> dict[str, ChartPage | Draw
 
 
 def _motion_page(
-    turn: TurnStudy, axis: DriverAxis, output: Output, dots: Sequence[tuple[float, ...]], over: LaidOver, language: str,
+    turn: TurnStudy, axis: charts.DriverAxis, output: Output, dots: Sequence[tuple[float, ...]], over: LaidOver, language: str,
 ) -> ChartPage:
     """Position, rate and second rate of an output, one under the other."""
     quantity = output.quantity
     panels = [
-        motion_panel(turn, axis, q, [(d[0], d[k]) for d in dots], over.get(q, ()))
+        charts.motion_panel(turn, axis, q, [(d[0], d[k]) for d in dots], over.get(q, ()))
         for k, q in enumerate(rates_of(quantity), 1)
     ]
     limits = sorted(
@@ -126,18 +119,18 @@ def _motion_page(
     key = "motion of link" if quantity.kind == "theta" else "motion of slide"
     title = say(Phrase(key, (quantity.of.split("/")[0],)), language)
     heads = in_markup(title), _facts(turn, output, language)
-    return chart_page(turn.scene, heads, panels, axis, language, title, {"output": quantity.of}, limits)
+    return charts.chart_page(turn.scene, heads, panels, axis, language, title, {"output": quantity.of}, limits)
 
 
 def _asked_page(
-    turn: TurnStudy, axis: DriverAxis, quantity: Quantity, over: LaidOver, language: str
+    turn: TurnStudy, axis: charts.DriverAxis, quantity: Quantity, over: LaidOver, language: str
 ) -> ChartPage:
     """The diagram of one quantity over the driver."""
     others = over.get(quantity, ())
-    panel = motion_panel(turn, axis, quantity, (), others)
+    panel = charts.motion_panel(turn, axis, quantity, (), others)
     apart = _apart(turn, quantity, others, language)
     heads = say(Phrase("diagram of", (panel.title,)), language), [apart] if apart else []
-    return chart_page(turn.scene, heads, [panel], axis, language, quantity.name, {"quantity": quantity.name})
+    return charts.chart_page(turn.scene, heads, [panel], axis, language, quantity.name, {"quantity": quantity.name})
 
 
 def _apart(turn: TurnStudy, quantity: Quantity, over: Sequence[tuple[float, float]], language: str) -> str:
@@ -167,7 +160,7 @@ def _facts(turn: TurnStudy, output: Output, language: str) -> list[str]:
     facts = [say(Phrase(key, (_said(stroke, unit),)), language)]
     back = turn.quick_return(output)
     if back is not None:
-        facts.append(say(Phrase("K is", (number(back[0]),)), language).replace("K", "$K$", 1))
+        facts.append(say(Phrase("K is", (charts.number(back[0]),)), language).replace("K", "$K$", 1))
     low, high = output.low, output.high
     assert low is not None
     assert high is not None
@@ -178,7 +171,7 @@ def _facts(turn: TurnStudy, output: Output, language: str) -> list[str]:
 
 def _said(value: float, unit: Unit, digits: int = 6) -> str:
     """A value (SI) in its unit."""
-    return unit.beside(number(unit.of(value), digits))
+    return unit.beside(charts.number(unit.of(value), digits))
 
 
 def measured(
@@ -235,7 +228,7 @@ def coupler_points(scene: Mechanism) -> tuple[tuple[str, str], ...]:
     return tuple(found)
 
 
-def curve_page(sheet: Sheet, axis: DriverAxis, point: str, link: str, language: str) -> Drawing:
+def curve_page(sheet: Sheet, axis: charts.DriverAxis, point: str, link: str, language: str) -> Drawing:
     """The path of a coupler point in scale, with marks at equal steps of the driver, and the mechanism of a sheet: at
     its own position, or in the middle of its range where that is singular."""
     reach, scene = axis.reach, axis.scene
@@ -259,7 +252,7 @@ def curve_page(sheet: Sheet, axis: DriverAxis, point: str, link: str, language: 
     numbers = numbers % (360 * reach.turns) if reach.full else numbers
     marks = [(on_page(complex(z) * mm), n) for z, n in zip(at, numbers, strict=True) if np.isfinite(z)]
     unit = "°" if reach.driver.turns else ""
-    labels = tuple(Label.of(rich(f"{number(n, 4)}{unit}", 2.5), z) for z, n in marks)
+    labels = tuple(Label.of(rich(f"{charts.number(n, 4)}{unit}", 2.5), z) for z, n in marks)
     line = Polyline(tuple(on_page(complex(z) * mm) for z in path), Stroke(0.5))
     title = say(Phrase("curve of point", (f"${point}$",)), language)
     group = Group((line, *(Circle(z, DOT, strokes.BLACK, Stroke(0.25)) for z, _ in marks)), id=f"curve-{point}",
@@ -278,4 +271,4 @@ def curve_page(sheet: Sheet, axis: DriverAxis, point: str, link: str, language: 
         facts.append(say(Phrase("ticks at", (str(360 // TICKS), str(begin))), language))
     body = column(page.panel(content.height, drawn), prose(facts, page.width, 3.0))
     made = page.drawing(title, body, page.scale("mechanism"), title="mechanism", said="; ".join(facts))
-    return replace(made, title=f"{group.title}: {title_of(scene, language)}")
+    return replace(made, title=f"{group.title}: {charts.title_of(scene, language)}")

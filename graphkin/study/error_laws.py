@@ -6,32 +6,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from graphkin.drawing import Box, Stroke, Text
-from graphkin.drawing.chart import (
-    NUMBER,
-    SOLID_AND_DASHED,
-    ChartPage,
-    Shape,
-    add_labels,
-    add_legend,
-    add_panel,
-    add_words,
-    count_powers,
-    look,
-    marker,
-)
+from graphkin.drawing import Box, Stroke, Text, chart
 from graphkin.drawing.text import rich, wrapped
 from graphkin.files import Json
 from graphkin.table import Table
 from graphkin.words import Phrase, say, word
 from graphkin.words.written import true_minus
-
-if TYPE_CHECKING:
-    from graphkin.drawing.chart import Figure
 
 __all__ = [
     "LOST", "Answer", "ErrorLaw", "Singularity", "grid", "in_powers", "laws_table", "lessons", "measured",
@@ -277,12 +261,12 @@ PLOT = complex(78.0, 54.0)
 INDENT = 13.0
 PER_PAGE = 6
 LETTERS = 2.5
-DOTS: dict[str, Shape] = {"Newton": "circle", "drawing": "cross", "drawn": "cross", "pencil": "up"}
+DOTS: dict[str, chart.Shape] = {"Newton": "circle", "drawing": "cross", "drawn": "cross", "pencil": "up"}
 """Methods whose points are marked: by a word of the law's key."""
 LOW, HIGH = 1e-17, 1e2
 
 
-def stability_pages(singularities: Sequence[Singularity], language: str = "en") -> dict[str, ChartPage]:
+def stability_pages(singularities: Sequence[Singularity], language: str = "en") -> dict[str, chart.ChartPage]:
     """The singularities on pages of six, by name: "stability", and "stability-2" for the next."""
     pages = {}
     for k in range(0, len(singularities), PER_PAGE):
@@ -291,58 +275,58 @@ def stability_pages(singularities: Sequence[Singularity], language: str = "en") 
     return pages
 
 
-def _page(shown: Sequence[Singularity], every: Sequence[Singularity], language: str) -> ChartPage:
+def _page(shown: Sequence[Singularity], every: Sequence[Singularity], language: str) -> chart.ChartPage:
     """Some singularities, and what to take from ``every`` one where a place is left."""
     title, facts = word("stability title", language), word("stability facts", language)
     corners = [complex(LEFT + (k % 2) * CELL.real, TOP + (k // 2) * CELL.imag) for k in range(PER_PAGE + 1)]
-    marks: tuple[Shape, ...] = (DOTS["Newton"], DOTS["drawing"], DOTS["pencil"], "square")
+    marks: tuple[chart.Shape, ...] = (DOTS["Newton"], DOTS["drawing"], DOTS["pencil"], "square")
 
-    def paint(figure: Figure) -> None:
+    def paint(figure: chart.Figure) -> None:
         heads = Text(complex(LEFT, 14.0), rich(title, 5.0, bold=True)), Text(complex(LEFT, 20.0), rich(facts, 3.0))
-        add_words(figure, *heads)
+        chart.add_words(figure, *heads)
         keys = ("newton marks", "drawing marks", "pencil marks", "stop marks")
-        legend = [(marker(shape), word(key, language)) for shape, key in zip(marks, keys, strict=True)]
-        add_legend(figure, complex(LEFT, 25.2), legend)
+        legend = [(chart.marker(shape), word(key, language)) for shape, key in zip(marks, keys, strict=True)]
+        chart.add_legend(figure, complex(LEFT, 25.2), legend)
         for singularity, corner in zip(shown, corners, strict=False):
             _draw(figure, singularity, corner, language)
         if len(shown) % 2:
-            add_words(figure, *_lesson(corners[len(shown)], every, language))
+            chart.add_words(figure, *_lesson(corners[len(shown)], every, language))
 
     names = "; ".join(word(s.key, language) for s in shown)
-    return ChartPage(
+    return chart.ChartPage(
         WIDTH, HEIGHT, paint, title=title, desc=f"{facts}: {names}", lang=language,
         metadata={"study": "stability", "singularities": [s.key for s in shown]},
     )  # fmt: skip
 
 
-def _draw(figure: Figure, singularity: Singularity, corner: complex, language: str) -> None:
+def _draw(figure: chart.Figure, singularity: Singularity, corner: complex, language: str) -> None:
     """The curves of one singularity, each with its name, and below them where methods stop."""
     left, top = corner.real + INDENT, corner.imag + 6.0
     box = Box(left, top, left + PLOT.real, top + PLOT.imag)
     laws, panel = singularity.laws, f"singularity-{singularity.key.replace(' ', '-')}"
-    axes = add_panel(figure, box, panel, x_title=word(singularity.distance, language))
+    axes = chart.add_panel(figure, box, panel, x_title=word(singularity.distance, language))
     errors = [e for law in laws for e in law.error if math.isfinite(e) and e > 0]
     xs = [x for law in laws for x in law.x]
-    count_powers(axes, "x", min(xs) * 1.001, max(xs) * 0.999, most=8)
-    low, high = count_powers(axes, "y", max(min(errors) / 2, LOW), min(max(errors) * 2, HIGH))
+    chart.count_powers(axes, "x", min(xs) * 1.001, max(xs) * 0.999, most=8)
+    low, high = chart.count_powers(axes, "y", max(min(errors) / 2, LOW), min(max(errors) * 2, HIGH))
     labels = []
     first = {law.key: law for law in reversed(laws)}  # two branches of one curve have one line
     for k, (law, stroke) in enumerate(zip(laws, _strokes(laws), strict=True)):
         points = [(x, max(e, low)) for x, e in zip(law.x, law.error, strict=True) if math.isfinite(e)]
         points = [(x, e) for x, e in points if e <= high]
         if stroke is not None and law is first[law.key]:
-            axes.plot([x for x, _ in points], [e for _, e in points], **look(stroke))
+            axes.plot([x for x, _ in points], [e for _, e in points], **chart.look(stroke))
         shape = _dot(law)
         if shape is not None:
             some = points[:: 1 if len(points) < 12 else 2]
-            axes.plot([x for x, _ in some], [e for _, e in some], **marker(shape))
+            axes.plot([x for x, _ in some], [e for _, e in some], **chart.marker(shape))
         if law.refuses_from is not None and points:
-            axes.plot(*([value] for value in min(points)), **marker("square"))
+            axes.plot(*([value] for value in min(points)), **chart.marker("square"))
         if points:
             labels.append((_label(law, language), _stretch(law, points, k, len(laws))))
-    add_labels(axes, labels, (NUMBER, 2.3, 2.1, 2.0))
+    chart.add_labels(axes, labels, (chart.NUMBER, 2.3, 2.1, 2.0))
     fates = [runs for fate in singularity.fates for runs in wrapped(say(fate, language), LETTERS, CELL.real - 4.0)]
-    add_words(
+    chart.add_words(
         figure,
         Text(complex(corner.real, corner.imag + 2.5), rich(word(singularity.key, language), 3.2, True)),
         *(Text(complex(corner.real, box.bottom + 14.0 + 3.3 * k), runs) for k, runs in enumerate(fates)),
@@ -375,7 +359,7 @@ def _lesson(corner: complex, singularities: Sequence[Singularity], language: str
 
 def _strokes(laws: Sequence[ErrorLaw]) -> list[Stroke | None]:
     """Lines for what is computed, each of its own kind; dots alone for what is only compared with these."""
-    kinds = iter(SOLID_AND_DASHED)
+    kinds = iter(chart.SOLID_AND_DASHED)
     by_key: dict[str, Stroke | None] = {}
     for law in laws:
         if law.key not in by_key:
@@ -383,7 +367,7 @@ def _strokes(laws: Sequence[ErrorLaw]) -> list[Stroke | None]:
     return [by_key[law.key] for law in laws]
 
 
-def _dot(law: ErrorLaw) -> Shape | None:
+def _dot(law: ErrorLaw) -> chart.Shape | None:
     return next((shape for part, shape in DOTS.items() if part in law.key), None)
 
 

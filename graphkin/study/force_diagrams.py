@@ -8,54 +8,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from graphkin.drawing import Box
-from graphkin.drawing.chart import (
-    BEHIND,
-    SOLID_AND_DASHED,
-    ChartPage,
-    add_labels,
-    add_legend,
-    add_panel,
-    add_words,
-    count_steps,
-    look,
-    marker,
-)
+from graphkin.drawing import Box, chart
 from graphkin.drawing.ink.primitives import Stroke
 from graphkin.scene.force_names import force_names
 from graphkin.solver import DriverRange, forces_of
 from graphkin.solver.values import FlywheelStudy, MomentArea, load_edges, needed_moment
-from graphkin.study.charts import (
-    LEFT,
-    MARGIN,
-    RIGHT,
-    TOP,
-    WIDTH,
-    ZERO,
-    Array,
-    DriverAxis,
-    Panel,
-    chart_page,
-    draw_panel,
-    draw_pieces,
-    driver_axis,
-    force_symbol,
-    heading,
-    number,
-    panel_of,
-    span_of,
-    title_of,
-)
+from graphkin.study import charts
 from graphkin.study.extremes import Extreme
 from graphkin.study.quantities import Quantity, load_quantity, named_quantity
 from graphkin.words import Phrase, say, word
-
-if TYPE_CHECKING:
-    from graphkin.drawing.chart import Figure
 
 __all__ = ["flywheel_page", "force_extremes", "force_page", "force_panel", "polar_page", "whole_turn"]
 
@@ -68,7 +32,7 @@ NOUGHT = 1e-12
 TICKS = 12
 
 
-def whole_turn(axis: DriverAxis) -> Array:
+def whole_turn(axis: charts.DriverAxis) -> charts.Array:
     """Offsets as the axis goes, with two on both sides of each place where the forces jump."""
     low, high = axis.reach.ends
     eps = JUMP * (high - low)
@@ -80,25 +44,25 @@ def whole_turn(axis: DriverAxis) -> Array:
     return np.unique(np.concatenate([axis.offsets, beside[(beside > low) & (beside < high)]]))
 
 
-def force_panel(axis: DriverAxis, quantity: Quantity, offsets: Array) -> Panel:
+def force_panel(axis: charts.DriverAxis, quantity: Quantity, offsets: charts.Array) -> charts.Panel:
     """A moment, or the size of a force, over the driver, with its greatest and its least value."""
     values = quantity.values(axis.reach, axis.reach.motion(offsets))
     curve, extremes = axis.curve(quantity, offsets, values), _extremes(axis, quantity, offsets, values)
     away = any(math.isinf(e.value) for e in extremes)
-    panel = panel_of(axis, quantity, curve, extremes, bounded=not away, jumps=jumps_of(curve))
+    panel = charts.panel_of(axis, quantity, curve, extremes, bounded=not away, jumps=jumps_of(curve))
     return replace(panel, unbounded=away)
 
 
-def force_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPage:
+def force_page(reach: DriverRange, quantity: Quantity, language: str) -> chart.ChartPage:
     """The diagram of a moment, or of the size of a force, over the driver."""
-    axis = driver_axis(reach, language)
+    axis = charts.driver_axis(reach, language)
     panel = force_panel(axis, quantity, whole_turn(axis))
-    heads = say(Phrase("diagram of", (force_symbol(reach.scene, quantity.of),)), language), ()
+    heads = say(Phrase("diagram of", (charts.force_symbol(reach.scene, quantity.of),)), language), ()
     facts = {"units": quantity.unit(reach.scene).written, "quantity": quantity.name}
-    return chart_page(reach.scene, heads, [panel], axis, language, quantity.name, facts)
+    return charts.chart_page(reach.scene, heads, [panel], axis, language, quantity.name, facts)
 
 
-def jumps_of(curve: Array) -> list[int]:
+def jumps_of(curve: charts.Array) -> list[int]:
     """After which points a curve, shape (n, 2), jumps: where two lie at one place of the axis."""
     x, values = curve.T
     wide = float(np.nanmax(np.abs(values), initial=0.0))
@@ -117,7 +81,7 @@ def force_extremes(reach: DriverRange) -> dict[str, tuple[Quantity, tuple[Extrem
     names = [n for n in force_names(reach.scene) if n.startswith(("F_", "M_"))]
     if not names:
         return {}
-    axis = driver_axis(reach, "en")
+    axis = charts.driver_axis(reach, "en")
     offsets = whole_turn(axis)
     motion = reach.motion(offsets)
     forces = forces_of(motion)
@@ -130,7 +94,9 @@ def force_extremes(reach: DriverRange) -> dict[str, tuple[Quantity, tuple[Extrem
     return found
 
 
-def _extremes(axis: DriverAxis, quantity: Quantity, offsets: Array, values: Array) -> tuple[Extreme, ...]:
+def _extremes(
+    axis: charts.DriverAxis, quantity: Quantity, offsets: charts.Array, values: charts.Array
+) -> tuple[Extreme, ...]:
     """The greatest and the least of a force or moment (SI), one of a constant; infinite where it goes away without
     bound at an end of the motion."""
     known = np.flatnonzero(np.isfinite(values))
@@ -151,23 +117,23 @@ def _extremes(axis: DriverAxis, quantity: Quantity, offsets: Array, values: Arra
     return tuple(found)
 
 
-def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPage:
+def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> chart.ChartPage:
     """The polar diagram of a force: the end of its vector, drawn from one pole, over the way of the driver."""
-    scene, axis = reach.scene, driver_axis(reach, language)
+    scene, axis = reach.scene, charts.driver_axis(reach, language)
     offsets, unit = whole_turn(axis), quantity.unit(scene)
     panel = force_panel(axis, quantity, offsets)
     x, sizes = panel.curve.T
     vector = np.asarray(unit.of(quantity.whole(reach.motion(offsets))), dtype=complex)
     jumps = sorted({j for part in (vector.real, vector.imag) for j in jumps_of(np.stack([x, part], axis=1))})
-    name = force_symbol(scene, quantity.of)
+    name = charts.force_symbol(scene, quantity.of)
     title = say(Phrase("polar diagram of", (name,)), language)
     mark = "°" if scene.drivers[0].turns else f" {scene.units.length}"
     facts = [f"{name}{word('colon', language)}{word('unbounded', language)}"]
     if not panel.unbounded:
         k = int(np.nanargmax(sizes))
-        greatest = f"{number(float(sizes[k]))} {unit.text}", f"{number(float(x[k]), 4)}{mark}"
+        greatest = f"{charts.number(float(sizes[k]))} {unit.text}", f"{charts.number(float(x[k]), 4)}{mark}"
         facts = [say(Phrase("greatest force at", greatest), language)]
-    most = span_of(panel.curve, bounded=not panel.unbounded)[1]
+    most = charts.span_of(panel.curve, bounded=not panel.unbounded)[1]
     whole = np.concatenate([vector[sizes <= most], [0j]])
     span = 1.12 * max(float(np.ptp(whole.real)), float(np.ptp(whole.imag))) or 1.0
     middle = complex(whole.real.max() + whole.real.min(), whole.imag.max() + whole.imag.min()) / 2
@@ -175,29 +141,29 @@ def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPa
     if len(ticks) > TICKS + 1:
         ticks = ticks[:: -(-len(ticks) // TICKS)]
     at = [(float(tick), j) for tick in ticks if sizes[j := int(np.argmin(np.abs(x - tick)))] <= most]
-    side = WIDTH - LEFT - RIGHT
+    side = charts.WIDTH - charts.LEFT - charts.RIGHT
 
-    def paint(figure: Figure) -> None:
-        add_words(figure, *heading(scene, title, facts, language))
-        box = Box(LEFT, TOP - 4.0, LEFT + side, TOP - 4.0 + side)
-        axes = add_panel(figure, box, quantity.name.replace("/", "-"), f"{name} ({unit.text})", f"({unit.text})")
+    def paint(figure: chart.Figure) -> None:
+        chart.add_words(figure, *charts.heading(scene, title, facts, language))
+        box = Box(charts.LEFT, charts.TOP - 4.0, charts.LEFT + side, charts.TOP - 4.0 + side)
+        axes = chart.add_panel(figure, box, quantity.name.replace("/", "-"), f"{name} ({unit.text})", f"({unit.text})")
         axes.set_xlim(middle.real - span / 2, middle.real + span / 2)
         axes.set_ylim(middle.imag - span / 2, middle.imag + span / 2)
-        count_steps(axes.xaxis)
-        count_steps(axes.yaxis)
-        axes.axhline(0.0, zorder=BEHIND, **look(ZERO))
-        axes.axvline(0.0, zorder=BEHIND, **look(ZERO))
-        draw_pieces(axes, np.stack([vector.real, vector.imag], axis=1), jumps)
+        chart.count_steps(axes.xaxis)
+        chart.count_steps(axes.yaxis)
+        axes.axhline(0.0, zorder=chart.BEHIND, **chart.look(charts.ZERO))
+        axes.axvline(0.0, zorder=chart.BEHIND, **chart.look(charts.ZERO))
+        charts.draw_pieces(axes, np.stack([vector.real, vector.imag], axis=1), jumps)
         labels, toward = [], []
         for tick, j in at:
             place = float(vector[j].real), float(vector[j].imag)
-            axes.plot([place[0]], [place[1]], **marker("circle"))
-            labels.append((f"{number(tick, 4)}{mark if mark == '°' else ''}", place))
+            axes.plot([place[0]], [place[1]], **chart.marker("circle"))
+            labels.append((f"{charts.number(tick, 4)}{mark if mark == '°' else ''}", place))
             toward.append((float(np.angle(vector[j])),))
-        add_labels(axes, labels, toward=toward)
+        chart.add_labels(axes, labels, toward=toward)
 
-    return ChartPage(
-        WIDTH, TOP + side + 16.0, paint, title=f"{quantity.name}: {title_of(scene, language)}",
+    return chart.ChartPage(
+        charts.WIDTH, charts.TOP + side + 16.0, paint, title=f"{quantity.name}: {charts.title_of(scene, language)}",
         desc=facts[0], lang=language, metadata={"scene": scene.name, "units": unit.text, "quantity": quantity.name},
     )  # fmt: skip
 
@@ -207,9 +173,9 @@ DRIVING = Stroke(0.35, (6.0, 1.2))
 MORE, LESS = "#dcdcdc", "#b8b8b8"
 
 
-def flywheel_page(reach: DriverRange, found: FlywheelStudy, language: str) -> ChartPage:
+def flywheel_page(reach: DriverRange, found: FlywheelStudy, language: str) -> chart.ChartPage:
     """The page of a flywheel."""
-    scene, axis = reach.scene, driver_axis(reach, language)
+    scene, axis = reach.scene, charts.driver_axis(reach, language)
     per, force = scene.units.newtons, scene.units.force
     moment, inertia = f"{force}·m", f"{scene.units.mass}·{'ft' if scene.units.mass == 'lb' else 'm'}²"
     offsets, moments = whole_turn(axis), load_quantity(f"M_{found.link}", "moment")
@@ -218,26 +184,27 @@ def flywheel_page(reach: DriverRange, found: FlywheelStudy, language: str) -> Ch
     # gained since the axis begins, by the trapezoidal rule: for the eye
     gain = (driving - (needed[1:] + needed[:-1]) / 2) * np.abs(np.diff(np.radians(x)))
     energy = np.concatenate([[0.0], np.cumsum(gain)])
-    panel = panel_of(axis, moments, curve, (), jumps=jumps_of(curve))
+    panel = charts.panel_of(axis, moments, curve, (), jumps=jumps_of(curve))
     title = word("moments and flywheel", language)
     facts = [
-        say(Phrase("driving moment is", (f"{number(driving)} {moment}",)), language),
-        say(Phrase("excess work is", (f"{number(found.excess / per)} {moment}",)), language),
-        f"$δ$ = {number(found.delta)}",
-        f"$J_{{F}}$ = {number(found.inertia / scene.units.inertias)} {inertia}",
+        say(Phrase("driving moment is", (f"{charts.number(driving)} {moment}",)), language),
+        say(Phrase("excess work is", (f"{charts.number(found.excess / per)} {moment}",)), language),
+        f"$δ$ = {charts.number(found.delta)}",
+        f"$J_{{F}}$ = {charts.number(found.inertia / scene.units.inertias)} {inertia}",
     ]
 
-    def paint(figure: Figure) -> None:
-        add_words(figure, *heading(scene, title, facts, language))
-        entries = [(look(SOLID_AND_DASHED[0]), word("needed moment", language)),
-                   (look(DRIVING), word("driving moment", language))]  # fmt: skip
-        add_legend(figure, complex(LEFT, MOMENT_TOP - 9.5), entries)
-        box = Box(LEFT, MOMENT_TOP, WIDTH - RIGHT, MOMENT_TOP + MOMENT_TALL)
-        axes = add_panel(figure, box, "moments", f"$M$ ({moment})")
-        draw_panel(axes, panel, axis, language)
+    def paint(figure: chart.Figure) -> None:
+        chart.add_words(figure, *charts.heading(scene, title, facts, language))
+        entries = [(chart.look(chart.SOLID_AND_DASHED[0]), word("needed moment", language)),
+                   (chart.look(DRIVING), word("driving moment", language))]  # fmt: skip
+        chart.add_legend(figure, complex(charts.LEFT, MOMENT_TOP - 9.5), entries)
+        box = Box(charts.LEFT, MOMENT_TOP, charts.WIDTH - charts.RIGHT, MOMENT_TOP + MOMENT_TALL)
+        axes = chart.add_panel(figure, box, "moments", f"$M$ ({moment})")
+        charts.draw_panel(axes, panel, axis, language)
         low, high = panel.span
-        axes.set_ylim(min(low, driving - MARGIN * (high - low)), max(high, driving + MARGIN * (high - low)))
-        axes.axhline(driving, **look(DRIVING))
+        room = charts.MARGIN * (high - low)
+        axes.set_ylim(min(low, driving - room), max(high, driving + room))
+        axes.axhline(driving, **chart.look(DRIVING))
         for over, colour in ((needed < driving, MORE), (needed > driving, LESS)):
             axes.fill_between(x, needed, driving, where=over, color=colour, linewidth=0.0, zorder=0.5, interpolate=True)
         axes.tick_params(labelbottom=False)
@@ -246,29 +213,28 @@ def flywheel_page(reach: DriverRange, found: FlywheelStudy, language: str) -> Ch
             middle = float(axis.at(np.array([(area.first + area.last) / 2 % reach.ends[1]]))[0])
             near = float(np.interp(middle, x[growing], needed[growing]))
             sign = "+" if area.work > 0 else ""
-            labels.append((f"{sign}{number(area.work / per)}", (middle, (near + driving) / 2)))
-        add_labels(axes, labels)
+            labels.append((f"{sign}{charts.number(area.work / per)}", (middle, (near + driving) / 2)))
+        chart.add_labels(axes, labels)
         top = MOMENT_TOP + MOMENT_TALL + ENERGY_GAP
-        store = add_panel(
-            figure, Box(LEFT, top, WIDTH - RIGHT, top + ENERGY_LOW), "energy", f"$ΔE$ ({moment})", axis.title
-        )
+        box = Box(charts.LEFT, top, charts.WIDTH - charts.RIGHT, top + ENERGY_LOW)
+        store = chart.add_panel(figure, box, "energy", f"$ΔE$ ({moment})", axis.title)
         store.set_xlim(axis.left, axis.right)
         least, most = float(energy.min()), float(energy.max())
-        room = 1.6 * MARGIN * (most - least) or 0.5
+        room = 1.6 * charts.MARGIN * (most - least) or 0.5
         store.set_ylim(least - room, most + room)
-        count_steps(store.xaxis, axis.step)
-        count_steps(store.yaxis)
-        store.axhline(0.0, zorder=BEHIND, **look(Stroke(0.18)))
-        store.plot(x, energy, **look(SOLID_AND_DASHED[0]))
+        chart.count_steps(store.xaxis, axis.step)
+        chart.count_steps(store.yaxis)
+        store.axhline(0.0, zorder=chart.BEHIND, **chart.look(Stroke(0.18)))
+        store.plot(x, energy, **chart.look(chart.SOLID_AND_DASHED[0]))
         names = []
         for k, letter in ((int(energy.argmax()), "max"), (int(energy.argmin()), "min")):
-            store.plot([x[k]], [energy[k]], **marker("up" if letter == "max" else "down"))
+            store.plot([x[k]], [energy[k]], **chart.marker("up" if letter == "max" else "down"))
             names.append((f"$ω$ {letter}", (float(x[k]), float(energy[k]))))
-        add_labels(store, names, toward=[(math.pi / 2,), (-math.pi / 2,)])
+        chart.add_labels(store, names, toward=[(math.pi / 2,), (-math.pi / 2,)])
 
-    return ChartPage(
-        WIDTH, MOMENT_TOP + MOMENT_TALL + ENERGY_GAP + ENERGY_LOW + 20.0, paint,
-        title=f"{title}: {title_of(scene, language)}", desc="; ".join(facts).replace("$", ""), lang=language,
+    return chart.ChartPage(
+        charts.WIDTH, MOMENT_TOP + MOMENT_TALL + ENERGY_GAP + ENERGY_LOW + 20.0, paint,
+        title=f"{title}: {charts.title_of(scene, language)}", desc="; ".join(facts).replace("$", ""), lang=language,
         metadata={"scene": scene.name, "units": moment, "flywheel": found.link},
     )  # fmt: skip
 
