@@ -16,6 +16,7 @@ import csv
 import html
 import io
 import json
+import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -340,25 +341,15 @@ class Table:
 
         Raises CallError where it is not installed.
         """
-        library = _library("xarray")
-        kept = self.index or ("row",)
-        along: dict[str, Array] = {}
-        if self.index:
-            # the last one runs fastest; each other repeats its values for all that follow it
-            left = len(self)
-            for name in self.index:
-                own = self[name]
-                along[name] = np.unique(own)
-                left //= len(along[name])
-            if left != 1:
-                raise CallError.of("table", "is no grid of", shape=', '.join(self.index))
-        else:
-            along["row"] = np.arange(len(self))
-        shape = tuple(len(along[name]) for name in kept)
-        found = library.Dataset(coords=along)
+        _library("xarray")
+        along = self.index or ("row",)
+        columns = {c.name: c.values for c in self.columns}
+        frame = _library("pandas").DataFrame(columns if self.index else {"row": np.arange(len(self)), **columns})
+        found = frame.set_index(list(along)).to_xarray()
+        if found.sizes and math.prod(found.sizes.values()) != len(self):
+            raise CallError.of("table", "is no grid of", shape=", ".join(self.index))
         for column in self.columns:
-            if column.name not in self.index:
-                found[column.name] = (kept, column.values.reshape(shape), _attributes(column))
+            found[column.name].attrs |= _attributes(column)
         return found
 
     # files

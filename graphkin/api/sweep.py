@@ -106,18 +106,16 @@ class Swept(OfScene, Result):
         """A quantity by its name, as far as it was asked for, or any column of the table: NaN where there is none.
         Raises CallError for an unknown one."""
         name = as_text("name", name)
-        watched = self.over.base.watched
-        k = next((k for k, w in enumerate(watched) if w.name == name), None)
-        if k is not None and self.found.arrays is not None:
-            parts = self.over.base.parts(self.found.arrays[0])[k]
-        elif k is not None:
-            heads = [c.name for c in watched[k].columns(self.mechanism, [np.zeros(0)] * (1 + watched[k].is_vector))]
-            parts = tuple(self.table[head] for head in heads[-1 - watched[k].is_vector :])
+        quantity = next((w for w in self.over.base.watched if w.name == name), None)
+        if quantity is None:
+            values, unit = self.table[name], None
         else:
-            parts = (self.table[name],)
-        values = parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
+            parts = [np.zeros(0)] * (1 + quantity.is_vector)
+            heads = [column.name for column in quantity.columns(self.mechanism, parts, sizes=False)]
+            found, unit = [self.table[head] for head in heads], quantity.unit(self.mechanism).text
+            values = found[0] + 1j * found[1] if quantity.is_vector else found[0]
         shown = values.reshape(-1, self.over.positions) if self.over.designs.keys else values
-        return shown if k is None else Values.of(shown, watched[k].unit(self.mechanism).text)
+        return shown if unit is None else Values.of(shown, unit)
 
     @cached_property
     def table(self) -> Table:

@@ -105,7 +105,8 @@ def _balance_pages(turn: TurnStudy, language: str) -> dict[str, ChartPage | Draw
 
 
 def _motion_page(
-    turn: TurnStudy, axis: charts.DriverAxis, output: Output, dots: Sequence[tuple[float, ...]], over: LaidOver, language: str,
+    turn: TurnStudy, axis: charts.DriverAxis, output: Output, dots: Sequence[tuple[float, ...]], over: LaidOver,
+    language: str,
 ) -> ChartPage:
     """Position, rate and second rate of an output, one under the other."""
     quantity = output.quantity
