@@ -274,7 +274,7 @@ def _flat(motion: Motion, bounds: Bounds) -> Iterator[str]:
     for dyad in structure.elements:
         if not isinstance(dyad, Dyad) or (not bounds.transmission and bounds.pressure >= math.pi / 2):
             continue
-        angle = float(transmission(structure, dyad, motion.poses).angle[0])
+        angle = float(transmission(structure, dyad, motion.poses)[0])
         links = " and ".join(dyad.links)
         if dyad.kind == "RRR" and angle < bounds.transmission:
             yield f"the transmission angle of {links} is {math.degrees(angle):.0f} degrees only"

@@ -13,18 +13,18 @@ from graphkin.solver.solve import as_drawn, driver_range, over_time, solve, swee
 if TYPE_CHECKING:
     from graphkin.solver.forces import Forces, forces_of, without_line
     from graphkin.solver.prepared import PreparedMechanism, prepare
-    from graphkin.solver.values import entries, exact_values, head, json_text, senses_along, to_json, value_of
+    from graphkin.solver.values import entries, exact_values, head, json_text, senses_along, value_of
 
 __all__ = [
     "DriverRange", "Forces", "Motion", "PreparedMechanism", "Sliding", "as_drawn", "driver_range", "entries",
     "exact_values", "forces_of", "head", "json_text", "listed_points", "over_time", "own_slides", "prepare",
-    "senses_along", "solve", "structure_of", "sweep_in_blocks", "to_json", "value_of", "without_line",
+    "senses_along", "solve", "structure_of", "sweep_in_blocks", "value_of", "without_line",
 ]  # fmt: skip
 
 _PLACES = {
     "forces": ["Forces", "forces_of", "without_line"],
     "prepared": ["PreparedMechanism", "prepare"],
-    "values": ["entries", "exact_values", "head", "json_text", "senses_along", "to_json", "value_of"],
+    "values": ["entries", "exact_values", "head", "json_text", "senses_along", "value_of"],
 }
 
 

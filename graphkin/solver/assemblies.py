@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -54,8 +54,13 @@ def reading(structure: Structure, poses: Mapping[str, Pose], coordinate: Coordin
     return np.atleast_1d(Posed(structure, poses, structure.slides).travel(structure.slide(name)))
 
 
-def choose_forms(structure: Structure) -> dict[int, Array]:
+def choose_forms(structure: Structure, turned: Collection[int] = (), upto: int | None = None) -> dict[int, Array]:
     """The form of each group at the scene's own position: by drawn or sketched points, else by the rule for its kind.
+
+    Parameters
+    ----------
+    turned : dyads that lie the other way, by their places among the elements
+    upto : only the elements before this one
 
     Returns
     -------
@@ -74,9 +79,9 @@ def choose_forms(structure: Structure) -> dict[int, Array]:
     forms: dict[int, Array] = {}
     start: Mapping[str, Pose] = {}
     known: dict[int, float] = {}  # of the formulas of the groups before
-    for i, element in enumerate(structure.elements):
+    for i, element in enumerate(structure.elements[:upto]):
         if isinstance(element, Dyad):
-            forms[i], known = _choose_sign(structure, i, element, drive, forms, known)
+            forms[i], known = _choose_sign(structure, i, element, drive, forms, known, i in turned)
         elif isinstance(element, Driven):
             if element.rolled is not None:
                 state = positions(structure, drive, {k: f[None] for k, f in forms.items()}, i, rates=False)
@@ -114,8 +119,9 @@ def _started(structure: Structure) -> Mapping[str, Pose]:
 
 
 def _choose_sign(
-    structure: Structure, i: int, dyad: Dyad, drive: Drive, forms: Mapping[int, Array], known: Mapping[int, float]
-) -> tuple[Array, dict[int, float]]:
+    structure: Structure, i: int, dyad: Dyad, drive: Drive, forms: Mapping[int, Array], known: Mapping[int, float],
+    turned: bool,
+) -> tuple[Array, dict[int, float]]:  # fmt: skip
     """The sign of a dyad, and the numbers of all formulas up to it with that sign, from those up to the one before."""
     scene = structure.scene
     states: list[State] = []
@@ -143,7 +149,7 @@ def _choose_sign(
     if not abs(solved.sine[0]) >= states[0].singular[0]:
         return np.array(1.0), both[0]
     candidates = [new_places(structure, i, links, state.poses) for state in states]
-    index = pick(scene, links, candidates, 0).index
+    index = pick(scene, links, candidates, 0).index ^ turned
     return np.array((1.0, -1.0)[index]), both[index]
 
 

@@ -8,7 +8,7 @@ links that hang on it reach each other only the other way round, and in one way 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from decimal import Decimal
 from itertools import combinations
@@ -22,13 +22,11 @@ from graphkin.solver.assemblies import choose_forms, new_places
 from graphkin.solver.cams import meeting_followers
 from graphkin.solver.dead_points import MOST_GROUPS, SAME, DeadPoint, dead_points, not_searched, singular
 from graphkin.solver.drivers import meant_value, own_values, working
-from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
-from graphkin.solver.pose import Array, Drive
+from graphkin.solver.pose import Drive
 from graphkin.solver.redundant import Fit, fit
 from graphkin.solver.sentences import driver_text
-from graphkin.structure import Driven, Dyad, LargerGroup, Structure, analyse, mobility_of, pick
-from graphkin.structure.assembly import TOUCH
+from graphkin.structure import Driven, Dyad, LargerGroup, Structure, analyse, mobility_of
 from graphkin.words import Phrase, Wording, clauses, listed
 
 __all__ = ["from_dead_point", "structure_of"]
@@ -130,12 +128,12 @@ def with_sensible_slots(structure: Structure) -> Structure:
     free = _free_guides(structure)
     if not free:
         return structure
-    if _reached(structure, {}) is not None:
+    if _reached(structure, ()) is not None:
         return structure
     found = []
     for count in range(1, len(free) + 1):
         for some in combinations(free, count):
-            state = _reached(structure, dict.fromkeys(some, True))
+            state = _reached(structure, some)
             if state is not None:
                 found.append((some, state))
         if found:
@@ -172,28 +170,15 @@ def _free_guides(structure: Structure) -> list[int]:
     return found[:MOST]
 
 
-def _reached(structure: Structure, turned: Mapping[int, bool]) -> State | None:
-    """Everything up to the last dyad, guides turned as they are told; None where something does not reach."""
+def _reached(structure: Structure, turned: Collection[int]) -> State | None:
+    """Everything up to the last dyad, some of the guides turned round; None where something does not reach."""
+    last = max(i for i, _ in _elements(structure)) + 1
+    try:
+        forms = choose_forms(structure, turned, last)
+    except GraphkinError:
+        return None
     drive = Drive.at(structure, own_values(structure.scene)[None])
-    forms: dict[int, Array] = {}
-    state: State | None = None
-    for i, dyad in _elements(structure):
-        both = []
-        for sign in (1.0, -1.0):
-            both.append(positions(structure, drive, {**forms, i: np.array([sign])}, i + 1, rates=False))
-        solved = both[0].groups[i]
-        assert isinstance(solved, DyadSolution)
-        if not dyad.is_two_lines and not solved.discriminant[0] >= -TOUCH:
-            return None
-        try:
-            index = 0 if dyad.is_two_lines else pick(
-                structure.scene, dyad.links, [new_places(structure, i, dyad.links, one.poses) for one in both], 0
-            ).index  # fmt: skip
-        except GraphkinError:
-            return None
-        index = 1 - index if turned.get(i) else index
-        forms[i], state = np.array([(1.0, -1.0)[index]]), both[index]
-    return state
+    return positions(structure, drive, {i: f[None] for i, f in forms.items()}, last, rates=False)
 
 
 STANDS = 1e-9  # of the size a radian: a point that moves by less stands still

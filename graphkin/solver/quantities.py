@@ -31,8 +31,7 @@ from graphkin.structure.transmission import (
 from graphkin.words import Phrase
 
 __all__ = [
-    "ORDERS", "VALUES", "Crossing", "Posed", "all_slides", "bound_of_symbol", "pole", "transmission",
-    "value_of_symbol",
+    "ORDERS", "VALUES", "Posed", "all_slides", "bound_of_symbol", "pole", "transmission", "value_of_symbol",
 ]  # fmt: skip
 
 
@@ -157,11 +156,11 @@ def _pressure(posed: Posed, symbol: Symbol) -> Array:
     cam = next((c for c in posed.structure.scene.cams if c.follower == symbol.link), None)
     if cam is not None:
         return cam_at(cam, cam.sense * np.angle(posed.pose(cam.link).u)).pressure
-    return np.asarray(np.pi / 2 - _crossing(posed.poses, joint_of_follower(posed.structure, symbol.link, symbol)).angle)
+    return np.asarray(np.pi / 2 - _crossing(posed.poses, joint_of_follower(posed.structure, symbol.link, symbol)))
 
 
 def _gamma(posed: Posed, symbol: Symbol) -> Array:
-    return _crossing(posed.poses, joint_between(posed.structure, symbol.link, symbol.other, symbol)).angle
+    return _crossing(posed.poses, joint_between(posed.structure, symbol.link, symbol.other, symbol))
 
 
 def _apart(posed: Posed, symbol: Symbol) -> Array:
@@ -404,28 +403,16 @@ def bound_of_symbol(posed: Posed, symbol: Symbol, bounds: Mapping[str, ErrorBoun
     return bound + of_point(symbol.to) + UNIT * np.abs(value_of_symbol(posed, symbol))
 
 
-@dataclass(frozen=True)
-class Crossing:
-    """Sine and cosine of the angle between the two directions that decide how well a group passes on a force."""
-
-    cosine: Array
-    sine: Array
-
-    @property
-    def angle(self) -> Array:
-        """Transmission angle (rad), in 0 .. pi/2."""
-        return np.arctan2(np.abs(self.sine), np.abs(self.cosine))
-
-
-def transmission(structure: Structure, dyad: Dyad, poses: Mapping[str, Pose]) -> Crossing:
-    """The transmission angle of a group of two links (`graphkin.structure.transmission`); the pressure angle is what it
-    lacks to 90 degrees."""
+def transmission(structure: Structure, dyad: Dyad, poses: Mapping[str, Pose]) -> Array:
+    """The transmission angle of a group of two links (`graphkin.structure.transmission`), 0 .. pi/2 (rad), shape (n,);
+    the pressure angle is what it lacks to 90 degrees."""
     return _crossing(poses, joint_of_dyad(structure, dyad))
 
 
-def _crossing(poses: Mapping[str, Pose], joint: TransmissionAngle) -> Crossing:
+def _crossing(poses: Mapping[str, Pose], joint: TransmissionAngle) -> Array:
+    """The angle between the two directions that decide how well a group passes on a force, 0 .. pi/2 (rad)."""
     first, second = (poses[end[0]].fixed(end[1]).z - poses[start[0]].fixed(start[1]).z
                      for start, end in (joint.first, joint.second))  # fmt: skip
     with np.errstate(all="ignore"):
         across = np.conj(first) * second * (1j if joint.square else 1.0) / (np.abs(first) * np.abs(second))
-    return Crossing(np.asarray(across.real), np.asarray(across.imag))
+    return np.asarray(np.arctan2(np.abs(across.imag), np.abs(across.real)))

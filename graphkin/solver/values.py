@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import islice, pairwise
+from typing import Any
 
 import numpy as np
 
@@ -37,7 +38,7 @@ from graphkin.words import Phrase, Wording, say
 
 __all__ = [
     "FlywheelStudy", "MomentArea", "entries", "exact_values", "flywheel_of", "force_values", "head", "json_text",
-    "load_edges", "needed_moment", "senses_along", "to_json", "value_of",
+    "load_edges", "needed_moment", "senses_along", "value_of",
 ]  # fmt: skip
 
 
@@ -377,12 +378,6 @@ BLOCK = 1024
 """Positions that are made into objects at once."""
 
 
-def to_json(motion: Motion, forces: Forces | None = None) -> dict[str, Json]:
-    """The object that ``solve --json`` prints: numbers in the scene's length unit, seconds, radians; forces, where
-    there are any, in its force unit, moments in that times metre."""
-    return {**head(motion), "positions": list(entries(motion, forces))}
-
-
 def json_text(first: Mapping[str, Json], positions: Iterable[Mapping[str, Json]]) -> Iterator[str]:
     """A head and the entries of positions as one object in the text of JSON, with a line feed at its end, piece by
     piece: of a long sweep only some entries are in memory.  What would command a terminal is escaped."""
@@ -416,100 +411,89 @@ def _change_point(scene: Mechanism, one: ChangePoint) -> dict[str, Json]:
 
 
 def entries(motion: Motion, forces: Forces | None = None) -> Iterator[dict[str, Json]]:
-    """What is said of each position, one after the other; some thousand are made at a time."""
-    scene = motion.scene
-    flywheel = _flywheel(motion)
+    """What ``solve --json`` says of each position, one after the other: numbers in the scene's length unit, seconds,
+    radians; forces, where there are any, in its force unit, moments in that times metre.  Some thousand are made at a
+    time."""
+    scene, flywheel = motion.scene, _flywheel(motion)
     angles = {link.name: motion.angle(link.name) for link in scene.links}
-    drivers = {d.key: scene.unit_of(d, radians=True).of(motion.values[:, i]) for i, d in enumerate(scene.drivers)}
+    driven = [(d.key, scene.unit_of(d, radians=True).of(motion.values[:, i])) for i, d in enumerate(scene.drivers)]
     for first in range(0, len(motion), BLOCK):
         some = slice(first, first + BLOCK)
-        columns = _columns(motion.rows(some), {name: angle[some] for name, angle in angles.items()})
-        cells = {
-            part: {key: {what: _plain(v) for what, v in row.items()} for key, row in table.items()}
-            for part, table in columns.items()
-        }
-        own = {key: v[some].tolist() for key, v in drivers.items()}
-        touching = _touching(motion.rows(some)) if scene.contacts or scene.gears else [{}] * BLOCK
+        drivers: Columns = {"driver": {key: values[some].tolist() for key, values in driven}}
+        columns = _of_motion(motion.rows(some), {name: angle[some] for name, angle in angles.items()})
+        columns["error_bound"] = _of_bounds(motion, some)
+        if forces is not None:
+            columns |= _of_forces(scene, forces, some)
+            columns["moments"] |= {key: [value] * BLOCK for key, value in flywheel.items()}
         for k, status in enumerate(motion.status[some].tolist()):
-            entry: dict[str, Json] = {"driver": {key: v[k] for key, v in own.items()}, "status": status}
-            if status != "ok":
-                yield {**entry, "why": motion.why[first + k]}
-                continue
-            for part, table in cells.items():
-                entry[part] = {key: {what: v[k] for what, v in row.items()} for key, row in table.items()}
-            entry |= touching[k]
-            entry["error_bound"] = _bounds(motion, first + k)
-            if forces is not None:
-                found = _forces(scene, forces, first + k)
-                found["moments"] |= flywheel
-                entry |= found
-            yield entry
+            said = _at(columns, k) if status == "ok" else {"why": str(motion.reasons[first + k])}
+            yield {**_at(drivers, k), "status": status, **said}
 
 
-def _columns(motion: Motion, angles: Mapping[str, Array]) -> dict[str, dict[str, dict[str, Array]]]:
+Columns = dict[str, Any]
+"""What an entry says, by name, of each part again by name: at last a list with an item for each position."""
+ABSENT = object()
+"""Stands in a list where a position has no such item."""
+
+
+def _at(columns: Columns, k: int) -> dict[str, Json]:
+    """What columns say of one position."""
+    cells = ((key, _at(part, k) if isinstance(part, dict) else part[k]) for key, part in columns.items())
+    return {key: cell for key, cell in cells if cell is not ABSENT}
+
+
+def _of_motion(motion: Motion, angles: Mapping[str, Array]) -> Columns:
     """Every number of some positions, in the scene's units."""
     scene = motion.scene
     metres, fast = scene.units.metres, scene.units.rates.metres
-    columns: dict[str, dict[str, dict[str, Array]]] = {"links": {}, "points": {}, "slides": {}}
+    found: Columns = {"links": {}, "points": {}, "slides": {}}
+
+    def put(part: str, of: str, **values: Array) -> None:
+        found.setdefault(part, {})[of] = {what: _plain(value) for what, value in values.items()}
+
     for name, angle in angles.items():
-        columns["links"][name] = {"angle": angle, "omega": motion.omega(name), "alpha": motion.alpha(name)}
+        put("links", name, angle=angle, omega=motion.omega(name), alpha=motion.alpha(name))
     for point, name in listed_points(scene, motion.slides):
         # a pin is the same on each of its links
         at = motion.point(point, "" if point in scene.by_name[name].points else name)
-        found = at.z / metres, at.v / fast, at.a / fast
-        columns["points"][f"{point}@{name}"] = dict(zip(("position", "velocity", "acceleration"), found, strict=True))
+        put("points", f"{point}@{name}", position=at.z / metres, velocity=at.v / fast, acceleration=at.a / fast)
     for pair in own_slides(scene, motion.slides):
-        kinds, each = ("travel", "velocity", "acceleration", "coriolis"), (metres, fast, fast, fast)
-        values = zip(motion.slide(pair.key), each, strict=True)
-        columns["slides"][pair.key] = dict(zip(kinds, (x / per for x, per in values), strict=True))
+        travel, *rates = motion.slide(pair.key)
+        velocity, acceleration, coriolis = (rate / fast for rate in rates)
+        put("slides", pair.key, travel=travel / metres, velocity=velocity, acceleration=acceleration, coriolis=coriolis)
     for cam in scene.cams:
         turn = motion.poses[cam.link]
         touching = cam_at(cam, cam_angle(cam, turn.u))
-        unit = 1.0 if isinstance(cam.motion, SwingingFollower) else metres
-        columns.setdefault("cams", {})[cam.link] = {
-            "lift": touching.lift / unit, "contact": (cam.axis + touching.contact) / metres, "normal": touching.normal,
-            "slip": slip_of(cam, touching, np.asarray(turn.omega)) / fast, "pressure": touching.pressure,
-        }  # fmt: skip
-    return columns
-
-
-def _touching(motion: Motion) -> list[dict[str, dict[str, Json]]]:
-    """Contacts and gears of each position."""
-    scene, metres = motion.scene, motion.scene.units.metres
-    found: list[dict[str, dict[str, Json]]] = [{} for _ in range(len(motion))]
+        put("cams", cam.link, lift=touching.lift / (1.0 if isinstance(cam.motion, SwingingFollower) else metres),
+            contact=(cam.axis + touching.contact) / metres, normal=touching.normal,
+            slip=slip_of(cam, touching, np.asarray(turn.omega)) / fast, pressure=touching.pressure)  # fmt: skip
     for contact in scene.contacts:
-        at = contact_motion(motion, contact)
-        kind = "rolling" if contact.rolling else "sliding"
-        columns = {"position": at.place / metres, "normal": at.normal, "slip": at.slip / scene.units.rates.metres}
-        cells = {what: _plain(column) for what, column in columns.items()}
-        for k, entry in enumerate(found):
-            pressure = {link: float(angle[k]) for link, angle in at.pressure.items() if np.isfinite(angle[k])}
-            own = {"kind": kind, **{what: cell[k] for what, cell in cells.items()}, "pressure": pressure}
-            entry.setdefault("contacts", {})[contact.name] = own
+        meeting = contact_motion(motion, contact)
+        put("contacts", contact.name, position=meeting.place / metres, normal=meeting.normal, slip=meeting.slip / fast)
+        own = found["contacts"][contact.name]
+        pressure = {link: _plain(angle, np.isfinite(angle)) for link, angle in meeting.pressure.items()}
+        kind = ["rolling" if contact.rolling else "sliding"] * BLOCK
+        found["contacts"][contact.name] = {"kind": kind, **own, "pressure": pressure}
     for gear in scene.gears:
         place, radii = pitch_point(motion, gear)
-        shown = [None if r is None else r / metres for r in radii]
-        for entry, cell in zip(found, _plain(place / metres), strict=True):
-            entry.setdefault("gears", {})[gear.name] = {"pitch_point": cell, "radii": shown}
+        put("gears", gear.name, pitch_point=place / metres)
+        found["gears"][gear.name]["radii"] = [[None if r is None else r / metres for r in radii]] * BLOCK
     return found
 
 
-def _forces(scene: Mechanism, forces: Forces, k: int) -> dict[str, dict[str, Json]]:
-    """Forces and moments at one position; a key with + is the value with the loads that begin or end exactly here."""
-    found: dict[str, dict[str, Json]] = {"forces": {}, "moments": {}}
+def _of_forces(scene: Mechanism, forces: Forces, some: slice) -> Columns:
+    """Forces and moments; a key with + is the value with the loads that begin or end exactly at a position."""
+    found: Columns = {"forces": {}, "moments": {}}
     for part, table in (("forces", forces.forces), ("moments", forces.moments)):
         for key, values in table.items():
-            here = {key: values[k]}
-            if key in forces.beside and not np.isnan(forces.beside[key][k]):
-                here[f"{key}+"] = forces.beside[key][k]
-            for name, value in here.items():
-                shown = value / scene.units.newtons
-                plain = [float(shown.real) + 0.0, float(shown.imag) + 0.0]  # no minus before nought
-                found[part][name] = plain if part == "forces" else plain[0]
-    bound: dict[str, Json] = {}
-    for name, b in zip(found, forces.bound, strict=True):
-        bound[name] = float(b[k]) / scene.units.newtons
-    return {**found, "force_bound": bound}
+            beside = forces.beside.get(key)
+            for name, value in ((key, values), (f"{key}+", beside)):
+                if value is not None:
+                    shown = value[some] / scene.units.newtons
+                    present = None if value is values else ~np.isnan(shown)
+                    found[part][name] = _plain(shown.astype(complex) if part == "forces" else shown.real, present)
+    bounds = (bound[some] / scene.units.newtons for bound in forces.bound)
+    return {**found, "force_bound": {part: bound.tolist() for part, bound in zip(found, bounds, strict=True)}}
 
 
 def _flywheel(motion: Motion) -> dict[str, Json]:
@@ -524,24 +508,22 @@ def _flywheel(motion: Motion) -> dict[str, Json]:
     return {"excess_W": found.excess / units.newtons, "J_F": found.inertia / units.inertias}
 
 
-def _plain(values: Array) -> list[Json]:
-    """Numbers, or pairs of numbers for complex ones; no minus before nought."""
+def _plain(values: Array, present: Array | None = None) -> list[Any]:
+    """Numbers, or pairs of numbers for complex ones, no minus before nought; only where they are ``present``."""
     parts = np.stack([values.real, values.imag], axis=1) if np.iscomplexobj(values) else values
-    found: list[Json] = (parts + 0.0).tolist()
-    return found
+    found: list[Any] = (parts + 0.0).tolist()
+    return found if present is None else [x if there else ABSENT for x, there in zip(found, present, strict=True)]
 
 
-def _bounds(motion: Motion, k: int) -> dict[str, Json]:
+def _of_bounds(motion: Motion, some: slice) -> Columns:
+    """How far rounding may have moved what is said; None, and why, where nothing is known."""
     metres, fast = motion.scene.units.metres, motion.scene.units.rates.metres
-    moving, turning = motion.bound.of_point, motion.bound.of_turning
-    found: dict[str, Json] = {
-        name: float(b[k]) / per if np.isfinite(b[k]) else None
-        for name, b, per in zip(("position", "velocity", "acceleration"), moving, (metres, fast, fast), strict=True)
-    }
-    for name, b in zip(("angle", "omega", "alpha"), turning, strict=True):
-        found[name] = float(b[k]) if np.isfinite(b[k]) else None
-    if None in found.values():
-        found["why"] = "the worst case of rounding, multiplied along so many groups, says nothing"
+    names = "position", "velocity", "acceleration", "angle", "omega", "alpha"
+    found: Columns = {}
+    for name, bound, per in zip(names, motion.bound, (metres, fast, fast, 1.0, 1.0, 1.0), strict=True):
+        found[name] = [x if math.isfinite(x) else None for x in (bound[some] / per).tolist()]
+    why = "the worst case of rounding, multiplied along so many groups, says nothing"
+    found["why"] = [why if None in row else ABSENT for row in zip(*found.values(), strict=True)]
     return found
 
 

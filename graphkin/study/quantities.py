@@ -39,7 +39,7 @@ LOADS = ("F", "Fi", "G", "P", "M", "Mi")
 def _transmission(motion: Motion, links: str) -> Array:
     """The transmission angle of the group of two links that has these."""
     dyad = next(d for d in motion.structure.dyads.values() if "-".join(d.links) == links)
-    return transmission(motion.structure, dyad, motion.poses).angle
+    return transmission(motion.structure, dyad, motion.poses)
 
 
 @dataclass(frozen=True)

@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from graphkin.scene.model import Mechanism
-from graphkin.solver import Motion, solve
+from graphkin.solver import Motion, entries, head, solve
+
+
+def to_json(motion: Motion) -> dict[str, Any]:
+    """The object that ``solve --json`` prints."""
+    return {**head(motion), "positions": list(entries(motion))}
 
 
 def closure(motion: Motion) -> float:

@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 from graphkin.scene import mechanism_of, mechanism_of_text
-from graphkin.solver import Motion, solve, to_json
+from graphkin.solver import Motion, solve
 from tests import scenes
+from tests.solver.checks import to_json
 
 D = 50
 

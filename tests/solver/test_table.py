@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 from graphkin.scene import library, mechanism_of, mechanism_of_text
-from graphkin.solver import entries, head, json_text, solve, to_json, values
+from graphkin.solver import entries, head, json_text, solve, values
 from tests import scenes
 from tests.construction.test_contours import ON_A_GUIDE, THROUGH_A_BLOCK
+from tests.solver.checks import to_json
 
 
 def first(name: str) -> dict[str, Any]:
