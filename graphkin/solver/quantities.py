@@ -205,46 +205,51 @@ def pole(one: Pose, two: Pose) -> tuple[Array, Array]:
 
 
 def _part(posed: Posed, symbol: Symbol) -> Array:
-    """A part of an acceleration: normal (an), tangential (at), Coriolis (ak), or what is left of it (ar)."""
-    of, to = symbol.of, symbol.to
+    """A part of an acceleration: normal (an), tangential (at), Coriolis (ak), or what is left of it (ar).
+
+    Seen from a second link a point of a first one runs along a path: its Coriolis term is by the turning of the second
+    link; of what is left the part along the normal of the path is by its curvature.
+    """
+    of, to, kind = symbol.of, symbol.to, symbol.kind
     assert of is not None
-    if to is not None and of.point == to.point:
-        guide = next(
-            (s for s in posed.slides if s.guide.curvature and s.pin == of.point and s.b in (of.link, to.link)), None
-        )
-        if guide is not None and symbol.kind in ("an", "ar"):
-            relative = _relative(posed, symbol, of, to)
-            normal = _along(1j * posed.poses[guide.b].u * guide.guide.direction, relative)
-            return np.asarray(normal if symbol.kind == "an" else relative - normal)
-        if any(c.name == of.point and {of.link, to.link} == set(c.links) for c in posed.structure.scene.contacts):
-            return _at_contact(posed, symbol, of, to)
-        hinge = _hinge(posed, of, to)
-        if hinge is not None:
-            return _about_hinge(posed, symbol, of, to, hinge)
-    if symbol.kind in ("an", "at"):
+    path = _path(posed, kind, of, to) if to is not None and of.point == to.point else None
+    if path is None and kind in ("an", "at"):
         return _of_turning(posed, symbol, of)
     assert to is not None
-    return _relative(posed, symbol, of, to)
+    base, normal = path or (_guiding(posed, symbol, of, to), None)
+    first, second = posed.point(of), posed.point(to)
+    coriolis = 2j * posed.poses[base].omega * (first.v - second.v)
+    left = first.a - second.a - coriolis
+    if kind == "ak" or normal is None:
+        return np.asarray(coriolis if kind == "ak" else left)
+    across = normal * dot(normal, left)
+    return np.asarray(across if kind == "an" else left - across)
 
 
-def _along(direction: Array, vector: Array) -> Array:
-    """The part of a vector along a direction of unit length."""
-    return np.asarray(direction * dot(direction, vector))
+def _path(posed: Posed, kind: str, of: PointRef, to: PointRef) -> tuple[str, Array | None] | None:
+    """The link from which a point is seen to run along a path, of coincident points of two links, and the unit normal
+    of the path, where a part of this kind is told by that; None where it is no path that bends.
 
-
-def _at_contact(posed: Posed, symbol: Symbol, of: PointRef, to: PointRef) -> Array:
-    """Coriolis term of the slip at a contact, and what is left of the relative acceleration: along the normal by the
-    curvatures, along the tangent."""
-    contact = next(c for c in posed.structure.scene.contacts if c.name == of.point)
-    one = posed.point(of)
-    if symbol.kind == "ak":
-        return _against(posed, symbol, of, to, to.link)
-    # the centre of a disc lies on the normal
-    disc = contact.round[1 if contact.round[0].radius == 0.0 and len(contact.round) > 1 else 0]
-    normal = one.z - posed.point(PointRef(disc.centre, disc.link)).z
-    relative = _against(posed, symbol, of, to, to.link)
-    across = _along(normal / np.abs(normal), relative)
-    return np.asarray(across if symbol.kind == "an" else relative - across)
+    It is that of a pin in a curved slot, of a contact, or a circle about the hinge of both links.
+    """
+    links = posed.structure.scene.by_name
+    curved = (s for s in posed.slides if s.guide.curvature and s.pin == of.point)
+    slot = next((s for s in curved if s.b in (of.link, to.link)), None)
+    if slot is not None and kind != "at":
+        return slot.b, np.asarray(1j * posed.poses[slot.b].u * slot.guide.direction)
+    contact = next((c for c in posed.structure.scene.contacts if c.name == of.point), None)
+    if contact is not None and {of.link, to.link} == set(contact.links):
+        # the centre of a disc lies on the normal
+        disc = contact.round[1 if contact.round[0].radius == 0.0 and len(contact.round) > 1 else 0]
+        normal = posed.point(of).z - posed.point(PointRef(disc.centre, disc.link)).z
+        return to.link, np.asarray(normal / np.abs(normal))
+    if of.link == to.link or not {of.link, to.link} <= set(links):
+        return None
+    hinge = next((p for p in links[of.link].points if p in links[to.link].points and p != of.point), None)
+    if hinge is None:
+        return None
+    arm = posed.point(of).z - posed.point(PointRef(hinge, of.link)).z
+    return to.link, None if kind == "ar" else np.asarray(arm / np.abs(arm))
 
 
 def _is_on(posed: Posed, ref: PointRef, link: str) -> bool:
@@ -256,28 +261,6 @@ def _is_on(posed: Posed, ref: PointRef, link: str) -> bool:
         return True
     own = not ref.link or ref.link in holders
     return own and (link in holders or ref.point in posed.link(link).points)
-
-
-def _hinge(posed: Posed, of: PointRef, to: PointRef) -> str | None:
-    """The turning pair between the links of two coincident points, where it lies elsewhere."""
-    links = posed.structure.scene.by_name
-    if of.link == to.link or not {of.link, to.link} <= set(links):
-        return None
-    return next((p for p in links[of.link].points if p in links[to.link].points and p != of.point), None)
-
-
-def _about_hinge(posed: Posed, symbol: Symbol, of: PointRef, to: PointRef, hinge: str) -> Array:
-    """Parts of the acceleration of a point of a link relative to the coincident one of a link that is hinged to it.
-
-    Seen from the second link the first turns about the hinge at the difference of their rates: normal and tangential
-    part of that turn, or both together, and the Coriolis term of the second link's own rate.
-    """
-    one, base = posed.poses[of.link], posed.poses[to.link]
-    arm = posed.point(of).z - posed.point(PointRef(hinge, of.link)).z
-    rate = one.omega - base.omega
-    normal, tangential = -(rate**2) * arm, 1j * (one.alpha - base.alpha) * arm
-    parts = {"an": normal, "at": tangential, "ar": normal + tangential, "ak": -2 * base.omega * rate * arm}
-    return np.asarray(parts[symbol.kind])
 
 
 def _of_turning(posed: Posed, symbol: Symbol, of: PointRef) -> Array:
@@ -307,8 +290,8 @@ def _of_turning(posed: Posed, symbol: Symbol, of: PointRef) -> Array:
     raise CallError.of(str(symbol), "no link makes this part", wanted)
 
 
-def _relative(posed: Posed, symbol: Symbol, of: PointRef, to: PointRef) -> Array:
-    """Coriolis and sliding part of the acceleration of a point relative to the coincident one of another link."""
+def _guiding(posed: Posed, symbol: Symbol, of: PointRef, to: PointRef) -> str:
+    """The link along whose guide one of two coincident points slides, by the turning of which the Coriolis term is."""
     scene = posed.structure.scene
     for ref in (of, to):
         posed.point(ref)
@@ -322,11 +305,11 @@ def _relative(posed: Posed, symbol: Symbol, of: PointRef, to: PointRef) -> Array
                 continue
             # another link that is pinned there too has another rate, and so another Coriolis term
             if guides.link == pair.b or (not guides.link and _is_on(posed, guides, pair.b)):
-                return _against(posed, symbol, of, to, pair.b)
+                return pair.b
     # links of a group that are drawn as one, seen from one of them
     together = [{*group.members} for group in posed.structure.larger_groups]
     if of.point == to.point and any({of.link, to.link} <= members for members in together):
-        return _against(posed, symbol, of, to, to.link)
+        return to.link
     raise CallError.of(str(symbol), "these are not coincident points of two links", _example(symbol, posed.slides))
 
 
@@ -338,13 +321,6 @@ def _example(symbol: Symbol, slides: Iterable[Pair]) -> Phrase:
         "write for example of kind and pin and other and pin_2",
         kind=symbol.kind, pin=pair.pin, other=pair.b, pin_2=pair.pin,
     )  # fmt: skip
-
-
-def _against(posed: Posed, symbol: Symbol, of: PointRef, to: PointRef, base: str) -> Array:
-    """Coriolis term by the turning of a link, or what is left of the acceleration of one point relative to another."""
-    first, second = posed.point(of), posed.point(to)
-    coriolis = 2j * posed.poses[base].omega * (first.v - second.v)
-    return np.asarray(coriolis if symbol.kind == "ak" else first.a - second.a - coriolis)
 
 
 VALUES: Mapping[str, Callable[[Posed[Any, Any], Symbol], Any]] = {

@@ -24,7 +24,6 @@ from graphkin.scene.designs import (
     LimitsTask,
     SliderCrankTask,
 )
-from graphkin.search import least_value
 from graphkin.words import Phrase, Wording
 
 __all__ = ["FreeDatum", "Synthesis", "choice", "crank_angle", "synthesise"]
@@ -325,7 +324,13 @@ def choice(task: DesignTask) -> FreeDatum | None:
     best = max(good, key=lambda x: least(x) or 0.0)
     i = int(np.searchsorted(grid, best))
     low, high = float(grid[max(i - 1, 0)]), float(grid[min(i + 1, _SAMPLES - 1)])
-    top, _ = least_value(lambda values: np.array([-(least(float(x)) or 0.0) for x in values]), low, high)
+    for _ in range(60):  # golden section
+        a, b = high - 0.6180339887498949 * (high - low), low + 0.6180339887498949 * (high - low)
+        if (least(a) or 0.0) < (least(b) or 0.0):
+            low = a
+        else:
+            high = b
+    top = (low + high) / 2
     if (least(top) or 0.0) < (least(best) or 0.0):
         top = best
     return FreeDatum(key, min(good), max(good), top, least(top) or 0.0, least)
