@@ -32,7 +32,8 @@ from graphkin.construction.forces.joints import Images
 from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.construction.sheet import Sheet
 from graphkin.plane import added_up
-from graphkin.scene.model import LoadOn, Mechanism, Phase, SpringOn
+from graphkin.scene.model import LoadOn, Mechanism, SpringOn
+from graphkin.scene.scene_tables import LoadPhase
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Neutral, Phrase, Wording, about, in_all, languages, listed, say
 from graphkin.words.written import FINER, MOST, amount, is_quotient, on_paper, pointing, product, to_lay_off
@@ -536,7 +537,7 @@ def _load(scene: Mechanism, load: LoadOn, letters: Letters) -> Phrase:
     return said if load.phase is None else Phrase("given while", (said, _phase(scene, load.phase)))
 
 
-def _phase(scene: Mechanism, phase: Phase) -> Phrase:
+def _phase(scene: Mechanism, phase: LoadPhase) -> Phrase:
     if phase.stroke:
         key = "given on stroke" if phase.sense > 0 else "given on stroke back"
         return Phrase(key, (phase.stroke, number(phase.start), number(phase.end)))

@@ -39,10 +39,12 @@ SAME_BAR = 1e-3
 Pair = Annotated[List[Number], Rule(min_length=2, max_length=2)]
 if TYPE_CHECKING:
     Point = complex
+    FarPoint = complex
     Bars = tuple["BarPlace", "BarPlace", "BarPlace"]
 else:
     Point = Annotated[Place, AfterValidator(lambda place: complex(*place))]
-    Bars = Annotated[list["PlacedBar"], Rule(min_length=3, max_length=3)]
+    FarPoint = Point | None
+    Bars = Annotated[list["BarPlace"], Rule(min_length=3, max_length=3)]
 
 
 @file_table_by_name
@@ -92,26 +94,18 @@ class LimitsTask(FileTable):
     angles: Pair
 
 
-@dataclass(frozen=True)
-class BarPlace:
-    """Where a bar lies: two points of it."""
+@file_table
+class BarPlace(FileTable):
+    """Where a bar lies: two points of it, or in a file the first and its angle (degrees)."""
 
-    B: complex
-    C: complex
+    B: Point
+    C: FarPoint = None  # type: ignore[assignment]  # placed when it is read
+    angle: Number | None = None
 
     def moved(self, place: complex, to: BarPlace) -> complex:
         """Where a place carried along with the bar lies when the bar lies ``to``."""
         turn = (to.C - to.B) / (self.C - self.B)
         return to.B + (place - self.B) * turn / abs(turn)
-
-
-@file_table
-class PlacedBar(FileTable):
-    """Where a bar lies, as a file has it."""
-
-    B: Point
-    C: Point | None = None
-    angle: Number | None = None
 
 
 @file_table_by_name
@@ -270,7 +264,7 @@ def _kind_meant(kind: str) -> Wording:
 
 def _bar_positions(task: BarPositionsTask, problems: list[Problem]) -> BarPositionsTask | None:
     """The task with each place of the bar by two points; None where the places do not agree, which is noted."""
-    bars: list[PlacedBar] = list(task.positions)  # type: ignore[arg-type]  # as the file has them
+    bars: list[BarPlace] = list(task.positions)
     length, before = task.BC or 0.0, len(problems)
 
     def say(where: str, found: Wording, wanted: Wording, **gaps: object) -> None:
@@ -288,7 +282,7 @@ def _bar_positions(task: BarPositionsTask, problems: list[Problem]) -> BarPositi
         say(missing, "is missing", "both fixed pivots are given or none")
     if len(problems) > before:
         return None
-    placed = [BarPlace(bar.B, bar.B + length * direction(bar.angle or 0.0) if bar.C is None else bar.C) for bar in bars]
+    placed = [bar if bar.angle is None else BarPlace(bar.B, bar.B + length * direction(bar.angle)) for bar in bars]
     own = abs(placed[0].C - placed[0].B)
     if not by_angle and length and abs(own - length) > SAME_BAR * length:
         wanted = Phrase("b and c of position 1 lie apart", value=f"{own:.6g}")

@@ -73,7 +73,8 @@ def force_names(mechanism: Mechanism) -> Mapping[str, Literal["force", "moment"]
         if joint.kind == "sliding":
             made[f"M_{joint.name}"] = "moment"
     if loading.balance is not None:
-        return made | {_balance(loading.balance.kind == "moment", loading.balance.link): loading.balance.kind}
+        said = loading.balance
+        return made | {_balance(not said.is_force, said.link): "force" if said.is_force else "moment"}
     for driver in mechanism.drivers:
         if driver.turns:
             made[_balance(True, driver.link)] = "moment"

@@ -19,7 +19,7 @@ from graphkin.scene.scene_tables import DriverLaw, LawPiece
 from graphkin.words import Phrase
 
 __all__ = [
-    "LAWS", "SEAM", "TURN", "CubicPart", "FollowerLaw", "Lift", "LiftPiece", "MotionLaw", "follower_law", "form_of",
+    "LAWS", "SEAM", "TURN", "FollowerLaw", "Lift", "LiftPiece", "MotionLaw", "follower_law", "form_of",
     "motion_law",
 ]  # fmt: skip
 
@@ -111,7 +111,7 @@ def form_of(by: str | None) -> str:
 class LiftPiece:
     """A piece of a law between two angles of the cam (rad) or moments (s), from one value to another (m or rad); ``by``
     is the law, "" of a dwell.  Its ``parts`` have derivatives of every order: the piece itself, or of a parabolic piece
-    the halves, told by ``which``."""
+    the halves, told by ``which``.  Between two rows of a table it is the cubic with these ``rates`` at its ends."""
 
     start: float
     end: float
@@ -119,9 +119,12 @@ class LiftPiece:
     high: float
     by: str
     which: int = 0
+    rates: tuple[float, float] | None = None
 
     @property
     def parts(self) -> tuple[LiftPiece, ...]:
+        if self.rates is not None:
+            return (self,)
         shares = [0.0, *(share for share, _ in LAWS[self.by])] if self.by else [0.0, 1.0]
         angles, lifts = ([a * (1.0 - share) + b * share for share in shares]
                          for a, b in ((self.start, self.end), (self.low, self.high)))  # fmt: skip
@@ -131,6 +134,10 @@ class LiftPiece:
     def at(self, angle: Values, m: ModuleType = math) -> Lift:
         """The lift of a part at angles inside (rad), plain, or arrays with the functions of NumPy."""
         wide, h = self.end - self.start, self.high - self.low
+        if self.rates is not None:
+            (first, _), (b, c), x = self.rates, self._bends, angle - self.start
+            value, rate = self.low + x * (first + x * (b + x * c)), first + x * (2 * b + x * 3 * c)
+            return Lift(value, rate, 2 * b + 6 * c * x, 6 * c)
         if h == 0.0:
             return Lift(self.low + 0 * angle, 0.0 * angle, 0.0 * angle, 0.0 * angle)
         _, form = LAWS[self.by][self.which]
@@ -143,6 +150,26 @@ class LiftPiece:
         peaks = PEAKS[self.by][order - 1] if self.by in PEAKS else ()
         inside = (self.start + x * (self.end - self.start) for x in peaks)
         return tuple((self.at(angle)[order], angle) for angle in (self.start, *inside, self.end))
+
+    @property
+    def _bends(self) -> tuple[float, float]:
+        """Of a cubic the factors of the square and of the cube of the time since its start."""
+        (first, last), wide = self.rates or (0.0, 0.0), self.end - self.start
+        mean = (self.high - self.low) / wide
+        return (3 * mean - 2 * first - last) / wide, (first + last - 2 * mean) / wide**2
+
+    @property
+    def turns(self) -> tuple[float, ...]:
+        """Moments inside at which a cubic turns back; the laws do not."""
+        if self.rates is None:
+            return ()
+        (rate, _), (b, c) = self.rates, self._bends
+        square = b * b - 3 * c * rate
+        if square <= 0.0:
+            return ()
+        half = -(b + math.copysign(math.sqrt(square), b))
+        roots = [rate / half if half else 0.0, half / (3 * c) if c else 0.0]
+        return tuple(sorted(self.start + x for x in roots if 0.0 < x < self.end - self.start))
 
 
 @dataclass(frozen=True)
@@ -196,47 +223,6 @@ class FollowerLaw:
 
 
 @dataclass(frozen=True)
-class CubicPart:
-    """A cubic between two moments (s), by its values (rad, m) and rates at both."""
-
-    start: float
-    end: float
-    low: float
-    high: float
-    rate: float
-    last_rate: float
-
-    @property
-    def parts(self) -> tuple[CubicPart, ...]:
-        return (self,)
-
-    @property
-    def _bends(self) -> tuple[float, float]:
-        """The factors of the square and of the cube of the time since its start."""
-        wide = self.end - self.start
-        mean = (self.high - self.low) / wide
-        return (3 * mean - 2 * self.rate - self.last_rate) / wide, (self.rate + self.last_rate - 2 * mean) / wide**2
-
-    def at(self, time: float) -> Lift:
-        """Value and its derivatives at a moment inside (s)."""
-        (b, c), x = self._bends, time - self.start
-        return Lift(
-            self.low + x * (self.rate + x * (b + x * c)), self.rate + x * (2 * b + x * 3 * c), 2 * b + 6 * c * x, 6 * c
-        )
-
-    @property
-    def turns(self) -> tuple[float, ...]:
-        """Moments inside at which it turns back."""
-        b, c = self._bends
-        square = b * b - 3 * c * self.rate
-        if square <= 0.0:
-            return ()
-        half = -(b + math.copysign(math.sqrt(square), b))
-        roots = [self.rate / half if half else 0.0, half / (3 * c) if c else 0.0]
-        return tuple(sorted(self.start + x for x in roots if 0.0 < x < self.end - self.start))
-
-
-@dataclass(frozen=True)
 class MotionLaw:
     """A driver's value (rad, m) over the time (s), which begins at 0; a seam belongs to the later piece.
 
@@ -247,11 +233,11 @@ class MotionLaw:
     (2.5, 2.356194, 1.0)
     """
 
-    pieces: tuple[LiftPiece | CubicPart, ...]
+    pieces: tuple[LiftPiece, ...]
     time: float = 0.0
 
     @cached_property
-    def parts(self) -> tuple[LiftPiece | CubicPart, ...]:
+    def parts(self) -> tuple[LiftPiece, ...]:
         return tuple(part for piece in self.pieces for part in piece.parts)
 
     @property
@@ -269,13 +255,9 @@ class MotionLaw:
         return Lift(part.low if time < part.start else part.high, 0.0, 0.0, 0.0)
 
     @cached_property
-    def _runs(self) -> tuple[tuple[LiftPiece | CubicPart, float, float], ...]:
+    def _runs(self) -> tuple[tuple[LiftPiece, float, float], ...]:
         """Stretches of the time in which the value grows, falls, or stands."""
-        found = []
-        for part in self.parts:
-            ends = (part.start, *(part.turns if isinstance(part, CubicPart) else ()), part.end)
-            found += [(part, a, b) for a, b in pairwise(ends)]
-        return tuple(found)
+        return tuple((part, a, b) for part in self.parts for a, b in pairwise((part.start, *part.turns, part.end)))
 
     @cached_property
     def span(self) -> tuple[float, float]:
@@ -417,8 +399,9 @@ def _by_table(where: str, law: DriverLaw, unit: float, reading: Reading) -> Moti
             reading.say(f"{here}.{i}", "is at s after one at s", "seconds grow", other=f"{b:g}", name=f"{a:g}")
             return None
     rates = _spline(times, values)
-    rows = zip(times, times[1:], values, values[1:], rates, rates[1:], strict=False)
-    return MotionLaw(tuple(CubicPart(*row) for row in rows), times[0])
+    rows = zip(pairwise(times), pairwise(values), pairwise(rates), strict=True)
+    return MotionLaw(tuple(LiftPiece(*ends, *between, "", rates=own) for ends, between, own in rows), times[0])
+
 
 def _spline(times: Sequence[float], values: Sequence[float]) -> list[float]:
     """The rates at its knots of the cubic spline without acceleration at both ends (de Boor, A Practical Guide to

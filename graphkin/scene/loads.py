@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 from graphkin.errors import did_you_mean
 from graphkin.plane import direction
 from graphkin.scene.bodies import Reading
-from graphkin.scene.model import BalanceAt, LinkMass, Loading, LoadOn, Phase, SpringOn
+from graphkin.scene.model import LinkMass, Loading, LoadOn, SpringOn
 from graphkin.scene.scene_tables import STANDARD_GRAVITY, Balance, Load, LoadPhase, Mass, Spring
 from graphkin.scene.tables import in_si
 from graphkin.words import Phrase
@@ -163,8 +164,8 @@ def _end(reading: Reading, where: str, point: str, link: str) -> str:
     return link
 
 
-def _phase(reading: Reading, where: str, when: LoadPhase) -> Phase | None:
-    """When a load acts."""
+def _phase(reading: Reading, where: str, when: LoadPhase) -> LoadPhase | None:
+    """When a load acts, in SI, its pair by its key."""
     say = reading.say
     if (when.stroke is None) == (when.driver is None):
         neither, both = Phrase("has neither stroke nor driver"), Phrase("has both stroke and driver")
@@ -176,7 +177,7 @@ def _phase(reading: Reading, where: str, when: LoadPhase) -> Phase | None:
                 greatest=f"{when.end:g}")
         if when.sense not in (1, -1):
             say(f"{where}.sense", "found value", "1 along the guide's sense 1 against it", value=f"{when.sense:g}")
-        return Phase(_pair(reading, f"{where}.stroke", when.stroke), int(when.sense), when.start, when.end)
+        return replace(when, stroke=_pair(reading, f"{where}.stroke", when.stroke))
     assert when.driver is not None
     for beside, said in (("sense", when.sense != 1.0), ("from", when.start != 0.0), ("to", when.end != 1.0)):
         if said:
@@ -189,11 +190,11 @@ def _phase(reading: Reading, where: str, when: LoadPhase) -> Phase | None:
     elif not slides and not 0.0 < (span := end - start if end >= start else end - start + math.tau) <= TURN:
         wanted = Phrase("two different values") if span <= 0.0 else Phrase("at most a turn lies between them")
         say(f"{where}.driver", found, Phrase("a load that acts always has no when", wanted=wanted))
-    return Phase("", 1, start, end if slides or end >= start else end + 2 * math.pi)
+    return LoadPhase(start=start, end=end if slides or end >= start else end + math.tau)
 
 
-def _balance(reading: Reading, table: Balance | None) -> BalanceAt | None:
-    """What balances."""
+def _balance(reading: Reading, table: Balance | None) -> LoadOn | None:
+    """What balances, of no size yet."""
     if table is None or _not_moving(reading, "balance.on", table.on):
         return None
     say, si = reading.say, in_si(table, reading.units)
@@ -202,10 +203,10 @@ def _balance(reading: Reading, table: Balance | None) -> BalanceAt | None:
     if si.at is None:
         if table.angle is not None:
             say("balance.angle", "stands without at", "a force has a place a moment has")
-        return BalanceAt(table.on, "moment")
+        return LoadOn("", table.on, 0.0, False)
     at = _place(reading, "balance.at", table.on, si.at)
     if table.angle is None:
         say("balance.angle", "is missing", "degrees in the frame or square to the")
-    square = table.angle == "square"
-    turn = 1 + 0j if square or not isinstance(table.angle, int | float) else direction(table.angle)
-    return BalanceAt(table.on, "force", at, turn, square)
+    if isinstance(table.angle, int | float):
+        return LoadOn("", table.on, 0.0, True, at, direction(table.angle))
+    return LoadOn("", table.on, 0.0, True, at, 1j, follows=table.on)

@@ -19,12 +19,12 @@ from graphkin.scene.bodies import CircularSlot, SlidingPair
 from graphkin.scene.cams import LawCam
 from graphkin.scene.laws import MotionLaw
 from graphkin.scene.pictures import PlacedBackground, PlacedScan
-from graphkin.scene.scene_tables import Flywheel, Positions, SheetWishes, Vary
+from graphkin.scene.scene_tables import Flywheel, LoadPhase, Positions, SheetWishes, Vary
 from graphkin.scene.symbol import Printed, Symbol
 from graphkin.scene.tables import FileTable, Measure, Unit, Units
 
 __all__ = [
-    "BalanceAt", "Dimension", "Driver", "FromDeadPoint", "LinkMass", "LoadOn", "Loading", "Mechanism", "Phase",
+    "Dimension", "Driver", "FromDeadPoint", "LinkMass", "LoadOn", "Loading", "Mechanism",
     "PlacedContact", "PlacedDisc", "PlacedGear", "PlacedGuide", "PlacedLink", "Question", "SpringOn",
     "StatedValues", "changed_beside", "dimensions", "same_but_for_dimensions", "with_dimensions",
 ]  # fmt: skip
@@ -41,23 +41,12 @@ class LinkMass:
 
 
 @dataclass(frozen=True)
-class Phase:
-    """When a load acts: while the pair ``stroke`` slides in a ``sense`` along its guide, between two parts of its
-    stroke, counted from where that stroke begins; or, without ``stroke``, while the first driver's value grows from
-    ``start`` to ``end`` (rad, m; of an angle at most a turn)."""
-
-    stroke: str
-    sense: int
-    start: float
-    end: float
-
-
-@dataclass(frozen=True)
 class LoadOn:
     """A force (N) on a link at a place of its own axes (m), or a moment (N m; ``size`` of both, ``is_force`` tells).
 
     ``turn`` is its direction, in the frame or from the axis of link ``follows``; with ``against`` it lies along the
-    guide of that sliding pair, opposite to its sliding velocity.
+    guide of that sliding pair, opposite to its sliding velocity.  ``phase`` says when it acts, in SI: on a part of the
+    stroke of a pair, or while the first driver's value grows from ``start`` to ``end`` (rad, m; at most a turn).
     """
 
     name: str
@@ -68,7 +57,7 @@ class LoadOn:
     turn: complex = 1 + 0j
     follows: str = ""
     against: str = ""
-    phase: Phase | None = None
+    phase: LoadPhase | None = None
 
 
 @dataclass(frozen=True)
@@ -94,25 +83,14 @@ class SpringOn:
 
 
 @dataclass(frozen=True)
-class BalanceAt:
-    """What is unknown besides the joint forces: a moment on a link, or a force at a place of it along a line, whose
-    direction ``turn`` stands in the frame or, ``square``, is square to the link's own axis."""
-
-    link: str
-    kind: Literal["moment", "force"]
-    at: complex = 0j
-    turn: complex = 1 + 0j
-    square: bool = False
-
-
-@dataclass(frozen=True)
 class Loading:
-    """Everything that makes forces; ``gravity`` is 0 where weights do not pull (m/s2)."""
+    """Everything that makes forces; ``gravity`` is 0 where weights do not pull (m/s2); ``balance`` is the load that is
+    unknown besides the joint forces, None where it is what drives."""
 
     gravity: complex = 0j
     masses: tuple[LinkMass, ...] = ()
     loads: tuple[LoadOn, ...] = ()
-    balance: BalanceAt | None = None
+    balance: LoadOn | None = None
     flywheel: Flywheel | None = None
     springs: tuple[SpringOn, ...] = ()
 

@@ -19,7 +19,8 @@ import numpy as np
 
 from graphkin.plane import cross
 from graphkin.scene.force_names import ForceJoint, joints, opposite
-from graphkin.scene.model import LoadOn, Phase, SpringOn
+from graphkin.scene.model import LoadOn, SpringOn
+from graphkin.scene.scene_tables import LoadPhase
 from graphkin.solver.cams import cam_angle, cam_at
 from graphkin.solver.constraints import solve_all
 from graphkin.solver.motion import SLIGHT, Motion, contact_motion, pitch_point
@@ -96,8 +97,8 @@ def balances(motion: Motion) -> list[PairForce]:
     said = scene.loading.balance
     if said is not None:
         pose = motion.poses[said.link]
-        along = None if said.kind == "moment" else 1j * np.asarray(pose.u) if said.square else said.turn
-        name = f"{'F' if said.kind != 'moment' else 'M'}_{said.link}"
+        along = None if not said.is_force else said.turn * np.asarray(pose.u) if said.follows else said.turn
+        name = f"{'F' if said.is_force else 'M'}_{said.link}"
         return [PairForce(name, scene.frame.name, said.link, along, np.asarray(pose.fixed(said.at).z))]
     for driver in scene.drivers:
         if driver.turns:
@@ -471,11 +472,11 @@ def _force(motion: Motion, load: LoadOn) -> Array:
     return np.full(len(motion), load.size * load.turn)
 
 
-def _acting(motion: Motion, phase: Phase | None) -> tuple[Array, Array]:
+def _acting(motion: Motion, phase: LoadPhase | None) -> tuple[Array, Array]:
     """Where a load acts, and where it begins or ends exactly; shape (n,) each."""
     n, turn = len(motion), 2 * np.pi
     if phase is not None and phase.stroke:
-        return _on_stroke(motion, phase)
+        return _on_stroke(motion, phase, phase.stroke)
     turns = motion.scene.drivers[0].turns
     if phase is None or (turns and phase.end - phase.start >= turn * (1 - EDGE)):
         return np.ones(n, dtype=bool), np.zeros(n, dtype=bool)
@@ -488,10 +489,10 @@ def _acting(motion: Motion, phase: Phase | None) -> tuple[Array, Array]:
     return np.asarray(since < span), np.asarray(near)
 
 
-def _on_stroke(motion: Motion, phase: Phase) -> tuple[Array, Array]:
+def _on_stroke(motion: Motion, phase: LoadPhase, stroke: str) -> tuple[Array, Array]:
     """The same of a load on a part of a stroke.  Raises Unsolvable where the driver makes no whole turn."""
-    low, high = motion.reach().stroke(phase.stroke)
-    travel, speed = motion.slide(phase.stroke).travel, motion.growing.slide(phase.stroke).velocity
+    low, high = motion.reach().stroke(stroke)
+    travel, speed = motion.slide(stroke).travel, motion.growing.slide(stroke).velocity
     part = (travel - low) / (high - low) if high > low else np.zeros(len(motion))
     part = part if phase.sense > 0 else 1.0 - part
     running, near = np.sign(speed) == phase.sense, np.zeros(len(motion), dtype=bool)

@@ -23,7 +23,8 @@ from graphkin.files import Json
 from graphkin.files import json_text as one_line
 from graphkin.scene.cams import SwingingFollower
 from graphkin.scene.force_names import no_force
-from graphkin.scene.model import Mechanism, Phase
+from graphkin.scene.model import Mechanism
+from graphkin.scene.scene_tables import LoadPhase
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.search import changes
 from graphkin.solver.cams import cam_angle, cam_at, slip_of
@@ -339,9 +340,9 @@ def load_edges(reach: DriverRange) -> Array:
     return np.array([x for i, x in enumerate(kept) if i == 0 or x - kept[i - 1] > apart])
 
 
-def _begins_and_ends(reach: DriverRange, phase: Phase) -> Iterator[float]:
-    low, high = reach.ends
-    if not phase.stroke:
+def _begins_and_ends(reach: DriverRange, phase: LoadPhase) -> Iterator[float]:
+    (low, high), stroke = reach.ends, phase.stroke
+    if not stroke:
         for value in (phase.start, phase.end):
             at = float(reach.sense * (value - reach.start[0]))
             if reach.driver.turns:
@@ -350,13 +351,13 @@ def _begins_and_ends(reach: DriverRange, phase: Phase) -> Iterator[float]:
             else:
                 yield at
         return
-    least, most = reach.stroke(phase.stroke)
+    least, most = reach.stroke(stroke)
 
     def part(edge: float) -> Callable[[Array], Array]:
         wanted = least + (most - least) * (edge if phase.sense > 0 else 1.0 - edge)
-        return lambda offset: reach.motion(offset, fine=False).slide(phase.stroke).travel - wanted
+        return lambda offset: reach.motion(offset, fine=False).slide(stroke).travel - wanted
 
-    speed = _speed(reach, phase.stroke)
+    speed = _speed(reach, stroke)
     for edge in (phase.start, phase.end):
         if edge < 1e-9 or edge > 1.0 - 1e-9:  # where the slide turns back
             yield from _crossings(reach, speed)

@@ -94,11 +94,11 @@ def force_groups(structure: Structure) -> tuple[Element, ...]:
         return structure.elements
     own = scene.drivers[0]
     frame = scene.frame.name
-    if own.turns and (own.link, own.relative_to) == (said.link, frame) and said.kind == "moment":
+    if own.turns and (own.link, own.relative_to) == (said.link, frame) and not said.is_force:
         return structure.elements
     slide = next((s for s in structure.slides if {s.a, s.b} == {said.link, frame}), None)
     driver: Driver = Driver(said.link, frame, 0.0, 0.0, 0.0)
-    if said.kind == "force" and slide is not None:
+    if said.is_force and slide is not None:
         driver = Driver(slide.a, slide.b, 0.0, 0.0, 0.0, slide.key)
     try:
         return analyse(replace(scene, drivers=(driver,))).elements
@@ -145,8 +145,8 @@ class Images:
         along the guide where it slides."""
         scene = self.sheet.scene
         said, frame = scene.loading.balance, scene.frame.name
-        if said is not None and said.kind == "force":
-            along = 1j * self.sheet.poses[said.link].axis if said.square else said.turn
+        if said is not None and said.is_force:
+            along = said.turn * (self.sheet.poses[said.link].axis if said.follows else 1.0)
             return ForceVector(Symbol("F", link=said.link), said.link, along, self.place(said.link, said.at), off=frame)
         if said is not None or driver.turns:
             link, off = (driver.link, driver.relative_to) if said is None else (said.link, frame)

@@ -19,7 +19,8 @@ from graphkin.construction.links_on_paper import travel
 from graphkin.construction.sheet import Sheet
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import unit
-from graphkin.scene.model import LinkMass, LoadOn, Phase, SpringOn
+from graphkin.scene.model import LinkMass, LoadOn, SpringOn
+from graphkin.scene.scene_tables import LoadPhase
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Structure
 
@@ -53,11 +54,11 @@ def acting_loads(sheet: Sheet, growing: Sheet) -> dict[str, bool | None]:
     return {load.name: _acts(sheet, growing, load.phase) for load in sheet.scene.loading.loads}
 
 
-def _acts(sheet: Sheet, growing: Sheet, phase: Phase | None) -> bool | None:
+def _acts(sheet: Sheet, growing: Sheet, phase: LoadPhase | None) -> bool | None:
     if phase is None:
         return True
     if phase.stroke:
-        return _on_stroke(sheet, growing, phase)
+        return _on_stroke(sheet, growing, phase, phase.stroke)
     driver = sheet.scene.drivers[0]
     value = sheet.drivers[driver.key]
     if not driver.turns:
@@ -74,9 +75,8 @@ def _acts(sheet: Sheet, growing: Sheet, phase: Phase | None) -> bool | None:
     return since < span
 
 
-def _on_stroke(sheet: Sheet, growing: Sheet, phase: Phase) -> bool | None:
-    slide = sheet.structure.slide(phase.stroke)
-    limits = sheet.limits[phase.stroke]
+def _on_stroke(sheet: Sheet, growing: Sheet, phase: LoadPhase, stroke: str) -> bool | None:
+    slide, limits = sheet.structure.slide(stroke), sheet.limits[stroke]
     here, low, high = (travel(slide, poses, 0.0) for poses in (sheet.poses, limits.low.poses, limits.high.poses))
     part = (here - low) / (high - low) if high > low else 0.0
     if phase.sense < 0:
