@@ -159,20 +159,18 @@ def _why(sheet: Sheet, equation: Equation, term: Term) -> Iterator[Phrase]:
     elif to is None:
         yield from _of_a_point(sheet, symbol)
     elif to.point == of.point:
-        slides = sheet.structure.slides
-        guide = next((s for s in slides if s.pin == of.point and {of.link or s.a, to.link or s.b} & {s.a, s.b}),
-                     next((s for s in slides if {of.link, to.link} == {s.a, s.b}), None))  # fmt: skip
+        guide = sheet.structure.slide(term.pair) if term.pair else None
         if guide is not None and symbol.kind in ("v", "ar"):
             yield _coincident(of, to, guide)
         elif symbol.kind == "an":
             yield Phrase("why curved", (of, to))
     elif symbol.kind in ("v", "an"):
-        link = _shared(sheet, of, to)
         fixed = symbol.kind == "an" and to.point in sheet.scene.frame.points
         alone = not any(t.symbol == Symbol("at", of, to) for side in equation.sides for t in side)
         turning = "why turning evenly" if alone else "why turning parts"
         key = turning if fixed else "why rigid" if symbol.kind == "v" else "why rigid parts"
-        yield Phrase(key, (of, to, link)) if link else Phrase("why centres", (of, to))
+        real = term.link in sheet.scene.by_name  # no bar that stands for a contact
+        yield Phrase(key, (of, to, term.link)) if real else Phrase("why centres", (of, to))
 
 
 def _found_before(sheet: Sheet, equation: Equation, term: Term) -> int:
@@ -224,18 +222,6 @@ def _of_a_point(sheet: Sheet, symbol: Symbol) -> Iterator[Phrase]:
         yield _coincident(of, other, under)
 
 
-def _shared(sheet: Sheet, of: PointRef, to: PointRef) -> str:
-    """The link that has both points; a special point belongs to the link that it was found for."""
-    special = sheet.special_points
-    for ref in (of, to):
-        if ref.point in special:
-            return ref.link or special[ref.point]
-    for link in sheet.scene.links:
-        if all(ref.link == link.name or (not ref.link and ref.point in link.points) for ref in (of, to)):
-            return link.name
-    return next((ref.link for ref in (of, to) if ref.link), "")
-
-
 def _coriolis(sheet: Sheet, term: Term) -> Iterator[Phrase]:
     """The rule, and its sense from the two arrows: the sliding velocity and the turning of the guide."""
     symbol = term.symbol
@@ -244,8 +230,7 @@ def _coriolis(sheet: Sheet, term: Term) -> Iterator[Phrase]:
     if slip is None and symbol.to is not None and symbol.to.point in sheet.scene.frame.points:
         slip = moving.get(Symbol("v", symbol.of))  # relative to a point at rest
     drawn = sheet.vectors("acceleration").get(symbol)
-    guide = next((s for s in sheet.structure.slides if symbol.of is not None and s.pin == symbol.of.point
-                  and {symbol.of.link, symbol.to.link if symbol.to else ""} & {s.a, s.b}), None)  # fmt: skip
+    guide = sheet.structure.slide(term.pair) if term.pair else None
     if slip is None or drawn is None or guide is None or not slip.span or not drawn.span:
         return
     rate = sheet.omega.get(guide.b)

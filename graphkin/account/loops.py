@@ -11,7 +11,7 @@ import cmath
 import math
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -60,13 +60,9 @@ def projections(loop: Loop, block: LoopBlock, scene: Mechanism) -> tuple[str, st
 
 
 def _projection(loop: Loop, block: LoopBlock, scene: Mechanism, function: str) -> str:
-    terms, known = [], 0.0
-    open_slides = {name for kind, name in block.unknowns if kind == "travel"}
-    open_angles = {name for kind, name in block.unknowns if kind == "angle"}
-    metres = scene.units.metres
+    terms, known, metres = [], 0.0, scene.units.metres
     for arrow in loop.arrows:
-        first = loop.ties[arrow.link]
-        turns, slides = first in open_angles, arrow.slide in open_slides
+        turns, slides = (one in block.unknowns for one in (("angle", loop.ties[arrow.link]), ("travel", arrow.slide)))
         part = arrow.vector.real if function == "cos" else arrow.vector.imag
         if not turns and not slides:
             known += part / metres
@@ -74,7 +70,7 @@ def _projection(loop: Loop, block: LoopBlock, scene: Mechanism, function: str) -
         size = "" if slides else f"{number(abs(arrow.coefficient) * arrow.travel / metres, 5)} "
         name = f"${size_name(arrow)}$ " if slides else ""
         if turns:
-            sign, angle = _angle(arrow, first)
+            sign, angle = _angle(arrow)
             terms.append((sign, f"{size}{name}{function} {angle}"))
         else:
             share = arrow.along.real if function == "cos" else arrow.along.imag
@@ -87,14 +83,9 @@ def _projection(loop: Loop, block: LoopBlock, scene: Mechanism, function: str) -
     return ("" if text.startswith("+") else "−") + text[2:] + " = 0"
 
 
-def _angle(arrow: Arrow, first: str) -> tuple[str, str]:
-    """The angle of an arrow by that of the link that it turns with, and the sign of its size."""
-    own = arrow.coefficient
-    offset = cmath.phase(own) if arrow.link == first else cmath.phase(arrow.vector)
-    name = f"$θ_{{{arrow.link}}}$"
-    if abs(math.remainder(offset, math.tau)) < STRAIGHT and arrow.link == first:
-        return "+", name
-    offset = cmath.phase(own)
+def _angle(arrow: Arrow) -> tuple[str, str]:
+    """The angle of an arrow by that of its link, and the sign of its size."""
+    offset, name = cmath.phase(arrow.coefficient), f"$θ_{{{arrow.link}}}$"
     if abs(math.remainder(offset, math.tau)) < STRAIGHT:
         return "+", name
     if abs(math.remainder(offset - math.pi, math.tau)) < STRAIGHT:
@@ -138,28 +129,32 @@ class MatrixEquation:
     solution: tuple[str, ...]
 
 
+def _in_units(block: LoopBlock, scene: Mechanism) -> LoopBlock:
+    """The matrix, its right sides and the rates in the file's unit of length for rates."""
+    fast = scene.units.rates.metres
+    per = np.array([fast if kind == "travel" else 1.0 for kind, _ in block.unknowns])
+    rates, second = (tuple((np.array(found) / per).tolist()) for found in (block.rates, block.second_rates))
+    return replace(block, matrix=block.matrix * per / fast, velocity=block.velocity / fast,
+                   acceleration=block.acceleration / fast, rates=rates, second_rates=second)  # fmt: skip
+
+
 def matrices(block: LoopBlock, scene: Mechanism) -> Iterator[MatrixEquation]:
     """The velocity and the acceleration equation of loops that are solved together, with this position's numbers."""
-    metres, length = scene.units.rates.metres, scene.units.rates.length
+    length, told = scene.units.rates.length, _in_units(block, scene)
+    weights = [1.0 if kind == "travel" else scene.size / scene.units.rates.metres for kind, _ in block.unknowns]
+    rows = tuple(tuple(number(x, 6) for x in row) for row in _clean(told.matrix.tolist()))
     for key, right, found, letters, after in (
-        ("loop velocities", block.velocity, block.rates, ("ω", "v"), ("rad/s", f"{length}/s")),
-        ("loop accelerations", block.acceleration, block.second_rates, ("α", "a"), ("rad/s²", f"{length}/s²")),
+        ("loop velocities", told.velocity, told.rates, ("ω", "v"), ("rad/s", f"{length}/s")),
+        ("loop accelerations", told.acceleration, told.second_rates, ("α", "a"), ("rad/s²", f"{length}/s²")),
     ):
-        rows = tuple(
-            tuple(number(float(x) / (metres if u[0] == "angle" else 1.0), 6)
-                  for x, u in zip(row, block.unknowns, strict=True))
-            for row in _clean(block.matrix.tolist())
-        )  # fmt: skip
-        names = tuple(f"{letters[u[0] == 'travel']}_{{{u[1].replace('/', '')}}}" for u in block.unknowns)
-        column = tuple(number(x / metres, 6) for x in _clean([right.tolist()])[0])
-        weights = [1.0 if u[0] == "travel" else scene.size for u in block.unknowns]
-        most = max((abs(x) for x in (*right, *(w * x for w, x in zip(weights, found, strict=True)))), default=0.0)
+        travels = [kind == "travel" for kind, _ in block.unknowns]
+        indices = (name.replace("/", "") for _, name in block.unknowns)
+        names = [f"{letters[t]}_{{{index}}}" for t, index in zip(travels, indices, strict=True)]
+        most = max(map(abs, (*right, *np.multiply(weights, found))), default=0.0)
         kept = [x if w * abs(x) > ROUNDING * most else 0.0 for w, x in zip(weights, found, strict=True)]
-        solution = tuple(
-            f"${name}$ = {number(x / (metres if u[0] == 'travel' else 1.0), 7)} {after[u[0] == 'travel']}"
-            for name, u, x in zip(names, block.unknowns, kept, strict=True)
-        )
-        yield MatrixEquation(key, rows, names, column, solution)
+        solution = [f"${n}$ = {number(x, 7)} {after[t]}" for n, t, x in zip(names, travels, kept, strict=True)]
+        (column,) = _clean([right.tolist()])
+        yield MatrixEquation(key, rows, tuple(names), tuple(number(x, 6) for x in column), tuple(solution))
 
 
 def _clean(rows: Sequence[Sequence[float]]) -> list[list[float]]:
@@ -229,10 +224,10 @@ class LoopText:
         return [self._block(block) for block in self.blocks]
 
     def _block(self, block: LoopBlock) -> dict[str, Json]:
-        metres, fast = self.scene.units.metres, self.scene.units.rates.metres
+        metres, told = self.scene.units.metres, _in_units(block, self.scene)
 
-        def plain(unknown: Coordinate, value: float, per: float) -> float:
-            return value / per if unknown[0] == "travel" else value
+        def plain(unknown: Coordinate, value: float) -> float:
+            return value / metres if unknown[0] == "travel" else value
 
         loops = [
             {
@@ -245,24 +240,16 @@ class LoopText:
                 ],
                 "gap": abs(one.gap) / metres,
                 **({"root": {"of": _plain_name(one.root.unknown), "sign": one.root.sign,
-                             "value": plain(one.root.unknown, one.root.value, metres)}} if one.root else {}),
+                             "value": plain(one.root.unknown, one.root.value)}} if one.root else {}),
             }
             for one in block.loops
         ]  # fmt: skip
-        matrix = [
-            [float(x) / (fast if u[0] == "angle" else 1.0) for x, u in zip(row, block.unknowns, strict=True)]
-            for row in block.matrix
-        ]
         return {
-            "loops": loops,
-            "unknowns": [*map(_plain_name, block.unknowns)],
-            "values": [plain(u, v, metres) for u, v in zip(block.unknowns, block.values, strict=True)],
-            "matrix": matrix,
-            "velocity": (block.velocity / fast).tolist(),
-            "rates": [plain(u, v, fast) for u, v in zip(block.unknowns, block.rates, strict=True)],
-            "acceleration": (block.acceleration / fast).tolist(),
-            "second_rates": [plain(u, v, fast) for u, v in zip(block.unknowns, block.second_rates, strict=True)],
-        }
+            "loops": loops, "unknowns": [*map(_plain_name, block.unknowns)],
+            "values": [*map(plain, block.unknowns, block.values)], "matrix": told.matrix.tolist(),
+            "velocity": told.velocity.tolist(), "rates": list(told.rates),
+            "acceleration": told.acceleration.tolist(), "second_rates": list(told.second_rates),
+        }  # fmt: skip
 
     @property
     def plain(self) -> str:

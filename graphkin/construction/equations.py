@@ -390,7 +390,9 @@ def _term(
     """
     role = PARTS.get(kind) or ("resultant" if plot.fixed(edge.start) else "relative")
     span = None if mm is None else along * mm
-    return Term(symbol_of(plot, kind, edge), mm is not None, True, size, written, role=role, along=along, span=span)
+    pair = "" if edge.slide is None else edge.slide.key
+    return Term(symbol_of(plot, kind, edge), mm is not None, True, size, written, role=role, link=edge.link, pair=pair,
+                along=along, span=span)  # fmt: skip
 
 
 def _by_rate(

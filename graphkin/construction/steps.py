@@ -181,7 +181,8 @@ class Term(OnPaper):
     size : the rule that gives the size (None where it was drawn before or is unknown)
     direction : as it is written
     part, turned : of a force: which part of it this is, and whether it is the opposite of its symbol's
-    role : its part in the motion of one point relative to another
+    role, link, pair : its part in the motion of one point relative to another; the link that both are points of, or the
+        sliding pair under which they coincide
     along, span : on paper, while it is drawn: a unit vector along it, and the vector (mm; None: of unknown size)
     """
 
@@ -193,6 +194,8 @@ class Term(OnPaper):
     part: Part = ""
     turned: bool = False
     role: Role = "relative"
+    link: str = ""
+    pair: str = ""
     along: complex = 0j
     span: complex | None = None
 
