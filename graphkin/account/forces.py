@@ -28,7 +28,7 @@ from graphkin.construction.forces.force_sheet import (
     MomentTerm,
     opposite,
 )
-from graphkin.construction.forces.joints import Images
+from graphkin.construction.forces.position import DrawnPosition
 from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.construction.sheet import Sheet
 from graphkin.plane import added_up
@@ -495,7 +495,7 @@ def given_loads(sheet: Sheet, letters: Letters) -> list[Phrase]:
     """Masses, weights, inertias, loads, springs and what balances, a line for each kind."""
     scene, loading = sheet.scene, sheet.scene.loading
     masses = list(_masses(scene, letters))
-    balances = dict.fromkeys(Images(sheet).balance(driver).symbol for driver in scene.drivers)
+    balances = dict.fromkeys(DrawnPosition(sheet).balance(driver).symbol for driver in scene.drivers)
     return [
         *([reduce(lambda one, other: Phrase("given masses", (one, other)), masses)] if masses else []),
         *(_load(scene, load, letters) for load in loading.loads),

@@ -370,7 +370,7 @@ def _planned(task: Task, room: Room | None) -> Plan:
     exact = finished(task, polygons)
     asked = task.asked
     if exact.has_forces:
-        from graphkin.construction.forces.known import acting_loads, strokes_of_loads
+        from graphkin.construction.forces.position import acting_loads, strokes_of_loads
 
         asked = (*asked, *strokes_of_loads(task.structure))
     if any(symbol.scope == "turn" for symbol in asked):

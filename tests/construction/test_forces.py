@@ -14,7 +14,7 @@ import pytest
 import graphkin
 from graphkin.construction import draft
 from graphkin.construction.forces import forces_on, groups
-from graphkin.construction.forces import known as acting
+from graphkin.construction.forces import position as acting
 from graphkin.construction.forces.groups import CutFree
 from graphkin.errors import Unsolvable
 from graphkin.scene import mechanism_of
@@ -297,7 +297,7 @@ def test_an_arm_on_the_wrong_side_is_found(monkeypatch):
 
 
 def test_a_load_forgotten_is_found(monkeypatch):
-    monkeypatch.setattr(sys.modules["graphkin.construction.forces.known"], "acting_loads", lambda *_: {"P": False})
+    monkeypatch.setattr(sys.modules["graphkin.construction.forces.position"], "acting_loads", lambda *_: {"P": False})
     assert {"P_P", "F_5/6", "M_2"} <= wrong()
 
 

@@ -21,8 +21,7 @@ from dataclasses import replace
 
 from graphkin.construction.forces.force_sheet import ForceSheet, ForceState, ForceVector, Lever, MomentTerm
 from graphkin.construction.forces.groups import NORMAL, TANGENT, CutFree, at_driver, of_dyad, of_larger_group
-from graphkin.construction.forces.joints import Images, JointNames, force_groups
-from graphkin.construction.forces.known import from_outside, inertias
+from graphkin.construction.forces.position import DrawnPosition, force_groups, from_outside, inertias
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import Pose
 from graphkin.construction.scales import Extent, fitting_scale
@@ -85,10 +84,10 @@ def _drawn(sheet: Sheet, hand: Instrument, per_mm: float) -> ForceSheet:
 def _state(held: Sheet, hand: Instrument, per_mm: float, known: tuple[ForceVector, ...]) -> ForceState:
     """All forces, of what acts from outside."""
     structure = held.structure
-    cut, groups = CutFree(Images(held), hand, per_mm, JointNames(structure)), []
+    cut, groups = CutFree(DrawnPosition(held), hand, per_mm), []
     cut.push(*known)
     for element in reversed(force_groups(structure)):
-        balances = {driver.key: cut.images.balance(driver) for driver in element.drivers}
+        balances = {driver.key: cut.drawn.balance(driver) for driver in element.drivers}
         if isinstance(element, Driven):
             groups.append(at_driver(cut, element, balances[element.driver.key]))
         elif isinstance(element, Dyad):
@@ -108,14 +107,14 @@ def _state(held: Sheet, hand: Instrument, per_mm: float, known: tuple[ForceVecto
 
 def _joints(cut: CutFree, vectors: dict[Symbol, complex], moments: dict[Symbol, float]) -> None:
     """The forces of all joints by their names, off what was found of pins and sliding pairs."""
-    names = cut.names
+    names = cut.drawn
     for point, first, later in names.turning():
         force = cut.pins[point, later]
         # the block of a pin in a slot belongs to the link of the pin
         force += added_up((cut.pins[point, key] for key, (of, _) in names.blocks.items()
-                           if of == later and point in names.structure.links[key].points), 0j)  # fmt: skip
+                           if of == later and point in names.sheet.structure.links[key].points), 0j)  # fmt: skip
         vectors[names.between(first, later, point)] = force / cut.per_mm
-    for slide in names.structure.slides:
+    for slide in names.sheet.structure.slides:
         force, couple = cut.slides[slide.key]
         vectors[names.of_slide(slide)] = force / cut.per_mm
         if not slide.slot:
@@ -175,7 +174,7 @@ def levers_of(sheet: Sheet, state: ForceState, hand: Instrument) -> tuple[Lever,
 
 
 def _lever(sheet: Sheet, drawn: Sheet, state: ForceState, driver: Driver, hand: Instrument) -> Lever | None:
-    images = Images(drawn)
+    images = DrawnPosition(drawn)
     balance = images.balance(driver)
     ends = {str(ref): TURN * z for ref, z in drawn.ends["velocity"].items()}
     # the forces with their places on the figure from which the images are
@@ -191,7 +190,7 @@ def _lever(sheet: Sheet, drawn: Sheet, state: ForceState, driver: Driver, hand: 
     return Lever(drawn.scales.velocity, drawn is not sheet, ends, rows, unknown, value, value * balance.force)
 
 
-def _on_lever(images: Images, one: ForceVector, hand: Instrument) -> MomentTerm:
+def _on_lever(images: DrawnPosition, one: ForceVector, hand: Instrument) -> MomentTerm:
     """The moment of a force about the pole, at the end point of its point's velocity; of a couple as a pair of forces
     at two points of its link, square to the line between them."""
     if one.symbol.is_vector:

@@ -21,7 +21,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceVector, MomentEquation, MomentTerm, opposite
-from graphkin.construction.forces.joints import Images, JointNames
+from graphkin.construction.forces.position import DrawnPosition
 from graphkin.construction.instruments import Instrument
 from graphkin.construction.steps import Direction, Part
 from graphkin.errors import Problem, Unsolvable
@@ -63,10 +63,9 @@ class CutFree:
     couple of each guiding link on its sliding one, ``done`` the links whose forces are known.
     """
 
-    images: Images
+    drawn: DrawnPosition
     hand: Instrument
     per_mm: float
-    names: JointNames
     acting: defaultdict[str, list[ForceVector]] = field(default_factory=lambda: defaultdict(list))
     pins: defaultdict[tuple[str, str], complex] = field(default_factory=lambda: defaultdict(complex))
     slides: dict[str, tuple[complex, float]] = field(default_factory=dict)
@@ -78,7 +77,7 @@ class CutFree:
     def push(self, *acting: ForceVector) -> None:
         """Forces and couples act on links; the frame bears what comes."""
         for one in acting:
-            if one.link != self.names.structure.scene.frame.name:
+            if one.link != self.drawn.sheet.structure.scene.frame.name:
                 self.acting[one.link].append(one)
 
     def on(self, links: Iterable[str]) -> list[ForceVector]:
@@ -88,14 +87,14 @@ class CutFree:
     def load_pins(self, members: Iterable[str]) -> None:
         """Links found before hang on pins of these: what they do there acts on the first that has the pin."""
         inside = set(members)
-        for point, holders in self.names.structure.hinges.items():
+        for point, holders in self.drawn.sheet.structure.hinges.items():
             mine = [n for n in holders if n in inside]
             others = [n for n in holders if n not in inside]
             if not mine or not others or any(n not in self.done for n in others):
                 continue
-            carrier, at = mine[0], self.images.point(mine[0], point)
-            hung = {opposite(self.names.of_pin(point, other)): -self.pins[point, other] for other in others}
-            if len(holders) > 2 and carrier != self.names.holders[point][0]:
+            carrier, at = mine[0], self.drawn.point(mine[0], point)
+            hung = {opposite(self.drawn.of_pin(point, other)): -self.pins[point, other] for other in others}
+            if len(holders) > 2 and carrier != self.drawn.holders[point][0]:
                 hung = {Symbol("F", link=point, other=carrier): added_up(hung.values(), 0j)}
             for symbol, force in hung.items():
                 self.push(ForceVector(symbol, carrier, force, at))
@@ -105,9 +104,9 @@ class CutFree:
         """The force of a pair on that of some links which it holds, of no size yet."""
         link, off = (pair.a, pair.b) if pair.a in links else (pair.b, pair.a)
         if pair.turns:
-            symbol, at = self.names.of_pin(pair.point, pair.a), self.images.point(pair.a, pair.point)
+            symbol, at = self.drawn.of_pin(pair.point, pair.a), self.drawn.point(pair.a, pair.point)
         else:
-            symbol, at = self.names.of_slide(pair), self.images.foot(pair)
+            symbol, at = self.drawn.of_slide(pair), self.drawn.foot(pair)
             symbol = symbol if link == pair.a else opposite(symbol)
         return ForceVector(symbol, link, at=at, by="closing", off=off)
 
@@ -116,7 +115,7 @@ class CutFree:
         later."""
         forward, moment = force.on(slide.a), couple if force.link == slide.a else -couple
         self.slides[slide.key] = forward.force, moment
-        turned = ForceVector(self.names.of_slide(slide, "M"), slide.a, moment=moment, off=slide.b)
+        turned = ForceVector(self.drawn.of_slide(slide, "M"), slide.a, moment=moment, off=slide.b)
         for one in (replace(forward, by="given", direction=None, part=""), turned):
             self.push(*(acting for acting in (one, one.back) if acting.link not in inside))
 
@@ -125,7 +124,7 @@ class CutFree:
     @property
     def size(self) -> float:
         """The mechanism, in mm on paper."""
-        return self.images.sheet.scene.size * self.images.mm
+        return self.drawn.sheet.scene.size * self.drawn.mm
 
     def term(self, one: ForceVector, about: complex) -> MomentTerm:
         """The moment of a force about a place, its arm measured on the mechanism; a couple is its own."""
@@ -133,7 +132,7 @@ class CutFree:
             return MomentTerm(one.symbol, 0j, None, one.moment, turned=one.turned)
         mm = cross(one.at - about, unit(one.force))
         arm = self.hand.read_signed(mm) if abs(mm) >= 1e-12 * self.size else 0.0
-        moment = abs(one.force) * arm / self.images.mm
+        moment = abs(one.force) * arm / self.drawn.mm
         return MomentTerm(one.symbol, one.force, arm, moment, one.at, about, turned=one.turned)
 
     def terms(self, acting: Iterable[ForceVector], about: complex) -> tuple[MomentTerm, ...]:
@@ -156,7 +155,7 @@ class CutFree:
         if abs(sought.arm) <= PARALLEL * self.size:
             raise _dead_point(links)
         terms = self.terms([*self.on(links), *(m for m in more if m.force)], about)
-        value = -added_up(t.moment for t in terms) / (sought.arm / self.images.mm)
+        value = -added_up(t.moment for t in terms) / (sought.arm / self.drawn.mm)
         return MomentEquation(tuple(links), letter, terms, replace(sought, part=unknown.part), value)
 
     def couple(
@@ -249,7 +248,7 @@ def _shift_line(cut: CutFree, group: ForceGroup, force: ForceVector, couple: flo
     """Where a couple (N m) puts the line of action of its force."""
     if force.force:
         along, shift = unit(force.force), couple / abs(force.force)
-        group.lines[force.symbol] = force.at - 1j * along * (shift * cut.images.mm), shift
+        group.lines[force.symbol] = force.at - 1j * along * (shift * cut.drawn.mm), shift
 
 
 # -- a dyad ------------------------------------------------------------------------------------------------------------
@@ -301,7 +300,7 @@ def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, ForceVector]) -> Fo
         acting = [opposed, force]
         for slide in (pair for pair in dyad.pairs if not pair.turns):
             turned = cut.slides[slide.key][1]
-            couple = ForceVector(cut.names.of_slide(slide, "M"), slide.a, moment=turned, off=slide.b)
+            couple = ForceVector(cut.drawn.of_slide(slide, "M"), slide.a, moment=turned, off=slide.b)
             acting += [one for one in (couple, couple.back) if one.link in body.links]
         # links that drivers hold together, from the outermost on
         for joint in reversed(body.joints):
@@ -324,7 +323,7 @@ def _outer_parts(
         return (_by_inner_pin(cut, dyad.first.links, dyad.outer_first, one, slide, group),
                 _by_inner_pin(cut, dyad.second.links, outer, two, slide, group))  # fmt: skip
     # body one slides on body two: what pushes it along the guide only its pin can hold
-    along = cut.images.along(slide)
+    along = cut.drawn.along(slide)
     laid: Chain = []
     cut.lay_known(laid, dyad.first.links)
     push = along * -dot(_end_of(laid), along) * cut.per_mm
@@ -332,7 +331,7 @@ def _outer_parts(
     mark: Part = "t" if known else ""
     square = replace(one, force=1j * along, part=mark, direction=_across(slide))
     if not outer.turns:
-        return (known, square), ([], replace(two, force=1j * cut.images.along(outer), direction=_across(outer)))
+        return (known, square), ([], replace(two, force=1j * cut.drawn.along(outer), direction=_across(outer)))
     found = cut.by_moments(
         (*dyad.first.links, *dyad.second.links), two.at, outer.point, replace(square, part="t"), known
     )  # fmt: skip
@@ -345,8 +344,8 @@ def _by_inner_pin(
 ) -> OuterParts:
     """An outer force by the moments about the inner pin."""
     if not outer.turns:
-        return [], replace(force, force=1j * cut.images.along(outer), direction=_across(outer))
-    hinge = cut.images.point(inner.a, inner.point)
+        return [], replace(force, force=1j * cut.drawn.along(outer), direction=_across(outer))
+    hinge = cut.drawn.point(inner.a, inner.point)
     bar, along = (outer.point, inner.point), force.at - hinge
     square = replace(force, force=1j * unit(along), part="t", direction=Direction("square", bar))
     found = cut.by_moments(links, hinge, inner.point, square)
@@ -371,18 +370,18 @@ def _inner_forces(
     end, slide, links = own[-1].tip if own else corner, dyad.inner, dyad.first.links
     force = (corner - end) * cut.per_mm
     if slide.turns:
-        names, point, known = cut.names, slide.point, cut.names.structure.links
+        names, point, known = cut.drawn, slide.point, cut.drawn.sheet.structure.links
         first, second = (next(n for n in body.links if point in known[n].points) for body in dyad.bodies)
         symbol = opposite(names.of_pin(point, second))
-        if second == names.holders[point][0] and len(names.structure.hinges[point]) > 2:
+        if second == names.holders[point][0] and len(names.sheet.structure.hinges[point]) > 2:
             # the first link at a pin bears the sum of several: the force inside is called as the other link's is
             symbol = names.of_pin(point, first)
         cut.pins[point, first] += force
         cut.pins[point, second] -= force
-        on_first = ForceVector(symbol, first, force, cut.images.point(first, point), by="closing", off=second)
+        on_first = ForceVector(symbol, first, force, cut.drawn.point(first, point), by="closing", off=second)
         group.inner[first] = [*own, on_first.between(end, corner)]
         return on_first, on_first.back
-    square = 1j * cut.images.along(slide)
+    square = 1j * cut.drawn.along(slide)
     on_first = cut.at_pair(slide, links)
     on_first = replace(on_first, force=square * dot(force, square))
     group.inner[on_first.link] = [*own, on_first.between(end, corner)]
@@ -412,10 +411,10 @@ def _at_driven_joint(
     end, push = _end_of(chain), balance.on(leaf)
     force, sign = -end * cut.per_mm, 1.0 if push is balance else -1.0
     if pair.turns:
-        symbol = cut.names.of_pin(pair.point, leaf)
-        if leaf == cut.names.holders.get(pair.point, ("",))[0]:
-            symbol = cut.names.between(other, leaf, pair.point)
-        on = ForceVector(symbol, leaf, force, cut.images.point(leaf, pair.point), by="closing", off=other)
+        symbol = cut.drawn.of_pin(pair.point, leaf)
+        if leaf == cut.drawn.holders.get(pair.point, ("",))[0]:
+            symbol = cut.drawn.between(other, leaf, pair.point)
+        on = ForceVector(symbol, leaf, force, cut.drawn.point(leaf, pair.point), by="closing", off=other)
         equation = cut.couple((leaf,), on.at, pair.point, balance.symbol, extra)
         group.couples.append(equation)
         cut.balances[balance.symbol] = sign * equation.value
@@ -423,7 +422,7 @@ def _at_driven_joint(
         cut.pins[pair.point, other] -= force
         group.inner[leaf] = [*chain, on.between(end, 0j)]
         return [on.back, replace(push, moment=equation.value).back]
-    along = cut.images.along(pair)
+    along = cut.drawn.along(pair)
     on = cut.at_pair(pair, (leaf,))
     on = replace(on, force=1j * along * dot(force, 1j * along))
     push = replace(push, at=on.at, force=along * dot(force, along), by="closing")
@@ -446,7 +445,7 @@ def at_driver(cut: CutFree, element: Driven, balance: ForceVector) -> ForceGroup
     """
     link, pair = element.link, element.pair
     cut.load_pins((link,))
-    group = ForceGroup((link,) if link not in cut.names.blocks else (), "driver", "driver")
+    group = ForceGroup((link,) if link not in cut.drawn.blocks else (), "driver", "driver")
     chain, on = group.polygon, cut.at_pair(pair, (link,))
     push = replace(balance.on(link), by="closing")
     if pair.turns:
@@ -463,7 +462,7 @@ def at_driver(cut: CutFree, element: Driven, balance: ForceVector) -> ForceGroup
         cut.pins[pair.point, pair.a] -= _end_of(chain) * cut.per_mm
         cut.closed((link,), chain, on)
     else:
-        on, push = (replace(on, force=1j * cut.images.along(pair), direction=_across(pair)),
+        on, push = (replace(on, force=1j * cut.drawn.along(pair), direction=_across(pair)),
                     replace(push, direction=_along(pair)))  # fmt: skip
         cut.lay_known(chain, (link,))
         end = _end_of(chain)
@@ -503,29 +502,29 @@ def of_larger_group(cut: CutFree, group: LargerGroup, balances: Sequence[ForceVe
 
 
 def _unknown_forces(cut: CutFree, members: Sequence[str], balances: Sequence[ForceVector]) -> list[Unknown]:
-    found, inside, structure = list[Unknown](), set(members), cut.names.structure
+    found, inside, structure = list[Unknown](), set(members), cut.drawn.sheet.structure
     for point, holders in structure.hinges.items():
         mine = [n for n in holders if n in inside]
         if not mine:
             continue
         held = any(n not in inside and n not in cut.done for n in holders)
-        at, off = cut.images.point(mine[0], point), "" if held else mine[0]
+        at, off = cut.drawn.point(mine[0], point), "" if held else mine[0]
         for link in mine if held else mine[1:]:
-            one = ForceVector(cut.names.of_pin(point, link), link, at=at, off=off)
+            one = ForceVector(cut.drawn.of_pin(point, link), link, at=at, off=off)
             found += [(replace(one, force=along), point, None) for along in (1 + 0j, 1j)]
     for slide in structure.slides:
         if slide.key not in cut.slides and {slide.a, slide.b} & inside:
-            at, square = cut.images.foot(slide), 1j * cut.images.along(slide)
-            found += [(ForceVector(cut.names.of_slide(slide, kind), slide.a, along, at, off=slide.b), "", slide)
+            at, square = cut.drawn.foot(slide), 1j * cut.drawn.along(slide)
+            found += [(ForceVector(cut.drawn.of_slide(slide, kind), slide.a, along, at, off=slide.b), "", slide)
                       for kind, along in (("F", square), ("M", 0j))]  # fmt: skip
     return found + [(balance, "", None) for balance in balances]
 
 
 def _solved(cut: CutFree, members: Sequence[str], unknowns: Sequence[Unknown]) -> list[float]:
     """Sizes of the unknowns, N and N m."""
-    mm, size = cut.images.mm, cut.images.sheet.scene.size
+    mm, size = cut.drawn.mm, cut.drawn.sheet.scene.size
     row = {name: 3 * i for i, name in enumerate(members)}
-    about = {name: cut.images.sheet.poses[name].origin for name in members}
+    about = {name: cut.drawn.sheet.poses[name].origin for name in members}
 
     def parts(one: ForceVector, link: str) -> tuple[float, float, float]:
         """Both projections of a force, and its moment about a link's origin over the mechanism's size."""
@@ -582,4 +581,4 @@ def _carry_over(
         for force in (one, one.back):
             if force.link in polygons:
                 cut.lay(polygons[force.link], replace(force, by="closing"))
-    group.inner |= {name: chain for name, chain in polygons.items() if name not in cut.names.blocks}
+    group.inner |= {name: chain for name, chain in polygons.items() if name not in cut.drawn.blocks}

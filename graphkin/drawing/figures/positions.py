@@ -34,8 +34,8 @@ from graphkin.drawing.parts.mechanism import bare_mechanism
 from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
 from graphkin.drawing.place.dimensions import DimensionClearance, Parts, angle_dimension, dimension
 from graphkin.drawing.place.labels import Label, Mark
-from graphkin.drawing.place.names import with_labels
-from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece, obstacles_of
+from graphkin.drawing.place.piece import Piece, ink_box, joined, obstacles_of
+from graphkin.drawing.plate import Plate, centred
 from graphkin.drawing.text import plain, rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.scene.symbol import PointRef
@@ -85,8 +85,8 @@ def positions_figure(shown: Shown, *, language: str | None = None, convention: s
     convention : letters of points; the scene's own if None
     """
     sheet = shown.own
-    page_ = FigurePage.of(sheet, "positions", language, convention)
-    letters = page_.letters
+    page = FigurePage.of(sheet, "positions", language, convention)
+    letters = page.letters
     numbered = [_position(one, letters, NUMBERED, f"position-{name}") for name, one in shown.numbered.items()]
     limits = [
         _position(one, letters, LIMIT, f"limit-{pair.replace('/', '-')}-{end}")
@@ -102,13 +102,12 @@ def positions_figure(shown: Shown, *, language: str | None = None, convention: s
     drawn = joined((paths, *numbered, *limits, *least, _back(shown), bare_mechanism(sheet, letters)))
     whole = joined((drawn, _dimensions(shown, drawn), _numbers(shown)))
     box = ink_box(whole.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
-    page_ = page_.wide_enough(box.width + 2 * ROOM)
-    told = _measured_lines(shown, page_)
-    figure = page_.panel(
-        box.height + 2 * ROOM, lambda room: with_labels(moved_piece(whole, room.centre - box.centre), room))
-    return page_.drawing(
-        page_.term("positions"), column(page_.prose(told, 3.0), figure, gap=GAP), page_.scale("mechanism"),
-        title="positions", said=". ".join(text.replace("$", "") for text in (page_.term("positions"), *told)),
+    page = page.wide_enough(box.width + 2 * ROOM)
+    told = _measured_lines(shown, page)
+    figure = centred(box, page.width, box.height + 2 * ROOM, lambda room: whole)
+    return page.drawing(
+        page.term("positions"), column(page.prose(told, 3.0), figure, gap=GAP), page.scale("mechanism"),
+        title="positions", said=". ".join(text.replace("$", "") for text in (page.term("positions"), *told)),
     )  # fmt: skip
 
 
@@ -118,18 +117,15 @@ def _position(sheet: Sheet, letters: Letters, stroke: Stroke, id: str) -> Piece:
     parts: list[Primitive] = []
     for shape in here.shapes:
         own = stroke.coloured(here.colour(shape.link))
-        if shape.corners:
-            parts.append(Polygon(tuple(map(on_page, shape.corners)), "", own))
+        parts += [Polygon(tuple(map(on_page, shape.corners)), "", own)] if shape.corners else []
         parts += [Line(on_page(a), on_page(b), own) for a, b in shape.bars]
-    for b in here.sliders:
-        if not b.slide.slot:
-            half, across = b.along * BLOCK_LENGTH * 0.35, 1j * b.along * BLOCK_WIDTH * 0.35
-            corners = (b.at + half + across, b.at + half - across, b.at - half - across, b.at - half + across)
-            parts.append(Polygon(tuple(map(on_page, corners)), "", strokes.DIMENSION.coloured(here.colour(b.slide.a))))
-    moving = [p for p in here.places if here.moving(p) and p not in here.scene.frame.points]
-    parts += [Circle(on_page(here.places[p]), 0.7, fill=strokes.WHITE, stroke=strokes.DIMENSION) for p in moving]
-    return Piece({"mechanism": (Group(tuple(parts), id=id, classes=("position",)),)},
-                 marks=tuple(on_page(here.places[p]) for p in moving))  # fmt: skip
+    for b in (one for one in here.sliders if not one.slide.slot):
+        half, across = b.along * BLOCK_LENGTH * 0.35, 1j * b.along * BLOCK_WIDTH * 0.35
+        corners = (b.at + half + across, b.at + half - across, b.at - half - across, b.at - half + across)
+        parts.append(Polygon(tuple(map(on_page, corners)), "", strokes.DIMENSION.coloured(here.colour(b.slide.a))))
+    moving = [on_page(z) for p, z in here.places.items() if here.moving(p) and p not in here.scene.frame.points]
+    parts += [Circle(z, 0.7, fill=strokes.WHITE, stroke=strokes.DIMENSION) for z in moving]
+    return Piece({"mechanism": (Group(tuple(parts), id=id, classes=("position",)),)}, marks=tuple(moving))
 
 
 def _crank_end(sheet: Sheet) -> tuple[complex, complex] | None:
@@ -170,19 +166,18 @@ def _dimensions(shown: Shown, drawn: Piece) -> Piece:
         if taken is not None:
             parts += taken
             continue
-        lines, number_of_it = [p for p in choices[0] if not isinstance(p, Text)], choices[0][-1]
-        assert isinstance(number_of_it, Text)
-        text = replace(number_of_it, anchor="start", id=f"label-{id}", classes=("label",))
+        *lines, told = choices[0]
+        assert isinstance(told, Text)
+        labels.append(Label(replace(told, anchor="start", id=f"label-{id}", classes=("label",)), _mark(lines)))
         parts += lines
-        labels.append(Label(text, _mark(lines)))
     return Piece({"answers": tuple(parts)} if parts else {}, tuple(labels))
 
 
 def _mark(lines: Sequence[Primitive]) -> Mark:
     """What of a dimension its number belongs to: the middle of its arc, or its line."""
-    for part in lines:
-        if isinstance(part, Arc):
-            return part.at((part.start + part.end) / 2)
+    arc = next((part for part in lines if isinstance(part, Arc)), None)
+    if arc is not None:
+        return arc.at((arc.start + arc.end) / 2)
     line = lines[2]
     assert isinstance(line, Line)
     return line.start, line.end
@@ -267,38 +262,34 @@ def _gamma(shown: Shown) -> Piece:
     _, gamma, (joint, first, second) = shown.least
     if gamma < 0.02:
         return Piece()
-    start = cmath.phase(first)
-    turn = math.remainder(cmath.phase(second) - start, math.tau)
-    if abs(turn) > math.pi / 2:  # the acute one of the two
-        start, turn = cmath.phase(-first), math.remainder(cmath.phase(second) - cmath.phase(-first), math.tau)
-    reach = 11.0
-    lines = [Line(on_page(joint), on_page(joint + reach * cmath.rect(1.0, angle)), strokes.DIRECTION)
+    start, end = cmath.phase(first), cmath.phase(second)
+    if abs(math.remainder(end - start, math.tau)) > math.pi / 2:  # the acute one of the two
+        start = cmath.phase(-first)
+    turn = math.remainder(end - start, math.tau)
+    plate, words = Plate(), rich(rf"$γ_{{min}}$ = {number(math.degrees(gamma), 5)}°", 2.8)
+    lines = [Line(on_page(joint), on_page(joint + 11.0 * cmath.rect(1.0, angle)), strokes.DIRECTION)
              for angle in (start, start + turn)]  # fmt: skip
-    words = rich(rf"$γ_{{min}}$ = {number(math.degrees(gamma), 5)}°", 2.8)
     arc = angle_dimension(on_page(joint), 8.0, start, start + turn, words)[:2]
-    middle = on_page(joint + 8.0 * cmath.rect(1.0, start + turn / 2))
-    label = Label.of(words, middle, "label-least-gamma")
-    return Piece({"answers": (Group((*lines, *arc), id="least-gamma"),)}, (label,))
+    plate.put("answers", *lines, *arc, id="least-gamma")
+    plate.name(words, joint + 8.0 * cmath.rect(1.0, start + turn / 2), "label-least-gamma")
+    return plate.piece
 
 
-def _measured_lines(shown: Shown, page_: FigurePage) -> list[str]:
+def _measured_lines(shown: Shown, page: FigurePage) -> list[str]:
     """What was measured of the whole turn, in words."""
     metres, unit = shown.own.scene.units.metres, shown.own.scene.units.length
+    kinds: dict[str, tuple[str, float, str]] = {
+        "stroke": ("H", 1.0 / metres, f" {unit}"), "swing": ("ψ", math.degrees(1.0), "°"),
+        "theta_lag": ("θ", math.degrees(1.0), "°"), "K": ("K", 1.0, ""),
+    }  # fmt: skip
     said: list[str] = []
     for pair in shown.limits:
-        values = []
-        for kind, letter in (("stroke", "H"), ("swing", "ψ"), ("theta_lag", "θ"), ("K", "K")):
-            value = shown.measured.get((kind, pair))
-            if value is None or (kind == "K" and "K" not in shown.marks):
-                continue
-            text = {
-                "stroke": f"{number(value / metres, 7)} {unit}", "K": number(value, 7),
-            }.get(kind, f"{number(math.degrees(value), 7)}°")  # fmt: skip
-            values.append(f"${letter}$ = {text}")
-        said += page_.said("positions of", Neutral(pair), Neutral(",  ".join(values)))
-    for output, why in shown.without.items():
-        said += page_.said("no limits", output, why)
-    return said
+        values = ",  ".join(
+            f"${letter}$ = {number(value * per, 7)}{after}" for kind, (letter, per, after) in kinds.items()
+            if (value := shown.measured.get((kind, pair))) is not None and (kind != "K" or "K" in shown.marks)
+        )  # fmt: skip
+        said += page.said("positions of", Neutral(pair), Neutral(values))
+    return said + [line for output, why in shown.without.items() for line in page.said("no limits", output, why)]
 
 
 FIGURES = (

@@ -1,0 +1,351 @@
+"""A drawn position as its forces see it: joints and their forces by name, the groups in which they are found (those of
+the mechanism driven where it is balanced, last group first), how any place of a link moves, off its image in the drawn
+polygons (Mehmke), and what acts on the links from outside: weights, loads, springs, and inertia forces from the drawn
+accelerations; which loads act at a position, which begin or end exactly there, by what is drawn.
+
+F = -m a_S acts at the centre of mass, opposite to its acceleration, M = -J alpha against the angular acceleration; both
+together are the force alone, on a line at the distance h = M / F from the centre (Sun Huan, Mechanical Principles, ch.
+4).
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from graphkin.construction.forces.force_sheet import ForceVector, Inertia
+from graphkin.construction.instruments import Instrument
+from graphkin.construction.links_on_paper import travel
+from graphkin.construction.sheet import Sheet
+from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import dot, unit
+from graphkin.scene.model import Driver, LinkMass, LoadOn, SpringOn
+from graphkin.scene.scene_tables import LoadPhase
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.structure import Element, LargerGroup, Pair, Structure, analyse
+from graphkin.words import Phrase
+
+__all__ = ["DrawnPosition", "acting_loads", "force_groups", "from_outside", "inertias", "strokes_of_loads"]
+
+
+@dataclass(frozen=True)
+class DrawnPosition:
+    """The joints of a sheet by name, and the images of all its links.
+
+    Links at one point: the first that has it (the frame, or the link written first) is paired with each later one.  The
+    block of a pin in a slot has no name of its own: what it carries is the force between the link of the pin and the
+    link of the slot.
+    """
+
+    sheet: Sheet
+
+    # -- forces by name ------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def blocks(self) -> Mapping[str, tuple[str, str]]:
+        """For each block the link of its pin and that of its slot."""
+        return {pin.key: (pin.of, pin.on) for pin in self.sheet.scene.pins if pin.key in self.sheet.structure.links}
+
+    @cached_property
+    def holders(self) -> Mapping[str, tuple[str, ...]]:
+        """The links that meet at each hinge, blocks left out."""
+        return {p: tuple(n for n in names if n not in self.blocks) for p, names in self.sheet.structure.hinges.items()}
+
+    @cached_property
+    def _shared(self) -> Counter[frozenset[str]]:
+        pairs = [frozenset((names[0], later)) for names in self.holders.values() for later in names[1:]]
+        pairs += [frozenset((s.a, s.b)) for s in self.sheet.structure.slides if not s.slot]
+        pairs += [frozenset(ends) for ends in self.blocks.values()]
+        return Counter(pairs)
+
+    def between(self, first: str, second: str, point: str | None, kind: str = "F") -> Symbol:
+        """The force (couple) of one link on another at a joint."""
+        several = point and self._shared[frozenset((first, second))] > 1
+        return Symbol(kind, PointRef(point) if several and point else None, link=first, other=second)
+
+    def of_pin(self, point: str, link: str) -> Symbol:
+        """What the force of the pin at a point on a link is called."""
+        if link in self.blocks:
+            of, on = self.blocks[link]
+            return self.between(of, on, point)
+        names = self.holders[point]
+        if link != names[0]:
+            return self.between(names[0], link, point)
+        if len(names) == 2:
+            return self.between(names[1], link, point)
+        block = [ends for ends in self.blocks.values() if ends[0] == link] if len(names) == 1 else []
+        if len(block) == 1:
+            return self.between(block[0][1], link, point)
+        return Symbol("F", link=point, other=link)
+
+    def of_slide(self, slide: Pair, kind: str = "F") -> Symbol:
+        """The force (couple) of the guiding link on the sliding one."""
+        if slide.slot:
+            of, on = self.blocks[slide.key]
+            return self.between(on, of, slide.pin, kind)
+        return self.between(slide.b, slide.a, slide.pin, kind)
+
+    def turning(self) -> Iterator[tuple[str, str, str]]:
+        """Every turning pair: its point, the first link, the later one."""
+        for point, names in self.holders.items():
+            for later in names[1:]:
+                yield point, names[0], later
+
+    # -- places, and motion off the polygons ---------------------------------------------------------------------------
+
+    @cached_property
+    def mm(self) -> float:
+        """Of paper for one m of the mechanism."""
+        return 1.0 / self.sheet.scales.length
+
+    def place(self, link: str, at: complex) -> complex:
+        """A place of a link's own axes (m), on paper (mm)."""
+        pose = self.sheet.poses[link]
+        return pose.place(at * self.mm)
+
+    def point(self, link: str, point: str) -> complex:
+        """A point of a link, where it was pricked (mm)."""
+        drawn = self.sheet.points.get(PointRef(point))
+        return self.place(link, self.sheet.structure.links[link].points[point]) if drawn is None else drawn
+
+    def foot(self, slide: Pair) -> complex:
+        """Where the force of a sliding pair acts: the sliding link's first point, or its origin (mm)."""
+        return self.point(slide.a, slide.pin) if slide.pin else self.sheet.poses[slide.a].origin
+
+    def along(self, slide: Pair) -> complex:
+        """The direction of a guide."""
+        return self.sheet.poses[slide.b].axis * slide.guide.direction
+
+    def balance(self, driver: Driver) -> ForceVector:
+        """What balances in place of a driver, of size 1: what the scene says, else a moment where it turns and a force
+        along the guide where it slides."""
+        scene = self.sheet.scene
+        said, frame = scene.loading.balance, scene.frame.name
+        if said is not None and said.is_force:
+            along = said.turn * (self.sheet.poses[said.link].axis if said.follows else 1.0)
+            return ForceVector(Symbol("F", link=said.link), said.link, along, self.place(said.link, said.at), off=frame)
+        if said is not None or driver.turns:
+            link, off = (driver.link, driver.relative_to) if said is None else (said.link, frame)
+            return ForceVector(Symbol("M", link=link), link, moment=1.0, off=off)
+        slide = self.sheet.structure.slide(driver.key)
+        of = next((pin.of for pin in scene.pins if pin.key == driver.key), slide.a)
+        return ForceVector(Symbol("F", link=of), slide.a, self.along(slide), self.foot(slide), off=slide.b)
+
+    def slip(self, slide: Pair) -> tuple[float, float]:
+        """The sliding velocity along the guide, and the greatest speed that leads to it (m/s)."""
+        at = self.foot(slide)
+        a, b = self.end("velocity", slide.a, at), self.end("velocity", slide.b, at)
+        most = max(abs(a), abs(b), *(abs(z) for z in self.sheet.ends["velocity"].values()))
+        return dot(a - b, self.along(slide)) * self.sheet.scales.velocity, most * self.sheet.scales.velocity
+
+    def image(self, order: str, link: str) -> tuple[tuple[complex, complex], tuple[complex, complex]] | None:
+        """Two points of a link that lie farthest apart, each with its end point; None where it has no two."""
+        known = self._known(order, link)
+        far = max(((p, q) for p in known for q in known), key=lambda both: abs(both[0][0] - both[1][0]), default=None)
+        return far if far is not None and abs(far[0][0] - far[1][0]) > self._tiny else None
+
+    @cached_property
+    def _tiny(self) -> float:
+        return 1e-9 * self.sheet.scene.size * self.mm
+
+    def _known(self, order: str, link: str) -> list[tuple[complex, complex]]:
+        """Points of a link that have an end point: place on the mechanism and end (mm)."""
+        own = self.sheet.structure.links[link].points
+        return [
+            (self.sheet.points[PointRef(ref.point)], end)
+            for ref, end in self.sheet.ends[order].items()
+            if PointRef(ref.point) in self.sheet.points and (ref.link == link or (not ref.link and ref.point in own))
+        ]
+
+    def end(self, order: str, link: str, at: complex) -> complex:
+        """The end point of the velocity or the acceleration of the point of a link that lies at a place (mm)."""
+        if link == self.sheet.scene.frame.name:
+            return 0j
+        known = self._known(order, link)
+        if not known:
+            raise Unsolvable("not drawn", Problem(Phrase("link of name", name=link),
+                                                  "no point of it stands in the polygons"))
+        start, end = min(known, key=lambda one: abs(one[0] - at))
+        if abs(start - at) <= self._tiny:
+            return end
+        far = self.image(order, link)
+        if far is not None:
+            (a, a_end), (b, b_end) = far
+            return a_end + (b_end - a_end) * ((at - a) / (b - a))
+        scales, omega = self.sheet.scales, self.sheet.omega[link].value
+        if order == "velocity":
+            return end + 1j * omega * (at - start) * (scales.length / scales.velocity)
+        turning = 1j * self.sheet.alpha[link].value - omega**2
+        return end + turning * (at - start) * (scales.length / scales.acceleration)
+
+
+def force_groups(structure: Structure) -> tuple[Element, ...]:
+    """The groups of the mechanism, in the order of solution, were it driven where it is balanced: a force or a moment
+    there leaves so many equations to each group as it has unknown forces.
+
+    Where no driver stands for the balance, all moving links are one group.
+    """
+    scene = structure.scene
+    said = scene.loading.balance
+    if said is None or len(scene.drivers) != 1:
+        return structure.elements
+    own = scene.drivers[0]
+    frame = scene.frame.name
+    if own.turns and (own.link, own.relative_to) == (said.link, frame) and not said.is_force:
+        return structure.elements
+    slide = next((s for s in structure.slides if {s.a, s.b} == {said.link, frame}), None)
+    driver: Driver = Driver(said.link, frame, 0.0, 0.0, 0.0)
+    if said.is_force and slide is not None:
+        driver = Driver(slide.a, slide.b, 0.0, 0.0, 0.0, slide.key)
+    try:
+        return analyse(replace(scene, drivers=(driver,))).elements
+    except Unsolvable:
+        members = tuple(name for name in structure.links if name != frame)
+        real = tuple(link.name for link in scene.links if link.name in members)
+        return (LargerGroup(members, (), (driver,), real, 3),)
+
+
+# -- what acts from outside --------------------------------------------------------------------------------------------
+
+EDGE = 1e-9
+"""Of the stroke or the turn: a load that begins or ends within this of a position does so exactly there."""
+STILL = 1e-11
+"""Of the greatest speed: what slides more slowly rests."""
+
+
+def strokes_of_loads(structure: Structure) -> tuple[Symbol, ...]:
+    """The strokes on parts of which loads act."""
+    phases = (load.phase for load in structure.scene.loading.loads)
+    keys = dict.fromkeys(phase.stroke for phase in phases if phase is not None and phase.stroke)
+    return tuple(Symbol("stroke", link=sliding, other=on) for sliding, _, on in (key.partition("/") for key in keys))
+
+
+def acting_loads(sheet: Sheet, growing: Sheet) -> dict[str, bool | None]:
+    """For each load whether it acts; None where it begins or ends exactly here.
+
+    Parameters
+    ----------
+    sheet : the position, with the limit positions of the strokes of loads
+    growing : the same with velocities, those of the driver's growing value where the mechanism rests
+    """
+    return {load.name: _acts(sheet, growing, load.phase) for load in sheet.scene.loading.loads}
+
+
+def _acts(sheet: Sheet, growing: Sheet, phase: LoadPhase | None) -> bool | None:
+    if phase is None:
+        return True
+    if phase.stroke:
+        return _on_stroke(sheet, growing, phase, phase.stroke)
+    driver = sheet.scene.drivers[0]
+    value = sheet.drivers[driver.key]
+    if not driver.turns:
+        edge = EDGE * (phase.end - phase.start)
+        if min(abs(value - phase.start), abs(value - phase.end)) < edge:
+            return None
+        return phase.start < value < phase.end
+    turn, span = math.tau, phase.end - phase.start
+    if span >= turn * (1 - EDGE):
+        return True
+    since = (value - phase.start) % turn
+    if min(since, turn - since, abs(since - span)) < EDGE * turn:
+        return None
+    return since < span
+
+
+def _on_stroke(sheet: Sheet, growing: Sheet, phase: LoadPhase, stroke: str) -> bool | None:
+    slide, limits = sheet.structure.slide(stroke), sheet.limits[stroke]
+    here, low, high = (travel(slide, poses, 0.0) for poses in (sheet.poses, limits.low.poses, limits.high.poses))
+    part = (here - low) / (high - low) if high > low else 0.0
+    if phase.sense < 0:
+        part = 1.0 - part
+    slip, most = DrawnPosition(growing).slip(slide)
+    running = abs(slip) > STILL * most and (slip > 0) == (phase.sense > 0)
+    for edge in (phase.start, phase.end):
+        # where the slide turns back both senses meet
+        if abs(part - edge) < EDGE and (running or edge < EDGE or edge > 1.0 - EDGE):
+            return None
+    return running and phase.start < part < phase.end
+
+
+COINCIDE = 1e-9
+"""Of the mechanism's size: points of a spring that lie nearer have no line."""
+
+
+def inertias(sheet: Sheet, hand: Instrument) -> dict[str, Inertia]:
+    """Inertia force and couple of every link that has a mass, off the drawn acceleration polygon."""
+    drawn = DrawnPosition(sheet)
+    return {mass.link: _inertia(sheet, drawn, mass, hand) for mass in sheet.scene.loading.masses}
+
+
+def _inertia(sheet: Sheet, drawn: DrawnPosition, mass: LinkMass, hand: Instrument) -> Inertia:
+    centre = drawn.place(mass.link, mass.at)
+    image = drawn.end("acceleration", mass.link, centre)
+    size = hand.read(abs(image))
+    push = image / abs(image) * size * sheet.scales.acceleration if image else 0j
+    alpha = sheet.alpha[mass.link].value
+    force, moment = -mass.mass * push, -mass.inertia * alpha
+    found = Inertia(mass.link, mass.mass, mass.inertia, centre, image, push, alpha, force, moment)
+    if force == 0:
+        return found
+    h = moment / abs(force)
+    # the shifted force turns about the centre as the couple does
+    return replace(found, h=h, shifted=centre - 1j * unit(force) * (h * drawn.mm))
+
+
+def from_outside(
+    sheet: Sheet, growing: Sheet, found: Mapping[str, Inertia], acts: Mapping[str, bool | None], with_edges: bool,
+    hand: Instrument,
+) -> tuple[ForceVector, ...]:  # fmt: skip
+    """All known forces, then couples, those of no size among them.
+
+    Parameters
+    ----------
+    growing : what tells the sense in which pairs slide
+    with_edges : whether loads act that begin or end exactly here
+    """
+    drawn, loading = DrawnPosition(sheet), sheet.scene.loading
+    made: list[ForceVector] = []
+    for mass in loading.masses:
+        one = found[mass.link]
+        made.append(ForceVector(Symbol("Fi", link=mass.link), mass.link, one.force, one.centre))
+        if loading.gravity:
+            made.append(ForceVector(Symbol("G", link=mass.link), mass.link, mass.mass * loading.gravity, one.centre))
+        made.append(ForceVector(Symbol("Mi", link=mass.link), mass.link, moment=one.moment))
+    for load in loading.loads:
+        on = with_edges if acts[load.name] is None else acts[load.name]
+        symbol = Symbol("P", name=load.name, turning=not load.is_force)
+        if load.is_force:
+            force = _force(sheet, growing, load) if on else 0j
+            made.append(ForceVector(symbol, load.link, force, drawn.place(load.link, load.at)))
+        else:
+            made.append(ForceVector(symbol, load.link, moment=load.size if on else 0.0))
+    for spring in loading.springs:
+        made += _spring(drawn, spring, hand)
+    return tuple(sorted(made, key=lambda one: not one.symbol.is_vector))
+
+
+def _spring(drawn: DrawnPosition, spring: SpringOn, hand: Instrument) -> Iterator[ForceVector]:
+    """Both forces of a spring, from its length and line as they are measured on the drawn mechanism."""
+    pricked = (drawn.sheet.points.get(PointRef(point)) for point in spring.points)
+    one, two = (drawn.place(*end) if z is None else z for z, end in zip(pricked, spring.ends, strict=True))
+    size = abs(two - one)
+    if size <= COINCIDE * drawn.sheet.scene.size * drawn.mm:
+        said = "its two points coincide in this position so", "move the driver off this position"
+        raise Unsolvable("dead point", Problem(f"springs.{spring.name}", *said))
+    length = hand.read(size) / drawn.mm
+    force = (spring.preload + spring.rate * (length - spring.free)) * unit(two - one)
+    symbol = Symbol("P", name=spring.name)
+    yield ForceVector(symbol, spring.links[0], force, one)
+    yield ForceVector(symbol, spring.links[1], -force, two, turned=True)
+
+
+def _force(sheet: Sheet, growing: Sheet, load: LoadOn) -> complex:
+    """A force load (N), its direction from the drawn links."""
+    if load.against:
+        drawn, slide = DrawnPosition(growing), growing.structure.slide(load.against)
+        slip, most = drawn.slip(slide)
+        return 0j if abs(slip) <= STILL * most else -load.size * math.copysign(1.0, slip) * drawn.along(slide)
+    return load.size * load.turn * (sheet.poses[load.follows].axis if load.follows else 1.0)
