@@ -112,9 +112,9 @@ def _joints(cut: CutFree, vectors: dict[Symbol, complex], moments: dict[Symbol, 
         force = cut.pins[point, later]
         # the block of a pin in a slot belongs to the link of the pin
         force += added_up((cut.pins[point, key] for key, (of, _) in names.blocks.items()
-                           if of == later and point in names.sheet.structure.links[key].points), 0j)  # fmt: skip
+                           if of == later and point in names.structure.links[key].points), 0j)  # fmt: skip
         vectors[names.between(first, later, point)] = force / cut.per_mm
-    for slide in names.sheet.structure.slides:
+    for slide in names.structure.slides:
         force, couple = cut.slides[slide.key]
         vectors[names.of_slide(slide)] = force / cut.per_mm
         if not slide.slot:

@@ -77,7 +77,7 @@ class CutFree:
     def push(self, *acting: ForceVector) -> None:
         """Forces and couples act on links; the frame bears what comes."""
         for one in acting:
-            if one.link != self.drawn.sheet.structure.scene.frame.name:
+            if one.link != self.drawn.structure.scene.frame.name:
                 self.acting[one.link].append(one)
 
     def on(self, links: Iterable[str]) -> list[ForceVector]:
@@ -87,7 +87,7 @@ class CutFree:
     def load_pins(self, members: Iterable[str]) -> None:
         """Links found before hang on pins of these: what they do there acts on the first that has the pin."""
         inside = set(members)
-        for point, holders in self.drawn.sheet.structure.hinges.items():
+        for point, holders in self.drawn.structure.hinges.items():
             mine = [n for n in holders if n in inside]
             others = [n for n in holders if n not in inside]
             if not mine or not others or any(n not in self.done for n in others):
@@ -370,10 +370,10 @@ def _inner_forces(
     end, slide, links = own[-1].tip if own else corner, dyad.inner, dyad.first.links
     force = (corner - end) * cut.per_mm
     if slide.turns:
-        names, point, known = cut.drawn, slide.point, cut.drawn.sheet.structure.links
+        names, point, known = cut.drawn, slide.point, cut.drawn.structure.links
         first, second = (next(n for n in body.links if point in known[n].points) for body in dyad.bodies)
         symbol = opposite(names.of_pin(point, second))
-        if second == names.holders[point][0] and len(names.sheet.structure.hinges[point]) > 2:
+        if second == names.holders[point][0] and len(names.structure.hinges[point]) > 2:
             # the first link at a pin bears the sum of several: the force inside is called as the other link's is
             symbol = names.of_pin(point, first)
         cut.pins[point, first] += force
@@ -502,7 +502,7 @@ def of_larger_group(cut: CutFree, group: LargerGroup, balances: Sequence[ForceVe
 
 
 def _unknown_forces(cut: CutFree, members: Sequence[str], balances: Sequence[ForceVector]) -> list[Unknown]:
-    found, inside, structure = list[Unknown](), set(members), cut.drawn.sheet.structure
+    found, inside, structure = list[Unknown](), set(members), cut.drawn.structure
     for point, holders in structure.hinges.items():
         mine = [n for n in holders if n in inside]
         if not mine:

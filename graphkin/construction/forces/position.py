@@ -42,22 +42,27 @@ class DrawnPosition:
 
     sheet: Sheet
 
+    @property
+    def structure(self) -> Structure:
+        """The links and pairs, those that stand for what touches among them."""
+        return self.sheet.structure
+
     # -- forces by name ------------------------------------------------------------------------------------------------
 
     @cached_property
     def blocks(self) -> Mapping[str, tuple[str, str]]:
         """For each block the link of its pin and that of its slot."""
-        return {pin.key: (pin.of, pin.on) for pin in self.sheet.scene.pins if pin.key in self.sheet.structure.links}
+        return {pin.key: (pin.of, pin.on) for pin in self.structure.scene.pins if pin.key in self.structure.links}
 
     @cached_property
     def holders(self) -> Mapping[str, tuple[str, ...]]:
         """The links that meet at each hinge, blocks left out."""
-        return {p: tuple(n for n in names if n not in self.blocks) for p, names in self.sheet.structure.hinges.items()}
+        return {p: tuple(n for n in names if n not in self.blocks) for p, names in self.structure.hinges.items()}
 
     @cached_property
     def _shared(self) -> Counter[frozenset[str]]:
         pairs = [frozenset((names[0], later)) for names in self.holders.values() for later in names[1:]]
-        pairs += [frozenset((s.a, s.b)) for s in self.sheet.structure.slides if not s.slot]
+        pairs += [frozenset((s.a, s.b)) for s in self.structure.slides if not s.slot]
         pairs += [frozenset(ends) for ends in self.blocks.values()]
         return Counter(pairs)
 
@@ -122,7 +127,7 @@ class DrawnPosition:
     def balance(self, driver: Driver) -> ForceVector:
         """What balances in place of a driver, of size 1: what the scene says, else a moment where it turns and a force
         along the guide where it slides."""
-        scene = self.sheet.scene
+        scene = self.structure.scene
         said, frame = scene.loading.balance, scene.frame.name
         if said is not None and said.is_force:
             along = said.turn * (self.sheet.poses[said.link].axis if said.follows else 1.0)
@@ -130,7 +135,7 @@ class DrawnPosition:
         if said is not None or driver.turns:
             link, off = (driver.link, driver.relative_to) if said is None else (said.link, frame)
             return ForceVector(Symbol("M", link=link), link, moment=1.0, off=off)
-        slide = self.sheet.structure.slide(driver.key)
+        slide = self.structure.slide(driver.key)
         of = next((pin.of for pin in scene.pins if pin.key == driver.key), slide.a)
         return ForceVector(Symbol("F", link=of), slide.a, self.along(slide), self.foot(slide), off=slide.b)
 

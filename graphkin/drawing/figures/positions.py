@@ -34,8 +34,9 @@ from graphkin.drawing.parts.mechanism import bare_mechanism
 from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
 from graphkin.drawing.place.dimensions import DimensionClearance, Parts, angle_dimension, dimension
 from graphkin.drawing.place.labels import Label, Mark
-from graphkin.drawing.place.piece import Piece, ink_box, joined, obstacles_of
-from graphkin.drawing.plate import Plate, centred
+from graphkin.drawing.place.names import with_labels
+from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece, obstacles_of
+from graphkin.drawing.plate import Plate
 from graphkin.drawing.text import plain, rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.scene.symbol import PointRef
@@ -104,7 +105,8 @@ def positions_figure(shown: Shown, *, language: str | None = None, convention: s
     box = ink_box(whole.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     page = page.wide_enough(box.width + 2 * ROOM)
     told = _measured_lines(shown, page)
-    figure = centred(box, page.width, box.height + 2 * ROOM, lambda room: whole)
+    figure = page.panel(
+        box.height + 2 * ROOM, lambda room: with_labels(moved_piece(whole, room.centre - box.centre), room))
     return page.drawing(
         page.term("positions"), column(page.prose(told, 3.0), figure, gap=GAP), page.scale("mechanism"),
         title="positions", said=". ".join(text.replace("$", "") for text in (page.term("positions"), *told)),
