@@ -363,9 +363,9 @@ def _crossing(centre: Centre) -> list[list[str]]:
 
 def _seen(centres: Centres, motion: Motion, pair: LinkPair) -> tuple[tuple[float, float, float], float]:
     """The exact centre of two links as the chart sees it, and the strength of their relative motion: its length."""
-    from graphkin.solver.motion import instant_centre
+    from graphkin.solver.quantities import pole
 
-    q, omega = instant_centre(motion, *pair)
+    q, omega = pole(*(motion.poses[link] for link in pair))
     chart, turn = centres.chart, float(omega[0])
     away = (complex(q[0]) * centres.mm - turn * chart.middle) / chart.unit
     return (away.real, away.imag, turn), math.hypot(abs(away), turn)

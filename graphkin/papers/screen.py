@@ -56,8 +56,8 @@ from graphkin.papers.lesson import MECHANISM, Lesson, plain_words, rows_in_order
 from graphkin.papers.pictures import POLYGONS, ROOM, bare_picture, equation_picture
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion, solve
-from graphkin.solver.motion import instant_centre
 from graphkin.solver.pose import Array
+from graphkin.solver.quantities import pole
 from graphkin.words import about, languages, word
 
 __all__ = ["handout_page", "motion_data", "positions_data"]
@@ -480,7 +480,7 @@ def _centres(
     scene = motion.scene
     middle = np.mean(list(scene.frame.points.values()) or [0j]) / length
     for a, b in combinations([scene.frame.name, *(link.name for link in scene.links)], 2):
-        q, omega = instant_centre(motion, b, a)
+        q, omega = pole(motion.poses[b], motion.poses[a])
         with np.errstate(all="ignore"):
             z = np.where(np.abs(omega) > 0, q / omega, np.nan) / length
         z = np.where(np.abs(z - middle) < FAR * size, z, np.nan + 0j)

@@ -13,7 +13,7 @@ from graphkin.plane import cross
 from graphkin.scene.model import Mechanism, PlacedContact
 from graphkin.scene.symbol import Symbol
 from graphkin.search import least_value
-from graphkin.solver.driver_range import DriverRange, extremes, range_of
+from graphkin.solver.driver_range import DriverRange, range_of
 from graphkin.solver.motion import _between, contact_motion
 from graphkin.solver.pose import Array
 from graphkin.structure import Structure
@@ -104,7 +104,7 @@ def _measured(reach: DriverRange, contact: PlacedContact, side: int, of: str) ->
     off = abs(points[disc.centre] - points[axis])
     swings = "/" not in of
     place = points[disc.centre] - points[axis]
-    ends = extremes(reach, Symbol.parse(f"swing_{of}" if swings else f"stroke_{of}"))
+    ends = reach.extremes(Symbol.parse(f"swing_{of}" if swings else f"stroke_{of}"))
     offset = None
     if not swings:
         pair = next(s for s in scene.slidings if s.key == of)

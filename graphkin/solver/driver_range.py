@@ -276,11 +276,15 @@ class DriverRange:
 
     def stroke(self, pair: str) -> tuple[float, float]:
         """Least and greatest travel of a sliding pair over a turn (m).  Raises Unsolvable where there is no turn."""
-        if pair not in self.kept:
-            turn = extremes(self, Symbol.parse(f"stroke_{pair}"))
-            self.kept[pair] = turn.low, turn.high
-        stroke: tuple[float, float] = self.kept[pair]
-        return stroke
+        turn = self.extremes(Symbol.parse(f"stroke_{pair}"))
+        return turn.low, turn.high
+
+    def extremes(self, symbol: Symbol) -> Extremes:
+        """The extremes of a sliding pair or a link over a turn, found once; see `extremes`."""
+        if symbol not in self.kept:
+            self.kept[symbol] = extremes(self, symbol)
+        found: Extremes = self.kept[symbol]
+        return found
 
     def grid(self, n: int, first: int = 0, last: int | None = None) -> UniformGrid:
         """Values of the first driver at positions ``first`` to ``last`` (not included) of a table of n: a turn from the

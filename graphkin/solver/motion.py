@@ -1,8 +1,6 @@
 """The motion found: position, velocity and acceleration of every link, point and sliding pair, by name and by symbol;
 and how it is found at given values of the drivers: what stands there, and where and why nothing does.
 
-Instant centres from the analytic motion: where two links have the same velocity.
-
 Centrodes: the paths of a link's instant centre in the frame and in the link itself.
 """
 
@@ -22,14 +20,14 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Measure
 from graphkin.solver.bounds import BLOCK, FEW, Accuracy
 from graphkin.solver.pose import UNIT, Array, ErrorBound, Pose
-from graphkin.solver.quantities import Posed, all_slides, pole, value_of_symbol
+from graphkin.solver.quantities import Posed, all_slides, value_of_symbol
 from graphkin.structure import Pair, Structure
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, Wording
 
 __all__ = [
-    "SLIGHT", "Centrode", "ContactMotion", "Motion", "Sliding", "centrode", "contact_motion", "instant_centre",
-    "listed_points", "own_slides", "pitch_point",
+    "SLIGHT", "Centrode", "ContactMotion", "Motion", "Sliding", "centrode", "contact_motion", "listed_points",
+    "own_slides", "pitch_point",
 ]  # fmt: skip
 
 _FIELDS: tuple[Measure, ...] = (
@@ -375,20 +373,7 @@ def pitch_point(motion: Motion, gear: PlacedGear) -> tuple[Array, tuple[float, f
     return np.asarray(axis + way * (z1 / (z1 + z2))), (far * z1, far * z2)
 
 
-# -- instant centres from the analytic motion: where two links have the same velocity ----------------------------------
-
-
-def instant_centre(motion: Motion, a: str, b: str) -> tuple[Array, Array]:
-    """The relative rotation of link a against link b, as homogeneous coordinates of their instant centre.
-
-    Returns
-    -------
-    q : complex, shape (n,), m rad/s
-    omega : real, shape (n,), rad/s
-        the centre is q / omega; at infinity in the direction of q where omega is 0; none where both are 0.  With the
-        velocity v0 of the point at the world's origin, 0 = v0 + i omega z gives q = i v0.
-    """
-    return pole(motion.poses[a], motion.poses[b])
+# -- centrodes ---------------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.scene_tables import Positions, StrokeStart
 from graphkin.scene.symbol import Symbol
 from graphkin.search import last_true
-from graphkin.solver.driver_range import DriverRange, Extremes, extremes, range_of
+from graphkin.solver.driver_range import DriverRange, range_of
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.pose import Array
 from graphkin.words import Phrase
@@ -61,7 +61,7 @@ class PlacesByName:
         """The driver's value where so much of a stroke is done."""
         sliding, guiding = place.stroke.split("/")
         symbol = Symbol("stroke", link=sliding, other=guiding)
-        found = self._extremes(symbol)
+        found = self.reach.extremes(symbol)
         begin, end = (found.low_offset, found.high_offset) if place.sense > 0 else (found.high_offset, found.low_offset)
         span = (end - begin) % math.tau
         start = found.low if place.sense > 0 else found.high
@@ -73,15 +73,6 @@ class PlacesByName:
 
         part = span * place.at if place.at in (0.0, 1.0) else last_true(before, 0.0, span)
         return float(self.reach.value(np.array((begin + part) % math.tau)))
-
-    def _extremes(self, symbol: Symbol) -> Extremes:
-        if symbol.pair not in self._found:
-            self._found[symbol.pair] = extremes(self.reach, symbol)
-        return self._found[symbol.pair]
-
-    @cached_property
-    def _found(self) -> dict[str, Extremes]:
-        return {}
 
     def name_of(self, value: float) -> str:
         """The name of the position at a driver's value (rad, m), whole turns aside; "" where it has none."""

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any, Generic, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.plane import Values
+from graphkin.plane import Values, cross, dot
 from graphkin.structure import Structure
 
-__all__ = ["FIELDS", "UNIT", "Array", "Drive", "ErrorBound", "Number", "Pose", "rest", "together", "turned"]
+__all__ = ["FIELDS", "UNIT", "Array", "Drive", "ErrorBound", "Number", "Pose", "aimed", "rest", "together", "turned"]
 
 Array = NDArray[Any]
 
@@ -165,6 +165,15 @@ class Pose(Generic[V, R]):
         z, u, v, a = (np.array(np.broadcast_to(x, (n,)), dtype=np.complex128) for x in (self.z, self.u, self.v, self.a))
         omega, alpha = (np.array(np.broadcast_to(x, (n,)), dtype=np.float64) for x in (self.omega, self.alpha))
         return Pose(z, u, v, omega, a, alpha)
+
+
+def aimed(one: Pose, two: Pose) -> Pose:
+    """Axes at the origin of one frame that point to that of another."""
+    line, slip, bend = two.z - one.z, two.v - one.v, two.a - one.a
+    square = np.abs(line) ** 2
+    omega = cross(line, slip) / square
+    alpha = cross(line, bend) / square - 2 * omega * dot(line, slip) / square
+    return Pose(one.z, line / np.abs(line), one.v, omega, one.a, alpha)
 
 
 def rest(place: complex | Array = 0j, direction: complex | Array = 1 + 0j) -> Pose:

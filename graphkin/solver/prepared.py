@@ -351,13 +351,33 @@ class PreparedMechanism:
         return ok
 
     def _formulas(self, way: GivenValues | UniformGrid, out: Array, fast: bool) -> Array:
-        n = len(way)
-        if fast and not self.by_newton:
-            return self._compiled(way, out)
-        if n <= CHUNK:
-            return self._arrays(way, out)
-        parts = [slice(k, min(k + CHUNK, n)) for k in range(0, n, CHUNK)]
-        return np.concatenate([self._arrays(way[p], out[:, p]) for p in parts])
+        """The columns of formulas, 0 where there is no such position, and where there is one."""
+        n, count, compiled = len(way), len(self.asked), fast and not self.by_newton
+        if n > CHUNK and not compiled:
+            parts = [slice(k, min(k + CHUNK, n)) for k in range(0, n, CHUNK)]
+            return np.concatenate([self._formulas(way[p], out[:, p], fast) for p in parts])
+        ok = _every(n) if self._regular else np.ones(n, dtype=bool) if self.whole else self._reached(way.values)
+        if not ok.any():
+            out[...] = 0.0
+            return ok
+        given: dict[Name, Array] = {} if self.signs is not None else self._signs_at(way.values)
+        if compiled:
+            kernel = self._on_grid if isinstance(way, UniformGrid) else self._at_values
+            rows = [np.array([given[name] for name in kernel.signs])] if kernel.signs else []
+            kernel(n, self._numbers, *way.given, *rows, out, *([ok] if kernel.checked else []))
+        else:
+            given |= self._poses_by_newton(way.values, ok) if self.by_newton else {}
+            if self.turns:
+                given["cos", 0], given["sin", 0] = way.turn
+            else:
+                given["travel", 0] = way.values
+            sines = np.empty((len(self._code.asked) - count, n))
+            self._code.arrays(self._same, [given[name] for name in self._code.inputs], [*out, *sines])
+            for sine in sines:
+                ok &= np.abs(sine) >= SINGULAR
+        if not self._regular and not ok.all():
+            out[:, ~ok] = 0.0
+        return ok
 
     def _bounds(self, value: Array, ok: Array, out: Array) -> None:
         """How far rounding may have moved the columns of each name, at the values that are ok."""
@@ -376,44 +396,6 @@ class PreparedMechanism:
         drivers = np.repeat(self.range.start[None], len(value), axis=0)
         drivers[:, 0] = value
         return positions(self.structure, Drive.at(self.structure, drivers), self._forms_at(value), fine=False)
-
-    def _compiled(self, way: GivenValues | UniformGrid, out: Array) -> Array:
-        n = len(way)
-        kernel = self._on_grid if isinstance(way, UniformGrid) else self._at_values
-        if self._regular:
-            kernel(n, self._numbers, *way.given, out)
-            return _every(n)
-        ok = np.ones(n, dtype=bool) if self.whole else self._reached(way.values)
-        signs = {} if self.signs is not None else self._signs_at(way.values)
-        rows = [np.array([signs[name] for name in kernel.signs])] if kernel.signs else []
-        kernel(n, self._numbers, *way.given, *rows, out, *([ok] if kernel.checked else []))
-        if not kernel.checked and not ok.all():
-            out[:, ~ok] = 0.0
-        return ok
-
-    def _arrays(self, way: GivenValues | UniformGrid, out: Array) -> Array:
-        n, count = len(way), len(self.asked)
-        if self._regular:
-            turn = dict(zip((("cos", 0), ("sin", 0)), way.turn, strict=True))
-            self._code.arrays(self._same, [turn[name] for name in self._code.inputs], [*out])
-            return _every(n)
-        ok = np.ones(n, dtype=bool) if self.whole else self._reached(way.values)
-        if not ok.any():
-            out[...] = 0.0
-            return ok
-        given: dict[Name, Array] = {} if self.signs is not None else self._signs_at(way.values)
-        given |= self._poses_by_newton(way.values, ok) if self.by_newton else {}
-        sines = np.empty((len(self._code.asked) - count, n))
-        if self.turns:
-            given["cos", 0], given["sin", 0] = way.turn
-        else:
-            given["travel", 0] = way.values
-        self._code.arrays(self._same, [given[name] for name in self._code.inputs], [*out, *sines])
-        for sine in sines:
-            ok &= np.abs(sine) >= SINGULAR
-        if not ok.all():
-            out[:, ~ok] = 0.0
-        return ok
 
     def sweep(self, n: int, out: Array | None = None, fast: bool = False) -> tuple[Array, Array]:
         """``columns`` at n positions of the whole range."""

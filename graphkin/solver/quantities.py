@@ -195,8 +195,16 @@ def _place(posed: Posed, symbol: Symbol, name: str) -> Array:
 
 
 def pole(one: Pose, two: Pose) -> tuple[Array, Array]:
-    """The relative rotation of one link against another, as homogeneous coordinates of their instant centre (see
-    `graphkin.solver.motion.instant_centre`)."""
+    """The relative rotation of one link against another, as homogeneous coordinates of their instant centre, where both
+    have the same velocity.
+
+    Returns
+    -------
+    q : complex, shape (n,), m rad/s
+    omega : real, shape (n,), rad/s
+        the centre is q / omega; at infinity in the direction of q where omega is 0; none where both are 0.  With the
+        velocity v0 of the point at the world's origin, 0 = v0 + i omega z gives q = i v0.
+    """
     v0 = (one.v - 1j * one.omega * one.z) - (two.v - 1j * two.omega * two.z)
     return np.asarray(1j * v0), np.asarray(one.omega - two.omega)
 

@@ -9,10 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import cross, dot
 from graphkin.scene.bodies import SlidingPair
 from graphkin.scene.model import Mechanism, PlacedLink
-from graphkin.solver.pose import Array, ErrorBound, Pose, rest
+from graphkin.solver.pose import Array, ErrorBound, Pose, aimed, rest
 from graphkin.structure import Structure
 from graphkin.structure.model import slide_pair
 from graphkin.words import Phrase
@@ -128,12 +127,8 @@ def _between_hinges(
     if arm == 0:
         return None
     one, two = (poses[shared[name]].fixed(scene.by_name[shared[name]].points[name]) for name in (p, q))
-    line, slip, bend = two.z - one.z, two.v - one.v, two.a - one.a
-    square = np.abs(line) ** 2
-    u = line / np.abs(line) * (abs(arm) / arm)
-    omega = cross(line, slip) / square
-    alpha = cross(line, bend) / square - 2 * omega * dot(line, slip) / square
-    return one.pinned(rest(link.points[p]), u, omega, alpha)
+    line = aimed(one, two)
+    return one.pinned(rest(link.points[p]), line.u * (abs(arm) / arm), line.omega, line.alpha)
 
 
 def _on_guide(

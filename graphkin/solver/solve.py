@@ -21,7 +21,7 @@ from graphkin.solver.driver_range import DriverRange, motion_of, range_from, ran
 from graphkin.solver.drivers import goal_values, own_values
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import Motion
-from graphkin.solver.pose import Array, Drive, Pose, rest
+from graphkin.solver.pose import Array, Drive, Pose, aimed, rest
 from graphkin.solver.sentences import assembly_words
 from graphkin.structure import Structure, part_of
 from graphkin.structure.assembly import ChangePoint
@@ -156,11 +156,7 @@ def as_drawn(motion: Motion, structure: Structure) -> Motion:
         holder = held[0]
         start = poses[slot.on].fixed(structure.links[slot.on].points[slot.centre])
         end = poses[holder].fixed(structure.links[holder].points[slot.point])
-        across = (end.z - start.z) / slot.radius
-        way = across / np.abs(across)
-        omega = (np.conj(1j * way) * (end.v - start.v)).real / slot.radius
-        alpha = (np.conj(1j * way) * (end.a - start.a)).real / slot.radius
-        poses[slot.bar] = Pose(start.z, way, start.v, omega, start.a, alpha)
+        poses[slot.bar] = aimed(start, end)
     return replace(motion, structure=structure, poses=poses)
 
 

@@ -28,7 +28,7 @@ from graphkin.scene.scene_tables import LoadPhase
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.search import changes
 from graphkin.solver.cams import cam_angle, cam_at, slip_of
-from graphkin.solver.driver_range import DriverRange, extremes, range_of
+from graphkin.solver.driver_range import DriverRange, range_of
 from graphkin.solver.forces import Action, Forces, actions, balances, forces_of, without_line
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import Motion, contact_motion, listed_points, own_slides, pitch_point
@@ -113,7 +113,7 @@ def exact_values(motion: Motion, asked: Sequence[Symbol] = ()) -> Callable[[Symb
 
 
 def _of_turn(reach: DriverRange, symbol: Symbol) -> float:
-    found = extremes(reach, symbol)
+    found = reach.extremes(symbol)
     return {"K": found.ratio, "theta_lag": found.lag}.get(symbol.kind, found.stroke)
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from graphkin.scene.drivers import moves_by_law
 from graphkin.scene.model import Mechanism
 from graphkin.solver import Motion, driver_range, structure_of
-from graphkin.solver.motion import instant_centre
+from graphkin.solver.quantities import pole
 
 __all__ = ["FRAMES", "CentrePaths", "centre_paths", "steady"]
 
@@ -78,7 +78,7 @@ def centre_paths(
 
 
 def _centre(motion: Motion, pair: tuple[str, str]) -> Places:
-    q, omega = instant_centre(motion, *pair)
+    q, omega = pole(*(motion.poses[link] for link in pair))
     fastest = np.max([np.abs(p.omega) for p in motion.poses.values()], axis=0)
     turns = motion.ok & (np.abs(omega) > NO_TURNING * fastest)
     with np.errstate(all="ignore"):

@@ -220,12 +220,8 @@ class Quantity:
 
     def _links(self, motion: Motion) -> Iterable[str]:
         """The links whose errors it has; none where it takes more than them, as a transmission angle does."""
-        if self.order is not None and not self.symbol.other:
-            return (self.symbol.link,)
-        if self.order is not None:
-            slide = next(s for s in motion.slides if s.key == self.symbol.pair)
-            return slide.a, slide.b
-        return links_for(motion.structure, self.symbol) if self.symbol.scope == "motion" else ()
+        moves = self.symbol.scope == "motion" or self.order == 0
+        return links_for(motion.structure, self.symbol) if moves else ()
 
 
 def settled(value: Array, floor: Array) -> Array:
