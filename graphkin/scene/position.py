@@ -18,7 +18,7 @@ from graphkin.scene.bodies import Reading, SlidingPair, references
 from graphkin.scene.model import Driver, PlacedContact, PlacedGuide
 from graphkin.scene.scene_tables import Compass, Guide, Polar
 from graphkin.scene.tables import in_si
-from graphkin.words import Phrase, Wording
+from graphkin.words import Phrase
 
 __all__ = [
     "DrawnPosition", "Placement", "check_agreement", "check_all_found", "check_contacts", "check_distances",
@@ -140,9 +140,9 @@ def _guide_of(
     return PlacedGuide(name, through, given)
 
 
-AngleBetween = tuple[Wording, Placement, Placement, complex, complex]
-"""A given angle: where it stands in the file, the link, the one it is counted from, from which direction in its axes,
-and the angle as a unit complex number."""
+AngleBetween = tuple[str, Placement, Placement, complex, complex]
+"""A given angle: where it stands in the file ("" of a driver), the link, the one it is counted from, from which
+direction in its axes, and the angle as a unit complex number."""
 
 
 def bodies_of(reading: Reading, drawn: Places) -> dict[str, Placement]:
@@ -270,7 +270,7 @@ class DrawnPosition:
                 rail, slider = self.bodies[pair.on], self.bodies[pair.link]
                 yield f"links.{pair.link}.angle_on", slider, rail, guide.direction, pair.turn
         for link, base, turn in self.angles:
-            yield Phrase("driver.angle of link", link=link), self.bodies[link], self.bodies[base], 1 + 0j, turn
+            yield "", self.bodies[link], self.bodies[base], 1 + 0j, turn
 
     def value_of(self, driver: Driver) -> float:
         """The value of a driver (rad, m): its own, or what the known position gives; not a number if that is not
@@ -565,12 +565,13 @@ def check_agreement(position: DrawnPosition) -> None:
                 where = f"pins.{pair.point}.in" if pair.of else f"links.{pair.link}.on"
                 position.reading.say(where, "the given places put it beside the guide",
                                      "correct a coordinate or the guide", beside=f"{beside / metres:.6g}", ref=ref)
-    for where_angle, body, base, zero, turn in position.relations():
+    for where, body, base, zero, turn in position.relations():
         if body.turn is not None and base.turn is not None:
             # by how far it moves the points that gave it
             seen = body.turn / (base.turn * zero)
             if abs(seen - turn) * min(body.arm, base.arm, position.size) > position.tolerance:
-                position.reading.say(where_angle, "found deg but the given places make it", "one of the two is wrong",
+                said = where or Phrase("driver.angle of link", link=body.name)
+                position.reading.say(said, "found deg but the given places make it", "one of the two is wrong",
                                      degrees=f"{degrees(turn):.10g}", other=f"{degrees(seen):.10g}")
     for key, travel in position.travels.items():
         seen_travel = position.travel_of(key)
