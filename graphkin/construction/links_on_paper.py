@@ -447,7 +447,7 @@ def meant(structure: Structure, paper: PlacedLinks, dyad: Dyad) -> Poses:
     meeting = meet(paper, dyad)
     refuse(structure, dyad, meeting)
     candidates = [paper.fresh(poses) for poses in meeting.poses]
-    return meeting.poses[pick(structure.scene, dyad.links, candidates, 0).index]
+    return meeting.poses[pick(structure.scene, dyad.links, candidates, 0)]
 
 
 def stuck(status: str, links: Iterable[str], said: str) -> Unsolvable:

@@ -265,7 +265,7 @@ def _group_by_sketch(choices: Choices, paper: PlacedLinks, group: LargerGroup) -
         raise stuck("not assembled", group.links, "no trial position closes this group here")
     found = _without_twins(structure, paper, group, fits)
     candidates = [paper.fresh(poses) for poses in found]
-    return found[pick(structure.scene, group.links, candidates, None).index]
+    return found[pick(structure.scene, group.links, candidates, None)]
 
 
 def _fits_by_sketch(choices: Choices, paper: PlacedLinks, group: LargerGroup) -> Iterator[dict[str, Pose]]:

@@ -160,7 +160,7 @@ def own_assembly(
         found = list(_ways(paper, parts, [v for v in inversions if v.triangle in group.triangles]))
         if not found:
             raise stuck("not assembled", group.links, "no assembly of the group fits together here")
-        index = pick(structure.scene, group.links, [paper.fresh(poses) for _, _, poses in found], None).index
+        index = pick(structure.scene, group.links, [paper.fresh(poses) for _, _, poses in found], None)
         triangles, paper.values, poses = found[index]
         taken.extend(triangles)
         return poses

@@ -198,7 +198,8 @@ class Symbol:
         kind = KINDS[name]
         match = re.fullmatch(_FORMS[kind.form], text[len(name) + 1 :])
         if match is None:
-            raise ValueError(Phrase("write for example", text=text, missing=_MISSING[kind.form], example=kind.example))
+            missing = Phrase(_MISSING.get(kind.form, "names no link"))
+            raise ValueError(Phrase("write for example", text=text, missing=missing, example=kind.example))
         return cls.of_names(name, {part: given for part, given in match.groupdict().items() if given})
 
     @classmethod
@@ -275,21 +276,12 @@ class Symbol:
 
 
 _MISSING = {
-    "point": Phrase("names no point"),
-    "points": Phrase("names no point"),
-    "coincident": Phrase("needs two coincident points"),
-    "two points": Phrase("needs two points"),
-    "link": Phrase("names no link"),
-    "link of link": Phrase("names no link"),
-    "pair": Phrase("names no sliding pair"),
-    "links": Phrase("needs two links"),
-    "link or joint": Phrase("names no link and no joint of two"),
-    "of link": Phrase("names no link"),
-    "load": Phrase("names no load"),
-    "force": Phrase("names no force"),
-    "excess work": Phrase("is no quantity"),
-    "flywheel": Phrase("is no quantity"),
-}
+    "point": "names no point", "points": "names no point", "coincident": "needs two coincident points",
+    "two points": "needs two points", "pair": "names no sliding pair", "links": "needs two links",
+    "link or joint": "names no link and no joint of two", "load": "names no load", "force": "names no force",
+    "excess work": "is no quantity", "flywheel": "is no quantity",
+}  # fmt: skip
+"""What a name lacks that has not the form of its kind; of the other forms it names no link."""
 
 
 def centre_links(name: str, links: Container[str]) -> tuple[str, str] | None:

@@ -149,7 +149,7 @@ def _choose_sign(
     if not abs(solved.sine[0]) >= states[0].singular[0]:
         return np.array(1.0), both[0]
     candidates = [new_places(structure, i, links, state.poses) for state in states]
-    index = pick(scene, links, candidates, 0).index ^ turned
+    index = pick(scene, links, candidates, 0) ^ turned
     return np.array((1.0, -1.0)[index]), both[index]
 
 
@@ -224,7 +224,7 @@ def _choose_place(structure: Structure, i: int, group: LargerGroup, drive: Drive
                                                   "no assembly of this group was found in"))
     placed = [{**known, **Constraints(structure, group, known, drive).poses(place[None])} for place in found]
     candidates = [new_places(structure, i, group.links, poses) for poses in placed]
-    return np.asarray(found[pick(structure.scene, group.links, candidates, None).index])
+    return np.asarray(found[pick(structure.scene, group.links, candidates, None)])
 
 
 def _assemblies(structure: Structure, group: LargerGroup, drive: Drive, known: Mapping[str, Pose]) -> Array:

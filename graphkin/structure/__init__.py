@@ -1,7 +1,7 @@
 """Mobility and its traps, Assur groups, order of solution."""
 
 from graphkin.structure.analysis import analyse, mobility_of, regrouped, started
-from graphkin.structure.assembly import Choice, pick
+from graphkin.structure.assembly import pick
 from graphkin.structure.model import (
     Body,
     Driven,
@@ -29,7 +29,7 @@ from graphkin.structure.replacement import pins_on_circles, replacement_told
 from graphkin.structure.rolling import Mesh, meshes_of, unrolled
 
 __all__ = [
-    "Body", "Choice", "Driven", "DrivenJoint", "DrivenTriangle", "Dyad", "DyadKind", "Element", "LargerGroup",
+    "Body", "Driven", "DrivenJoint", "DrivenTriangle", "Dyad", "DyadKind", "Element", "LargerGroup",
     "Mesh", "Mobility", "Pair", "Rolled", "RollingRelation", "Structure", "analyse", "by_drivers_alone",
     "driver_pair", "leading", "links_for", "meshes_of", "mobility_of", "named_with_contact", "needed",
     "part_of", "pick", "pins_on_circles", "regrouped", "replacement_told", "started", "unrolled", "without",

@@ -13,7 +13,6 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import product
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,21 +22,14 @@ from graphkin.scene.model import Driver, Mechanism
 from graphkin.search import last_true, least_value
 from graphkin.words import Phrase, Wording, listed
 
-__all__ = ["MOST_TURNS", "TOUCH", "ChangePoint", "Choice", "Passage", "follow", "out_of_reach", "pick", "ways"]
-
-
-@dataclass(frozen=True)
-class Choice:
-    """The assembly taken: its place among the candidates, and what decided it."""
-
-    index: int
-    by: Literal["only", "drawn", "sketch", "rule"]
+__all__ = ["MOST_TURNS", "TOUCH", "ChangePoint", "Passage", "follow", "out_of_reach", "pick", "ways"]
 
 
 def pick(
     scene: Mechanism, links: Sequence[str], candidates: Sequence[Mapping[str, complex]], default: int | None
-) -> Choice:
-    """Choose the assembly of a group at the scene's own position.
+) -> int:
+    """Choose the assembly of a group at the scene's own position, by its place among the candidates: the one that the
+    drawn points tell, else the sketch, else the rule.
 
     Parameters
     ----------
@@ -62,23 +54,21 @@ def pick(
                                 "what is given twice must agree to 1e-6", place=shown(scene.drawn[point]),
                                 links=", ".join(links), other=shown(candidates[nearest][point]))
     if len(candidates) == 1:
-        return Choice(0, "only")
-    told: tuple[tuple[Literal["drawn", "sketch"], Mapping[str, complex]], ...]
-    told = ("drawn", scene.drawn), ("sketch", scene.sketch)
-    for by, given in told:
+        return 0
+    for given in (scene.drawn, scene.sketch):
         sums = [math.fsum(abs(z - given[p]) ** 2 for p, z in c.items() if p in given) for c in candidates]
         best = min(range(len(sums)), key=sums.__getitem__)
         rest = min((s, i) for i, s in enumerate(sums) if i != best)
         # beside a dead point two assemblies lie close to each other, and a sketch still tells them apart
         apart = max((abs(z - candidates[best][p]) for p, z in candidates[rest[1]].items() if p in given), default=0.0)
         if rest[0] - sums[best] > TOLD * scene.size * apart:
-            return Choice(best, by)
+            return best
     if default is None:
         places = (", ".join(f"{p} = {shown(z)}" for p, z in candidate.items()) for candidate in candidates)
         rows = "\n".join(f"  sketch = {{ {row} }}" for row in places)
         raise SceneError.of(Phrase("links", links=', '.join(links)), "this group has assemblies here and no sketch",
                             "paste one of these at the head of the file", count=len(candidates), rows=rows)
-    return Choice(default, "rule")
+    return default
 
 
 MOST_TURNS = 4
