@@ -25,14 +25,13 @@ from graphkin.construction.equations import (
     same_turn,
     share_rate,
     spread,
-    turned,
 )
 from graphkin.construction.group_plan import GroupPlan, Move, Special, equation_of, plan_group
 from graphkin.construction.links_on_paper import stuck
 from graphkin.construction.net import Edge, Net, Path, Unknown, VectorChain, contacts_of, node, past
 from graphkin.construction.polygons import RATE, Polygons, letter
 from graphkin.construction.proportional_division import divide, magnified
-from graphkin.construction.seen_from import Joint, contours
+from graphkin.construction.seen_from import contours_of
 from graphkin.construction.sheet import Rate
 from graphkin.construction.steps import (
     ORDERS,
@@ -381,7 +380,7 @@ def _with_fewer_trials(plot: Polygons, group: LargerGroup, trials: int) -> tuple
     theirs, its contours drawn first where that spares more; none where neither does, and then the special point
     met with that is no use.  The links held still are chosen so that what is seen from them is laid off as it was
     seen."""
-    choices = [_rests_on(plot, group, links) for links in _contours_of(plot, group)]
+    choices = [_rests_on(plot, group, links) for links in contours_of(plot, group)]
     choices = [some for some in choices if some]
     best: tuple[tuple[int, bool], list[GroupPlan]] | None = None
     far: FarPoint | None = None
@@ -399,28 +398,6 @@ def _with_fewer_trials(plot: Polygons, group: LargerGroup, trials: int) -> tuple
             break
     del plot.contours[group]
     return (best[1] if best is not None else []), far
-
-
-def _contours_of(plot: Polygons, group: LargerGroup) -> list[tuple[str, ...]]:
-    if group.rolling or (plot.at_contacts and contacts_of(plot.structure, group)):
-        return []
-    inside = set(group.members)
-    keys = {d.key for d in group.drivers if not d.turns}
-    held = [driver_pair(d, plot.links, plot.structure.slides) for d in group.drivers]
-    hinged = {frozenset((p.a, p.b)) for p in held if p is not None and p.turns}
-    joints = []
-    for pair in group.pairs:
-        if not {pair.a, pair.b} <= inside:
-            continue
-        if not pair.turns:
-            along = plot.paper.poses[pair.b].axis * pair.guide.direction
-            at = plot.places[pair.pin] if pair.pin else plot.paper.poses[pair.a].origin
-            joints.append(Joint((pair.a, pair.b), at, along, pair.key in keys))
-        else:
-            driven = frozenset((pair.a, pair.b)) in hinged
-            joints.append(Joint((pair.a, pair.b), plot.places[pair.point], None, driven))
-    turning = [(a, b) for a, b, _ in turned(plot, None, group) if {a, b} <= inside]
-    return contours(group.members, joints, turning)
 
 
 def _rests_on(plot: Polygons, group: LargerGroup, contour: Sequence[str]) -> list[tuple[str, LargerGroup]]:

@@ -1,4 +1,4 @@
-"""Motion seen from a link of a larger group that is held still: contours of known shape, and how they are drawn.
+"""Contours of known shape in a larger group, which are drawn with one of their links held still.
 
 Whatever the rest of a group does, links that drivers inside it hold to each other move as one link at the moment, but
 for motions that the drivers give.  Seen with one link of such a contour held still, these are drawn first; the others
@@ -10,31 +10,46 @@ other vectors bear its name.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
-__all__ = ["Joint", "contours"]
+from graphkin.construction.equations import links_alike, turned
+from graphkin.construction.net import contacts_of
+from graphkin.construction.polygons import Polygons
+from graphkin.structure import LargerGroup, driver_pair
+
+__all__ = ["contours", "contours_of"]
 
 ALIKE = 1e-9  # of unit motions: what differs less moves alike
-Rows = list[np.ndarray]
+Joint = tuple[tuple[str, str], complex, complex | None, bool]
+"""What joins two links: a hinge in a place, or along a direction a sliding pair; and whether a driver gives how they
+turn or slide on each other."""
 
 
-@dataclass(frozen=True)
-class Joint:
-    """What joins two links of a group: a hinge in a place, or, ``along`` a direction, a sliding pair; ``driven`` where
-    a driver gives how they turn or slide on each other."""
-
-    links: tuple[str, str]
-    at: complex
-    along: complex | None
-    driven: bool
+def contours_of(plot: Polygons, group: LargerGroup) -> list[tuple[str, ...]]:
+    """The contours of a group as it lies on paper; none where links of it roll or touch."""
+    if group.rolling or (plot.at_contacts and contacts_of(plot.structure, group)):
+        return []
+    held = [driver_pair(driver, plot.links, plot.structure.slides) for driver in group.drivers]
+    hinged = {frozenset(pair.links) for pair in held if pair is not None and pair.turns}
+    keys = {driver.key for driver in group.drivers if not driver.turns}
+    inside, joints = set(group.members), list[Joint]()
+    for pair in (pair for pair in group.pairs if inside.issuperset(pair.links)):
+        if pair.turns:
+            joints.append((pair.links, plot.places[pair.point], None, frozenset(pair.links) in hinged))
+        else:
+            at = plot.places[pair.pin] if pair.pin else plot.paper.poses[pair.a].origin
+            along = plot.paper.poses[pair.b].axis * pair.guide.direction
+            joints.append((pair.links, at, along, pair.key in keys))
+    turning = [(a, b) for a, b, _ in turned(plot, None, group) if inside.issuperset((a, b))]
+    return contours(group.members, joints, turning)
 
 
 def contours(
     links: Sequence[str], joints: Sequence[Joint], turning: Sequence[tuple[str, str]]
 ) -> list[tuple[str, ...]]:
-    """The largest sets of links that can only move as one, drivers at rest, however the group hangs on others.
+    """The largest sets of links that can only move as one, drivers at rest, however the group hangs on others: they
+    move alike in every motion that the joints allow.
 
     Links that a driver holds at their common pair are one already: a set of nothing else is left out.
 
@@ -43,24 +58,23 @@ def contours(
     joints : those between links of the group
     turning : further links whose rotations differ only by what drivers give
     """
-    at = {name: 3 * i for i, name in enumerate(links)}
-    size = max((abs(j.at) for j in joints), default=1.0) or 1.0
-    rows: Rows = []
-    for one, two in turning:
-        rows.append(_row(at, one, two, (0.0, 0.0, 1.0)))
-    for joint in joints:
-        z = joint.at / size
+    turns = np.array([0.0, 0.0, 1.0])
+    kept = [(both, turns) for both in turning]
+    size = max((abs(at) for _, at, _, _ in joints), default=1.0) or 1.0
+    for both, at, along, driven in joints:
         # how a point there moves: by the motion at the origin and the rate of turning
-        across, up = (1.0, 0.0, -z.imag), (0.0, 1.0, z.real)
-        if joint.along is None or joint.driven:
-            rows += [_row(at, *joint.links, across), _row(at, *joint.links, up)]
+        across, up = np.array([1.0, 0.0, -at.imag / size]), np.array([0.0, 1.0, at.real / size])
+        if along is None or driven:
+            kept += [(both, across), (both, up)]
         else:
-            n = 1j * joint.along
-            rows.append(_row(at, *joint.links, tuple(n.real * x + n.imag * y for x, y in zip(across, up, strict=True))))
-        if joint.along is not None or joint.driven:
-            rows.append(_row(at, *joint.links, (0.0, 0.0, 1.0)))
-    _, sizes, turned = np.linalg.svd(np.array(rows))
-    free = turned[int(np.sum(sizes > ALIKE)) :].T.reshape(len(links), 3, -1)
+            kept.append((both, (1j * along).real * across + (1j * along).imag * up))
+        if along is not None or driven:
+            kept.append((both, turns))
+    rows = np.zeros((len(kept), len(links), 3))
+    for row, ((one, two), weights) in zip(rows, kept, strict=True):
+        row[links.index(one)], row[links.index(two)] = weights, -weights
+    _, sizes, motions = np.linalg.svd(rows.reshape(len(kept), -1))
+    free = motions[int(np.sum(sizes > ALIKE)) :].T.reshape(len(links), 3, -1)
     sets: list[list[int]] = []
     for i in range(len(links)):
         home = next((one for one in sets if np.abs(free[one[0]] - free[i]).max(initial=0.0) < 10 * ALIKE), None)
@@ -68,24 +82,6 @@ def contours(
             sets.append([i])
         else:
             home.append(i)
-    found = [tuple(links[i] for i in one) for one in sets]
-    held = [set(j.links) for j in joints if j.driven]
-    return [one for one in found if len(one) > 1 and not _one_already(one, held)]
-
-
-def _row(at: dict[str, int], one: str, two: str, weights: Sequence[float]) -> np.ndarray:
-    row = np.zeros(3 * len(at))
-    row[at[one] : at[one] + 3] = weights
-    row[at[two] : at[two] + 3] = [-w for w in weights]
-    return row
-
-
-def _one_already(links: Sequence[str], held: Sequence[set[str]]) -> bool:
-    """Whether driven pairs alone hold links together."""
-    reached, grown = {links[0]}, True
-    while grown:
-        grown = False
-        for both in held:
-            if both & reached and not both <= reached:
-                reached, grown = reached | both, True
-    return reached >= set(links)
+    found = [tuple(links[i] for i in one) for one in sets if len(one) > 1]
+    already = links_alike(links, ((*both, 0.0) for both, _, _, driven in joints if driven))
+    return [one for one in found if not already[one[0]].issuperset(one)]

@@ -15,7 +15,7 @@ from graphkin.checking.slips import Evidence
 from graphkin.construction import elements, execute, plan
 from graphkin.construction.instruments import EXACT, nudged
 from graphkin.construction.plan import Redrawn, positioned
-from graphkin.construction.seen_from import Joint, contours
+from graphkin.construction.seen_from import contours
 from graphkin.scene import mechanism_of
 from graphkin.scene.scene_tables import Tools
 from graphkin.scene.symbol import PointRef, Symbol
@@ -217,34 +217,34 @@ def test_a_wrong_angular_velocity_of_the_held_link_is_followed_to_the_term_of_co
 
 
 def test_links_that_drivers_hold_to_each_other_are_one_contour() -> None:
-    hinges = [Joint(("2", "4"), 134 + 157j, None, False), Joint(("4", "3"), 264 + 82j, None, False),
-              Joint(("3", "5"), 154 + 36j, None, False)]  # fmt: skip
-    driven, free = (Joint(("5", "2"), 103 + 37j, None, held) for held in (True, False))
+    hinges = [(("2", "4"), 134 + 157j, None, False), (("4", "3"), 264 + 82j, None, False),
+              (("3", "5"), 154 + 36j, None, False)]  # fmt: skip
+    driven, free = ((("5", "2"), 103 + 37j, None, held) for held in (True, False))
     assert [("2", "3", "4", "5")] == contours("2345", [*hinges, driven], [])
     assert [] == contours("2345", [*hinges, free], [])
     assert [("2", "3", "4", "5")] == contours("2345", [*hinges, free], [("3", "2")])
 
 
 def test_a_bar_square_to_the_guide_leaves_its_block_free() -> None:
-    crank, bar = Joint(("1", "2"), 0j, None, True), Joint(("2", "3"), 20 + 30j, None, False)
-    pin, along = Joint(("3", "4"), 60 + 30j, None, False), Joint(("4", "1"), 60 + 30j, 1 + 0j, False)
+    crank, bar = (("1", "2"), 0j, None, True), (("2", "3"), 20 + 30j, None, False)
+    pin, along = (("3", "4"), 60 + 30j, None, False), (("4", "1"), 60 + 30j, 1 + 0j, False)
     assert [("1", "2", "3", "4")] == contours("1234", [crank, bar, pin, along], [])
-    assert [] == contours("1234", [crank, bar, pin, Joint(("4", "1"), 60 + 30j, 1j, False)], [])
+    assert [] == contours("1234", [crank, bar, pin, (("4", "1"), 60 + 30j, 1j, False)], [])
 
 
 def test_a_driven_block_is_held_along_its_guide() -> None:
-    hinges = [Joint(("1", "2"), 0j, None, False), Joint(("2", "3"), 20 + 30j, None, False),
-              Joint(("3", "4"), 60 + 10j, None, False)]  # fmt: skip
+    hinges = [(("1", "2"), 0j, None, False), (("2", "3"), 20 + 30j, None, False),
+              (("3", "4"), 60 + 10j, None, False)]  # fmt: skip
     for driven, found in ((True, [("1", "2", "3", "4")]), (False, [])):
-        assert found == contours("1234", [*hinges, Joint(("4", "1"), 60 + 10j, 1 + 0j, driven)], [])
+        assert found == contours("1234", [*hinges, (("4", "1"), 60 + 10j, 1 + 0j, driven)], [])
 
 
 def test_two_links_that_a_driver_holds_at_their_hinge_are_no_contour() -> None:
-    assert [] == contours("12", [Joint(("1", "2"), 10 + 5j, None, True)], [])
+    assert [] == contours("12", [(("1", "2"), 10 + 5j, None, True)], [])
 
 
 def test_a_hinge_between_links_that_turn_alike_makes_them_one() -> None:
-    joints = [Joint(("1", "4"), 40 + 110j, None, False), Joint(("3", "4"), 0j, 1 + 1j, False)]
+    joints = [(("1", "4"), 40 + 110j, None, False), (("3", "4"), 0j, 1 + 1j, False)]
     assert [("1", "4")] == contours("134", joints, [("1", "3")])
 
 
@@ -252,12 +252,12 @@ def test_a_hinge_between_links_that_turn_alike_makes_them_one() -> None:
 @pytest.mark.parametrize("angle", [0.0, 0.7, 2.9])
 def test_how_large_and_how_turned_a_contour_is_drawn_changes_nothing(size: float, angle: float) -> None:
     by = cmath.rect(size, angle)
-    crank, bar = Joint(("1", "2"), 0j, None, True), Joint(("2", "3"), by * (0.2 + 0.3j), None, False)
+    crank, bar = (("1", "2"), 0j, None, True), (("2", "3"), by * (0.2 + 0.3j), None, False)
     for off, found in ((0.0, []), (1e-6, [("1", "2", "3", "4")])):
         way = by / size * cmath.rect(1.0, math.pi / 2 + off)
-        block = [Joint(("3", "4"), by * (0.6 + 0.3j), None, False), Joint(("4", "1"), by * (0.6 + 0.3j), way, False)]
+        block = [(("3", "4"), by * (0.6 + 0.3j), None, False), (("4", "1"), by * (0.6 + 0.3j), way, False)]
         assert found == contours("1234", [crank, bar, *block], [])
 
 
 def test_links_that_drivers_hold_one_after_the_other_are_no_contour() -> None:
-    assert [] == contours("123", [Joint(("2", "3"), 20 + 30j, None, True), Joint(("1", "2"), 0j, None, True)], [])
+    assert [] == contours("123", [(("2", "3"), 20 + 30j, None, True), (("1", "2"), 0j, None, True)], [])
