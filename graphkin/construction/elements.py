@@ -26,9 +26,9 @@ from graphkin.construction.equations import (
     share_rate,
     spread,
 )
-from graphkin.construction.group_plan import GroupPlan, Move, Special, equation_of, plan_group
+from graphkin.construction.group_plan import GroupPlan, equation_of, plan_group
 from graphkin.construction.links_on_paper import stuck
-from graphkin.construction.net import Edge, Net, Path, Unknown, VectorChain, contacts_of, node, past
+from graphkin.construction.net import Edge, Net, VectorChain, contacts_of, node, past
 from graphkin.construction.polygons import RATE, Polygons, letter
 from graphkin.construction.proportional_division import divide, magnified
 from graphkin.construction.seen_from import contours_of
@@ -219,7 +219,7 @@ def _draw_by(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan) 
 # -- moves -------------------------------------------------------------------------------------------------------------
 
 
-def _draw_move(plot: Polygons, order: Order, group: LargerGroup, step: Move) -> None:
+def _draw_move(plot: Polygons, order: Order, group: LargerGroup, step: VectorChain) -> None:
     """Draw a move of a plan."""
     for edge in (e for path in step.sides for e in path if e.held):
         # the point of the contour that the equation needs
@@ -228,10 +228,14 @@ def _draw_move(plot: Polygons, order: Order, group: LargerGroup, step: Move) -> 
         apart.end(order, edge.end if edge.forward else edge.start)
         for drawn in apart.board.steps[before:] if not plot.trial else ():
             plot.do(drawn)
-    if isinstance(step, Special):
-        _special_point(plot, order, group, step)
+    if step.is_special and step.end.point not in plot.places:
+        _mark_special(plot, step)
+    if step.base:
+        # nothing in velocity where nothing drives a leg, but in acceleration
+        symbol = plot.symbol(letter(order), step.end, PointRef(step.end.point, step.base))
+        plot.ties[order, step.end.point] = draw_relative(plot, order, group, symbol, step.sides)
     else:
-        draw_equation(plot, order, group, step)
+        draw_equation(plot, order, group, replace(step, sides=step.sides[::-1]) if step.is_special else step)
     _complete(plot, order, group)
 
 
@@ -245,58 +249,25 @@ def _complete(plot: Polygons, order: Order, group: LargerGroup) -> None:
             left.remove(name)
 
 
-def _special_point(plot: Polygons, order: Order, group: LargerGroup, move: Special) -> None:
-    """The end point of a special point by both legs; of one relative to another moving link how it moves relative to
-    that: nothing in velocity where nothing drives a leg, but in acceleration."""
-    link, name = move.link, move.letter
-    if name not in plot.places:
-        _mark_special(plot, move)
-    if not move.base:
-        ref = PointRef(name)
-        turns = link in plot.rates[order]
-        right, left = ((*leg, *_to_special(plot, group, leg, leg[-1].end, ref, link, turns)) for leg in move.sides)
-        draw_equation(plot, order, group, VectorChain(ref, (left, right)))
-        return
-    base, ref = PointRef(name, move.base), PointRef(name, link)
-    paths = []
-    for leg in move.sides:
-        # what both links turn by lies along the line that the leg leaves free: its size is not asked
-        before = _to_special(plot, group, leg, leg[0].start, base, move.base)
-        after = _to_special(plot, group, leg, leg[-1].end, ref, link)
-        paths.append((*(e.reversed() for e in before), *leg, *after))
-    symbol = plot.symbol(letter(order), ref, base)
-    plot.ties[order, name] = draw_relative(plot, order, group, symbol, paths)
-
-
-def _to_special(
-    plot: Polygons, group: LargerGroup, leg: Path, joint: PointRef, ref: PointRef, link: str, turns: bool = False
-) -> tuple[Edge, ...]:
-    """From the joint of a leg to the special point; nothing where it is the joint itself."""
-    if abs(plot.places[joint.point] - plot.places[ref.point]) <= plot.tiny:
-        return ()
-    unknown = None if turns else Unknown("turning", same_turn(plot, group).get(link, link))
-    # written as the leg's own direction, for the two lie along one line
-    free = next(e for e in leg if e.unknown)
-    return (Edge(joint, ref, (joint, ref), free.direction, link=link, unknown=unknown),)
-
-
-def _mark_special(plot: Polygons, move: Special) -> None:
+def _mark_special(plot: Polygons, move: VectorChain) -> None:
     """The special point on the mechanism: where the lines of two legs cross."""
-    free = (next(e for e in leg if e.unknown) for leg in move.sides)
+    name, link = move.end.point, move.link
+    legs = [[edge for edge in side if name not in edge.bar] for side in move.sides]
+    free = (next(e for e in leg if e.unknown) for leg in legs)
     d, e = (1j * _direction(plot, edge, plot.places) for edge in free)
-    p, q = (plot.places[leg[-1].end.point] for leg in move.sides)
-    d = plot.slip.line(Symbol("v", PointRef(move.letter)), d)
-    at = plot.board.cross("mechanism", p, d, q, e, move.letter)
-    plot.special.add(move.letter)
-    plot.places[move.letter] = at
+    p, q = (plot.places[leg[-1].end.point] for leg in legs)
+    d = plot.slip.line(Symbol("v", PointRef(name)), d)
+    at = plot.board.cross("mechanism", p, d, q, e, name)
+    plot.special.add(name)
+    plot.places[name] = at
     if not move.base:
-        pose = plot.paper.poses[move.link]
-        points = {**plot.links[move.link].points, move.letter: (at - pose.origin) / pose.axis / plot.paper.mm}
-        plot.links[move.link] = replace(plot.links[move.link], points=points)
-    joints = tuple(leg[-1].end.point for leg in move.sides)
-    driven = any(not e.unknown and (e.slide or e.joint) for leg in move.sides for e in leg)
-    strokes = Bar(p, at, ""), Bar(q, at, ""), Mark(PointRef(move.letter), at)
-    plot.do(Step("cross", "special point", strokes=strokes, point=move.letter, points=joints, link=move.link,
+        pose = plot.paper.poses[link]
+        points = {**plot.links[link].points, name: (at - pose.origin) / pose.axis / plot.paper.mm}
+        plot.links[link] = replace(plot.links[link], points=points)
+    joints = tuple(leg[-1].end.point for leg in legs)
+    driven = any(not e.unknown and (e.slide or e.joint) for leg in legs for e in leg)
+    strokes = Bar(p, at, ""), Bar(q, at, ""), Mark(PointRef(name), at)
+    plot.do(Step("cross", "special point", strokes=strokes, point=name, points=joints, link=link,
                  base=move.base, kind="driven" if driven else ""))  # fmt: skip
 
 

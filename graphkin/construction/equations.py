@@ -156,7 +156,7 @@ def draw_equation(plot: Polygons, order: Order, element: Element, equation: Vect
 
     An equation that says no more of a vector than that it is itself is not written.
     """
-    if equation.link:
+    if equation.link and not equation.is_special:
         assert isinstance(element, LargerGroup)
         _draw_parallel_legs(plot, order, element, equation)
         return

@@ -25,27 +25,13 @@ from graphkin.plane import cross, cross_lines, unit
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import LargerGroup
 
-__all__ = ["GroupPlan", "Move", "Special", "equation_of", "plan_group"]
+__all__ = ["GroupPlan", "equation_of", "plan_group"]
 
 FLAT = 1e-9  # sine below which the legs of a special point are parallel
 MOST_TRIALS = 4
 LONGEST, LONGEST_LEG = 5, 3  # edges of an equation, and of a leg between two moving links
 OFF = 1e-9  # sine between a leg's line and the way from joint to joint, below which it is that way
 WORST = 0.05  # crossing and distance of a special point of two moving links that is still taken
-
-
-@dataclass(frozen=True)
-class Special:
-    """The special point ``letter`` of a link and the legs that give it: ways from known points to points of the link,
-    each with one unknown; or from points of another moving link, ``base``, as which the link moves there."""
-
-    link: str
-    letter: str
-    sides: tuple[Path, Path]
-    base: str = ""
-
-
-Move = VectorChain | Special
 
 
 @dataclass(frozen=True)
@@ -59,7 +45,7 @@ class GroupPlan:
     rest as a group on it.
     """
 
-    moves: tuple[Move, ...]
+    moves: tuple[VectorChain, ...]
     tried: tuple[Unknown, ...]
     net: Net
     parallel: tuple[tuple[str, str, str], ...] = ()
@@ -83,7 +69,7 @@ class _Search:
     nodes: set[PointRef]
     known: set[Unknown]
     far: list[FarPoint]
-    moves: list[Move] = field(default_factory=list)
+    moves: list[VectorChain] = field(default_factory=list)
     parallel: list[tuple[str, str, str]] = field(default_factory=list)
 
     # -- what is known -------------------------------------------------------------------------------------------------
@@ -168,7 +154,7 @@ class _Search:
                 return self.drawn(VectorChain.closing(self.seen(best)), (best,))
         return False
 
-    def drawn(self, move: Move, path: Path) -> bool:
+    def drawn(self, move: VectorChain, path: Path) -> bool:
         """Take one more move, after which a path is known."""
         self.moves.append(move)
         self.learn(path)
@@ -246,8 +232,10 @@ class _Search:
         if best is not None:
             _, link, sides, at = best
             letter = next(self.letters)
-            self.nodes.add(self.net.add(link, letter, at))
-            self.moves.append(Special(link, letter, sides))
+            ref = self.net.add(link, letter, at)
+            self.nodes.add(ref)
+            one, two = ((*leg, *self.on_line(leg, leg[-1].end, ref, link)) for leg in sides)
+            self.moves.append(VectorChain(ref, (one, two), link))
             self.settle()
             return True
         if flat is None:
@@ -261,6 +249,14 @@ class _Search:
         self.known.add(bar.unknown)
         self.settle()
         return True
+
+    def on_line(self, leg: Path, joint: PointRef, ref: PointRef, link: str) -> Path:
+        """From the joint of a leg to the special point, written as the leg's own direction, for the two lie along one
+        line; nothing where it is the joint itself."""
+        if abs(self.net.places[joint.point] - self.net.places[ref.point]) <= self.net.tiny:
+            return ()
+        free = next(e for e in leg if e.unknown)
+        return (Edge(joint, ref, (joint, ref), free.direction, link=link, unknown=self.net.turning(link)),)
 
     def line(self, leg: Path) -> tuple[complex, complex]:
         """The line of a leg: through its joint on the link, square to the direction in which it leaves that free."""
@@ -298,7 +294,11 @@ class _Search:
         _, links, sides, at = best
         letter = next(self.letters)
         self.net.tie(links, letter, at)
-        self.moves.append(Special(links[1], letter, sides, links[0]))
+        base, ref = (PointRef(letter, name) for name in links)
+        # what both links turn by lies along the line that the leg leaves free: its size is not asked
+        paths = tuple((*(e.reversed() for e in self.on_line(leg, leg[0].start, base, links[0])), *leg,
+                       *self.on_line(leg, leg[-1].end, ref, links[1])) for leg in sides)  # fmt: skip
+        self.moves.append(VectorChain(ref, paths, links[1], links[0]))
         self.settle()
         return True
 
@@ -360,7 +360,7 @@ class _Search:
     @property
     def points(self) -> list[tuple[str, str]]:
         """The special points that are used, by base ("": none) and link."""
-        return [(m.base, m.link) for m in self.moves if isinstance(m, Special)]
+        return [(m.base, m.link) for m in self.moves if m.is_special]
 
     def done(self) -> bool:
         return all(self.turns(link) and self.nodes.intersection(self.of(link)) for link in self.net.inside)

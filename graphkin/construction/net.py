@@ -92,11 +92,20 @@ class VectorChain:
     Of two ``sides`` each has one unknown size, and they cross there.  One side has one unknown size, what is left of a
     way to a node that stands already, or none; or it leads from one to the other of two parallel legs of a ``link``,
     whose special point lies at infinity, and gives its rate.
+
+    Two sides of a ``link`` lead to its special point ``end``, by the legs that give it: from known nodes; or from the
+    same point of another moving link, ``base``, as which the link moves there.
     """
 
     end: PointRef
     sides: tuple[Path, ...]
     link: str = ""
+    base: str = ""
+
+    @property
+    def is_special(self) -> bool:
+        """Whether it is that of a special point."""
+        return bool(self.link) and len(self.sides) == 2
 
     @classmethod
     def closing(cls, *path: Edge, link: str = "") -> VectorChain:
