@@ -111,8 +111,13 @@ class _Search:
 
     # -- ways ----------------------------------------------------------------------------------------------------------
 
-    def ways(self, start: PointRef, most: int, stop: Callable[[PointRef], bool]) -> Iterator[Path]:
-        """Ways from a known point through unknown ones to where they stop, with so many unknowns at most."""
+    def ways(
+        self, start: PointRef, most: int, stop: Callable[[PointRef], bool], shortest: int = 1
+    ) -> Iterator[Path]:
+        """Ways from a known point through unknown ones to where they stop, with so many unknowns at most.
+
+        A way may come back to where it began, with more than the ``shortest`` number of edges besides the last.
+        """
         stack: list[Path] = [(e,) for e in self.net.edges[start]]
         while stack:
             path = stack.pop()
@@ -125,9 +130,9 @@ class _Search:
                 continue
             if at in self.nodes or len(path) >= LONGEST:
                 continue
-            visited = {start, *(e.end for e in path)}
-            stack += [(*path, e) for e in self.net.edges[at] if e.end not in visited or (
-                e.end == start and len(path) > 1)]
+            visited = {e.end for e in path}
+            stack += [(*path, e) for e in self.net.edges[at] if e.end not in visited and (
+                e.end != start or len(path) > shortest)]
 
     def strange(self, path: Path) -> int:
         """How many points of a way are no joints."""
@@ -383,7 +388,8 @@ def equation_of(net: Net, drawn: Collection[PointRef]) -> VectorChain | None:
     drawn : nodes that stand in the polygon already (preferred as starting points)
     """
     search = _Search(net, lambda *_: 1j, iter(()), {n for n in net.nodes if net.known(n)}, set(), [])
-    paths = [path for start in search.in_order() for path in search.ways(start, 2, search.nodes.__contains__)
+    # it may come back to where it begins: a pin that both guides belong to
+    paths = [path for start in search.in_order() for path in search.ways(start, 2, search.nodes.__contains__, 0)
              if sum(bool(e.unknown) for e in path) == 2]  # fmt: skip
 
     def cost(path: Path) -> tuple[float, bool, int]:

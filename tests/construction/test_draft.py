@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import cmath
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
+import graphkin
 from graphkin.construction import Scales, cad, draft, pencil
 from graphkin.construction.steps import CompassArc, Ray
 from graphkin.errors import Unsolvable
@@ -262,3 +264,20 @@ def test_a_found_arm_that_a_drafting_program_reads_as_nothing_is_refused_by_name
     }
     with pytest.raises(Unsolvable, match="too short to be read"):
         draft(mechanism_of(mapping), instrument=cad())
+
+
+ON_ONE_PIN: dict[str, Any] = {  # crank and link 3 turn about A: the equation of group 2, 3 leads from A to A
+    "frame": {"points": {"A": [0, 0]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 60, "guides": {"g": {"through": [-30, 36], "angle": -22}}},
+        "2": {"on": "1.g", "angle_on": 35, "guides": {"h": {"through": [-5, -42], "angle": 55}}},
+        "3": {"points": ["A"], "on": "2.h"},
+    },
+    "driver": {"link": "1", "angle": 40, "omega": 10},
+}
+
+
+def test_an_equation_may_come_back_to_the_pin_at_which_it_begins() -> None:
+    result = graphkin.check(ON_ONE_PIN)
+    assert result.ok
+    assert {"ar_A@2/A@1", "ar_A@2/A@3"} <= {str(term.symbol) for e in result.sheet.equations for side in e.sides for term in side}
