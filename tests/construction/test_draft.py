@@ -280,4 +280,5 @@ ON_ONE_PIN: dict[str, Any] = {  # crank and link 3 turn about A: the equation of
 def test_an_equation_may_come_back_to_the_pin_at_which_it_begins() -> None:
     result = graphkin.check(ON_ONE_PIN)
     assert result.ok
-    assert {"ar_A@2/A@1", "ar_A@2/A@3"} <= {str(term.symbol) for e in result.sheet.equations for side in e.sides for term in side}
+    terms = [term for equation in result.sheet.equations for side in equation.sides for term in side]
+    assert {"ar_A@2/A@1", "ar_A@2/A@3"} <= {str(term.symbol) for term in terms}
