@@ -66,14 +66,16 @@ def velocity_sentences(centres: Centres, moving: Mapping[str, Turning]) -> tuple
     point; distances are those of the figure (mm).
     """
     rates: dict[str, _Rate] = {}
+    told: dict[str, Phrase] = {}
     largest = max((abs(t.omega) for t in moving.values()), default=0.0)
     for turning in sorted(moving.values(), key=lambda one: len(one.chain)):
         off = error_by_centres(centres, moving, Symbol("omega", link=turning.link))
-        if abs(turning.omega) <= max(STILL * largest, min(off, SURE * largest)):
-            rates[turning.link] = _Rate("0")  # nothing but rounding
+        nothing = abs(turning.omega) <= max(STILL * largest, min(off, SURE * largest))  # but rounding
+        if len(turning.chain) > 1:
+            rates[turning.link], told[turning.link] = _of_link(centres, rates, turning, nothing)
         else:
-            rates[turning.link] = _rate(centres, rates, turning)
-    links = [_of_link(centres, rates, t) for t in moving.values() if len(t.chain) > 1]
+            rates[turning.link] = _Rate("0" if nothing else amount(turning.omega))
+    links = [told[name] for name in moving if name in told]
     speeds = {s: abs(by_centres(centres, moving, s) or 0.0) for s in points_asked(centres)}
     least = STILL * max(speeds.values(), default=0.0)
     points = [_of_point(centres, moving, rates, s) for s, speed in speeds.items() if speed > least]
@@ -109,42 +111,33 @@ def _three(centres: Centres, turning: Turning) -> tuple[Centre, Centre, Centre]:
     return centres.of(name, frame), centres.of(known, frame), centres.of(name, known)
 
 
-def _rate(centres: Centres, rates: Mapping[str, _Rate], turning: Turning) -> _Rate:
-    """The rate of a link, worked out from the rate before it and the distances as they are written."""
-    if len(turning.chain) < 2:
-        return _Rate(amount(turning.omega))
-    known = rates[turning.chain[-2]]
+def _of_link(
+    centres: Centres, rates: Mapping[str, _Rate], turning: Turning, nothing: bool
+) -> tuple[_Rate, Phrase]:
+    """The rate of a link, worked out from the rate before it and the distances as they are written (0 where it is
+    ``nothing`` but rounding), and the sentence that says so."""
     own, its, common = _three(centres, turning)
-    if own.point is None:  # it only translates
-        return _Rate(amount(turning.omega))
-    if common.point is None:  # it turns as the other does
-        return known
-    near = _apart(common.point, own.point)
-    if near == "0":
-        return _Rate(amount(turning.omega, MOST))
-    if its.point is None:
-        over, carried = amount(abs(turning.omega) * abs(common.point - own.point)), written.figures(near)
-    else:
-        far = _apart(common.point, its.point)
-        over, carried = written.product(known.size, far), min(known.carried, written.figures(far, near))
-    value = written.quotient(over, near, min(carried, MOST))
-    return _Rate("-" * (turning.omega < 0.0 and value != "0") + value, min(carried, MOST))
-
-
-def _of_link(centres: Centres, rates: Mapping[str, _Rate], turning: Turning) -> Phrase:
-    own, its, common = _three(centres, turning)
+    known, sign = rates[turning.chain[-2]], "-" * (turning.omega < 0.0)
     args = turning.link, turning.chain[-2], common.pair, its.pair, own.pair
-    rate = rates[turning.link]
-    if own.point is None:
-        return Phrase("centre slides", args)
-    if common.point is None:
-        return Phrase("centre turns alike", args)
-    near = _apart(own.point, common.point)
-    if its.point is None:
-        return Phrase("centre from slider", (*args, near, rate.size))
+    if own.point is None:  # it only translates
+        return _Rate("0" if nothing else amount(turning.omega)), Phrase("centre slides", args)
+    if common.point is None:  # it turns as the other does
+        return _Rate("0") if nothing else known, Phrase("centre turns alike", args)
+    near, far = _apart(own.point, common.point), None if its.point is None else _apart(common.point, its.point)
+    if nothing or near == "0":
+        rate = _Rate("0" if nothing else amount(turning.omega, MOST))
+    else:
+        over = amount(abs(turning.omega) * abs(common.point - own.point))
+        carried = written.figures(near)
+        if far is not None:
+            over, carried = written.product(known.size, far), min(known.carried, written.figures(far, near))
+        value = written.quotient(over, near, min(carried, MOST))
+        rate = _Rate(sign * (value != "0") + value, min(carried, MOST))
+    if far is None or its.point is None:
+        return rate, Phrase("centre from slider", (*args, near, rate.size))
     same = dot(its.point - common.point, own.point - common.point) >= 0.0
     key = "centre same sense" if same else "centre opposite sense"
-    return Phrase(key, (*args, _apart(common.point, its.point), near, true_minus(rate.written)))
+    return rate, Phrase(key, (*args, far, near, true_minus(rate.written)))
 
 
 def _of_point(

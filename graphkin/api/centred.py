@@ -42,6 +42,7 @@ from graphkin.construction.centres import Centre, Centres, LinkPair, find_centre
 from graphkin.construction.scales import Room
 from graphkin.errors import CallError, as_text, did_you_mean
 from graphkin.files import Json
+from graphkin.scene.drivers import moves_by_law
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.structure import Structure
@@ -92,6 +93,11 @@ def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str,
 
 MOST_PLAYED = 6  # links all of whose centres are played
 NO_MOTION = 1e-9
+NO_TURNING = 1e-9
+"""Of the fastest link: what turns slower against another has its centre at infinity."""
+FRAMES = 120
+ENDS = 1e-3
+"""Of a range that ends: so far inside it the motion turns back."""
 ROOM = Room(mechanism=(90.0, 75.0))  # mm: the mechanism is drawn small, so that its centres find room around it
 TOLERANCE = 1e-9
 FAIR = 1e-3  # of the largest: a value that may be off by more is not determined by the centres
@@ -268,7 +274,6 @@ class Centred(OfScene, Result):
         """The centres over the whole motion with their paths: an SVG that plays.  Of many links only the centres
         against the frame."""
         from graphkin.drawing.figures.centres_in_motion import centres_in_motion
-        from graphkin.study.centre_paths import centre_paths
 
         frame, whole = self.mechanism.frame.name, self.mechanism.whole
         few = len(self.centres.names) <= MOST_PLAYED
@@ -276,10 +281,12 @@ class Centred(OfScene, Result):
         standing = {slot.bar for slot in self.mechanism.slots if slot.bar not in whole.by_name}
         pairs = [p for p in self.centres.table if (few or frame in p) and not standing.intersection(p)]
         own = {d.key: float(v) for d, v in zip(self.mechanism.drivers, self.motion.values[0], strict=True)}
-        found, mm = centre_paths(self.mechanism, own, pairs), self.centres.mm
-        origins, points = ({name: z * mm for name, z in some.items()} for some in (found.origins, found.points))
-        paths = {pair: z * mm for pair, z in found.centres.items()}
-        return centres_in_motion(self.centres, origins, found.turned, points, paths, language=self.language,
+        (motion, turned), mm = played(self.mechanism, own), self.centres.mm
+        moving = [p for p in motion.scene.holders if p not in motion.scene.frame.points]
+        origins = {name: np.asarray(motion.poses[name].z * mm, np.complex128) for name in turned}
+        points = {p: np.asarray(motion.position(p) * mm, np.complex128) for p in moving}
+        paths = {pair: _path(motion, pair) * mm for pair in pairs}
+        return centres_in_motion(self.centres, origins, turned, points, paths, language=self.language,
                                  convention=self.convention)  # fmt: skip
 
     def __getitem__(self, name: str) -> PlacedCentre | SpeedByCentres:
@@ -350,6 +357,51 @@ def found_centres(of: Mechanism | Structure, values: Mapping[str, float] | None)
     """All centres at driver values in SI, on a drawing of a scale of its own that leaves room around the mechanism."""
     centres = find_centres(of, values)
     return centres.at(centres.sheet.scales_for(ROOM))
+
+
+def steady(scene: Mechanism) -> Mechanism:
+    """The scene with rates for drivers that stand still or move by a law: centres are there at rest too."""
+    if any(d.values[1] for d in scene.drivers) and not moves_by_law(scene):
+        return scene
+    return replace(scene, drivers=tuple(d.at_rate(1.0) for d in scene.drivers))
+
+
+def played(
+    scene: Mechanism, values: Mapping[str, float], frames: int = FRAMES
+) -> tuple[Motion, dict[str, NDArray[np.float64]]]:
+    """The motion over the whole way of the first driver, from these values (rad, m) on: round, or there and back,
+    slower towards its ends, so that the last frame is the first again; and how far each link has turned since then
+    (rad).
+
+    Raises
+    ------
+    Unsolvable : wrong mobility, the start cannot be assembled or reached
+    """
+    from graphkin.solver import driver_range, structure_of
+
+    reach = driver_range(structure_of(steady(scene)), values)
+    low, high = reach.ends
+    offsets = np.linspace(0.0, high, frames + 1)
+    if not reach.full:
+        low, high = low + ENDS * (high - low), high - ENDS * (high - low)
+        begin = np.arccos(np.clip(1.0 + 2.0 * low / (high - low), -1.0, 1.0))
+        offsets = low + (high - low) * (1 - np.cos(begin + np.linspace(0.0, 2 * np.pi, frames + 1))) / 2
+    motion = reach.motion(offsets, fine=False)
+    names = [link.name for link in motion.scene.links]
+    if not motion.ok[0]:
+        return motion, {name: motion.angle(name) for name in names}
+    return motion, {name: reach.angle(motion, name) - reach.angle(motion, name)[0] for name in names}
+
+
+def _path(motion: Motion, pair: LinkPair) -> NDArray[np.complex128]:
+    """The places of a centre over a motion (m), NaN where it is at infinity or none."""
+    from graphkin.solver.quantities import pole
+
+    q, omega = pole(*(motion.poses[link] for link in pair))
+    fastest = np.max([np.abs(p.omega) for p in motion.poses.values()], axis=0)
+    turns = motion.ok & (np.abs(omega) > NO_TURNING * fastest)
+    with np.errstate(all="ignore"):
+        return np.asarray(np.where(turns, q / omega, complex(np.nan, np.nan)))
 
 
 def _name(pair: LinkPair) -> str:
@@ -551,7 +603,6 @@ def centrodes(
     """
     from graphkin.solver import solve
     from graphkin.solver.motion import centrode
-    from graphkin.study.centre_paths import steady
 
     known_words(formats, language, convention, known_languages=ON_SHEETS)
     given = as_scene(scene)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -16,7 +16,7 @@ from graphkin.construction import EXACT, Instrument, cad, pencil
 from graphkin.construction.synthesis import DesignSheet, construct
 from graphkin.errors import Unsolvable
 from graphkin.files import Json
-from graphkin.plane import degrees, direction
+from graphkin.plane import degrees, direction, unit
 from graphkin.scene.designs import (
     BarPositionsTask,
     CrankRockerTask,
@@ -93,7 +93,7 @@ class Designed(Result):
         """What was asked beside what the scene does."""
         return tuple(self._confirmed())
 
-    def _confirmed(self) -> list[Confirmed]:
+    def _confirmed(self) -> Sequence[Confirmed]:
         from graphkin.drawing.figures.constructions import Confirmed
 
         task, metres = self.given.task, self.given.units.metres
@@ -102,55 +102,47 @@ class Designed(Result):
             unit = {"design stroke value": self.given.units.length, "design K value": ""}.get(key, "deg")
             return Confirmed(Phrase(key, args), asked, found, abs(found - asked) <= CONFIRMS * size, unit)
 
-        made: list[Confirmed] = []
-        if isinstance(task, SliderCrankTask | GuideBarTask | CrankRockerTask | LimitsTask):
-            name = "5/0" if isinstance(task, GuideBarTask) else "3/0" if isinstance(task, SliderCrankTask) else "3"
-            output = next(o for o in self.turn.outputs if o.quantity.of == name)
-            back = self.turn.quick_return(output)
-            assert output.stroke is not None
-            if isinstance(task, LimitsTask):
-                assert output.low is not None
-                assert output.high is not None
-                ends = [math.degrees(end.value) for end in (output.low, output.high)]
-                # which limit is which: by the turns that bring them together
-                for asked in task.angles:
-                    near = min(ends, key=lambda end: abs(math.remainder(end - asked, 360.0)))
-                    made.append(row("design limit value", asked, asked + math.remainder(near - asked, 360.0), 360.0,
-                                    f"{asked:.6g}°"))  # fmt: skip
-            elif isinstance(task, CrankRockerTask):
-                made.append(row("design swing value", task.swing, math.degrees(output.stroke), 360.0))
-            else:
-                made.append(row("design stroke value", task.stroke, output.stroke / metres, task.stroke))
-            if not isinstance(task, LimitsTask):
-                made.append(row("design K value", task.K, back[0] if back else math.nan, task.K))
-        elif isinstance(task, FunctionTask):
-            for crank, rocker in task.pairs:
-                turned = 180.0 * ("AB" in self.found.turned)
-                values = self._solved(crank + turned)
-                own = values and values["D", "C"] * direction(180.0 * ("CD" in self.found.turned))
-                gap = math.remainder(degrees(own) - rocker, 360.0) if own else math.nan
-                made.append(row("design pair value", rocker, rocker + gap, 360.0, f"{crank:.6g}"))
+        if isinstance(task, BarPositionsTask | FunctionTask):
+            return [row(key, asked, asked + (math.nan if own is None else math.remainder(degrees(own) - asked, 360.0)),
+                        360.0, name) for key, name, asked, own in self._directions(task)]  # fmt: skip
+        name = {GuideBarTask: "5/0", SliderCrankTask: "3/0"}.get(type(task), "3")
+        output = next(o for o in self.turn.outputs if o.quantity.of == name)
+        assert output.stroke is not None
+        if isinstance(task, LimitsTask):
+            # which limit is which: by the turns that bring them together
+            ends = [math.degrees(end.value) for end in (output.low, output.high) if end is not None]
+            gaps = [min((math.remainder(end - asked, 360.0) for end in ends), key=abs) for asked in task.angles]
+            return [row("design limit value", asked, asked + gap, 360.0, f"{asked:.6g}°")
+                    for asked, gap in zip(task.angles, gaps, strict=True)]  # fmt: skip
+        back = self.turn.quick_return(output)
+        if isinstance(task, CrankRockerTask):
+            first = row("design swing value", task.swing, math.degrees(output.stroke), 360.0)
         else:
-            for i, bar in enumerate(task.positions, 1):
-                first, second = ("M", "N") if "M" in self.found.places else ("B", "C")
-                place = bar.B if first == "B" else task.positions[0].moved(self.found.places["M"], bar)
-                values = self._solved(degrees(place - self.found.places["A"]))
-                angle = degrees(bar.C - bar.B)
-                own = values and values[first, second] * (self._bar_turn if first == "M" else 1.0)
-                gap = math.remainder(degrees(own) - angle, 360.0) if own else math.nan
-                made.append(row("design position value", angle, angle + gap, 360.0, str(i)))
-        return made
+            first = row("design stroke value", task.stroke, output.stroke / metres, task.stroke)
+        return [first, row("design K value", task.K, back[0] if back else math.nan, task.K)]
 
-    @property
-    def _bar_turn(self) -> complex:
-        """The turn from MN to the bar BC."""
-        places = self.found.places
-        turn = (places["C"] - places["B"]) / (places["N"] - places["M"])
-        return turn / abs(turn)
+    def _directions(
+        self, task: BarPositionsTask | FunctionTask
+    ) -> Iterator[tuple[str, str, float, complex | None]]:
+        """The directions asked of the rocker or of the bar: by which words, their name, asked (degrees), and as the
+        motion of the scene has them (None where it does not lead there)."""
+        places, turned = self.found.places, self.found.turned
+        if isinstance(task, FunctionTask):
+            for crank, rocker in task.pairs:
+                own = self._solved(crank + 180.0 * ("AB" in turned), "D", "C")
+                yield "design pair value", f"{crank:.6g}", rocker, own and own * direction(180.0 * ("CD" in turned))
+            return
+        first, second = ("M", "N") if "M" in places else ("B", "C")
+        # the turn from MN to the bar BC
+        turn = unit((places["C"] - places["B"]) / (places["N"] - places["M"])) if first == "M" else 1.0
+        for i, bar in enumerate(task.positions, 1):
+            place = bar.B if first == "B" else task.positions[0].moved(places["M"], bar)
+            own = self._solved(degrees(place - places["A"]), first, second)
+            yield "design position value", str(i), degrees(bar.C - bar.B), own and own * turn
 
-    def _solved(self, crank: float) -> dict[tuple[str, str], complex] | None:
-        """Vectors between points with the crank at an angle (degrees), by the motion that leads there; None where it
-        does not."""
+    def _solved(self, crank: float, first: str, second: str) -> complex | None:
+        """The way from a point to another with the crank at an angle (degrees), by the motion that leads there; None
+        where it does not."""
         import numpy as np
 
         from graphkin.api.solved import solve
@@ -159,11 +151,8 @@ class Designed(Result):
             motion = solve(self.scene, at=crank).motion
         except Unsolvable:
             return None
-        if not motion.ok[0]:
-            return None
-        names = ("M", "N") if "M" in self.found.places else ("B", "C")
-        place = {name: complex(np.broadcast_to(motion.point(name).z, 1)[0]) for name in (*names, "D")}
-        return {(a, b): place[b] - place[a] for a in place for b in place if a != b}
+        one, other = (complex(np.broadcast_to(motion.point(name).z, 1)[0]) for name in (first, second))
+        return other - one if motion.ok[0] else None
 
     @property
     def _language(self) -> str:
