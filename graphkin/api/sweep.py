@@ -7,7 +7,7 @@ import os
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -75,7 +75,7 @@ class Swept(OfScene, Result):
     over: Sweep
     found: Found
     language: str
-    elsewhere: tuple[tuple[Symbol, float, float, bool], ...] = ()
+    measured: Mapping[Quantity, Sequence[tuple[float, float]]] = field(default_factory=dict)
     on_paper: tuple[tuple[Way, str], ...] = ()
 
     @property
@@ -179,7 +179,6 @@ class Swept(OfScene, Result):
     def figures(self) -> Mapping[str, ChartPage | Drawing]:
         """Motion diagrams of the outputs and coupler curves by name; none over designs."""
         from graphkin.study.diagrams import diagrams
-        from graphkin.study.quantities import Quantity
 
         if self.time is not None:
             return self.time.diagrams(self.language)
@@ -187,10 +186,8 @@ class Swept(OfScene, Result):
             return {}
         # what is asked alone is drawn alone; without that the outputs and the coupler curves
         asked = self._wished
-        over: dict[Quantity, list[tuple[float, float]]] = {}
-        for symbol, place, value, along in self.elsewhere:
-            offset = float(self.turn.reach.offsets(np.array([place]))[0])
-            over.setdefault(Quantity(symbol, along), []).append((offset, value))
+        offsets = self.turn.reach.offsets
+        over = {q: [(float(offsets(np.array(at))), x) for at, x in own] for q, own in self.measured.items()}
         if over:
             signed = {replace(quantity, along=False): quantity for quantity in over}
             asked = list(dict.fromkeys((*(signed.get(q, q) for q in asked), *over)))
@@ -373,9 +370,9 @@ def sweep(
             known_ordinate(given, name, way)
         if made.keys:
             raise CallError.of("differentiate, integrate", "do not go with designs", "give one design")
-    elsewhere = () if measured is None else _elsewhere(given, measured)
+    elsewhere = {} if measured is None else _elsewhere(given, measured)
     if find is None and elsewhere:
-        find = list(dict.fromkeys(symbol for symbol, *_ in elsewhere))
+        find = [quantity.symbol for quantity in elsewhere]
     over = Sweep(source, name or given.name, made, positions, _asked(given, find), tuple(sorted(start.items())))
     spoken = language or given.question.sheet.language
     if out is None:
@@ -410,11 +407,12 @@ def _over_time_alone(**wishes: object) -> None:
         raise CallError(*(Problem(name, found, Phrase("leave it out or give omega instead of")) for name in given))
 
 
-def _elsewhere(scene: Mechanism, measured: AnswersLike) -> tuple[tuple[Symbol, float, float, bool], ...]:
-    """Values measured elsewhere: symbol, value of the first driver (rad, m), value (SI; of a vector its size, or its
-    place along the guide on which it lies, where a sign stands in the column), and whether it is along that."""
+def _elsewhere(scene: Mechanism, measured: AnswersLike) -> dict[Quantity, list[tuple[float, float]]]:
+    """Values measured elsewhere, each with that of the first driver (rad, m): SI, of a vector its size, or its place
+    along the guide on which it lies, where a sign stands in the column."""
     from graphkin.api.answers import as_answers
     from graphkin.solver import senses_along, solve
+    from graphkin.study.quantities import Quantity
 
     rows, _ = as_answers(scene, measured)
     if any(row.at is None for row in rows):
@@ -423,13 +421,13 @@ def _elsewhere(scene: Mechanism, measured: AnswersLike) -> tuple[tuple[Symbol, f
     signed = {one.symbol for row in rows for one in row.values if one.shows_sign}
     signed -= {one.symbol for row in rows for one in row.values if isinstance(one.value, complex)}
     along = {s for s in signed if s.is_vector and senses_along(solve(scene), s) is not None}
-    sizes = {one.symbol for row in rows for one in row.values if one.symbol.is_vector} - along
-    return tuple(
-        (one.symbol, place, abs(one.value) if one.symbol in sizes else float(one.value.real), one.symbol in along)
-        for row, place in zip(rows, places, strict=True)
-        for one in row.values
-        if one.symbol.scope != "turn" and not one.symbol.at
-    )
+    found: dict[Quantity, list[tuple[float, float]]] = {}
+    for row, place in zip(rows, places, strict=True):
+        for one in (one for one in row.values if one.symbol.scope != "turn" and not one.symbol.at):
+            quantity = Quantity(one.symbol, one.symbol in along)
+            value = abs(one.value) if quantity.is_size else float(one.value.real)
+            found.setdefault(quantity, []).append((place, value))
+    return found
 
 
 def _asked(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Quantity, ...]:

@@ -13,7 +13,7 @@ import csv
 import io
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
@@ -234,24 +234,20 @@ SAME = 1e-12
 """Numbers of two readings that differ by less, beside the largest of them, are the same."""
 
 
-@dataclass(frozen=True)
-class _Law:
-    """A number of the mechanism by the value of a key: it moves from where it is at ``begin`` as far as it was seen to
-    move over one ``step``, times how far the value is on its way, or its direction (deg) is turned."""
+_Law = Callable[[Reals], Complexes]
+"""A number of the mechanism by the values of a key."""
 
-    first: complex
-    change: complex
-    begin: float
-    step: float
-    turning: bool
 
-    def __call__(self, values: Reals) -> Complexes:
-        def along(value: ArrayLike) -> Complexes:
-            own = np.asarray(value, dtype=float)
-            return turned(np.radians(own)) if self.turning else own.astype(complex)
+def _law(first: complex, change: complex, begin: float, step: float, turning: bool) -> _Law:
+    """The number moves from where it is at ``begin`` as far as it was seen to move over one ``step``, times how far the
+    value is on its way, or its direction (deg) is turned."""
 
-        start, end = along(self.begin), along(self.begin + self.step)
-        return np.asarray(self.first + self.change * ((along(values) - start) / (end - start)))
+    def along(value: ArrayLike) -> Complexes:
+        own = np.asarray(value, dtype=float)
+        return turned(np.radians(own)) if turning else own.astype(complex)
+
+    start, end = along(begin), along(begin + step)
+    return lambda values: np.asarray(first + change * ((along(values) - start) / (end - start)))
 
 
 @dataclass(frozen=True)
@@ -351,9 +347,9 @@ def _laws(
         if abs(b - a) <= size and abs(c - b) <= size:
             continue
         if abs((c - b) - (b - a)) <= size:
-            laws[name] = _Law(a, b - a, begin, step, turning=False)
+            laws[name] = _law(a, b - a, begin, step, turning=False)
         elif abs((c - b) - w * (b - a)) <= size:
-            laws[name] = _Law(a, b - a, begin, step, turning=True)
+            laws[name] = _law(a, b - a, begin, step, turning=True)
         else:
             raise CallError.of(f"designs {key}", "changes neither as a line nor as a",
                                "sweep over it graphkin.sweep designs", name=name[1])

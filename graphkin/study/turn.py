@@ -39,16 +39,25 @@ class Output:
 
     position : its angle or travel over the turn; the extremes are the limit positions, in which the mechanism is at a
         dead point when the output drives it
-    swings : False for a link that turns on and on
-    low, high : the limit positions between which it moves the whole stroke; None for a link that turns on and on
     turned : how far it turns over the range of the driver (rad; 0 for a slide, and for a link that comes back)
     """
 
     position: Traced
-    swings: bool
-    low: Extreme | None
-    high: Extreme | None
     turned: float = 0.0
+
+    @property
+    def swings(self) -> bool:
+        """Whether it moves between limit positions: not of a link that stands still, or turns on and on."""
+        return self.position.constant is None and not self.turned
+
+    @property
+    def low(self) -> Extreme | None:
+        """The limit position from which it moves the whole stroke to ``high``; None where it does not swing."""
+        return self.position.least if self.swings else None
+
+    @property
+    def high(self) -> Extreme | None:
+        return self.position.greatest if self.swings else None
 
     @property
     def quantity(self) -> Quantity:
@@ -408,13 +417,10 @@ def output_slides(motion: Motion) -> tuple[str, ...]:
 
 
 def _output(reach: DriverRange, position: Traced) -> Output:
-    if position.constant is not None:
-        return Output(position, False, None, None)
-    if position.quantity.kind == "theta" and reach.full:
+    if position.constant is None and position.quantity.is_angle and reach.full:
         turned = float(np.diff(position.quantity.values(reach, reach.at_ends))[0])
-        if abs(turned) > 1.0:
-            return Output(position, False, None, None, turned)
-    return Output(position, True, position.least, position.greatest)
+        return Output(position, turned if abs(turned) > 1.0 else 0.0)
+    return Output(position)
 
 
 Array = NDArray[np.float64]
