@@ -25,7 +25,7 @@ from graphkin.plane import cross, dot
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.laws import SEAM, TURN, FollowerLaw, Lift, LiftPiece
 from graphkin.scene.tables import Units
-from graphkin.search import intervals, last_true
+from graphkin.search import intervals, last_true, resolve
 from graphkin.solver.pose import Array, turned
 from graphkin.structure import Structure
 from graphkin.words import Phrase, Wording
@@ -343,16 +343,10 @@ def _extremes(cam: LawCam, part: LiftPiece, of: str, rate: str) -> Iterator[AtDe
         found = getattr(cam_with(cam, degree, part.at(degree, np)), field)
         return np.asarray(np.broadcast_to(found, degree.shape))
 
-    def same_sign(rising: bool, degree: Array) -> Array:
-        rates = np.nan_to_num(at(rate, degree))
-        return np.asarray(rates > 0.0 if rising else rates < 0.0)
+    def changing(degree: Array) -> tuple[Array, Array]:
+        return at(rate, degree)[:, None], np.zeros((len(degree), 1))
 
-    nodes = np.linspace(part.start, part.end, NODES)
-    rates = np.nan_to_num(at(rate, nodes))
-    spots = [part.start, part.end]
-    for k in np.flatnonzero(rates[:-1] * rates[1:] < 0.0):
-        spots.append(last_true(partial(same_sign, bool(rates[k] > 0.0)), float(nodes[k]), float(nodes[k + 1])))
-    spots += nodes[rates == 0.0].tolist()
+    spots = [part.start, part.end, *resolve(changing, part.start, part.end).zeros(0).tolist()]
     values = at(of, np.array(spots))
     yield from (AtDegree(float(v), d) for v, d in zip(values, spots, strict=True) if not math.isnan(v))
 

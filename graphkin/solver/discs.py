@@ -4,7 +4,6 @@ a disc that turns about a point beside its centre, measured as a cam: base circl
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,15 +11,13 @@ import numpy as np
 from graphkin.plane import cross
 from graphkin.scene.model import Mechanism, PlacedContact
 from graphkin.scene.symbol import Symbol
-from graphkin.search import least_value
+from graphkin.search import resolve
 from graphkin.solver.driver_range import DriverRange, range_of
 from graphkin.solver.motion import _between, contact_motion
 from graphkin.solver.pose import Array
 from graphkin.structure import Structure
 
 __all__ = ["DiscCam", "DiscCourse", "disc_cams", "disc_course"]
-
-SAMPLES = 720
 
 
 @dataclass(frozen=True)
@@ -153,19 +150,13 @@ def _pressures(reach: DriverRange, contact: PlacedContact, follower: str, offset
 
 def _greatest(reach: DriverRange, contact: PlacedContact, follower: str) -> tuple[float, float]:
     """The greatest pressure angle of a turn, and the driver's angle there."""
-    grid = np.linspace(0.0, math.tau, SAMPLES, endpoint=False) + 1e-3
-    values = np.nan_to_num(_pressures(reach, contact, follower, grid), nan=-1.0)
 
-    def lack(angle: Array) -> Array:
-        return np.asarray(1.0 - np.nan_to_num(_pressures(reach, contact, follower, angle % math.tau), nan=-1.0))
+    def folded(offset: Array) -> tuple[Array, Array]:
+        angle = _pressures(reach, contact, follower, offset)
+        return -np.cos(2 * angle)[:, None], np.zeros((len(offset), 1))  # smooth where the angle is 0, too
 
-    step = math.tau / SAMPLES
-    at, most = min((least_value(lack, grid[k] - step, grid[k] + step) for k in _tops(values)), key=lambda low: low[1])
-    return 1.0 - most, float(reach.value(np.array(at % math.tau)))
-
-
-def _tops(values: Array) -> Iterator[int]:
-    """Where a course over a turn is highest, neighbours compared; nearly highest too."""
-    most = float(values.max())
-    around = np.maximum(np.roll(values, 1), np.roll(values, -1))
-    yield from np.flatnonzero((values >= around) & (values > most - 0.01)).tolist()[:8]
+    turns = resolve(folded, 0.0, math.tau, periodic=True, floor=1.0).turns(0)
+    places = np.array([*(turn.place for turn in turns if turn.sense > 0), 0.0, 1.0])  # two of a constant
+    angles = _pressures(reach, contact, follower, places)
+    k = int(np.nanargmax(angles))
+    return float(angles[k]), float(reach.value(places[k]))
