@@ -17,6 +17,7 @@ import html
 import io
 import json
 import math
+import os
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -31,7 +32,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphkin.errors import CallError, as_text, did_you_mean
-from graphkin.files import Json
+from graphkin.files import Json, opened, path_of
 from graphkin.words import Phrase, from_others
 
 if TYPE_CHECKING:
@@ -40,7 +41,10 @@ if TYPE_CHECKING:
     import pyarrow.csv
     import xarray
 
-__all__ = ["Array", "Column", "Table", "Values", "have", "parquet_of_csv", "table_of_csv", "text_column"]
+__all__ = [
+    "Array", "Column", "Rows", "Table", "Values", "have", "parquet_of_csv", "table_of", "table_of_csv", "text_column",
+    "with_points",
+]  # fmt: skip
 
 BLOCK = 16384
 """Rows that are turned into text at once, so that a table of any length needs little more memory."""
@@ -361,7 +365,7 @@ class Table:
         ------
         CallError : another ending, pyarrow is missing for .parquet, or a place that cannot be written
         """
-        from graphkin.files import path_of, whole_file
+        from graphkin.files import whole_file
 
         target = path_of(path)
         kind = target.suffix.lower()
@@ -544,3 +548,60 @@ def _arrow_types(like: Table) -> pyarrow.csv.ConvertOptions:
     return csv_file.ConvertOptions(
         column_types=types, null_values=[""], true_values=["yes"], false_values=["no"], strings_can_be_null=False
     )
+
+
+# tables as people write them
+
+LARGEST = 10_000_000
+"""Bytes of a table that people write."""
+_MARKS = {b"\xff\xfe": "utf-16", b"\xfe\xff": "utf-16"}
+
+
+@dataclass(frozen=True)
+class Rows:
+    """A table as read: its heads, its rows with the number of their line, and the sign between their cells."""
+
+    heads: tuple[str, ...]
+    rows: tuple[tuple[int, tuple[str, ...]], ...]
+    sign: str = ","
+
+
+def table_of(path: str | os.PathLike[str], largest: int = LARGEST) -> Rows:
+    """A CSV file in UTF-8, or in GB 18030 as Chinese spreadsheets write it; commas, semicolons or tabs part the cells.
+
+    Raises CallError, also for a file of more bytes than the ``largest``.
+    """
+    shown = str(path)[:200]
+    try:
+        with opened(path_of(path)) as stream:
+            data = stream.read(largest + 1)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise CallError.of(shown, "cannot be read", "name a csv file", reason=from_others(reason)) from None
+    if len(data) > largest:
+        raise CallError.of(shown, "is larger than mb", "give fewer rows", largest=largest // 1_000_000)
+    text = ""
+    for encoding in (_MARKS.get(data[:2], "utf-8-sig"), "gb18030"):
+        try:
+            text = data.decode(encoding)
+            break
+        except UnicodeDecodeError:
+            continue
+    first = text.split("\n", 1)[0]
+    sign = max(",;\t", key=first.count)
+    try:
+        reader = csv.reader(io.StringIO(text), delimiter=sign, strict=True)
+        lines = [(reader.line_num, tuple(c.strip() for c in row)) for row in reader if any(c.strip() for c in row)]
+    except csv.Error as error:
+        raise CallError.of(shown, "is no table", "save it as csv", error=error) from None
+    if len(lines) < 2:
+        raise CallError.of(shown, "has no rows", "write a line of heads and a line")
+    return Rows(lines[0][1], tuple(lines[1:]), sign)
+
+
+def with_points(sheet: Rows) -> Rows:
+    """A table with decimal points, where commas do not part its cells."""
+    if sheet.sign == ",":
+        return sheet
+    rows = ((line, tuple(re.sub(r"(?<=\d),(?=\d)", ".", cell) for cell in cells)) for line, cells in sheet.rows)
+    return Rows(sheet.heads, tuple(rows), sheet.sign)

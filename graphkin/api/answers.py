@@ -10,11 +10,11 @@ from typing import Literal
 
 from graphkin.api.arguments import asked_symbols
 from graphkin.errors import CallError, Problem
-from graphkin.papers.data_rows import Rows, table_of
 from graphkin.scene.asked import spelling_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.spelling import Way, is_blank, plain_text, read_cell, read_way, unit_factor
 from graphkin.scene.symbol import KINDS, Printed, Symbol, Unreadable
+from graphkin.table import Rows, table_of
 from graphkin.words import Phrase, Wording
 
 __all__ = ["Answers", "AnswersLike", "Cell", "as_answers"]

@@ -51,7 +51,6 @@ from graphkin.papers.blocks import (
     Together,
     said,
 )
-from graphkin.papers.data_rows import table_of
 from graphkin.papers.documents import given as given_words
 from graphkin.papers.documents import key_rows, paper_title, scene_title, solution_blocks, way
 from graphkin.papers.lesson import Lesson, compared, lesson_of, positions
@@ -63,7 +62,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import safe_name
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.named_positions import named_positions
-from graphkin.table import Table
+from graphkin.table import Table, table_of
 from graphkin.words import Phrase, languages, word
 from graphkin.words.written import in_markup
 

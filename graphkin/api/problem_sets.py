@@ -29,7 +29,7 @@ from graphkin.api.results import OfScene, Result, named
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable
 from graphkin.files import Json, OwnTables, Tables, folder_alone, path_of
 from graphkin.jobs import Progress, Workers
-from graphkin.papers.data_rows import Columns, Rows, columns_of, replaced, table_of, with_points
+from graphkin.papers.data_rows import Columns, columns_of, replaced
 from graphkin.papers.documents import answers_template
 from graphkin.papers.exports import BANKED, bank
 from graphkin.papers.fresh_numbers import Spread, rules_checked, varied_keys
@@ -50,7 +50,7 @@ from graphkin.scene.scene import safe_name, toml_text, written
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import KeyPath, value_at
 from graphkin.study.designs import applied
-from graphkin.table import Table
+from graphkin.table import Rows, Table, table_of, with_points
 from graphkin.words import Phrase, languages
 
 __all__ = ["ProblemSet", "drawn_schemes", "problem_set", "schemes_of"]

@@ -1,6 +1,5 @@
-"""Tables as people write them, read from a CSV file; and tables of data as course exercises give them: a row for each
-group, scheme or student, with the usual names as heads, cells also by formulas of other columns ("0.3 O4B",
-"O4B*(1 + cos(asin(O2A/O2O4)))/2").
+"""Tables of data as course exercises give them: a row for each group, scheme or student, with the usual names as heads,
+cells also by formulas of other columns ("0.3 O4B", "O4B*(1 + cos(asin(O2A/O2O4)))/2").
 
 A head is a key of the scene file with dots (``links.2.length``, ``frame.guides.h.through.y``, ``driver.angle``), two
 points whose distance is given (``O4B``, ``lO4B``, ``l_O2A``), the driver's speed (``n2`` in r/min, ``omega1``), or its
@@ -11,26 +10,19 @@ datum: the first names the row, the rest is left alone.
 from __future__ import annotations
 
 import ast
-import csv
-import io
 import math
 import operator
-import os
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import permutations, product
 
-from graphkin.errors import CallError
-from graphkin.files import Tables, opened, path_of
+from graphkin.files import Tables
 from graphkin.papers.fresh_numbers import drivers_of
-from graphkin.words import Phrase, from_others
+from graphkin.words import Phrase
 
-__all__ = ["Columns", "Rows", "columns_of", "replaced", "table_of", "value_of", "with_points"]
-
-LARGEST = 10_000_000  # bytes of a table
-_MARKS = {b"\xff\xfe": "utf-16", b"\xfe\xff": "utf-16"}
+__all__ = ["Columns", "columns_of", "replaced", "value_of"]
 
 LONGEST = 200
 _OPERATORS: Mapping[type[ast.operator], Callable[[float, float], float]] = {
@@ -54,56 +46,6 @@ _UNIT = re.compile(r"[（(\[].*?[）)\]]|/\s*(?:mm|m|cm|rpm|r/min|deg|rad/s|°)\
 _WORDS = re.compile("[\u3000-\u9fff\uff00-\uffef]+")
 _LETTERS = {"rpm": "n", "omega": "omega ω w", "angle": "phi theta φ θ ϕ"}
 """How tables call the speed, the rate and the angle of a driver."""
-
-
-@dataclass(frozen=True)
-class Rows:
-    """A table as read: its heads, its rows with the number of their line, and the sign between their cells."""
-
-    heads: tuple[str, ...]
-    rows: tuple[tuple[int, tuple[str, ...]], ...]
-    sign: str = ","
-
-
-def table_of(path: str | os.PathLike[str]) -> Rows:
-    """A CSV file in UTF-8, or in GB 18030 as Chinese spreadsheets write it; commas, semicolons or tabs part the cells.
-
-    Raises CallError.
-    """
-    shown = str(path)[:200]
-    try:
-        with opened(path_of(path)) as stream:
-            data = stream.read(LARGEST + 1)
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise CallError.of(shown, "cannot be read", "name a csv file", reason=from_others(reason)) from None
-    if len(data) > LARGEST:
-        raise CallError.of(shown, "is larger than mb", "give fewer rows", largest=LARGEST // 1_000_000)
-    text = ""
-    for encoding in (_MARKS.get(data[:2], "utf-8-sig"), "gb18030"):
-        try:
-            text = data.decode(encoding)
-            break
-        except UnicodeDecodeError:
-            continue
-    first = text.split("\n", 1)[0]
-    sign = max(",;\t", key=first.count)
-    try:
-        reader = csv.reader(io.StringIO(text), delimiter=sign, strict=True)
-        lines = [(reader.line_num, tuple(c.strip() for c in row)) for row in reader if any(c.strip() for c in row)]
-    except csv.Error as error:
-        raise CallError.of(shown, "is no table", "save it as csv", error=error) from None
-    if len(lines) < 2:
-        raise CallError.of(shown, "has no rows", "write a line of heads and a line")
-    return Rows(lines[0][1], tuple(lines[1:]), sign)
-
-
-def with_points(sheet: Rows) -> Rows:
-    """A table with decimal points, where commas do not part its cells."""
-    if sheet.sign == ",":
-        return sheet
-    rows = ((line, tuple(re.sub(r"(?<=\d),(?=\d)", ".", cell) for cell in cells)) for line, cells in sheet.rows)
-    return Rows(sheet.heads, tuple(rows), sheet.sign)
 
 
 # -- a row of data -----------------------------------------------------------------------------------------------------

@@ -9,33 +9,32 @@ they act side by side.  So also points that are placed from others, in any unit,
 from __future__ import annotations
 
 import copy
-import csv
-import io
 import math
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import islice
 from numbers import Real
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphkin.errors import CallError, Problem, SceneError, as_text, unfit
-from graphkin.files import OwnTables, Tables, opened, path_of
+from graphkin.files import OwnTables, Tables, path_of
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Dimension, Mechanism, changed_beside, dimensions
 from graphkin.scene.scene import put
 from graphkin.scene.tables import path_of_key, value_at
 from graphkin.solver.pose import turned
-from graphkin.words import Phrase, from_others
+from graphkin.table import table_of
+from graphkin.words import Phrase
 
 __all__ = ["DesignKeys", "Designs", "Value", "applied", "design_keys", "designs_of", "read_designs"]
 
 Value = float | str
 MOST_DESIGNS = 10_000_000
 MOST_ROWS = 1_000_000
+MOST_BYTES = 200_000_000
 
 
 @dataclass(frozen=True)
@@ -170,26 +169,15 @@ def _finite(value: float) -> float:
 
 def read_designs(path: str | os.PathLike[str]) -> tuple[tuple[str, ...], tuple[tuple[Value, ...], ...]]:
     """Keys and rows of a CSV file of designs.  Raises CallError, naming the row."""
-    shown = path_of(path)
-    try:
-        with opened(shown) as stream:
-            text = io.TextIOWrapper(stream, encoding="utf-8-sig", newline="")
-            lines = list(islice(csv.reader(text), MOST_ROWS + 2))
-    except OSError as error:
-        raise CallError.of(str(shown), "cannot be read", reason=from_others(error.strerror or str(error))) from None
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise CallError.of(str(shown), "is no csv file", error=error) from None
-    lines = [line for line in lines if any(cell.strip() for cell in line)]
-    if len(lines) < 2:
-        raise CallError.of(str(shown), "holds no designs", "the first row names keys links.1.length the others")
-    if len(lines) > MOST_ROWS + 1:
+    shown, table = path_of(path), table_of(path, MOST_BYTES)
+    if len(table.rows) > MOST_ROWS:
         raise CallError.of(str(shown), "holds more than designs", most=MOST_ROWS)
-    keys = tuple(cell.strip() for cell in lines[0])
+    keys = table.heads
     problems = [
         Problem(f"{shown}, row 1", Phrase("stands twice of key", key=k)) for i, k in enumerate(keys) if k in keys[:i]
     ]
     rows: list[tuple[Value, ...]] = []
-    for number, line in enumerate(lines[1:], start=2):
+    for number, line in table.rows:
         if len(line) != len(keys):
             problems.append(Problem(Phrase("row", name=shown, number=number), "has cells the head has", count=len(line),
                                     other=len(keys)))

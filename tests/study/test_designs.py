@@ -10,7 +10,7 @@ import pytest
 
 from graphkin.errors import CallError
 from graphkin.scene import library_text
-from graphkin.study.designs import applied, designs_of
+from graphkin.study.designs import applied, designs_of, read_designs
 
 pytestmark = pytest.mark.quick
 
@@ -92,3 +92,8 @@ def test_the_scene_given_is_not_changed() -> None:
 def test_every_wrong_key_is_named(key: str, said: str) -> None:
     with pytest.raises(CallError, match=said):
         applied(four_bar(), [key], [1.0])
+
+
+def test_designs_are_read_as_spreadsheets_write_them(tmp_path: Path) -> None:
+    (tmp_path / "d.csv").write_bytes("links.1.length;title\n40;四杆\n50;四杆\n".encode("gb18030"))
+    assert (("links.1.length", "title"), ((40.0, "四杆"), (50.0, "四杆"))) == read_designs(tmp_path / "d.csv")
