@@ -15,8 +15,8 @@ from dataclasses import dataclass, field
 from graphkin.errors import Problem, did_you_mean
 from graphkin.plane import cross, cross_arcs, degrees, direction, dot
 from graphkin.scene.bodies import Reading, SlidingPair, references
-from graphkin.scene.model import Driver, PlacedContact, PlacedGuide
-from graphkin.scene.scene_tables import Compass, Guide, Polar
+from graphkin.scene.model import Driver, PlacedContact, PlacedDisc, PlacedGuide, PlacedLink
+from graphkin.scene.scene_tables import Compass, Guide, Link, Polar
 from graphkin.scene.tables import in_si
 from graphkin.words import Phrase
 
@@ -252,6 +252,15 @@ class DrawnPosition:
         """Note the place of a link's origin, if it is news."""
         if body.origin is None:
             body.origin, self.news = origin, True
+
+    def placed(self, name: str, discs: Mapping[tuple[str, str], PlacedDisc], link: Link | None) -> PlacedLink:
+        """A link with everything in its own axes, in the order of the file; the frame where no table is given."""
+        body = self.bodies[name]
+        points = dict.fromkeys((*body.own, *link.at)) if link else body.local
+        guides = {guide: body.guides[guide] for guide in ("", *body.rails)}
+        outlines = tuple(disc for disc in discs.values() if disc.link == name)
+        redundant = link is not None and link.redundant
+        return PlacedLink(name, {p: body.local[p] for p in points}, body.own, guides, redundant, outlines)
 
     def running(self, pair: SlidingPair) -> complex | None:
         """Where the point lies that runs in a guide (m), None if it is not known."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 import unicodedata
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from typing import TypeVar
 
 from graphkin.errors import Problem, SceneError
@@ -32,7 +32,7 @@ from graphkin.scene.cams import LawCam, cams_of
 from graphkin.scene.drivers import drives, placed_driver, stated_driver
 from graphkin.scene.force_names import no_force
 from graphkin.scene.loads import loading_of
-from graphkin.scene.model import Loading, Mechanism, PlacedDisc, PlacedLink, Question
+from graphkin.scene.model import Loading, Mechanism, PlacedLink, Question
 from graphkin.scene.pictures import background_of, scans_of
 from graphkin.scene.scene_tables import Frame, Guide, Link, SceneTables
 from graphkin.scene.tables import KeyPath, path_name, plain, tidy
@@ -105,7 +105,10 @@ def mechanism_said(file: SceneTables, name: str, problems: list[Problem], lost: 
     wish = file.sheet.background
     under = background_of(wish, {**position.drawn, **reading.places[reading.frame.name]}, reading) if wish else None
     scans = scans_of(reading) if file.scans else ()
-    drivers = [placed_driver(where, driver, position.value_of(driver), reading) for where, driver in driven.items()]
+    values = [position.value_of(driver) for driver in driven.values()]
+    tables = () if problems else ((reading.frame.name, None), *reading.links.items())
+    bodies = [position.placed(link_name, discs, link) for link_name, link in tables]
+    drivers = [placed_driver(*at, value, reading) for at, value in zip(driven.items(), values, strict=True)]
     if positions is not None and drivers and drivers[0].turns and drivers[0].position:
         drivers[0] = at_its_position(drivers[0], positions)
     if problems:
@@ -116,9 +119,8 @@ def mechanism_said(file: SceneTables, name: str, problems: list[Problem], lost: 
         background=under, scans=scans, written=file,
     )  # fmt: skip
     made = Mechanism(
-        name=name, frame=_placed(reading.frame.name, position, discs),
-        links=tuple(_placed(n, position, discs, link) for n, link in reading.links.items()),
-        slides=reading.slides, drivers=tuple(drivers), units=file.units,
+        name=name, frame=bodies[0], links=tuple(bodies[1:]), slides=reading.slides, drivers=tuple(drivers),
+        units=file.units,
         sketch={p: complex(*place) * metres for p, place in file.sketch.items()}, drawn=position.drawn,
         loading=loading, cams=cams, contacts=contacts, gears=gears,
         starts=places.starts_of(position, contacts) if contacts or gears else {}, slots=reading.slots,
@@ -165,18 +167,6 @@ def _cams(reading: Reading, position: places.DrawnPosition) -> tuple[LawCam, ...
     lines = {name: (pair, rail.through, rail.direction) for name, (pair, rail) in rails.items() if rail is not None}
     seen = {p: complex(*place) * reading.metres for p, place in file.sketch.items()} | dict(position.drawn)
     return cams_of(reading, lines, seen)
-
-
-def _placed(
-    name: str, position: places.DrawnPosition, discs: Mapping[tuple[str, str], PlacedDisc], link: Link | None = None
-) -> PlacedLink:
-    """A link with everything in its own axes, in the order of the file; the frame where no table is given."""
-    body = position.bodies[name]
-    points = dict.fromkeys((*body.own, *link.at)) if link else body.local
-    guides = {guide: body.guides[guide] for guide in ("", *body.rails)}
-    outlines = tuple(disc for disc in discs.values() if disc.link == name)
-    redundant = link is not None and link.redundant
-    return PlacedLink(name, {p: body.local[p] for p in points}, body.own, guides, redundant, outlines)
 
 
 # -- what says a mechanism ---------------------------------------------------------------------------------------------
