@@ -278,3 +278,33 @@ def test_a_driver_angle_that_the_drawn_points_do_not_make_is_told_with_both() ->
     assert math.radians(90) == pytest.approx(
         mechanism_of(scene | {"driver": {"link": "1", "omega": 1}}).drivers[0].value
     )
+
+
+SLANTED = """\
+[frame]
+name = "4"
+points = { A = [0, 0] }
+guides = { s = { through = [0, -50], angle = 30 } }
+[links.1]
+points = ["A", "B"]
+length = 40
+[links.2]
+points = ["B", "C"]
+[links.3]
+points = ["C"]
+on = "4.s"
+angle_on = 90
+at = { P = "drawn" }
+[driver]
+link = "1"
+omega = 1
+[drawn]
+B = [0, 40]
+C = [86.60254037844386, 0]
+P = [96.60254037844386, 20]
+"""
+
+
+def test_a_point_drawn_on_what_slides_along_a_slanted_guide_lies_in_its_own_axes_turned_with_the_guide():
+    scene = mechanism_of_text(SLANTED, "x")
+    assert complex(0.010, 0.020) / cmath.rect(1.0, math.radians(120)) == pytest.approx(scene.by_name["3"].points["P"])

@@ -266,6 +266,13 @@ def test_both_values_stand_where_a_load_begins_by_the_drivers_value():
         assert [0.0 if edge else 100.0, 0.0] == pytest.approx(here["P_P"])
 
 
+def test_a_load_may_act_while_the_driver_passes_its_own_nought():
+    scene = graphkin.read(SHAPER).to_dict()
+    scene["loads"]["P"] = {"on": "6", "at": "C", "force": 100, "angle": 0, "when": {"driver": [300, 60]}}
+    here = {at: graphkin.solve(scene, at=at).data["positions"][0]["forces"]["P_P"][0] for at in (10, 70, 290, 310)}
+    assert {10: 100.0, 70: 0.0, 290: 0.0, 310: 100.0} == pytest.approx(here)
+
+
 def test_forces_stand_in_the_units_of_the_scene():
     scene = graphkin.read(SHAPER).to_dict()
     other = json.loads(json.dumps(scene)) | {"units": {"force": "kN", "mass": "g"}}
