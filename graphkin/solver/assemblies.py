@@ -236,7 +236,7 @@ def _assemblies(structure: Structure, group: LargerGroup, drive: Drive, known: M
     near = np.flatnonzero(residual < NEAR)
     if not len(near):
         return np.zeros((0, len(group.members), 3))
-    found = _apart(place, near[np.argsort(residual[near] >= FOUND, kind="stable")], structure.scene.size)
+    found = _apart(place, near[np.argsort(residual[near] >= FOUND, kind="stable")], structure.scene.size, SAME / 4)
     solved = solve_group(structure, group, known, many[found], place[found], rates=False)
     return _distinct(structure, group, solved)
 
@@ -281,8 +281,9 @@ def _descended(system: Constraints, place: Array) -> Array:
     return residual
 
 
-def _apart(place: Array, rows: Array, size: float) -> Array:
-    """Of these rows the first at each place, in the order of the rows."""
+def _apart(place: Array, rows: Array, size: float, least: float) -> Array:
+    """Of these rows the first at each place, in the order of the rows: links of others lie ``least`` apart at least (of
+    the size, rad)."""
     turned = np.exp(1j * place[..., 2])
     found: list[int] = []
     while len(rows):
@@ -290,8 +291,8 @@ def _apart(place: Array, rows: Array, size: float) -> Array:
         found.append(int(first))
         off = np.hypot(*np.moveaxis(place[rows, :, :2] - place[first, :, :2], 2, 0)) / size
         far = np.maximum(off, np.abs(turned[rows] - turned[first])).max(axis=1)
-        rows = rows[far >= SAME / 4]
-    return np.array(sorted(found))
+        rows = rows[far >= least]
+    return np.array(sorted(found), dtype=int)
 
 
 def _starts(structure: Structure, group: LargerGroup, known: Mapping[str, Pose]) -> Array:
@@ -331,42 +332,16 @@ def _distinct(structure: Structure, group: LargerGroup, solved: GroupSolved) -> 
     slides lies on the positive side."""
     from graphkin.solver.larger_groups import as_place
 
-    good = solved.residual < 1e-11
-    size = structure.scene.size
-    rows: list[int] = []
-    names = group.members
-    for r in np.flatnonzero(good).tolist():
-        same = False
-        for q in rows:
-            far = max(
-                max(
-                    abs(solved.poses[k].z[r] - solved.poses[k].z[q]) / size,
-                    abs(solved.poses[k].u[r] - solved.poses[k].u[q]),
-                )
-                for k in names
-            )
-            same = same or far < SAME
-        if not same:
-            rows.append(r)
-    slides = tuple(p for p in group.pairs if not p.turns and p.a in names and p.b in names)
-    posed = Posed(structure, solved.poses, slides)
-
-    def positive(row: int) -> float:
-        return added_up(float(posed.travel(slide)[row]) for slide in slides)
-
+    names, size, place = group.members, structure.scene.size, as_place(solved.poses, group.members)
+    rows = _apart(place, np.flatnonzero(solved.residual < 1e-11), size, SAME)
+    posed = Posed(structure, solved.poses, tuple(p for p in group.pairs if not p.turns and {p.a, p.b} <= {*names}))
+    travels = [posed.travel(slide) for slide in posed.slides]
+    points = np.array([
+        (pose.z + pose.u * z)[rows] for pose, link in ((solved.poses[k], structure.links[k]) for k in names)
+        for z in link.points.values()
+    ])  # fmt: skip
     kept: list[int] = []
-    for r in sorted(rows, key=positive, reverse=True):
-        points = [
-            solved.poses[k].z[r] + solved.poses[k].u[r] * z for k in names for z in structure.links[k].points.values()
-        ]
-        twin = False
-        for q in kept:
-            other = [
-                solved.poses[k].z[q] + solved.poses[k].u[q] * z
-                for k in names
-                for z in structure.links[k].points.values()
-            ]
-            twin = twin or (bool(points) and max(abs(a - b) for a, b in zip(points, other, strict=True)) < SAME * size)
-        if not twin:
-            kept.append(r)
-    return as_place(solved.poses, names)[sorted(kept)]
+    for k in sorted(range(len(rows)), key=lambda k: added_up(float(t[rows[k]]) for t in travels), reverse=True):
+        if not any(points.size and np.abs(points[:, k] - points[:, other]).max() < SAME * size for other in kept):
+            kept.append(k)
+    return np.asarray(place[rows[sorted(kept)]])

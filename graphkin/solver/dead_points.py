@@ -302,7 +302,7 @@ def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, A
             first, second = (p.point for p in group.outer)
             ending, branch = Phrase("have no direction of their own", first=first, second=second), True
         else:
-            ending = dyad_words(group).dead
+            ending = dyad_words(group)[2]
     end = Phrase("the velocity is not unique here the motion") if branch else Phrase("a rate is infinite here")
     if not isinstance(solved, GroupSolved):
         where = _where(structure, i, values, forms)

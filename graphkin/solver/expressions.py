@@ -147,13 +147,9 @@ class Real:
             return self.graph.line("sub", self.line[2], self.line[1])
         return self.graph.line("neg", self.at)
 
-    @overload
-    def __add__(self, other: Real | float) -> Real: ...
-    @overload
-    def __add__(self, other: Vec | complex) -> Vec: ...
-    def __add__(self, other: Real | Vec | complex) -> Real | Vec:
-        if isinstance(other, Vec | complex):
-            return Vec(self, self.graph.const(0)) + other
+    def __add__(self, other: Real | float) -> Real:
+        if isinstance(other, Vec):
+            return NotImplemented
         b = self._of(other)
         mine, its = self.value, b.value
         if mine is not None and its is not None:
@@ -168,13 +164,9 @@ class Real:
 
     __radd__ = __add__
 
-    @overload
-    def __sub__(self, other: Real | float) -> Real: ...
-    @overload
-    def __sub__(self, other: Vec | complex) -> Vec: ...
-    def __sub__(self, other: Real | Vec | complex) -> Real | Vec:
-        if isinstance(other, Vec | complex):
-            return Vec(self, self.graph.const(0)) - other
+    def __sub__(self, other: Real | float) -> Real:
+        if isinstance(other, Vec):
+            return NotImplemented
         b = self._of(other)
         if self.value is not None and b.value is not None:
             return self.graph.const(self.value - b.value)
@@ -186,20 +178,18 @@ class Real:
             return self + Real(self.graph, b.line[1])
         return self.graph.line("sub", self.at, b.at)
 
-    @overload
-    def __rsub__(self, other: float) -> Real: ...
-    @overload
-    def __rsub__(self, other: complex) -> Vec: ...
-    def __rsub__(self, other: complex) -> Real | Vec:
-        return -(self - other) if isinstance(other, complex) else self._of(other) - self
+    def __rsub__(self, other: float) -> Real:
+        return self._of(other) - self
 
     @overload
     def __mul__(self, other: Real | float) -> Real: ...
     @overload
-    def __mul__(self, other: Vec | complex) -> Vec: ...
-    def __mul__(self, other: Real | Vec | complex) -> Real | Vec:
-        if isinstance(other, Vec | complex):
+    def __mul__(self, other: complex) -> Vec: ...
+    def __mul__(self, other: Real | complex) -> Real | Vec:
+        if isinstance(other, complex):
             return Vec(self, self.graph.const(0)) * other
+        if isinstance(other, Vec):
+            return NotImplemented
         b = self._of(other)
         mine, its = self.value, b.value
         if mine is not None and its is not None:
@@ -527,7 +517,8 @@ class Code:
             if line[0] in LEAVES:
                 text, deep = inputs.get(line[1]) or self._param[line[1]], 0
             else:
-                form = "sqrt({})" if line[0] == "root" and _plain(self.graph, line[1]) else _WRITTEN[line[0]]
+                never_negative = line[0] == "root" and Real(self.graph, line[1]).never_negative
+                form = "sqrt({})" if never_negative else _WRITTEN[line[0]]
                 text = form.format(*(names[k] for k in line[1:]))
                 deep = 1 + max(depth.get(k, 0) for k in line[1:])
             if uses.get(at, 0) > 1 or deep > 12 or at in kept:
@@ -607,8 +598,10 @@ class Code:
                 count += 1
             out = place[at]
             if line[0] == "root":
-                body += [f"absolute({sources[0]}, {out})"] if not _plain(graph, line[1]) else []
-                body.append(f"sqrt({out if body and not _plain(graph, line[1]) else sources[0]}, {out})")
+                if not Real(graph, line[1]).never_negative:
+                    body.append(f"absolute({sources[0]}, {out})")
+                    sources = [out]
+                body.append(f"sqrt({sources[0]}, {out})")
             elif line[0] in ("fmin", "fmax"):
                 body.append(f"{_UFUNCS[line[0]].__name__}({sources[0]}, {sources[1]}, out={out})")
             else:
@@ -658,11 +651,6 @@ class Code:
                 if high > n:
                     rows = list(work[:, : n - low])
                 made(same, [x[low:high] for x in inputs], [x[low:high] for x in out], rows)
-
-
-def _plain(graph: ExpressionGraph, at: int) -> bool:
-    """Whether a line can never be negative, so that its root needs no care."""
-    return Real(graph, at).never_negative
 
 
 def _unpacked(letter: str, count: int, source: str) -> list[str]:

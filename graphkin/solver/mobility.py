@@ -24,6 +24,7 @@ from graphkin.solver.dead_points import MOST_GROUPS, SAME, DeadPoint, dead_point
 from graphkin.solver.drivers import meant_value, own_values, working
 from graphkin.solver.engine import SINGULAR, State, positions
 from graphkin.solver.pose import Drive
+from graphkin.solver.quantities import Posed
 from graphkin.solver.redundant import Fit, fit
 from graphkin.solver.sentences import driver_text
 from graphkin.structure import Driven, Dyad, LargerGroup, Structure, analyse, mobility_of
@@ -202,11 +203,8 @@ def at_given_speed(structure: Structure) -> Structure:
     own = own_values(scene)[None]
     forms = {i: f[None] for i, f in choose_forms(structure).items()}
     state = positions(structure, Drive(own, np.ones((1, 1)), np.zeros((1, 1))), forms, fine=False)
-    ref = PointRef(name)
-    holder = next(link for link in scene.holders[ref.point] if link != scene.frame.name)
-    pose = state.poses[holder]
-    arm = pose.u * structure.links[holder].points[name]
-    once = abs(complex(np.ravel(pose.v + 1j * pose.omega * arm)[0]))
+    posed = Posed(structure, state.poses, structure.slides)
+    once = abs(complex(np.ravel(posed.point(PointRef(name)).v)[0]))
     if not np.isfinite(once) or once <= STANDS * scene.size or once >= scene.size / SINGULAR:
         said = (
             Phrase("has no finite speed here")

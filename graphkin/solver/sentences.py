@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import reduce
-from typing import NamedTuple
 
 import numpy as np
 
@@ -52,7 +51,7 @@ def links_words(links: Sequence[str]) -> Phrase:
 
 def _ending(group: Dyad | LargerGroup) -> Phrase:
     if isinstance(group, Dyad) and group.is_two_lines:
-        return dyad_words(group).dead
+        return dyad_words(group)[2]
     return Phrase("reach the end of their motion")
 
 
@@ -71,8 +70,8 @@ def assembly_words(structure: Structure, forms: Mapping[int, Array]) -> tuple[Ph
     words: list[Phrase] = []
     for i, element in enumerate(structure.elements):
         if isinstance(element, Dyad):
-            said = dyad_words(element)
-            words.append(said.positive if float(forms[i]) > 0 else said.negative)
+            positive, negative, _ = dyad_words(element)
+            words.append(positive if float(forms[i]) > 0 else negative)
         elif isinstance(element, LargerGroup):
             words.append(_place_words(structure, element, np.asarray(forms[i])))
     return tuple(words)
@@ -120,33 +119,23 @@ def _beside(left: bool, inner: str, first: str, second: str) -> Phrase:
     return Phrase("assembled left" if left else "assembled right", (inner, first, second))
 
 
-class DyadWords(NamedTuple):
-    """What a dyad is said to be: in its positive and in its negative assembly, and at a dead point."""
-
-    positive: Phrase
-    negative: Phrase
-    dead: Phrase
-
-
-def dyad_words(dyad: Dyad) -> DyadWords:
-    """What a dyad is said to be."""
+def dyad_words(dyad: Dyad) -> tuple[Phrase, Phrase, Phrase]:
+    """What a dyad is said to be in its positive and in its negative assembly, and at a dead point."""
     first, inner, second = (p.point for p in dyad.pairs)
     guide = next((_guide(p) for p in (dyad.outer_second, dyad.inner) if not p.turns), "")
+    if dyad.kind == "RRR":
+        in_line = Phrase("have in line", first=f"{first}{inner}", second=f"{inner}{second}")
+        return _beside(True, inner, first, second), _beside(False, inner, first, second), in_line
+    if dyad.kind == "RRP":
+        square = Phrase("have square to the guide", bar=f"{first}{inner}")
+        return Phrase("assembled further along", (guide,)), Phrase("assembled less far along", (guide,)), square
+    if dyad.kind == "RPR":
+        square = Phrase("have square to the guide", bar=f"{second}{first}")
+        positive = Phrase("assembled on the positive side", (guide,))
+        negative = Phrase("assembled on the negative side", (guide,))
+        return positive, negative, square
     only = Phrase("assembled only so")
-    return {
-        "RRR": DyadWords(
-            _beside(True, inner, first, second), _beside(False, inner, first, second),
-            Phrase("have in line", first=f"{first}{inner}", second=f"{inner}{second}"),
-        ),
-        "RRP": DyadWords(
-            Phrase("assembled further along", (guide,)), Phrase("assembled less far along", (guide,)),
-            Phrase("have square to the guide", bar=f"{first}{inner}"),
-        ),
-        "RPR": DyadWords(
-            Phrase("assembled on the positive side", (guide,)), Phrase("assembled on the negative side", (guide,)),
-            Phrase("have square to the guide", bar=f"{second}{first}"),
-        ),
-    }.get(dyad.kind, DyadWords(only, only, Phrase("have parallel guides")))  # fmt: skip
+    return only, only, Phrase("have parallel guides")
 
 
 def _guide(pair: Pair) -> str:
