@@ -9,7 +9,7 @@ import math
 from cmath import phase
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise, product
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 from graphkin.account.headings import number, slide_index, written
 from graphkin.construction.sheet import Sheet
@@ -40,6 +40,9 @@ __all__ = ["LENGTHS", "drawn_lengths"]
 
 LENGTHS = "dimensions"  # id of their group
 Dimensioner: TypeAlias = Callable[[Sheet, DimensionClearance], Iterator[Parts | Label]]
+Spot: TypeAlias = tuple[complex, float]
+"""Where a dimension begins, on the page: a point, or the middle of a guide, with what is drawn of it to either side
+(mm)."""
 OFFSETS = (6.0, -6.0, 9.0, -9.0, 12.5, -12.5, 17.0, -17.0, 22.0, -22.0)  # mm from the bar
 LEAST, SHORTEST = 9.0, 1.0  # mm: a shorter bar has its number beside it, a shorter distance in the frame no dimension
 # mm from the mechanism to the dimensions of the frame, and from one of them to the next: usual, and where room is short
@@ -166,10 +169,16 @@ def _corner(
     if not {start, at, end} <= set(places):
         return None
     turn = _angle(link, start, at, end)
+    return _turned(room, on_page(places[at]), (phase(places[start] - places[at]),), turn, ANGLE_RADII)
+
+
+def _turned(
+    room: DimensionClearance, at: complex, starts: Sequence[float], turn: float, radii: Sequence[float]
+) -> Parts | None:
+    """A turn (rad) about a place on the page from one of some directions."""
     runs = rich(f"{number(abs(math.degrees(turn)), 5)}°", SIZE)
-    centre, first = on_page(places[at]), phase(places[start] - places[at])
-    choices = (angle_dimension(centre, radius, first, first + turn, runs) for radius in ANGLE_RADII)
-    return room.take(choices, 0, ends_on_line=True)
+    drawn = (angle_dimension(at, radius, start, start + turn, runs) for radius in radii for start in starts)
+    return room.take(drawn, 0, ends_on_line=True)
 
 
 def _round(link: PlacedLink, one: str, other: str, metres: float) -> bool:
@@ -198,10 +207,10 @@ def _frame(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
             ends = (sheet.points.get(PointRef(p), slider.at) for p in (sliding.points if sliding else ()))
             on_guides += [on_page(z) for z in ends if abs(z - slider.at) > GUIDE_LENGTH / 2]
     for upright in (False, True):
-        places = [_Spot(z) for z in spots.values()]
-        places += [_Spot(z, GUIDE_LENGTH / 2 - 4.0) for z in guides[upright]]
+        places = [(z, 0.0) for z in spots.values()]
+        places += [(z, GUIDE_LENGTH / 2 - 4.0) for z in guides[upright]]
         places += [
-            _Spot(z) for z in on_guides if any(abs(_part(z - guide, upright)) < 1e-5 for guide in guides[upright])
+            (z, 0.0) for z in on_guides if any(abs(_part(z - guide, upright)) < 1e-5 for guide in guides[upright])
         ]
         pairs: set[tuple[float, float]] = set()
         for spot in spots.values():
@@ -232,14 +241,6 @@ def _datums(sheet: Sheet) -> Iterator[str]:
     yield from scene.frame.points
 
 
-class _Spot(NamedTuple):
-    """Where a dimension of the frame begins: a point, or the middle of a guide as it is drawn, with what there is of it
-    to either side (mm)."""
-
-    at: complex
-    reach: float = 0.0
-
-
 def _levels(one: complex, other: complex, upright: bool) -> tuple[float, float]:
     """How low and how high two places are, or how far to the left and to the right."""
     low, high = sorted((_part(one, upright), _part(other, upright)))
@@ -251,14 +252,15 @@ def _part(z: complex, imaginary: bool) -> float:
 
 
 def _beside(
-    sheet: Sheet, room: DimensionClearance, places: Sequence[_Spot], levels: Sequence[float], upright: bool
+    sheet: Sheet, room: DimensionClearance, places: Sequence[Spot], levels: Sequence[float], upright: bool
 ) -> Parts | None:
     """The distances of levels, one after the other on a line beside the mechanism; for want of room within it, over
     other lines only where nothing else is left."""
     box = room.content
     sides = (-1, 1) if upright else (1, -1)  # left first, and below
     left, right = (box.left, box.right) if upright else (box.top, box.bottom)
-    across = [_part(spot.at, not upright) for level in levels for spot in _at_level(places, level, upright)]
+    spots = [[spot for spot in places if abs(_part(spot[0], upright) - level) < 1e-5] for level in levels]
+    across = [_part(z, not upright) for each in spots for z, _ in each]
     low, high = min(across), max(across)
     lots = [
         [right + far if side > 0 else left - far for k in range(LINES) for side in sides for far in (near + k * pitch,)]
@@ -266,48 +268,25 @@ def _beside(
     ]
     within = [high + far if side > 0 else low - far for far in INSIDE for side in sides]
     within += [line for far in INSIDE for line in (low + far, high - far) if low < line < high]
+    ways = (1j, 1 + 0j) if upright else (1 + 0j, 1j)
+    given = [_given(sheet, level, upright) for level in levels]
+    values = [rich(written(as_given(high - low)), SIZE) for low, high in pairwise(given)]
     for lines, over_lines in (*((lot, False) for lot in lots), (within, False), (within, True)):
         shares = SHARES[:3] if over_lines else SHARES[:1]
-        drawn = (_on_line(sheet, places, levels, line, upright, share) for share in shares for line in lines)
-        choices = (parts for parts in drawn if parts is not None)
-        found = room.take(choices, len(levels), over_lines=over_lines)
+        drawn = (_on_line(spots, levels, line, *ways, values, share) for share in shares for line in lines)
+        found = room.take((parts for parts in drawn if parts is not None), len(levels), over_lines=over_lines)
         if found is not None:
             return found
     return None
 
 
-def _at_level(places: Sequence[_Spot], level: float, upright: bool) -> list[_Spot]:
-    return [spot for spot in places if abs(_part(spot.at, upright) - level) < 1e-5]
-
-
-def _on_line(
-    sheet: Sheet, places: Sequence[_Spot], levels: Sequence[float], line: float, upright: bool, share: float
-) -> Parts | None:
-    """Levels dimensioned on one line, each from what is nearest to it, their numbers at a share of it; None where it
-    runs through a guide."""
-    per_mm = sheet.scales.length / sheet.scene.units.metres
+def _given(sheet: Sheet, level: float, upright: bool) -> float:
+    """What the problem gives for a level (mm on paper) that a hand has drawn, in its unit."""
     frame = sheet.scene.frame
     fixed = [*frame.points.values(), *(guide.through for guide in frame.guides.values())]
-    given = [(-z.imag if upright else z.real) / sheet.scales.length for z in fixed]
-    feet = [complex(line, level) if upright else complex(level, line) for level in levels]
-    parts: list[Part] = []
-    for level, foot in zip(levels, feet, strict=True):
-        away = [(line - _part(spot.at, not upright), spot) for spot in _at_level(places, level, upright)]
-        far, spot = min(away, key=lambda one: abs(one[0]) - one[1].reach)
-        if abs(far) - spot.reach < LEAST_EXTENSION:
-            return None
-        out = math.copysign(1.0, far) * (1 if upright else 1j)
-        parts.append(_extension(spot.at + spot.reach * out, foot + OVERRUN * out))
-    for (low, p), (high, q) in pairwise(zip(levels, feet, strict=True)):
-        value = (_given(high, given) - _given(low, given)) * per_mm
-        parts += dimension(p, q, 0.0, rich(written(as_given(value)), SIZE), share)
-    return tuple(parts)
-
-
-def _given(level: float, given: Sequence[float]) -> float:
-    """What the problem gives for a level (mm on paper) that a hand has drawn."""
+    given = [_part(on_page(z), upright) / sheet.scales.length for z in fixed]
     near = min(given, key=lambda own: abs(own - level), default=level)
-    return near if abs(near - level) < NEAR else level
+    return (near if abs(near - level) < NEAR else level) * sheet.scales.length / sheet.scene.units.metres
 
 
 def _angles(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
@@ -342,10 +321,6 @@ def _angles(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
         index = driver.link if driver.relative_to == sheet.scene.frame.name else driver.link + driver.relative_to
         told = rich(f"$φ_{{{index}}}$ = {number(math.degrees(turns[0]), 5)}°", SIZE)
         yield driven_value(sheet, driver.key, told, at)
-
-
-def _extension(start: complex, end: complex) -> Line:
-    return Line(start + GAP * (end - start) / abs(end - start), end, strokes.DIMENSION)
 
 
 DRIVEN = "label-driven-"  # how the id of a driver's value begins where it is a label
@@ -492,12 +467,7 @@ def _guide_angle(room: DimensionClearance, at: complex, one: complex, other: com
     turn = phase(other / one)
     if abs(turn) > math.pi / 2 + LEVEL:  # between the lines, the smaller angle
         one, turn = -one, turn - math.copysign(math.pi, turn)
-    runs = rich(f"{number(abs(math.degrees(turn)), 5)}°", SIZE)
-    starts = [phase(one), phase(-one)]
-    choices = (
-        angle_dimension(on_page(at), radius, start, start + turn, runs) for radius in RADII for start in starts
-    )
-    return room.take(choices, 0, ends_on_line=True)
+    return _turned(room, on_page(at), (phase(one), phase(-one)), turn, RADII)
 
 
 def _apart(
@@ -506,25 +476,42 @@ def _apart(
 ) -> Parts | None:  # fmt: skip
     """How far two places are apart in a direction, y up, each measured from the nearest of some spots on its level;
     with what else is drawn for it."""
-    runs = runs or rich(written(as_given(value)), SIZE)
-    aside = along * 1j
-    if abs(dot(others[0] - ones[0], along)) < SHORTEST:
+    spots, along = [[(on_page(z), 0.0) for z in each] for each in (ones, others)], on_page(along)
+    aside = -1j * along
+    levels = [dot(each[0][0], along) for each in spots]
+    if abs(levels[1] - levels[0]) < SHORTEST:
         return None
-    levels = [dot(z, aside) for z in (*ones, *others)]
-    lines = [edge for far in FROM_GUIDE for edge in (max(levels) + far, min(levels) - far)]
+    away = [dot(z, aside) for each in spots for z, _ in each]
+    lines = [edge for far in FROM_GUIDE for edge in (max(away) + far, min(away) - far)]
+    written_ = [runs or rich(written(as_given(value)), SIZE)]
+    drawn = (_on_line(spots, levels, line, along, aside, written_, also=also) for line in lines)
+    return room.take((parts for parts in drawn if parts is not None), 2)
 
-    def drawn(line: float) -> Parts:
-        feet, extensions = [], []
-        for spots in (ones, others):
-            spot = min(spots, key=lambda z: abs(line - dot(z, aside)))
-            foot = spot + (line - dot(spot, aside)) * aside
-            way = (foot - spot) / abs(foot - spot)
-            begin, end = spot + GAP * way, foot + OVERRUN * way
-            extensions.append(Line(on_page(begin), on_page(end), strokes.DIMENSION))
-            feet.append(on_page(foot))
-        return *extensions, *also, *dimension(feet[0], feet[1], 0.0, runs)
 
-    return room.take((drawn(line) for line in lines), 2)
+def _on_line(
+    spots: Sequence[Sequence[Spot]], levels: Sequence[float], line: float, along: complex, aside: complex,
+    values: Sequence[tuple[Run, ...]], share: float = 0.5, also: Parts = (),
+) -> Parts | None:  # fmt: skip
+    """Levels dimensioned one after the other on one line, each from that of its spots which is nearest to the line,
+    the numbers at a share of it; None where it runs through a spot.
+
+    Parameters
+    ----------
+    levels, line : how far along, and aside of it, they lie from the page's corner (mm)
+    along, aside : directions on the page
+    """
+    feet = [level * along + line * aside for level in levels]
+    parts: list[Part] = []
+    for each, foot in zip(spots, feet, strict=True):
+        far, at, reach = min(((line - dot(z, aside), z, reach) for z, reach in each), key=lambda s: abs(s[0]) - s[2])
+        if abs(far) - reach < LEAST_EXTENSION:
+            return None
+        out = math.copysign(1.0, far) * aside
+        parts.append(Line(at + (reach + GAP) * out, foot + OVERRUN * out, strokes.DIMENSION))
+    parts += also
+    for (p, q), runs in zip(pairwise(feet), values, strict=True):
+        parts += dimension(p, q, 0.0, runs, share)
+    return tuple(parts)
 
 
 def _places(sheet: Sheet) -> dict[str, complex]:

@@ -8,9 +8,9 @@ points that they come from.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
-from itertools import islice, pairwise
-from typing import NamedTuple, TypeAlias
+from collections.abc import Callable, Iterable, Sequence
+from itertools import pairwise
+from typing import NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -114,6 +114,7 @@ def _head(tip: complex, along: complex) -> Polygon:
 
 
 AROUND_POINT = 11.0  # mm around a point in which lines belong to its own symbols
+SPACE = 0.5 * (1 + 1j)  # mm between a number or an arrowhead and what is drawn
 ARROWHEAD = 1.7  # mm: half the diagonal of the box of one, which is smaller than any symbol of a point
 ARC_END, ARC_STEP = 1.5, math.radians(12)  # mm of an arc at each end that may touch lines; between points of its course
 ON_LINE = 1e-9  # mm²: a smaller area with a line is rounding
@@ -121,37 +122,27 @@ TRIM, LEAST_EXTENSION = 0.8, 2.2  # mm between a symbol and an extension line; a
 
 
 class _Choice(NamedTuple):
-    """One of the dimensions that may be taken: its extension lines, its other lines, its arcs, and the boxes of its
-    numbers and of its arrowheads."""
+    """One of the dimensions that may be taken: its extension lines, its other lines with the chords of its arcs, the
+    boxes around these arcs, and those of its numbers and of its arrowheads."""
 
     parts: Parts
     extensions: list[Line]
-    lines: list[Line]
-    arcs: list[Arc]
+    lines: list[Segment]
+    arcs: list[Box]
     numbers: list[Box]
     heads: list[Box]
 
     @classmethod
     def of(cls, parts: Parts, extensions: int) -> _Choice:
-        made = cls(parts, [], [], [], [], [])
-        for part in parts:
-            if isinstance(part, Line):
-                (made.extensions if len(made.extensions) < extensions else made.lines).append(part)
-            elif isinstance(part, Polygon):
-                made.heads.append(Box.around(part.points))
-            elif isinstance(part, Text):
-                made.numbers.append(text_box(part))
-            else:
-                made.arcs.append(part)
-        return made
-
-    def courses(self) -> list[list[complex]]:
-        """Points of its arcs, but for their ends, which lie on lines."""
-        return [[arc.at(arc.start + share * (arc.end - arc.start)) for share in _along(arc)] for arc in self.arcs]
-
-    def own(self) -> list[Segment]:
-        """Its lines, and the chords of its arcs."""
-        return [*((line.start, line.end) for line in self.lines), *(c for arc in self.courses() for c in pairwise(arc))]
+        lines = [part for part in parts if isinstance(part, Line)]
+        courses = [_course(part) for part in parts if isinstance(part, Arc)]
+        chords = [chord for course in courses for chord in pairwise(course)]
+        return cls(
+            parts, lines[:extensions], [*_ends(lines[extensions:]), *chords],
+            [Box.around(course).grown(0.5) for course in courses],
+            [text_box(part) for part in parts if isinstance(part, Text)],
+            [Box.around(part.points) for part in parts if isinstance(part, Polygon)],
+        )  # fmt: skip
 
     def with_extensions(self, lines: list[Line]) -> _Choice:
         """The dimension with other extension lines."""
@@ -160,15 +151,15 @@ class _Choice(NamedTuple):
 
 
 class DimensionClearance:
-    """What is drawn already, as arrays: segments, and boxes by their middle and half size."""
+    """What is drawn already, as arrays: segments, shape (n, 2), and boxes by their middles and half sizes, shape
+    (2, n)."""
 
     def __init__(self, obstacles: Obstacles, panel: Box | None) -> None:
         self.panel = panel
-        self.segments = _segments(obstacles.solid)
-        self.dashed = _segments(obstacles.dashed)
-        self.areas = _arrays(obstacles.areas)
-        self.numbers = _arrays(())  # of dimensions, over which nothing runs
-        self.heads = _arrays(())  # arrowheads of dimensions, over which extension lines of others may run
+        self.segments, self.dashed = _segments(obstacles.solid), _segments(obstacles.dashed)
+        self.areas = _boxes(obstacles.areas)
+        self.numbers = _boxes(())  # of dimensions, over which nothing runs
+        self.heads = _boxes(())  # arrowheads of dimensions, over which extension lines of others may run
         corners = [z for box in obstacles.areas for z in box.corners] + [z for s in obstacles.solid for z in s]
         self.content = Box.around(corners) if corners else Box(0, 0, 0, 0)
 
@@ -185,141 +176,122 @@ class DimensionClearance:
         (``crossing``), its number not.  The lines of a distance may run over lines and arrowheads, its own arrowheads
         end on lines, but none lies over a symbol of a point (``over_lines``).
         """
-        fits = self._fits([_Choice.of(parts, extensions) for parts in choices], ends_on_line, crossing, over_lines)
-        if not fits:
+        left = [choice for choice in (_Choice.of(parts, extensions) for parts in choices) if self._inside(choice)]
+        bad = self._covered(left, ends_on_line or over_lines, crossing, over_lines)
+        left = [choice for choice, no in zip(left, bad.tolist(), strict=True) if not no]
+        left, bad, runs_over = self._extended(left, crossing, over_lines)
+        fits = np.flatnonzero(~bad)
+        if not fits.size:
             return None
-        first = next((fit for fit, runs_over in fits if over or not runs_over), fits[0][0])
-        self.segments = np.concatenate((self.segments, _segments([*first.own(), *_ends(first.extensions)])))
-        numbers = _arrays(first.numbers)
-        self.areas, self.numbers = _joined(self.areas, numbers), _joined(self.numbers, numbers)
-        self.heads = _joined(self.heads, _arrays(first.heads))
-        return first.parts
+        clear = fits if over else fits[~runs_over[fits]]
+        chosen = left[int((clear if clear.size else fits)[0])]
+        self.segments = np.concatenate((self.segments, _segments([*chosen.lines, *_ends(chosen.extensions)])))
+        numbers = _boxes(chosen.numbers)
+        self.areas, self.numbers = np.hstack((self.areas, numbers)), np.hstack((self.numbers, numbers))
+        self.heads = np.hstack((self.heads, _boxes(chosen.heads)))
+        return chosen.parts
 
-    def _fits(
-        self, choices: list[_Choice], ends_on_line: bool, crossing: bool, over_lines: bool
-    ) -> list[tuple[_Choice, bool]]:
-        """Those of some dimensions that are clear of everything they may not run over, with extension lines trimmed,
-        and whether these run over other lines, or dashed ones over their numbers.
+    def _inside(self, choice: _Choice) -> bool:
+        """Whether a dimension stands in the panel; its lines may leave it."""
+        return self.panel is None or all(map(self.panel.holds, (*choice.numbers, *choice.heads, *choice.arcs)))
 
-        Each question is asked of all that are left at once.
-        """
-        if self.panel is not None:
-            choices = [one for one in choices if all(map(self.panel.holds, (*one.numbers, *one.heads)))]
-        boxes = [one.numbers if ends_on_line or over_lines else one.numbers + one.heads for one in choices]
-        choices = _left(choices, self._covered(boxes))
-        if self.panel is not None:
-            arcs = [[Box.around(course).grown(0.5) for course in one.courses()] for one in choices]
-            choices = [one for one, each in zip(choices, arcs, strict=True) if all(map(self.panel.holds, each))]
-        taken = _joined(self.areas, self.heads) if over_lines else self.numbers
-        choices = _left(choices, _stand_on([one.heads for one in choices], taken))
-        if not choices:
-            return []
-        middles, halves = self.areas
-        large = np.hypot(halves.real, halves.imag) > ARROWHEAD if over_lines else slice(None)
-        symbols = middles[large], halves[large]
+    def _covered(self, choices: Sequence[_Choice], on_lines: bool, crossing: bool, over_lines: bool) -> Flags:
+        """Which of some dimensions stand on anything; with arrowheads on lines, with lines over what they may cross."""
+        bad = np.zeros(len(choices), dtype=bool)
+        of_numbers, numbers = _owned([choice.numbers for choice in choices], _boxes)
+        of_heads, heads = _owned([choice.heads for choice in choices], _boxes)
+        of_lines, lines = _owned([choice.lines for choice in choices], _segments)
+        taken = np.hstack((self.areas, self.heads))
+        own, boxes = (of_numbers, numbers) if on_lines else (
+            np.concatenate((of_numbers, of_heads)), np.hstack((numbers, heads)))  # fmt: skip
+        bad[own[_stand_on(boxes, taken)]] = True
+        bad[own[meets(self.segments, boxes[0], boxes[1] + SPACE)[1]]] = True
+        bad[of_heads[_stand_on(heads, taken if over_lines else self.numbers)]] = True
         if not crossing:
-            own = [one.own() for one in choices]
-            bad = _over(own, _joined(symbols, self.heads), 0.4)
-            choices = _left(choices, bad if over_lines else bad | self._crossed(own))
-        trimmed = self._trimmed([one.extensions for one in choices])
+            bad[of_lines[_run_over(lines, np.hstack((self._symbols(over_lines), self.heads)), 0.4)]] = True
+        if not crossing and not over_lines:
+            bad[of_lines[_crossings(lines, self.segments)[0]]] = True
+        return bad
+
+    def _extended(
+        self, choices: Sequence[_Choice], crossing: bool, over_lines: bool
+    ) -> tuple[list[_Choice], Flags, Flags]:
+        """Some dimensions with their extension lines trimmed; which of them run over what they may not, and which over
+        lines, or have dashed ones under their numbers."""
+        found = []
+        each = iter(self._trimmed([line for choice in choices for line in choice.extensions]))
+        for choice in choices:
+            trimmed = [next(each) or (line if crossing else None) for line in choice.extensions]
+            if None not in trimmed:
+                found.append(choice.with_extensions([line for line in trimmed if line is not None]))
+        bad, over = np.zeros((2, len(found)), dtype=bool)
+        of_numbers, numbers = _owned([choice.numbers for choice in found], _boxes)
+        of_beyond, beyond = _owned([_ends(choice.extensions) for choice in found], _segments)
+        of_all, lines = _owned([[*choice.lines, *_ends(choice.extensions)] for choice in found], _segments)
+        line, number = meets(lines, numbers[0], numbers[1])
+        bad[of_all[line[of_all[line] == of_numbers[number]]]] = True  # past the end of a short one stands the next
         if crossing:
-            whole = [one.extensions for one in choices]
-            shown = [[k or line for k, line in zip(*both, strict=True)] for both in zip(trimmed, whole, strict=True)]
+            bad[of_all[_run_over(lines, self.numbers, 0.3)]] = True
         else:
-            choices = _left(choices, np.array([None in lines for lines in trimmed], dtype=bool))
-            shown = [[line for line in lines if line is not None] for lines in trimmed if None not in lines]
-        beyond = [_ends(lines) for lines in shown]
-        lines = [one.own() + further for one, further in zip(choices, beyond, strict=True)]
-        numbers = [one.numbers for one in choices]
-        bad = _over_own(lines, numbers)  # a number past the end of a short dimension stands on the next one
-        bad |= _over(lines, self.numbers, 0.3) if crossing else _over(beyond, symbols, 0.4)
-        over = self._crossed(beyond) | self._dashed_over(numbers)
-        judged = zip(choices, shown, bad.tolist(), over.tolist(), strict=True)
-        return [(one.with_extensions(own), runs_over) for one, own, no, runs_over in judged if not no]
+            bad[of_beyond[_run_over(beyond, self._symbols(over_lines), 0.4)]] = True
+        over[of_beyond[_crossings(beyond, self.segments)[0]]] = True
+        over[of_numbers[meets(self.dashed, numbers[0], numbers[1] + 0.3 * (1 + 1j))[1]]] = True
+        return found, bad, over
 
-    def _covered(self, boxes: Sequence[Sequence[Box]]) -> Flags:
-        """Which of some dimensions with these boxes stand on anything."""
-        middles, halves = _arrays([box for each in boxes for box in each])
-        _, on_lines = meets(self.segments, middles, halves + 0.5 * (1 + 1j))
-        return _stand_on(boxes, _joined(self.areas, self.heads)) | _any(boxes, on_lines)
+    def _symbols(self, large: bool) -> Points:
+        """Areas, or those that are larger than arrowheads."""
+        return self.areas[:, np.abs(self.areas[1]) > ARROWHEAD] if large else self.areas
 
-    def _crossed(self, lines: Sequence[Sequence[Segment]]) -> Flags:
-        """Which of some dimensions with these lines cross lines that are drawn."""
-        return _any(lines, _crossings(_segments([line for each in lines for line in each]), self.segments)[0])
-
-    def _dashed_over(self, numbers: Sequence[Sequence[Box]]) -> Flags:
-        """Over the numbers of which dimensions dashed lines run."""
-        middles, halves = _arrays([box for each in numbers for box in each])
-        return _any(numbers, meets(self.dashed, middles, halves + 0.3 * (1 + 1j))[1])
-
-    def _trimmed(self, extensions: Sequence[Sequence[Line]]) -> list[list[Line | None]]:
+    def _trimmed(self, lines: Sequence[Line]) -> list[Line | None]:
         """Extension lines, each from where nothing of its own point is in its way; None where too little is left."""
-        lines = [line for each in extensions for line in each]
         lengths = [abs(line.end - line.start) for line in lines]
         ways = [(line.end - line.start) / length for line, length in zip(lines, lengths, strict=True)]
         near = _segments([(line.start, line.start + AROUND_POINT * way) for line, way in zip(lines, ways, strict=True)])
-        starts = [-TRIM] * len(lines)
-        which, shares = _crossings(near, self.segments)
-        for i, share in zip(which.tolist(), shares.tolist(), strict=True):
-            starts[i] = max(starts[i], share)
+        starts = np.full(len(lines), -TRIM)
+        np.maximum.at(starts, *_crossings(near, self.segments))
         # the symbols on the point end where the line leaves their boxes
         middles, reach = self.areas[0], self.areas[1] + 0.4 * (1 + 1j)
         which, what = meets(near, middles, reach)
-        low, high = (middles[what] - reach[what]).tolist(), (middles[what] + reach[what]).tolist()
-        for i, corners in zip(which.tolist(), zip(low, high, strict=True), strict=True):
-            chord = Box.around(corners).clip(lines[i].start, lines[i].start + AROUND_POINT * ways[i])
+        corners = zip((middles[what] - reach[what]).tolist(), (middles[what] + reach[what]).tolist(), strict=True)
+        for i, box in zip(which.tolist(), map(Box.around, corners), strict=True):
+            chord = box.clip(lines[i].start, lines[i].start + AROUND_POINT * ways[i])
             if chord is not None:
                 starts[i] = max(starts[i], abs(chord[1] - lines[i].start) / AROUND_POINT)
         found: list[Line | None] = []
-        for line, length, way, share in zip(lines, lengths, ways, starts, strict=True):
+        for line, length, way, share in zip(lines, lengths, ways, starts.tolist(), strict=True):
             start = AROUND_POINT * share + TRIM if share > 0 else 0.0
             kept = start < length - LEAST_EXTENSION
             found.append(Line(line.start + start * way, line.end, line.stroke) if kept else None)
-        each_of = iter(found)
-        return [list(islice(each_of, len(each))) for each in extensions]
+        return found
 
 
-def _along(arc: Arc) -> list[float]:
-    """Shares of an arc that leave out a little of its ends, no more than a dozen degrees apart."""
-    turn = abs(arc.end - arc.start)
-    left_out = min(0.06, ARC_END / (turn * arc.radius))
-    count = max(8, math.ceil(turn / ARC_STEP))
-    return [left_out + (1 - 2 * left_out) * i / count for i in range(count + 1)]
+def _course(arc: Arc) -> list[complex]:
+    """Points of an arc, no more than a dozen degrees apart, but for a little of its ends, which lie on lines."""
+    turn = arc.end - arc.start
+    left_out = min(0.06, ARC_END / (abs(turn) * arc.radius))
+    count = max(8, math.ceil(abs(turn) / ARC_STEP))
+    shares = (left_out + (1 - 2 * left_out) * i / count for i in range(count + 1))
+    return [arc.at(arc.start + share * turn) for share in shares]
 
 
-def _left(choices: Sequence[_Choice], bad: Flags) -> list[_Choice]:
-    return [one for one, no in zip(choices, bad.tolist(), strict=True) if not no]
+_Thing = TypeVar("_Thing")
 
 
-def _owners(things: Sequence[Sequence[object]]) -> Indices:
-    return np.repeat(np.arange(len(things)), [len(each) for each in things])
+def _owned(each: Sequence[Sequence[_Thing]], arrays: Callable[[Sequence[_Thing]], Points]) -> tuple[Indices, Points]:
+    """Things of several owners as arrays, with whose each is."""
+    return np.repeat(np.arange(len(each)), [len(some) for some in each]), arrays([one for some in each for one in some])
 
 
-def _any(things: Sequence[Sequence[object]], found: Indices) -> Flags:
-    """Which of some groups hold any of the things found, counted through all groups."""
-    some = np.zeros(len(things), dtype=bool)
-    some[_owners(things)[found]] = True
-    return some
+def _stand_on(boxes: Points, taken: Points) -> Indices:
+    """Which of some boxes stand on boxes that are taken."""
+    off, reach = boxes[0][:, None] - taken[0], boxes[1][:, None] + SPACE + taken[1]
+    found: Indices = ((np.abs(off.real) < reach.real) & (np.abs(off.imag) < reach.imag)).nonzero()[0]
+    return found
 
 
-def _stand_on(boxes: Sequence[Sequence[Box]], taken: tuple[Points, Points]) -> Flags:
-    """Which of some dimensions with these boxes stand on boxes that are taken."""
-    middles, halves = _arrays([box for each in boxes for box in each])
-    off, reach = middles[:, None] - taken[0], halves[:, None] + 0.5 * (1 + 1j) + taken[1]
-    return _any(boxes, ((np.abs(off.real) < reach.real) & (np.abs(off.imag) < reach.imag)).nonzero()[0])
-
-
-def _over(lines: Sequence[Sequence[Segment]], boxes: tuple[Points, Points], space: float) -> Flags:
-    """Of which groups of lines any comes nearer to a box than a space (mm)."""
-    own = _segments([line for each in lines for line in each])
-    return _any(lines, meets(own, boxes[0], boxes[1] + space * (1 + 1j))[0])
-
-
-def _over_own(lines: Sequence[Sequence[Segment]], boxes: Sequence[Sequence[Box]]) -> Flags:
-    """Which of some dimensions have a line that meets a box of their own."""
-    own = _segments([line for each in lines for line in each])
-    which, what = meets(own, *_arrays([box for each in boxes for box in each]))
-    return _any(lines, which[_owners(lines)[which] == _owners(boxes)[what]])
+def _run_over(lines: Points, boxes: Points, space: float) -> Indices:
+    """Which of some lines come nearer to a box than a space (mm)."""
+    return meets(lines, boxes[0], boxes[1] + space * (1 + 1j))[0]
 
 
 def _ends(lines: Sequence[Line]) -> list[Segment]:
@@ -330,14 +302,9 @@ def _segments(ends: Sequence[Segment]) -> Points:
     return np.array(ends, dtype=complex).reshape(-1, 2)
 
 
-def _joined(one: tuple[Points, Points], other: tuple[Points, Points]) -> tuple[Points, Points]:
-    return np.concatenate((one[0], other[0])), np.concatenate((one[1], other[1]))
-
-
-def _arrays(boxes: Sequence[Box]) -> tuple[Points, Points]:
-    """Middles and half sizes of boxes."""
-    sizes = [complex(box.width, box.height) / 2 for box in boxes]
-    return np.array([box.centre for box in boxes], dtype=complex), np.array(sizes, dtype=complex)
+def _boxes(boxes: Sequence[Box]) -> Points:
+    """Middles and half sizes of boxes, shape (2, boxes)."""
+    return np.array([(box.centre, complex(box.width, box.height) / 2) for box in boxes], dtype=complex).reshape(-1, 2).T
 
 
 def _either_side(one: Floats, other: Floats) -> Flags:
