@@ -31,6 +31,7 @@ from graphkin.drawing.ink.primitives import (
     Line,
     Polygon,
     Primitive,
+    Run,
     Scan,
     Stroke,
     Text,
@@ -47,7 +48,6 @@ from graphkin.drawing.parts.polygon import (
     crowds,
     details,
     polygon_piece,
-    rings,
     side_by_side,
     step_numbers,
 )
@@ -96,21 +96,14 @@ def polygon_with_insets(
     here = replace(bare, enlarged=tuple(enlarged))
     figure, pieces, crowd = _with_details(here, polygon_piece(here) if enlarged else plain, boxes[len(shown) :], boxes)
     crowded = crowds(here, crowd)[:MOST_CROWDS] if len(enlarged) == len(small) else []
-    if crowded:
-        there = replace(here, enlarged=(*enlarged, *crowded))
-        added = _in_the_room_left(there, figure, len(enlarged), strip, boxes)
-        if added:
-            here, figure, boxes, pieces = there, added[0], [*boxes, *added[2]], [*pieces, *added[1]]
-        else:
-            more = boxes + (
-                _boxes(panel, plain, strip, len(crowded), INSET, boxes)
-                or _boxes(panel, plain, strip, len(crowded), SMALL_INSET, boxes)
-            )
-            if len(more) > len(boxes):
-                there = replace(here, enlarged=there.enlarged[: len(more) - len(shown)])
-                clearer = _with_details(there, polygon_piece(there), more[len(shown) :], more)
-                if len(clearer[2]) < len(crowd):
-                    here, boxes, (figure, pieces, _) = there, more, clearer
+    for size in (INSET, SMALL_INSET) if crowded else ():
+        more = boxes + _boxes(panel, plain, strip, len(crowded), size, boxes)
+        if len(more) > len(boxes):
+            there = replace(here, enlarged=(*enlarged, *crowded)[: len(more) - len(shown)])
+            clearer = _with_details(there, polygon_piece(there), more[len(shown) :], more)
+            if len(clearer[2]) < len(crowd):
+                here, boxes, (figure, pieces, _) = there, more, clearer
+            break
     pieces = [*(named_inset(sheet, one, letters, box) for one, box in zip(shown, boxes, strict=False)), *pieces]
     around = obstacles_of(figure.drawn) + Obstacles(areas=tuple(boxes))
     keyed = {one.step for one in figure.layers["labels"] if isinstance(one, Text) and one.step is not None}
@@ -159,29 +152,6 @@ def _with_details(
     return without(figure, again), pieces, tuple(label for label in crowd if label.text.id not in again)
 
 
-def _in_the_room_left(
-    here: PolygonOnPage, figure: Piece, first: int, strip: Box | None, taken: Sequence[Box]
-) -> tuple[Piece, list[Piece], list[Box]] | None:
-    """A figure with its names, those left out that insets in boxes beside them have, the insets from the number
-    ``first`` on, and their boxes; None where there is no room for all of them and their rings."""
-    crowded, own = here.enlarged[first:], polygon_piece(here)
-    for size in (INSET, SMALL_INSET):
-        boxes = _boxes(here.panel, figure, strip, len(crowded), size, taken)
-        if len(boxes) < len(crowded):
-            continue
-        pieces = [
-            _named_detail(here, own, one, box, number)
-            for number, (one, box) in enumerate(zip(crowded, boxes, strict=True), first + 1)
-        ]
-        figure = without(figure, set().union(*map(_shown_in, pieces)))
-        written = [text_box(thing) for thing in figure.layers["labels"] if isinstance(thing, Text)]
-        if any(one.strikes(here.at(one.centre), box) for one in crowded for box in written):
-            return None
-        construction = (*figure.layers["construction"], *list(rings(here))[first:])
-        return replace(figure, layers={**figure.layers, "construction": construction}), pieces, boxes
-    return None
-
-
 def _named_detail(here: PolygonOnPage, own: Piece, one: Detail, box: Box, number: int) -> Piece:
     return with_labels(*_detail_inset(here, one, box, number, _points_in(own, here, one)))
 
@@ -216,13 +186,13 @@ def _detail_inset(
 ) -> tuple[Piece, Box]:
     """The inset in a box of the page, and the part of it in which its names may stand; ``points`` are the letters of
     the points in it."""
-    inner = Box(box.left + 0.6, box.top + 0.6, box.right - 0.6, box.bottom - 5.0)
+    inner = _inside(box, CAPTION)
     sheet, letters = here.sheet, here.letters
 
     def at(z: complex) -> complex:
         return inner.centre + detail.factor * on_page(z - detail.centre)
 
-    parts: list[Primitive] = [Polygon(box.corners, "", strokes.DIMENSION)]
+    parts: list[Primitive] = []
     names = []
     own = {v.symbol for v in detail.vectors}
     shifts = side_by_side(v.scaled(detail.factor) for v in detail.vectors)
@@ -251,12 +221,31 @@ def _detail_inset(
             id = f"label-detail-{point.text.id.removeprefix('label-')}"
             name = replace(point.text, id=id, step=detail.crowd, since=here.since(detail))
             names.append(Label(name, spot, point.toward, rank=1))
-    words = f"{term('detail', here.language).replace('{0}', f'{detail.factor:g}')}"
-    id = f"detail-{here.diagram}-{number}"
-    runs = fitted(words, 2.6, box.width - 1.6)
-    caption = Text(complex(box.centre.real, box.bottom - 1.6), runs, "middle", id=f"label-{id}", step=detail.crowd)
-    group = Group(tuple(parts), id=id, classes=("inset", "detail"), step=detail.crowd)
-    return dated(Piece({here.diagram: (group,), "labels": (caption,)}, tuple(names)), here.since(detail)), inner
+    id, classes = f"detail-{here.diagram}-{number}", ("inset", "detail")
+    runs = fitted(_enlarged(detail.factor, here.language), 2.6, box.width - 1.6)
+    drawn = _inset(box, here.diagram, parts, runs, 1.6, id, f"label-{id}", classes, detail.crowd)
+    return dated(replace(drawn, labels=tuple(names)), here.since(detail)), inner
+
+
+def _inside(box: Box, caption: float) -> Box:
+    """The part of an inset above its caption, which takes so much (mm)."""
+    return Box(box.left + 0.6, box.top + 0.6, box.right - 0.6, box.bottom - caption)
+
+
+def _enlarged(factor: float, language: str) -> str:
+    """What stands below what is drawn so many times larger."""
+    return term("detail", language).replace("{0}", f"{factor:g}")
+
+
+def _inset(
+    box: Box, layer: str, parts: Sequence[Primitive], words: tuple[Run, ...], up: float, id: str, label: str,
+    classes: tuple[str, ...], step: int | None = None,
+) -> Piece:  # fmt: skip
+    """Parts in the frame of an inset, with words in its middle so far (mm) above its lower edge."""
+    frame = Polygon(box.corners, "", strokes.DIMENSION)
+    caption = Text(complex(box.centre.real, box.bottom - up), words, "middle", id=label, step=step)
+    group = Group((frame, *parts), id=id, classes=classes, step=step)
+    return Piece({layer: (group,), "labels": (caption,)})
 
 
 CLOSE = 5.0  # mm: the symbols of nearer points overlap
@@ -301,7 +290,7 @@ def _mechanism_detail(
     if not boxes:
         return Piece()
     box = boxes[0]
-    inner = Box(box.left + 0.6, box.top + 0.6, box.right - 0.6, box.bottom - CAPTION)
+    inner = _inside(box, CAPTION)
     scales = sheet.scales
     larger = sheet.at(Scales(scales.length / factor, scales.velocity, scales.acceleration))
     shift = inner.centre - on_page(factor * middle)
@@ -313,14 +302,11 @@ def _mechanism_detail(
     inside = Piece({"mechanism": cut_to(map_tree(bare.layers["mechanism"], _plain), inner)}, names)
     named = with_labels(inside, inner)
     letters_of_both = ", ".join(f"${letters.point(ref.point)}$" for ref in near)
-    words = fitted(f"{term('detail', language).replace('{0}', f'{factor:g}')}, {letters_of_both}", 2.6, box.width - 1.6)
-    caption = Text(complex(box.centre.real, box.bottom - 1.6), words, "middle", id="label-detail-mechanism")
-    frame = Group(
-        (Polygon(box.corners, "", strokes.DIMENSION), *named.layers["mechanism"]), id="detail-mechanism",
-        classes=("inset", "detail"),
-    )  # fmt: skip
+    words = fitted(f"{_enlarged(factor, language)}, {letters_of_both}", 2.6, box.width - 1.6)
+    parts, classes = named.layers["mechanism"], ("inset", "detail")
+    frame = _inset(box, "mechanism", parts, words, 1.6, "detail-mechanism", "label-detail-mechanism", classes)
     labels = map_tree(named.layers.get("labels", ()), _renamed)
-    return Piece({"mechanism": (frame,), "labels": (*labels, caption)})
+    return joined((Piece({"labels": labels}), frame))
 
 
 def _nearest(sheet: Sheet) -> tuple[PointRef, PointRef] | None:
@@ -373,7 +359,7 @@ def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Letters, box: Box)
     vector, velocity, rule = term
     slip, turned = unit(velocity.span), unit(vector.span)
     sense = 1 if cross(slip, turned) > 0 else -1
-    inner = Box(box.left + 0.6, box.top + 0.6, box.right - 0.6, box.bottom - 6.2)
+    inner = _inside(box, 6.2)
     centre = inner.centre - REACH / 2 * on_page(slip + turned)
     colour = colour_of_vector(sheet, vector.symbol)
     tips = [centre + REACH * on_page(way) for way in (slip, turned)]
@@ -382,7 +368,6 @@ def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Letters, box: Box)
         *arrow(centre, tips[0], COMPONENT, strokes.BLACK), *arrow(centre, tips[1], COMPONENT, colour), *arc,
         Circle(centre, 0.4, fill=strokes.BLACK),
     )  # fmt: skip
-    frame = Polygon(box.corners, "", strokes.DIMENSION)
     id = vector.symbol.id
     links = "".join(rule.links) if rule and rule.rule == "rate" and rule.rate == "omega" else ""
     names = [
@@ -396,10 +381,9 @@ def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Letters, box: Box)
     caption = fitted(f"{name} = ${letters.size(rule)}$" if rule else name, 2.8, box.width - 1.6)
     if runs_width(caption) > box.width - 1.6:
         caption = fitted(name, 2.8, box.width - 1.6)
-    words = Text(complex(box.centre.real, box.bottom - 2.3), caption, "middle", id=f"label-sense-{id}")
-    group = Group((frame, *parts), id=f"sense-{id}", classes=("inset",))
+    piece = _inset(box, "acceleration", parts, caption, 2.3, f"sense-{id}", f"label-sense-{id}", ("inset",))
     drawn = [step.number for step in sheet.steps if vector in step.strokes]
-    return dated(Piece({"acceleration": (group,), "labels": (words,)}, tuple(names)), max(drawn, default=None)), inner
+    return dated(replace(piece, labels=tuple(names)), max(drawn, default=None)), inner
 
 
 def coriolis_row(sheet: Sheet, terms: Sequence[CoriolisTerm], letters: Letters, row: Box) -> Piece:

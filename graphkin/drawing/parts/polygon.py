@@ -44,7 +44,7 @@ SMALL = 2.0  # mm: shorter vectors are drawn again larger
 TOGETHER = 3.0  # mm: small vectors nearer than this share an inset
 SEEN = 0.5  # mm: a vector shorter than this is no vector in an inset either
 LONGEST = 13.0  # mm of the largest part in the inset
-RING, RING_CLEAR = 0.8, 0.35  # mm from the place to the ring about it, and from a ring to writing
+RING = 0.8  # mm from the place to the ring about it
 CROWD = 5.0  # how many times larger a crowd is drawn again at most
 
 
@@ -146,16 +146,6 @@ class Detail:
     vectors: tuple[Vector, ...]
     factor: float
     crowd: int | None = None
-
-    @property
-    def ring(self) -> float:
-        """Radius of the ring about it, mm."""
-        return self.radius + RING
-
-    def strikes(self, centre: complex, box: Box) -> bool:
-        """Whether its ring runs through a box or close by, the place being at ``centre`` of the page."""
-        farthest = max(abs(corner - centre) for corner in box.corners)
-        return box.distance(centre) < self.ring + RING_CLEAR and farthest > self.ring - RING_CLEAR
 
 
 def details(sheet: Sheet, diagram: DiagramName) -> list[Detail]:
@@ -356,7 +346,7 @@ def _construction(here: PolygonOnPage) -> Piece:
 def rings(here: PolygonOnPage) -> Iterator[Group]:
     """A ring about each place that is drawn again larger."""
     for number, d in enumerate(here.enlarged, 1):
-        ring = Circle(here.at(d.centre), d.ring, stroke=strokes.CONSTRUCTION)
+        ring = Circle(here.at(d.centre), d.radius + RING, stroke=strokes.CONSTRUCTION)
         yield Group((ring,), id=f"ring-{here.diagram}-{number}", classes=("ring",), step=d.crowd, since=here.since(d))
 
 

@@ -92,20 +92,10 @@ def separated(centres: Points, half: Points | complex, start: Points, end: Point
 
 def meets(segments: Points, centres: Points, half: Points) -> tuple[Indices, Indices]:
     """Which segments, of shape (n, 2), meet which boxes, by their indices."""
-    start, end = segments[:, 0], segments[:, 1]
-    middle, reach = (start + end) / 2, (end - start) / 2
-    close = _close(middle.real, reach.real, centres.real, half.real)
-    close &= _close(middle.imag, reach.imag, centres.imag, half.imag)
-    which, what = close.nonzero()
+    start, end = segments.T
+    which, what = joined([*near(sides_around(start, end), sides(centres - half, centres + half))])
     met = ~separated(centres[what], half[what], start[which], end[which])
     return which[met], what[met]
-
-
-def _close(middle: Floats, reach: Floats, centre: Floats, half: Floats) -> Flags:
-    """Whether the boxes around segments and other boxes meet along an axis."""
-    # copies lie side by side in memory, which halves the time
-    found: Flags = np.abs(middle[:, None] - centre.copy()) <= np.abs(reach)[:, None] + half.copy()
-    return found
 
 
 def crosses(a: Points, b: Points, c: Points, d: Points) -> Flags:
