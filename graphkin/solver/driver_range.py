@@ -19,13 +19,12 @@ import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up
-from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.search import resolve
 from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.bounds import Accuracy
-from graphkin.solver.cams import beginning, cam_angle
+from graphkin.solver.cams import cam_angle
 from graphkin.solver.dead_points import singular, without_singular
 from graphkin.solver.drivers import UniformGrid, goal_values, own_values
 from graphkin.solver.engine import positions
@@ -554,6 +553,8 @@ def _in_one_column(parts: list[Array], lengths: Sequence[int], n: int) -> Array:
 # -- quantities of the whole turn: stroke of a slide, swing of a link, coefficient of travel-speed variat --------------
 
 
+BESIDE = 1e-4
+"""Of a radian: as near to where an output turns back it is at rest."""
 REST = 1e-9
 """Of the size of the mechanism, or of a radian, for one of the driver: what is slower is at rest."""
 EQUAL = 1e-9  # of two extremes that differ by less, the one at the smaller angle of the crank is meant
@@ -605,12 +606,8 @@ def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
         raise _without(symbol, Phrase("belongs to a whole turn which the driver", why=why), WHERE_ELSE)
     if symbol.other:
         sliding_pair(reach.structure, symbol)
-    cam = next((c for c in reach.scene.cams if symbol.pair in (c.follower, getattr(c.motion, "pair", ""))), None)
-    if cam is not None and (reach.driver.link, reach.driver.relative_to) == (cam.link, reach.scene.frame.name):
-        return _of_follower(reach, cam)
-
     pair = symbol.pair
-    offsets, values, turned = _at_rest(reach, symbol)
+    offsets, values, turned = _turns(reach, symbol)
     if not symbol.other and abs(turned) > 1.0:
         raise _without(symbol, Phrase("link turns on and on it has no", output=pair), Phrase("ask for one that swings"))
     wide, size = float(np.ptp(values)) if len(values) else 0.0, reach.scene.size if symbol.other else 1.0
@@ -626,46 +623,31 @@ def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
     return Extremes(float(values[low]), float(values[high]), float(offsets[low]), float(offsets[high]))
 
 
-def _at_rest(reach: DriverRange, symbol: Symbol) -> tuple[Array, Array, float]:
-    """Where an output is at rest over a turn of the driver: offsets and values there, the last of a stretch along which
+def _turns(reach: DriverRange, symbol: Symbol) -> tuple[Array, Array, float]:
+    """Where an output turns back over a turn of the driver: offsets and values there, the end of a stretch along which
     it stands still; and how far it gets in a turn."""
 
-    def course(offset: Array, fine: bool = False) -> tuple[Array, Array]:
-        """Value and rate by the driver's own angle."""
+    def course(offset: Array, fine: bool = False) -> Array:
+        """Value and rate by the driver's own angle, shape (n, 2)."""
         motion = reach.motion(offset, unit=True, fine=fine)
         if symbol.other:
             slide = motion.slide(symbol.pair)
-            return slide.travel, slide.velocity
-        return reach.angle(motion, symbol.link), motion.omega(symbol.link)
+            return np.stack([slide.travel, slide.velocity], axis=1)
+        return np.stack([reach.angle(motion, symbol.link), motion.omega(symbol.link)], axis=1)
 
-    def rate(offset: Array) -> tuple[Array, Array]:
-        return course(offset)[1][:, None], np.zeros((len(offset), 1))
+    def curves(offset: Array) -> tuple[Array, Array]:
+        return course(offset), np.zeros((len(offset), 2))
 
     size = reach.scene.size if symbol.other else 1.0
-    pieces = resolve(rate, 0.0, math.tau, periodic=True, floor=REST * size, seams=reach.seams)
-    offsets = np.append(pieces.zeros(0), [0.0, math.tau])
-    values, _ = course(offsets, fine=True)
-    return offsets[:-2], values[:-2], float(values[-1] - values[-2])
-
-
-def _of_follower(reach: DriverRange, cam: LawCam) -> Extremes:
-    """The extremes of a follower by its law; where it stands still, the end of the dwell."""
-    law, motion = cam.law, cam.motion
-    if law.least == law.greatest:
-        raise _without(
-            Symbol("stroke"),
-            Phrase("does not move of follower", follower=cam.follower),
-            Phrase("ask for an output that moves"),
-        )
-    ends = []
-    for lift in (law.least, law.greatest):
-        offset = reach.sense * (cam.leaves(lift, int(reach.sense)) - float(reach.start[0])) % math.tau
-        if isinstance(motion, SlidingFollower):
-            ends.append((motion.travel + beginning(cam) + lift, offset))
-        else:
-            ends.append((motion.side * lift, offset))
-    low, high = sorted(ends)
-    return Extremes(low[0], high[0], low[1], high[1])
+    floor = np.array([1.0, REST]) * size
+    pieces = resolve(curves, 0.0, math.tau, periodic=True, floor=floor, seams=reach.seams)
+    rests, offsets = pieces.zeros(1), []
+    for turn in pieces.turns(0):
+        # the place of a turn is known to the last digits as that where the rate is nought
+        beside = rests[np.abs(rests - turn.place) < BESIDE] if not turn.at_seam else ()
+        offsets.append(min(beside, key=lambda rest: abs(rest - turn.place), default=turn.place))
+    values = course(np.array([*offsets, 0.0, math.tau]), fine=True)[:, 0]
+    return np.array(offsets), values[:-2], float(values[-1] - values[-2])
 
 
 def _without(symbol: Symbol, found: Wording, wanted: Wording) -> Unsolvable:

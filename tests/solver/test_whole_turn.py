@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
 import pytest
 
-from graphkin.scene import mechanism_of
+from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import driver_range
 from graphkin.solver.driver_range import extremes
@@ -53,3 +54,45 @@ def test_of_two_equal_dwells_that_at_the_smaller_angle_of_the_crank_is_meant() -
     )
     first = min(crank % 360 for _, crank in limits)
     assert math.radians(first) == pytest.approx(found.low_offset, abs=1e-9)
+
+
+DWELLS = """
+[frame]
+name = "0"
+points = {{ A = [0, 0], C = [90, 0] }}
+guides = {{ g = {{ through = "C", angle = 0 }} }}
+[links.1]
+points = ["A"]
+[links.2]
+points = ["C", "B"]
+length = 75
+[links.3]
+points = ["B", "D"]
+length = 200
+[links.4]
+points = ["D"]
+on = "0.g"
+[cams.1]
+follower = "2"
+law = [ {{ to = 100, rise = 24, by = "345" }}, {{ to = 150 }}, {{ to = 350, fall = 24, by = "345" }}, {{ to = 360 }} ]
+base = {{ r = 35 }}
+[sketch]
+B = [30, 40]
+D = [220, 0]
+[driver]
+link = "1"
+angle = {angle}
+omega = {omega}
+"""
+
+
+@pytest.mark.parametrize("angle", [0.0, 37.0, 100.0])
+@pytest.mark.parametrize(("omega", "leaves"), [(10, [0, 150]), (-10, [100, 350])])
+@pytest.mark.parametrize("output", ["swing_2", "stroke_4/0"])
+def test_what_dwells_has_its_limits_where_it_leaves_them(
+    output: str, omega: float, leaves: list[float], angle: float
+) -> None:
+    reach = driver_range(mechanism_of_text(DWELLS.format(angle=angle, omega=omega), "cam"))
+    found = extremes(reach, Symbol.parse(output))
+    places = np.degrees(reach.value(np.array([found.low_offset, found.high_offset]))) % 360
+    assert leaves == pytest.approx(sorted((places + 1e-6).round(5) % 360), abs=1e-4)
