@@ -87,6 +87,14 @@ def test_a_curve_turns_where_it_leaves_a_stretch_along_which_it_stands_still() -
     assert [(2.0, -1.0), (2.5, 1.0), (3.5, -1.0)] == [(pytest.approx(at, abs=1e-12), sense) for at, sense in turns]
 
 
+def test_whether_a_curve_turns_where_it_leaves_nothing_is_the_callers_choice() -> None:
+    pieces = resolve(
+        lambda t: column(np.where(t < 2.0, 0.0, np.sin(np.pi * (t - 2.0)) ** 2)), 0.0, 4.0, True, seams=np.array([2.0])
+    )
+    at_rest, moving = ([t.place for t in pieces.turns(0, at_rest=both) if t.at_seam] for both in (True, False))
+    assert ([2.0], []) == (at_rest, moving)
+
+
 @pytest.mark.parametrize("seam", [0.0, 1.0])
 def test_a_curve_that_jumps_turns_at_both_sides_of_the_jump(seam: float) -> None:
     pieces = resolve(

@@ -644,8 +644,8 @@ def _turns(reach: DriverRange, symbol: Symbol) -> tuple[Array, Array, float]:
     rests, offsets = pieces.zeros(1), []
     for turn in pieces.turns(0):
         # the place of a turn is known to the last digits as that where the rate is nought
-        beside = rests[np.abs(rests - turn.place) < BESIDE] if not turn.at_seam else ()
-        offsets.append(min(beside, key=lambda rest: abs(rest - turn.place), default=turn.place))
+        beside = rests[np.abs(rests - turn.place) < BESIDE]
+        offsets.append(turn.place if turn.at_seam or not len(beside) else float(beside[0]))
     values = course(np.array([*offsets, 0.0, math.tau]), fine=True)[:, 0]
     return np.array(offsets), values[:-2], float(values[-1] - values[-2])
 
