@@ -169,8 +169,8 @@ class CamMade:
             "jumps": [{"order": j.order, "degree": math.degrees(j.degree), "by": j.by / lift} for j in study.jumps],
             "least_base": None if self.wanted_base is None else self.wanted_base / metres,
             "divisions": [
-                {"number": d.number, "degree": math.degrees(d.degree), "lift": d.lift / lift, "pressure": d.pressure}
-                for d in self.sheet.divisions
+                {"number": k, "degree": math.degrees(d.degree), "lift": d.lift / lift, "pressure": d.pressure}
+                for k, d in enumerate(self.sheet.divisions)
             ],
             "drawn": {"pitch": self.drawn.pitch / metres, "profile": self.drawn.profile / metres,
                       "pressure": self.drawn.pressure, "ok": self.drawn.ok},

@@ -193,18 +193,18 @@ def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str
     swings = isinstance(cam.motion, SwingingFollower)
     results = []
     spread = predict_cam(sheet, "pencil", scene.question.sheet.tools)
-    for d, off in zip(sheet.divisions, spread, strict=True) if not cam.flat else ():
+    for k, (d, off) in enumerate(zip(sheet.divisions, spread, strict=True)) if not cam.flat else ():
         angle = math.degrees(d.pressure)
         within = _accepted(angle, math.degrees(off["pressure"]))
-        results.append((f"$α_{{{d.number}}}$", "°", f"{angle:.1f}", f"{angle:.3f}", within))
+        results.append((f"$α_{{{k}}}$", "°", f"{angle:.1f}", f"{angle:.3f}", within))
     metres = scene.units.metres
-    for d, off in zip(sheet.divisions, spread, strict=True):
+    for k, (d, off) in enumerate(zip(sheet.divisions, spread, strict=True)):
         value, deviation = (math.degrees(x) if swings else x / metres for x in (d.lift, off["lift"]))
         letter, unit = ("ψ", "°") if swings else ("s", scene.units.length)
         within = _accepted(value, deviation, -math.inf)
         per = 1.0 if swings else sheet.scale / metres
         read = number(round(value / per, 2) * per)  # to 0.01 mm, as lengths on paper are told
-        results.append((f"${letter}_{{{d.number}}}$", unit, read, number(value, 5), within))
+        results.append((f"${letter}_{{{k}}}$", unit, read, number(value, 5), within))
     spoken = {each: made.sentences(each) for each in languages(language)}
     captions = said("cam diagram", language), said("cam figure", language)
     return _papers(

@@ -13,8 +13,9 @@ import numpy as np
 
 from graphkin.checking.uncertainty import COVERAGE, deviations
 from graphkin.construction import EXACT, Instrument
-from graphkin.construction.cam_sheet import CamDivision, CamSheet, division_by_hand
+from graphkin.construction.cam_sheet import CamSheet, division_by_hand
 from graphkin.construction.synthesis import DesignSheet, construct
+from graphkin.construction.touching import CamStation
 from graphkin.errors import Unsolvable
 from graphkin.scene.designs import DesignTask
 from graphkin.scene.scene_tables import Tools
@@ -88,8 +89,8 @@ class CamPoints:
 def compare_cam(sheet: CamSheet) -> CamPoints:
     """Hold every division of a drawn cam against the law's own geometry."""
     exact = cam_at(sheet.cam, np.array([d.degree for d in sheet.divisions]))
-    point = np.array([d.at.point for d in sheet.divisions]) * sheet.scale
-    contact = np.array([d.at.contact for d in sheet.divisions]) * sheet.scale
+    point = np.array([d.point for d in sheet.divisions]) * sheet.scale
+    contact = np.array([d.contact for d in sheet.divisions]) * sheet.scale
     angle = np.array([d.pressure for d in sheet.divisions])
     off = float(np.abs(point - exact.pitch).max()), float(np.abs(contact - exact.profile).max())
     turned = float(np.abs(angle - exact.pressure).max())
@@ -100,7 +101,7 @@ def predict_cam(sheet: CamSheet, name: str, tools: Tools) -> Sequence[Mapping[st
     """How far the "lift" (m, rad) and "pressure" angle (rad) of each division are read off, drawn with an instrument
     ("pencil" or "cad"): standard deviations, infinite where one act alone keeps a division from being drawn."""
 
-    def read(division: CamDivision, hand: Instrument) -> Mapping[str, float] | None:
+    def read(division: CamStation, hand: Instrument) -> Mapping[str, float] | None:
         drawn = division_by_hand(sheet.cam, division.degree, 1.0 / sheet.scale, hand)
         # a normal has no sense
         return drawn and {"lift": drawn[0], "pressure": math.remainder(drawn[1] - division.pressure, math.pi)}

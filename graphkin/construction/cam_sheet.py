@@ -20,22 +20,10 @@ from graphkin.scene.laws import TURN
 from graphkin.words import Phrase
 from graphkin.words.written import amount
 
-__all__ = ["CamDivision", "CamSheet", "cam_sheet", "division_by_hand"]
+__all__ = ["CamSheet", "cam_sheet", "division_by_hand"]
 
 STEP = math.radians(15.0)
 FEWEST, MOST = 4, 12
-
-
-@dataclass(frozen=True)
-class CamDivision:
-    """A division of the displacement diagram: its number, the cam degree (rad), the lift (m, rad), the follower turned
-    back about the cam (mm), and the pressure angle as it is measured there (rad)."""
-
-    number: int
-    degree: float
-    lift: float
-    at: CamStation
-    pressure: float
 
 
 @dataclass(frozen=True)
@@ -43,13 +31,14 @@ class CamSheet:
     """A cam on paper, at cam degree 0, about its axis, y up.
 
     scale : m for one mm of paper
+    divisions : of the displacement diagram, the follower turned back about the cam at each (mm)
     profile, pitch : closed curves (mm); the pitch curve is empty of a flat face
     base, offset, roller : radii of circles on paper (mm); offset 0 where there is none, or the follower swings
     """
 
     cam: LawCam
     scale: float
-    divisions: tuple[CamDivision, ...]
+    divisions: tuple[CamStation, ...]
     profile: tuple[complex, ...]
     pitch: tuple[complex, ...]
     base: float
@@ -63,7 +52,7 @@ class CamSheet:
         radius, shifted = amount(self.base, 4), self.offset > 1e-9
         steps = [Phrase("cam step diagram", (str(len(self.divisions)),)), Phrase("cam step base", (cam.point, radius))]
         if isinstance(motion, SwingingFollower):
-            distance = amount(abs(self.divisions[0].at.line), 4)
+            distance = amount(abs(self.divisions[0].line), 4)
             steps.append(Phrase("cam step pivots", (cam.point, motion.pivot, distance)))
             steps.append(Phrase("cam step swings", (motion.pivot, motion.tip)))
         else:
@@ -79,19 +68,12 @@ class CamSheet:
 
 def cam_sheet(cam: LawCam, scale: float) -> CamSheet:
     """Draw a cam at a scale (m for one mm of paper)."""
-    mm, divided = 1.0 / scale, []
-    for i, degree in enumerate(_degrees(cam)):
-        at = station(cam, degree)
-        # between normal and path, read with the protractor, in 0 .. pi/2
-        angle = abs(cmath.phase(at.normal / at.way))
-        centre = None if at.centre is None else at.centre * mm
-        places = (z * mm for z in (at.line, at.base, at.point, at.contact))
-        at = at._replace(**dict(zip(("line", "base", "point", "contact"), places, strict=True)), centre=centre)
-        divided.append(CamDivision(i, degree, cam.law.at(degree).lift, at, min(angle, math.pi - angle)))
+    mm = 1.0 / scale
+    divided = tuple(station(cam, degree).scaled(mm) for degree in _degrees(cam))
     pitch = () if cam.flat else tuple(_pitch(cam, mm))
     offset = abs(cam.motion.offset) * mm if isinstance(cam.motion, SlidingFollower) else 0.0
     profile = tuple(z * mm for z in outline(cam))
-    return CamSheet(cam, scale, tuple(divided), profile, pitch, cam.base * mm, offset, cam.roller * mm)
+    return CamSheet(cam, scale, divided, profile, pitch, cam.base * mm, offset, cam.roller * mm)
 
 
 def _degrees(cam: LawCam) -> Iterator[float]:

@@ -199,6 +199,7 @@ def coordinate_on_paper(structure: Structure, paper: PlacedLinks, coordinate: Co
 class CamStation(NamedTuple):
     """The follower turned back about the cam (inversion), in the cam's own axes from its axis (any unit of length).
 
+    degree, lift : of the cam (rad), and of the follower there (m, rad)
     line : a point of the follower's line (the foot), or of the bar (the pivot)
     base : its point at lift 0
     point : its point (roller's centre, edge, foot of the face)
@@ -208,6 +209,8 @@ class CamStation(NamedTuple):
     way : the direction in which the point moves
     """
 
+    degree: float
+    lift: float
     line: complex
     base: complex
     point: complex
@@ -215,6 +218,18 @@ class CamStation(NamedTuple):
     normal: complex
     contact: complex
     way: complex
+
+    @property
+    def pressure(self) -> float:
+        """The angle between normal and path, as the protractor reads it (rad)."""
+        angle = abs(cmath.phase(self.normal / self.way))
+        return min(angle, math.pi - angle)
+
+    def scaled(self, times: float) -> CamStation:
+        """The same so many times as large."""
+        centre = None if self.centre is None else self.centre * times
+        return self._replace(line=self.line * times, base=self.base * times, point=self.point * times, centre=centre,
+                             contact=self.contact * times)  # fmt: skip
 
 
 def station(cam: LawCam, degree: float, lift: Lift | None = None) -> CamStation:
@@ -242,7 +257,9 @@ def station(cam: LawCam, degree: float, lift: Lift | None = None) -> CamStation:
         if dot(normal, 1j * cam.course(start, lift).tangent) < 0.0:
             normal = -normal
         contact = point - cam.roller * normal
-    return CamStation(*(None if z is None else z * back for z in (line, base, point, centre, normal, contact, way)))  # type: ignore[arg-type]
+    centre = None if centre is None else centre * back
+    return CamStation(degree, lift.lift, line * back, base * back, point * back, centre, normal * back, contact * back,
+                      way * back)  # fmt: skip
 
 
 @lru_cache(maxsize=64)

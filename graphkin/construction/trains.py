@@ -30,7 +30,7 @@ from graphkin.structure import Mesh, Structure, meshes_of
 from graphkin.structure.model import Coordinate
 from graphkin.words import Phrase
 
-__all__ = ["CentreLine", "PlanLine", "PlanScales", "PlansDrawn", "Spot", "TrainPlan", "centre_lines", "rolled"]
+__all__ = ["CentreLine", "PlanLine", "PlansDrawn", "Spot", "TrainPlan", "centre_lines", "rolled"]
 
 ALIKE = 1e-9  # of a length: heights that are one
 WIDE, HIGH = 62.0, 100.0
@@ -172,19 +172,6 @@ def _line(
 
 
 @dataclass(frozen=True)
-class PlanScales:
-    """What 1 mm of a plan is: m, m/s (m/s2), rad/s (rad/s2); and how far the pole stands from the rate scale (mm)."""
-
-    length: float
-    speed: float
-    rate: float
-
-    @property
-    def pole(self) -> float:
-        return self.speed / self.length / self.rate
-
-
-@dataclass(frozen=True)
 class PlanLine:
     """The line of a link over the line of centres ``on`` (its number).
 
@@ -216,6 +203,7 @@ class TrainPlan:
     rates : those of links, first the known ones, of the frame among them (rad/s, rad/s2)
     speeds : the known ones of sliding pairs (m/s, m/s2)
     turns : links that turn from one another at given rates
+    length, speed, turning : what 1 mm of it is: m, m/s (m/s2), rad/s (rad/s2)
     velocities : those of places (mm), by line of centres and place
     travels : of the racks (m/s, m/s2) by sliding pair, with the length read (mm)
     gaps : what is left open where a place is found twice (mm)
@@ -226,12 +214,19 @@ class TrainPlan:
     rates: dict[str, float]
     speeds: Mapping[str, float]
     turns: Sequence[Turned]
-    scales: PlanScales = PlanScales(1.0, 1.0, 1.0)
+    length: float = 1.0
+    speed: float = 1.0
+    turning: float = 1.0
     lines: list[PlanLine] = field(default_factory=list)
     velocities: dict[tuple[int, str], float] = field(default_factory=dict)
     travels: dict[str, tuple[float, float]] = field(default_factory=dict)
     gaps: list[float] = field(default_factory=list)
     trial: Superposed | None = None
+
+    @property
+    def pole(self) -> float:
+        """How far the pole stands from the rate scale (mm)."""
+        return self.speed / self.length / self.turning
 
     def line(self, link: str) -> PlanLine | None:
         """The line of a link from which its rate is read, else its first."""
@@ -242,16 +237,16 @@ class TrainPlan:
         """Whether a rate, or the speed of a sliding pair, is found."""
         return wanted[1] in self.rates if wanted[0] == "angle" else {*self.travels, *self.speeds} >= {wanted[1]}
 
-    def drawn(self, scales: PlanScales, hand: Instrument, assumed: Mapping[str, float]) -> TrainPlan:
+    def drawn(self, hand: Instrument, assumed: Mapping[str, float]) -> TrainPlan:
         """This plan, of which nothing is drawn, with all that follows, rates being assumed one after the other."""
         still = {(i, line.still): 0.0 for i, line in enumerate(self.on)}
-        plan = replace(self, scales=scales, rates=dict(self.rates), lines=[], velocities=still, travels={}, gaps=[])
+        plan = replace(self, rates=dict(self.rates), lines=[], velocities=still, travels={}, gaps=[])
         plan._go_on(hand, ())
         for k, (link, rate) in enumerate(assumed.items(), 1):
             plan.rates[link] = rate
             plan._go_on(hand, [*assumed][:k])
         # what two links that slide on each other or that a driver turns leave open, on the rate scale
-        plan.gaps += [(plan.rates[a] - plan.rates[b] - value) / scales.rate
+        plan.gaps += [(plan.rates[a] - plan.rates[b] - value) / self.turning
                       for a, b, value in self.turns if a in plan.rates and b in plan.rates]  # fmt: skip
         return plan
 
@@ -274,7 +269,7 @@ class TrainPlan:
 
     def _line(self, hand: Instrument, i: int, link: str, trial: bool) -> bool:
         """The line of a link by its rate or by two places; False where neither is known."""
-        mm, spots = 1.0 / self.scales.length, self.on[i].spots_of(link)
+        mm, spots = 1.0 / self.length, self.on[i].spots_of(link)
         known = [s for s in spots if (i, s.name) in self.velocities]
         given = link in self.rates
         if not known or (not given and known[0].height == known[-1].height):
@@ -283,7 +278,7 @@ class TrainPlan:
         by = (start.name,) if given else (start.name, known[-1].name)
         x, y = self.velocities[i, start.name], start.height * mm
         if given:
-            slope = -self.rates[link] * self.scales.length / self.scales.speed
+            slope = -self.rates[link] * self.length / self.speed
         else:
             slope = (self.velocities[i, by[-1]] - x) / (known[-1].height * mm - y)
         for spot in (s for s in spots if s.name not in by):
@@ -292,11 +287,11 @@ class TrainPlan:
                 self.gaps.append(at - self.velocities[i, spot.name])
             self.velocities.setdefault((i, spot.name), at)
         if given:
-            foot, rate = -slope * self.scales.pole, self.rates[link]
+            foot, rate = -slope * self.pole, self.rates[link]
         else:
             along = hand.direction(unit(complex(slope, 1.0)))
-            foot = hand.read_signed(-along.real / along.imag * self.scales.pole)
-            rate = self.rates[link] = foot * self.scales.rate
+            foot = hand.read_signed(-along.real / along.imag * self.pole)
+            rate = self.rates[link] = foot * self.turning
         reach = [s.height * mm for s in spots]
         if len(reach) == 1:
             reach += [0.0] if reach[0] else [0.25 * HIGH]
@@ -311,10 +306,10 @@ class TrainPlan:
         if mesh.carrier not in self.rates:
             return False
         axis, pitch = self.on[i].spot(mesh.axes[0]), self.on[i].spot(mesh.name)
-        lean = -self.rates[mesh.carrier] / self.scales.speed * (pitch.height - axis.height)
+        lean = -self.rates[mesh.carrier] / self.speed * (pitch.height - axis.height)
         at, on = self.velocities.get((i, axis.name)), self.velocities.get((i, pitch.name))
         if mesh.slide in self.speeds:
-            run = mesh.sense * self.speeds[mesh.slide] / self.scales.speed
+            run = mesh.sense * self.speeds[mesh.slide] / self.speed
             if at is not None and on is None:
                 self.velocities[i, pitch.name] = at + lean + hand.length(run)
             elif on is not None and at is None:
@@ -324,7 +319,7 @@ class TrainPlan:
             return False
         run = on - at - lean
         read = hand.read_signed(run)
-        self.travels[mesh.slide] = mesh.sense * read * self.scales.speed, read
+        self.travels[mesh.slide] = mesh.sense * read * self.speed, read
         return True
 
     def trials(self, names: Sequence[str]) -> list[dict[str, float]]:
@@ -333,25 +328,25 @@ class TrainPlan:
         first = dict.fromkeys(names, 0.0)
         return [first, *({**first, own: fastest} for own in names)]
 
-    def by_trial(self, scales: PlanScales, hand: Instrument, names: Sequence[str]) -> TrainPlan:
+    def by_trial(self, hand: Instrument, names: Sequence[str]) -> TrainPlan:
         """This plan drawn with some rates that are found by proportion from trials."""
         if not names:
-            return self.drawn(scales, hand, {})
+            return self.drawn(hand, {})
         trials = self.trials(names)
-        gaps = [self.drawn(scales, hand, one).gaps for one in trials]
+        gaps = [self.drawn(hand, one).gaps for one in trials]
         found = tuple(map(float, divide([[*one.values()] for one in trials], gaps)))
         apart = tuple(tuple(map(float, row)) for row in gaps)
         kind = "omega" if self.order == "velocity" else "alpha"
         rates = tuple((Symbol(kind, link=name), rate) for name, rate in zip(names, found, strict=True))
         trial = Superposed(rates, (), apart)
-        return replace(self.drawn(scales, hand, dict(zip(names, found, strict=True))), trial=trial)
+        return replace(self.drawn(hand, dict(zip(names, found, strict=True))), trial=trial)
 
     def to_assume(self, wanted: Coordinate) -> list[str] | None:
         """Links whose rates have to be assumed, so that the trials find them and with them what is wanted; None where
         none lead to it."""
         names: list[str] = []
         for _ in range(MOST_ASSUMED):
-            plan = self.drawn(self.scales, EXACT, dict.fromkeys(names, 0.0))
+            plan = self.drawn(EXACT, dict.fromkeys(names, 0.0))
             if not names and plan.leads(wanted):
                 return names
             # of these one place is known
@@ -367,7 +362,7 @@ class TrainPlan:
 
     def _closes(self, names: Sequence[str], wanted: Coordinate) -> bool:
         """Whether what the trials leave open finds the rates assumed, and these what is wanted."""
-        first, *others = (self.drawn(self.scales, EXACT, one) for one in self.trials(names))
+        first, *others = (self.drawn(EXACT, one) for one in self.trials(names))
         slopes = np.array([one.gaps for one in others]) - np.array(first.gaps)
         most = float(np.abs(slopes).max(initial=0.0))
         return most > 0.0 and bool(np.linalg.matrix_rank(slopes, 1e-9 * most) == len(names)) and first.leads(wanted)
@@ -386,23 +381,23 @@ def train_plan(plan: TrainPlan, wanted: Coordinate, units: float, hand: Instrume
     names = plan.to_assume(wanted)
     if names is None:
         return None
-    rough = plan.by_trial(plan.scales, EXACT, names)
+    rough = plan.by_trial(EXACT, names)
     if not any((*rough.rates.values(), *rough.velocities.values())):
         hand = EXACT  # every line lies on that of the centres: there is nothing to draw
-    return plan.by_trial(_scales(rough, units), hand, names)
+    return _scaled(plan, rough, units).by_trial(hand, names)
 
 
-def _scales(rough: TrainPlan, units: float) -> PlanScales:
-    """The finest of the series at which the widest line of centres fits, and a rate scale that shows all rates."""
+def _scaled(plan: TrainPlan, rough: TrainPlan, units: float) -> TrainPlan:
+    """A plan at the finest scales of the series at which its widest line of centres fits, as it is roughly drawn, and
+    a rate scale shows all rates."""
     high = max(max(h) - min(h) for h in ([s.height for s in line.spots] for line in rough.on))
     speeds = [[0.0, *(v for (j, _), v in rough.velocities.items() if j == i)] for i in range(len(rough.on))]
-    wide = max(max(v) - min(v) for v in speeds)
+    wide, turns = max(max(v) - min(v) for v in speeds), [0.0, *(line.rate for line in rough.lines)]
     length = fitting_scale(Extent(0.0, high), (1.0, HIGH), 1.0 / units) * units
     speed = fitting_scale(Extent(wide, 0.0), (WIDE, 1.0), 1.0 / units) * units
-    turns = [0.0, *(line.rate for line in rough.lines)]
     fits = fitting_scale(Extent(max(turns) - min(turns), 0.0), (FOOT, 1.0), 1.0)
     tall = fitting_scale(Extent(speed / length, 0.0), (POLE, 1.0), 1.0)
-    return PlanScales(length, speed, max(fits, tall) if wide else 1.0)
+    return replace(plan, length=length, speed=speed, turning=max(fits, tall) if wide else 1.0)
 
 
 # -- the trains of a mechanism -----------------------------------------------------------------------------------------
@@ -471,7 +466,7 @@ def _alike(structure: Structure, name: str) -> set[str]:
 def _steps(scene: Mechanism, plan: TrainPlan, had: TrainPlan | None) -> Iterator[Step]:
     """What was drawn of a plan since another state of it."""
     old = {(one.link, one.on) for one in had.lines} if had else set()
-    rate, per_mm = "omega" if plan.order == "velocity" else "alpha", plan.scales.rate
+    rate, per_mm = "omega" if plan.order == "velocity" else "alpha", plan.turning
     if plan.trial is not None:
         yield Step("divide", "plans", plan.order, kind=rate, per_mm=per_mm, data=plan.trial)
     for one in plan.lines:
@@ -482,5 +477,5 @@ def _steps(scene: Mechanism, plan: TrainPlan, had: TrainPlan | None) -> Iterator
             )  # fmt: skip
     for slide, (value, mm) in plan.travels.items():
         if had is None or slide not in had.travels:
-            yield Step("read", "plan travel", plan.order, pairs=(slide,), mm=abs(mm), per_mm=plan.scales.speed,
+            yield Step("read", "plan travel", plan.order, pairs=(slide,), mm=abs(mm), per_mm=plan.speed,
                        value=value)  # fmt: skip

@@ -17,9 +17,10 @@ from typing import TYPE_CHECKING
 
 from graphkin.account.headings import number, once, term, written
 from graphkin.checking.closed_form import FoundLength
-from graphkin.construction.cam_sheet import CamDivision, CamSheet, cam_sheet
+from graphkin.construction.cam_sheet import CamSheet, cam_sheet
 from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.construction.synthesis import DesignSheet, DesignStroke
+from graphkin.construction.touching import CamStation
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import STEP, WORKED, Block, picture, row, steps, table, worked_page
 from graphkin.drawing.chart import ChartPage
@@ -350,8 +351,8 @@ def scaled_cam(scene: Mechanism, cam: LawCam) -> CamSheet:
     if scene.question.sheet.length_scale:
         return cam_sheet(cam, scene.question.sheet.length_scale * 1e-3)
     natural = cam_sheet(cam, cam.base / 50.0)
-    far = [*natural.profile, *natural.pitch, *(d.at.point for d in natural.divisions)]
-    far += [d.at.line for d in natural.divisions] if isinstance(cam.motion, SwingingFollower) else []
+    far = [*natural.profile, *natural.pitch, *(d.point for d in natural.divisions)]
+    far += [d.line for d in natural.divisions] if isinstance(cam.motion, SwingingFollower) else []
     room = CAM_PANEL[0] - 2 * PAST - 8.0, CAM_PANEL[1] - 2 * PAST - 8.0
     per = scene.units.metres
     return cam_sheet(cam, fitting_scale(Extent.around(far, 1.0), room, natural.scale / per) * per)
@@ -462,7 +463,7 @@ def _diagram(scene: Mechanism, sheet: CamSheet, language: str, begun: bool = Fal
     drawn: list[Primitive] = [Line(origin, origin + LONG + 5.0, strokes.DIMENSION),
                               Line(origin, top - 5.0j, strokes.DIMENSION)]  # fmt: skip
     labels: list[Primitive] = []
-    divided = [] if begun else [(d.degree, d.lift, str(d.number)) for d in sheet.divisions]
+    divided = [] if begun else [(d.degree, d.lift, str(k)) for k, d in enumerate(sheet.divisions)]
     for degree, lift, name in (*divided, *((TURN, lift, "") for _, lift, _ in divided[:1])):
         foot = at(degree, law.least)
         drawn.append(Line(foot, at(degree, lift), THIN))
@@ -490,10 +491,10 @@ def _diagram(scene: Mechanism, sheet: CamSheet, language: str, begun: bool = Fal
 
 def _cam(scene: Mechanism, sheet: CamSheet, begun: bool = False) -> Block:
     """The cam with all that finds it; only ``begun``, the circles and the follower where it starts."""
-    plate, cam, start = Plate(), sheet.cam, sheet.divisions[0].at
+    plate, cam, start = Plate(), sheet.cam, sheet.divisions[0]
     swings = isinstance(cam.motion, SwingingFollower)
     colour, other = (strokes.colour_of_link(scene, link) for link in (cam.link, cam.follower))
-    far = max(abs(d.at.point) for d in sheet.divisions)
+    far = max(abs(d.point) for d in sheet.divisions)
     shown = [] if begun else _shown(sheet)
     profile = Polygon(tuple(map(on_page, sheet.profile)), strokes.tint(colour), Stroke(0.7, (), colour))
     # what finds the cam lies over its tint
@@ -503,14 +504,15 @@ def _cam(scene: Mechanism, sheet: CamSheet, begun: bool = False) -> Block:
     for d in shown:
         part, end = _ray(sheet, d, far)
         lines += part
-        plate.name(plain(str(d.number), SMALL), end, f"label-division-{d.number}", toward=(cmath.phase(end),), rank=1)
+        k = sheet.divisions.index(d)
+        plate.name(plain(str(k), SMALL), end, f"label-division-{k}", toward=(cmath.phase(end),), rank=1)
     if cam.flat:
         half = 0.35 * sheet.base
         lines += [_face(d, half, strokes.CONSTRUCTION) for d in shown]
     elif shown:
-        lines += [Circle(on_page(d.at.point), sheet.roller, stroke=THIN) for d in shown if cam.roller]
+        lines += [Circle(on_page(d.point), sheet.roller, stroke=THIN) for d in shown if cam.roller]
         lines += [Polyline(tuple(map(on_page, sheet.pitch)), PITCH)] * bool(cam.roller)
-        lines += [Line(on_page(d.at.contact), on_page(d.at.point + 6.0 * d.at.normal), strokes.DIRECTION)
+        lines += [Line(on_page(d.contact), on_page(d.point + 6.0 * d.normal), strokes.DIRECTION)
                   for d in shown]  # fmt: skip
     lines += symbols.sense_arc(0j, max(5.0, 0.3 * sheet.base), 0.6, cam.sense, math.radians(60))
     plate.put("construction", *lines, id="inversion", classes=("strokes",))
@@ -535,32 +537,32 @@ def _cam(scene: Mechanism, sheet: CamSheet, begun: bool = False) -> Block:
     return centred(box, WORKED, box.height, lambda around: plate.piece)
 
 
-def _shown(sheet: CamSheet) -> list[CamDivision]:
+def _shown(sheet: CamSheet) -> list[CamStation]:
     """The divisions that are drawn: neighbours keep a millimetre and a half from each other at the base circle."""
-    found: list[CamDivision] = []
+    found: list[CamStation] = []
     for d in sheet.divisions:
-        if all(abs(d.at.base - other.at.base) >= 1.5 for other in found):
+        if all(abs(d.base - other.base) >= 1.5 for other in found):
             found.append(d)
     return found
 
 
-def _face(d: CamDivision, half: float, stroke: Stroke) -> Line:
+def _face(d: CamStation, half: float, stroke: Stroke) -> Line:
     """A face, ``half`` mm to both sides and beyond its contact."""
-    across = 1j * d.at.way
-    contact = ((d.at.contact - d.at.point) * across.conjugate()).real
+    across = 1j * d.way
+    contact = ((d.contact - d.point) * across.conjugate()).real
     low, high = min(-half, contact - 3.0), max(half, contact + 3.0)
-    return Line(on_page(d.at.point + low * across), on_page(d.at.point + high * across), stroke)
+    return Line(on_page(d.point + low * across), on_page(d.point + high * across), stroke)
 
 
-def _ray(sheet: CamSheet, d: CamDivision, far: float) -> tuple[list[Primitive], complex]:
+def _ray(sheet: CamSheet, d: CamStation, far: float) -> tuple[list[Primitive], complex]:
     """What carries a division, turned back about the cam, and where its number stands."""
     if isinstance(sheet.cam.motion, SlidingFollower):
         beyond = math.sqrt(max((far + sheet.roller + PAST) ** 2 - sheet.offset**2, 0.0))
-        end = d.at.line + beyond * d.at.way
-        return [Line(on_page(d.at.line), on_page(end), THIN)], end
-    pivot = d.at.line
-    arm = abs(d.at.point - pivot)
-    start, end = (cmath.phase(z - pivot) for z in (d.at.base, d.at.point))
+        end = d.line + beyond * d.way
+        return [Line(on_page(d.line), on_page(end), THIN)], end
+    pivot = d.line
+    arm = abs(d.point - pivot)
+    start, end = (cmath.phase(z - pivot) for z in (d.base, d.point))
     half = math.remainder(end - start, TURN) / 2
     middle, reach = start + half, abs(half) + 3.0 / arm
     return [Arc(on_page(pivot), arm, middle - reach, middle + reach, THIN),
@@ -573,8 +575,8 @@ def _table(scene: Mechanism, sheet: CamSheet, language: str) -> Block:
     heads = ["", "$φ$ (°)", f"${'ψ' if unit == '°' else 's'}$ ({unit})", "$α$ (°)"]
     columns = -(-len(sheet.divisions) // ROWS)
     count = -(-len(sheet.divisions) // columns)
-    cells = [[str(d.number), f"{math.degrees(d.degree):.2f}", f"{_lift(scene, sheet.cam, d.lift):.3f}",
-              f"{math.degrees(d.pressure):.2f}"] for d in sheet.divisions]  # fmt: skip
+    cells = [[str(k), f"{math.degrees(d.degree):.2f}", f"{_lift(scene, sheet.cam, d.lift):.3f}",
+              f"{math.degrees(d.pressure):.2f}"] for k, d in enumerate(sheet.divisions)]  # fmt: skip
     wide = (WORKED - GUTTER * (columns - 1)) / columns
     widths = [share * wide for share in (0.16, 0.26, 0.32, 0.26)]
     tables = (table([heads], cells[k : k + count], widths, layer="answers") for k in range(0, len(cells), count))

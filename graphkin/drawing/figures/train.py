@@ -62,18 +62,18 @@ def _page(page: FigurePage, plan: TrainPlan) -> Drawing:
     why += [Phrase("plan relative", (line.still,)) for line in plan.on if not line.in_frame]
     rates = _rate_scale(sheet, plan)
     least = min(0.0, *(one.foot for one in plan.lines))
-    scale = panel(page.width - TABLE - 4.0, plan.scales.pole + 16.0, lambda room: with_labels(
+    scale = panel(page.width - TABLE - 4.0, plan.pole + 16.0, lambda room: with_labels(
         moved_piece(rates, complex(PLAN + 4.0 - least - TABLE - 4.0, 7.0)), room))
     lines = [_train(page, plan, k) for k in range(len(plan.on))]
     body = column(page.prose(why), *lines, row(_table(page, plan), scale, gap=4.0), gap=GAP)
-    size, speed = plan.scales.length / sheet.scene.units.metres, plan.scales.speed / sheet.scene.units.rates.metres
-    scales = {"length": size, plan.order: speed, "omega" if velocity else "alpha": plan.scales.rate}
+    size, speed = plan.length / sheet.scene.units.metres, plan.speed / sheet.scene.units.rates.metres
+    scales = {"length": size, plan.order: speed, "omega" if velocity else "alpha": plan.turning}
     sign, unit, _ = _rates(plan)
-    angular = f"$μ_{{{sign}}}$ = {number(plan.scales.rate)} ({unit})/mm"
+    angular = f"$μ_{{{sign}}}$ = {number(plan.turning)} ({unit})/mm"
     if page.convention in ("us", "british"):
         times, head = (1, "1 mm") if page.convention == "us" else (10, "1 cm")
-        angular = f"{head} = {number(times * plan.scales.rate)} {unit}"
-    told = page.scale("mechanism", plan.scales.length), page.scale(plan.order, plan.scales.speed), angular
+        angular = f"{head} = {number(times * plan.turning)} {unit}"
+    told = page.scale("mechanism", plan.length), page.scale(plan.order, plan.speed), angular
     return page.drawing(
         page.at_drivers(page.term(name)), body, ",  ".join(told), title=name, said=page.said("plan described")[0],
         metadata={"scales": {key: float(f"{value:.12g}") for key, value in scales.items()}},
@@ -87,7 +87,7 @@ def _rates(plan: TrainPlan) -> tuple[str, str, str]:
 
 def _train(page: FigurePage, plan: TrainPlan, k: int) -> Block:
     """A line of centres: the train seen from the side, and the velocities of its places."""
-    line, mm = plan.on[k], 1.0 / plan.scales.length
+    line, mm = plan.on[k], 1.0 / plan.length
     heights = [spot.height * mm for spot in line.spots]
     seen = scheme(page.sheet.scene, line, mm, SCHEME)
     # the zero line stands where the slowest place still clears the train
@@ -105,7 +105,7 @@ def _train(page: FigurePage, plan: TrainPlan, k: int) -> Block:
 def _velocities(page: FigurePage, plan: TrainPlan, k: int, start: float) -> Piece:
     """The plan over one line of centres, its zero line at x = 0, heights from 0; the heights are carried over from
     ``start``."""
-    plate, scene, mm = Plate(), page.sheet.scene, 1.0 / plan.scales.length
+    plate, scene, mm = Plate(), page.sheet.scene, 1.0 / plan.length
     tag = f"-{k + 1}" if k else ""
     heights = {s.name: s.height * mm for s in plan.on[k].spots}
     low, high = min(heights.values()), max(heights.values())
@@ -138,7 +138,7 @@ def _velocities(page: FigurePage, plan: TrainPlan, k: int, start: float) -> Piec
 
 def _rate_scale(sheet: Sheet, plan: TrainPlan) -> Piece:
     """Parallels to the lines through the pole, which stands at 0, down to the scale."""
-    plate, deep, (sign, *_) = Plate(), -1j * plan.scales.pole, _rates(plan)
+    plate, deep, (sign, *_) = Plate(), -1j * plan.pole, _rates(plan)
     shown = _plan_lines(sheet, plan)
     feet = [0.0, *(one.foot for one in shown)]
     plate.line("construction", min(feet) - 4.0 + deep, max(feet) + 4.0 + deep, strokes.OUTLINE)
@@ -170,7 +170,7 @@ def _table(page: FigurePage, plan: TrainPlan) -> Block:
     (sign, unit, tail), units, rows = _rates(plan), page.sheet.scene.units.rates, []
     for one in _plan_lines(page.sheet, plan):
         read = on_paper(abs(one.foot))
-        size = written(product(read, amount(plan.scales.rate, 12)))
+        size = written(product(read, amount(plan.turning, 12)))
         rate = f"−{size}" if one.rate < 0.0 and size != "0" else size
         if one.rate_known and not one.trial:
             rate = f"{number(one.rate, 5)} {page.term('plan given')}"
