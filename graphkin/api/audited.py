@@ -488,19 +488,8 @@ def _named(scene: Mechanism, at: float | str | None, value: float) -> str:
 # -- points, and what a class did --------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Scheme:
-    """How many points there are: for each part that is marked by hand, for all values together, and for single ones."""
-
-    parts: Mapping[str, float]
-    symbols: Mapping[Symbol, float]
-
-    def of(self, symbol: Symbol, asked: Sequence[Symbol]) -> float:
-        """Points for one of the values asked for."""
-        if symbol in self.symbols:
-            return self.symbols[symbol]
-        alike = [s for s in asked if s not in self.symbols]
-        return self.parts.get("values", 0.0) / len(alike) if symbol in alike else 0.0
+Scheme = Mapping[str | Symbol, float]
+"""Points for each part that is marked by hand, for all "values" together, and for single ones."""
 
 
 def scheme_of(scene: Mechanism, given: Mapping[str, float] | None) -> Scheme | None:
@@ -515,23 +504,22 @@ def scheme_of(scene: Mechanism, given: Mapping[str, float] | None) -> Scheme | N
     if not weights:
         return None
     spelling = spelling_of(scene)
-    parts: dict[str, float] = {}
-    symbols: dict[Symbol, float] = {}
+    scheme: dict[str | Symbol, float] = {}
     problems = []
     for name, weight in weights.items():
         symbol = spelling.symbol(str(name))
         if isinstance(weight, bool) or not isinstance(weight, Real) or not 0 <= weight < 1e6:
             problems.append(Problem(f"grading {name}", "found value", "give points 0 or more", value=f"{weight!r:.40}"))
         elif name in PARTS:
-            parts[name] = float(weight)
+            scheme[str(name)] = float(weight)
         elif symbol is not None:
-            symbols[symbol] = float(weight)
+            scheme[symbol] = float(weight)
         else:
             problems.append(Problem(f"grading {name}", "is no part and no quantity of the", "or a symbol such as v_d",
                                     names=', '.join(PARTS)))
     if problems:
         raise CallError(*problems)
-    return Scheme(parts, symbols)
+    return scheme
 
 
 def people_of(people: Sequence[Person], scheme: Scheme | None, language: str) -> Iterator[dict[str, Any]]:
@@ -553,19 +541,23 @@ def people_of(people: Sequence[Person], scheme: Scheme | None, language: str) ->
 
 def _points_of(who: Answers, judged: Sequence[Judged], scheme: Scheme) -> dict[str, Json]:
     """Points by part, their sum, and of how many; a part that nobody has marked yet is None and not counted."""
-    asked = list(who.cells)
+    alike = sum(symbol not in scheme for symbol in who.cells)  # these share what is given for all values
+
+    def worth(symbol: Symbol) -> float:
+        return scheme[symbol] if symbol in scheme else scheme.get("values", 0.0) / alike
+
     good = [j.printed.symbol for j in judged if j.verdict in FULL]
-    values = added_up(scheme.of(s, asked) for s in good)
-    most = added_up(scheme.of(s, asked) for s in asked)
+    values = added_up(map(worth, good))
+    most = added_up(map(worth, who.cells))
     points: dict[str, float | None] = {"values": values}
     total = values
     for part in ("equations", "drawing"):
-        if part in scheme.parts:
+        if part in scheme:
             mark = who.marks.get(part)
-            points[part] = own = None if mark is None else min(max(mark, 0.0), scheme.parts[part])
+            points[part] = own = None if mark is None else min(max(mark, 0.0), scheme[part])
             if own is not None:
                 total += own
-                most += scheme.parts[part]
+                most += scheme[part]
     return {"points": {k: None if v is None else round(v, 4) for k, v in points.items()},
             "total": round(total, 4), "of": round(most, 4)}  # fmt: skip
 

@@ -51,8 +51,16 @@ from graphkin.papers.blocks import (
     Together,
     said,
 )
+from graphkin.papers.documents import (
+    answers_template,
+    head_of,
+    key_rows,
+    paper_title,
+    scene_title,
+    solution_blocks,
+    way,
+)
 from graphkin.papers.documents import given as given_words
-from graphkin.papers.documents import key_rows, paper_title, scene_title, solution_blocks, way
 from graphkin.papers.lesson import Lesson, compared, lesson_of, positions
 from graphkin.papers.paper import Paper, paper_of, paper_plan
 from graphkin.papers.pdf import FORMATS, can_join, can_typeset, one_after_another, papers_as
@@ -266,7 +274,9 @@ def course_design(
     if len(bound) > 1 and can_join():
         content["all-reports.pdf"] = one_after_another(bound)
     content["class.csv"] = _class_table(given, lines, asked).harmless().csv().encode("utf-8-sig")
-    content["answers_template.csv"] = _template(given, lines, asked).harmless().csv().encode("utf-8-sig")
+    drawn = [(r.student.name, r.student.id, r.student.scheme, f"{r.values.driver:.9g}") for r in lines]
+    blank = answers_template(asked, given.units, "en", drawn, "variant", "at in a class")
+    content["answers_template.csv"] = blank.harmless().csv().encode("utf-8-sig")
     result = CourseDesigns(given, tuple(lines), asked, content, agrees, "pdf" not in formats or can_typeset())
     if out is not None:
         result.write(out)
@@ -617,25 +627,11 @@ def _value_tables(
 
 
 def _class_table(scene: Mechanism, rows: Sequence[ClassRow], asked: Sequence[Symbol]) -> Table:
-    heads = ["name", "id", "variant", "position", "at", *(c for s in asked for c in (_head(scene, s), f"{s} exact"))]
+    heads = ["name", "id", "variant", "position", "at"]
+    heads += [head for s in asked for head in (head_of(s, scene.units), f"{s} exact")]
     lines = [
         (row.student.name, row.student.id, row.student.scheme, row.student.place, row.values.driver,
          *(v for s in asked for v in (row.values.read.get(s), row.values.exact.get(s))))
         for row in rows
     ]  # fmt: skip
     return Table.of(heads, lines, ("", "", "", "", ".9g", *[".9g"] * (2 * len(asked))))
-
-
-def _template(scene: Mechanism, rows: Sequence[ClassRow], asked: Sequence[Symbol]) -> Table:
-    """A table for the class to fill in, as `audit` reads it, with everyone's driver value."""
-    heads = ["name", "id", "variant", "at"]
-    for s in asked:
-        heads += [_head(scene, s), f"{s} direction"] if s.is_vector else [_head(scene, s)]
-    blank = [""] * (len(heads) - 4)
-    lines = [(r.student.name, r.student.id, r.student.scheme, f"{r.values.driver:.9g}", *blank) for r in rows]
-    return Table.of(heads, lines)
-
-
-def _head(scene: Mechanism, symbol: Symbol) -> str:
-    unit = symbol.unit(scene.units).text
-    return f"{symbol} ({unit})" if unit else str(symbol)

@@ -198,7 +198,8 @@ def problem_set(
             if made.answers:
                 asked = dict.fromkeys(Symbol.parse(a.symbol) for answers in made.answers.values() for a in answers)
                 speaking = languages(language or given.question.sheet.language)[0]
-                blank = answers_template(tuple(asked), given.units, speaking, made.answers)
+                lines = [("", "", name) for name in made.answers]
+                blank = answers_template(tuple(asked), given.units, speaking, lines, "variant")
                 write_files(folder, {"answers_template.csv": blank.csv().encode("utf-8-sig")})
             for paper in ("problem", "key"):
                 own = [folder / f"{name}-{variant}-{paper}.pdf" for variant in made.answers]

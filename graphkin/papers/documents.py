@@ -55,7 +55,7 @@ from graphkin.words import Phrase, about, languages, say, word
 from graphkin.words.written import LEAST, amount, in_markup, true_minus
 
 __all__ = [
-    "KeyRow", "answer_key", "answers_template", "beginning", "given", "key_rows", "key_table", "labelled",
+    "KeyRow", "answer_key", "answers_template", "beginning", "given", "head_of", "key_rows", "key_table", "labelled",
     "length_on_paper", "paper_title", "problem", "reach", "results_blocks", "scene_title", "solution",
     "solution_blocks", "stage_title", "step_items", "unsigned", "way",
 ]  # fmt: skip
@@ -379,16 +379,31 @@ def key_table(lesson: Lesson) -> table.Table:
     return table.Table.of(heads, rows, ("", "", "", "", ".9g", ".3g", ".3f"))
 
 
-def answers_template(asked: Sequence[Symbol], units: Units, language: str, variants: Iterable[str] = ()) -> table.Table:
-    """A table for a class to fill in, as ``audit`` reads it: a column for each quantity asked for, and for a vector its
-    direction; with ``variants`` a row for each of them."""
-    names = tuple(variants)
-    columns = [f"{s} ({s.unit(units).text})" if s.unit(units).text else str(s) for s in asked]
-    heads = [word(key, language) for key in ("name in a class", "id in a class", *(["variant"] if names else []))]
-    for symbol, column in zip(asked, columns, strict=True):
-        heads += [column, f"{symbol} {word('direction of', language)}"] if symbol.is_vector else [column]
-    blank = [""] * (len(heads) - 2 - bool(names))
-    return table.Table.of(heads, [["", "", name, *blank] for name in names] or [["", "", *blank]])
+def answers_template(
+    asked: Sequence[Symbol], units: Units, language: str, lines: Iterable[Sequence[str]] = (("", ""),), *more: str
+) -> table.Table:
+    """A table for a class to fill in, as ``audit`` reads it: behind names and numbers a column for each quantity asked
+    for, and for a vector its direction.
+
+    Parameters
+    ----------
+    lines : what stands there already
+    more : keys of the words that head further columns of them
+    """
+    lead = [word(key, language) for key in ("name in a class", "id in a class", *more)]
+    heads = [head for s in asked for head in (head_of(s, units), *_way_head(s, language))]
+    return table.Table.of([*lead, *heads], [[*line, *[""] * len(heads)] for line in lines])
+
+
+def _way_head(symbol: Symbol, language: str) -> list[str]:
+    """The head of the column for the direction of a vector; none of anything else."""
+    return [f"{symbol} {word('direction of', language)}"] if symbol.is_vector else []
+
+
+def head_of(symbol: Symbol, units: Units) -> str:
+    """A quantity with its unit, as the head of a column."""
+    unit = symbol.unit(units).text
+    return f"{symbol} ({unit})" if unit else str(symbol)
 
 
 def length_on_paper(row: Compared) -> str:
