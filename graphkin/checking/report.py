@@ -7,6 +7,7 @@ import cmath
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -204,48 +205,78 @@ def compare(
     force_scale : N for one mm of the force polygons
     """
     pairs = [(r, exact(r.symbol)) for r in readings]
-    compared_force = _forces(sheet, pairs, predicted, rounding)
-    most_of = _largest(sheet, pairs)
-    grain = _grain(sheet)
+    row, lost = partial(_row, sheet, predicted), rounding or (lambda symbol: Lost())
+    by_scope = {"force": _forces(sheet, pairs, row, lost), "motion": _motion(sheet, pairs, row, rounding)}
 
+    def place(reading: Reading, value: Value) -> Compared:
+        """A length is judged by the size of the mechanism, an angle by a radian, a number by itself."""
+        size, length = sheet.scene.size, reading.symbol.measure == "length"
+        whole = max(size if length else 1.0, abs(value))
+        rounded = lost(reading.symbol).mechanism / (1.0 if length else size)
+        return row(reading, float(value.real), whole, max(rounded, ROUNDING * whole), rounded)
+
+    rows = tuple(by_scope.get(reading.symbol.scope, place)(reading, value) for reading, value in pairs)
+    have = {r.symbol for r in readings}
+    scales = replace(sheet.scales, force=force_scale)
+    return Report(sheet.instrument, scales, rows, tuple(s for s in asked if s not in have))
+
+
+def _row(
+    sheet: Sheet, predicted: Mapping[Symbol, Uncertainty] | None, reading: Reading, exact: Value, whole: float,
+    floor: float, rounded: float = 0.0, share: float = EXACT_TOLERANCE, least: float = 0.0, unsure: bool = False,
+    by_drivers: bool = False,
+) -> Compared:  # fmt: skip
+    """A reading beside the exact value, judged by a size.
+
+    Parameters
+    ----------
+    whole : what it is a part of, of which it may be off by a ``share`` with exact hands; where what is allowed leaves
+        nothing of it to agree with, nor of the ``least`` that a hand reads, the reading is not determined
+    floor, rounded : what of a value is nothing but rounding, and how far rounding may have moved it
+    unsure : whether a value not above the floor may be something nevertheless
+    """
+    symbol, expected = reading.symbol, (predicted or {}).get(reading.symbol)
+    # an instrument may be off by anything, where it draws and nothing is predicted of this reading
+    allowed = 0.0 if predicted is None else math.inf
+    if expected is not None:
+        allowed = JUDGED * expected.deviation if sheet.instrument == "pencil" else expected.bound
+    tolerance = max(allowed, share * whole, rounded)
+    part = FAIR if sheet.instrument in ON_PAPER else COARSE
+    fair = whole == 0.0 == least or tolerance <= max(part * whole, least)
+    off = reading.value - exact if math.isfinite(abs(exact)) else math.inf
+    error = abs(math.remainder(off.real, math.tau) if symbol.measure == "angle" else off)
+    told = fair and not (unsure and 0.0 < abs(exact) <= floor)
+    return Compared(
+        reading, exact, error, tolerance, _turned(reading, exact, whole), expected, floor, told, by_drivers
+    )
+
+
+def _motion(
+    sheet: Sheet, pairs: Sequence[tuple[Reading, Value]], row: Callable[..., Compared], rounding: Rounding | None
+) -> Callable[[Reading, Value], Compared]:
+    """What compares vectors and rates: by the largest that leads to them, and how far rounding may have moved that."""
+    most_of, share = _largest(sheet, pairs), max(EXACT_TOLERANCE, _grain(sheet))
     # the largest of each kind that drivers alone give, beside which rounding is nothing
     led: dict[str, float] = {}
     for reading, value in pairs:
         if reading.symbol.scope == "motion" and by_drivers_alone(sheet.structure, reading.symbol):
             led[reading.symbol.kind] = max(led.get(reading.symbol.kind, 0.0), abs(value))
 
-    rows = []
-    for reading, value in pairs:
-        if reading.symbol.scope == "force":
-            rows.append(compared_force(reading, value))
-            continue
-        if reading.symbol.scope != "motion":
-            lost = rounding(reading.symbol) if rounding else Lost()
-            rows.append(_position(sheet, reading, float(value.real), predicted, lost))
-            continue
-        most, lost = most_of(reading), rounding(reading.symbol) if rounding else Lost()
-        error = abs(reading.value - value)
-        turned = _turned(reading, value, most)
-        expected = (predicted or {}).get(reading.symbol)
-        by = 1.0 if reading.symbol.is_vector else sheet.scene.size
-        rounded = 0.0 if rounding is None else _of(lost, reading.diagram) / by
-        tolerance = max(_allowed(sheet, predicted, expected), max(EXACT_TOLERANCE, grain) * most, rounded)
+    def compared(reading: Reading, value: Value) -> Compared:
+        symbol, lost = reading.symbol, rounding(reading.symbol) if rounding else Lost()
+        most, by = most_of(reading), 1.0 if symbol.is_vector else sheet.scene.size
+        rounded = 0.0 if rounding is None else getattr(lost, reading.diagram) / by
         least = ON_PAPER.get(sheet.instrument, HAND) * sheet.scales.of(reading.diagram) / by
-        floor = _floor(sheet, reading, lost, EXACT_TOLERANCE * most)
-        if not reading.symbol.is_vector and math.isfinite(floor):  # over its own bar, which may be short
-            tolerance = max(tolerance, floor)
-        fair, alone = _fair(sheet, tolerance, most, least), by_drivers_alone(sheet.structure, reading.symbol)
-        if (not fair or 0.0 < abs(value) <= floor) and alone:
+        floor, alone = _floor(sheet, reading, lost, EXACT_TOLERANCE * most), by_drivers_alone(sheet.structure, symbol)
+        if not symbol.is_vector and math.isfinite(floor):  # over its own bar, which may be short
+            rounded = max(rounded, floor)
+        made = row(reading, value, most, floor, rounded, share, least, not lost.slight and not alone, alone)
+        if alone and (not made.determined or 0.0 < abs(value) <= floor):
             # no group comes before it whose rounding it could have
-            tolerance = max(_allowed(sheet, predicted, expected), max(EXACT_TOLERANCE, grain) * most)
-            floor = min(floor, CANCELLED * led[reading.symbol.kind])
-            fair = _fair(sheet, tolerance, most, least)
-        if not lost.slight and not alone and 0.0 < abs(value) <= floor:
-            fair = False  # too small to be told, and not so small that it is 0
-        rows.append(Compared(reading, value, error, tolerance, turned, expected, floor, fair, alone))
-    have = {r.symbol for r in readings}
-    scales = replace(sheet.scales, force=force_scale)
-    return Report(sheet.instrument, scales, tuple(rows), tuple(s for s in asked if s not in have))
+            made = row(reading, value, most, min(floor, CANCELLED * led[symbol.kind]), 0.0, share, least, False, True)
+        return made
+
+    return compared
 
 
 def _largest(sheet: Sheet, pairs: Sequence[tuple[Reading, complex | float]]) -> Callable[[Reading], float]:
@@ -285,9 +316,8 @@ def _turned(reading: Reading, exact: complex | float, whole: float) -> float:
 
 
 def _forces(
-    sheet: Sheet, pairs: Sequence[tuple[Reading, complex | float]],
-    predicted: Mapping[Symbol, Uncertainty] | None, rounding: Rounding | None,
-) -> Callable[[Reading, complex | float], Compared]:  # fmt: skip
+    sheet: Sheet, pairs: Sequence[tuple[Reading, Value]], row: Callable[..., Compared], rounding: Rounding
+) -> Callable[[Reading, Value], Compared]:
     """What compares forces: by the largest of them (N), that times the size of the mechanism (N m), and how far
     rounding may have moved a force (N)."""
     forces = [(r, v) for r, v in pairs if r.symbol.scope == "force"]
@@ -299,27 +329,21 @@ def _forces(
     largest, size = most("force"), sheet.scene.size
     turning = max(most("moment"), largest * size)
     inertia = {r.symbol.link: abs(v) for r, v in forces if r.symbol.kind == "Fi"}
-    lost = rounding(forces[0][0].symbol).force if rounding and forces else 0.0
-    relative = lost / largest if largest else 0.0
+    relative = rounding(forces[0][0].symbol).force / largest if forces and largest else 0.0
     # arms of what stands still are rounding beside the speeds of the links; at rest the driver has a unit rate
     speeds = (abs(v.span) for v in sheet.vectors("velocity").values())
     fastest = max(most("velocity"), max(speeds, default=0.0) * sheet.scales.velocity or size)
     wholes = {"force": largest, "moment": turning, "velocity": fastest}
 
-    def compared(reading: Reading, exact: complex | float) -> Compared:
+    def compared(reading: Reading, value: Value) -> Compared:
         symbol = reading.symbol
         whole = wholes.get(symbol.measure, size)
         if symbol.kind == "h" and inertia.get(symbol.link):
             # a moment over a force: a small force has an uncertain line
-            whole = (turning + abs(exact) * largest) / inertia[symbol.link]
-        error = abs(reading.value - exact) if math.isfinite(abs(exact)) else math.inf
-        expected = (predicted or {}).get(symbol)
-        tolerance = max(_allowed(sheet, predicted, expected), max(EXACT_TOLERANCE, 4.0 * relative) * whole)
+            whole = (turning + abs(value) * largest) / inertia[symbol.link]
         hand = HAND * largest / 100.0 if sheet.instrument not in ON_PAPER and symbol.measure == "force" else 0.0
-        floor = max(relative, CANCELLED) * whole
-        fair = _fair(sheet, tolerance, whole, hand) and not (relative > SLIGHT and 0.0 < abs(exact) <= floor)
-        turned = _turned(reading, exact, whole)
-        return Compared(reading, exact, error, tolerance, turned, expected, floor, fair)
+        share, floor = max(EXACT_TOLERANCE, 4.0 * relative), max(relative, CANCELLED) * whole
+        return row(reading, value, whole, floor, 0.0, share, hand, relative > SLIGHT)
 
     return compared
 
@@ -337,49 +361,14 @@ def _grain(sheet: Sheet) -> float:
     return GRAIN * far / min(bars, default=math.inf)
 
 
-def _allowed(
-    sheet: Sheet, predicted: Mapping[Symbol, Uncertainty] | None, expected: Uncertainty | None
-) -> float:
-    """What an instrument may be off; anything, where it draws and nothing is predicted of this reading."""
-    if expected is None:
-        return 0.0 if predicted is None else math.inf
-    return JUDGED * expected.deviation if sheet.instrument == "pencil" else expected.bound
-
-
-def _fair(sheet: Sheet, tolerance: float, most: float, least: float) -> bool:
-    """Whether a tolerance leaves something to agree with."""
-    part = FAIR if sheet.instrument in ON_PAPER else COARSE
-    return most == 0.0 == least or tolerance <= max(part * most, least)
-
-
-def _position(
-    sheet: Sheet, reading: Reading, exact: float, predicted: Mapping[Symbol, Uncertainty] | None,
-    lost: Lost,
-) -> Compared:  # fmt: skip
-    """A length is judged by the size of the mechanism, an angle by a radian, a number by itself."""
-    off = reading.value.real - exact
-    if reading.symbol.measure == "angle":
-        off = math.remainder(off, math.tau)
-    size, length = sheet.scene.size, reading.symbol.measure == "length"
-    most = max(size if length else 1.0, abs(exact))
-    expected = (predicted or {}).get(reading.symbol)
-    rounded = lost.mechanism / (1.0 if length else size)
-    tolerance = max(_allowed(sheet, predicted, expected), EXACT_TOLERANCE * most, rounded)
-    floor, fair = max(rounded, ROUNDING * most), _fair(sheet, tolerance, most, 0.0)
-    return Compared(reading, exact, abs(off), tolerance, 0.0, expected, floor, fair)
-
-
-def _of(lost: Lost, diagram: DiagramName) -> float:
-    return {"velocity": lost.velocity, "acceleration": lost.acceleration}[diagram]
-
-
 _TOLD_APART = (1.0 + math.sqrt(2.0)) ** 2  # v^2 > 2 v d + d^2 from v = (1 + sqrt 2) d on
 
 
 def _floor(sheet: Sheet, reading: Reading, rounding: Lost, unknown: float) -> float:
     """What rounding alone may amount to in a value (SI), ``unknown`` where nothing is known of it: of a rate by the bar
     that it is measured at, of a normal component by the velocity whose square it is."""
-    symbol, lost, slow = reading.symbol, _of(rounding, reading.diagram), rounding.velocity
+    symbol, slow = reading.symbol, rounding.velocity
+    lost: float = getattr(rounding, reading.diagram)
     if not (math.isfinite(lost) and math.isfinite(slow)):
         return unknown
     if symbol.kind == "an" and symbol.of is not None and symbol.to is not None:
