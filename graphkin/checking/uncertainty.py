@@ -38,6 +38,8 @@ from graphkin.words import Phrase
 __all__ = ["COVERAGE", "Advice", "Uncertainty", "advise", "deviations", "predict"]
 
 Values = Mapping[Symbol, complex | float]
+Drawn = Callable[..., Values | None]
+"""What is read off the drawing of hands that do not err before an act; None where it cannot be drawn."""
 T = TypeVar("T")
 
 
@@ -83,15 +85,15 @@ def predict(
         theirs, and the uncertainties are what was seen of them
     """
     still = nudged(name, tools)
-    drawing = _Drawing.of(what, still)
+    sheet, read = _drawn_by(what, still)
     drawn = still.acts
-    base = {r.symbol: r.value for r in drawing.read(drawing.redrawn.sheet, still)}
+    base = read(still) or {}
     if most and not together:
-        some = _samples(drawing, name, tools, FEW_SAMPLES)
+        some = _samples(read, name, tools, FEW_SAMPLES)
         offs = {s: _spread(value, [values[s] for values in some if s in values]) for s, value in base.items()}
         if sum(COVERAGE * offs[s] > CLEARLY * most[s] for s in most if s in offs) > spare:
             return {s: Uncertainty(off, _reading(s), 1.0, off) for s, off in offs.items()}
-    drawn_causes = drawing.redrawn.sheet.causes
+    drawn_causes = sheet.causes
     marks = [acts for acts, _ in drawn_causes]
     reading = len(drawn_causes)
     limits = np.array([(most.get(s, math.inf) / COVERAGE) ** 2 for s in base])
@@ -99,7 +101,7 @@ def predict(
     # how far each act moves each reading, shape (readings, acts)
     moved = np.zeros((len(base), still.acts), dtype=complex)
     for act in range(still.acts, 0, -1):  # the last first: less is drawn again after them
-        values = drawing.values(nudged(name, tools, {act: 1.0}), act)
+        values = read(nudged(name, tools, {act: 1.0}), act)
         # so near a dead point that this act alone makes the arcs miss: nothing can be promised
         moved[:, act - 1] = [
             math.inf if values is None else values.get(s, math.inf) - value for s, value in base.items()
@@ -109,8 +111,8 @@ def predict(
             if int((sums > limits).sum()) > spare:
                 break
     causes = np.array([bisect_left(marks, act) if act <= drawn else reading for act in range(1, still.acts + 1)])
-    samples = _samples(drawing, name, tools) if together else ()
-    bent = _bent(drawing, name, tools, base, moved) if together else np.ones(len(base))
+    samples = _samples(read, name, tools) if together else ()
+    bent = _bent(read, name, tools, base, moved) if together else np.ones(len(base))
     found = {}
     for row, times, (symbol, value) in zip(moved, bent.tolist(), base.items(), strict=True):
         shares: dict[int, float] = {}
@@ -128,46 +130,34 @@ def predict(
     return found
 
 
-@dataclass(frozen=True)
-class _Drawing:
-    """A plan drawn again and again, its force polygons (if any) at the scale of the first."""
+def _drawn_by(what: Plan, still: Instrument) -> tuple[Sheet, Drawn]:
+    """A plan drawn by hands that err nowhere; and what is read off it drawn by others, its force polygons (if any) at
+    the same scale."""
+    redrawn, newtons_per_mm = Redrawn(what, what.scales, still), 0.0
+    if redrawn.sheet.has_forces:
+        from graphkin.construction.forces import force_scale, forces_on
 
-    redrawn: Redrawn
-    newtons_per_mm: float
+        newtons_per_mm = force_scale(redrawn.sheet)
 
-    @classmethod
-    def of(cls, what: Plan, still: Instrument) -> _Drawing:
-        redrawn = Redrawn(what, what.scales, still)
-        if not redrawn.sheet.has_forces:
-            return cls(redrawn, 0.0)
-        from graphkin.construction.forces import force_scale
-
-        return cls(redrawn, force_scale(redrawn.sheet))
-
-    def read(self, sheet: Sheet, hand: Instrument) -> Sequence[Reading]:
-        """What is read off a sheet.  Raises as `execute`."""
-        if not self.newtons_per_mm:
-            return read_off(sheet, (), hand)
-        from graphkin.construction.forces import forces_on
-
-        return read_off(sheet, (), hand, forces_on(sheet, hand, self.newtons_per_mm))
-
-    def values(self, hand: Instrument, first: int = 0) -> Values | None:
-        """What is read off the drawing of hands that do not err before an act; None where it cannot be drawn."""
+    def values(hand: Instrument, first: int = 0) -> Values | None:
         try:
-            return {r.symbol: r.value for r in self.read(self.redrawn.by(hand, first), hand)}
+            sheet = redrawn.sheet if hand is still else redrawn.by(hand, first)
+            forces = forces_on(sheet, hand, newtons_per_mm) if newtons_per_mm else None
+            return {r.symbol: r.value for r in read_off(sheet, (), hand, forces)}
         except (Unsolvable, ArithmeticError):
             return None
 
+    return redrawn.sheet, values
 
-def _samples(drawing: _Drawing, name: str, tools: Tools, count: int = SAMPLES) -> Sequence[Values]:
+
+def _samples(read: Drawn, name: str, tools: Tools, count: int = SAMPLES) -> Sequence[Values]:
     """The readings of some drawings in which every act errs at random; those that cannot be drawn are left out."""
-    found = (drawing.values(erring(name, tools, seed)) for seed in range(count))
+    found = (read(erring(name, tools, seed)) for seed in range(count))
     return [values for values in found if values is not None]
 
 
 def _bent(
-    drawing: _Drawing, name: str, tools: Tools, base: Values, moved: NDArray[np.complex128]
+    read: Drawn, name: str, tools: Tools, base: Values, moved: NDArray[np.complex128]
 ) -> NDArray[np.float64]:
     """How many times as far as first order tells each reading is off where all acts err together in the way that most
     easily brings it three deviations off; shape (readings,)."""
@@ -182,8 +172,8 @@ def _bent(
             wrong = [
                 {k + 1: sense * COVERAGE * float(way[k]) for k in np.flatnonzero(way).tolist()} for sense in (1.0, -1.0)
             ]
-            read = (drawing.values(nudged(name, tools, errs)) for errs in wrong)
-            drawn = way, tuple(values for values in read if values is not None)
+            tried = (read(nudged(name, tools, errs)) for errs in wrong)
+            drawn = way, tuple(values for values in tried if values is not None)
             ways.append(drawn)
         told = COVERAGE * abs(complex(row @ drawn[0]))
         found[i] = max([abs(values[symbol] - base[symbol]) / told for values in drawn[1] if symbol in values] or [1.0])
