@@ -12,7 +12,7 @@ from graphkin.api.arguments import asked_symbols
 from graphkin.errors import CallError, Problem
 from graphkin.scene.asked import spelling_of
 from graphkin.scene.model import Mechanism
-from graphkin.scene.spelling import Way, is_blank, plain_text, read_cell, read_way, unit_factor
+from graphkin.scene.spelling import is_blank, plain_text, read_cell, read_way, unit_factor
 from graphkin.scene.symbol import KINDS, Printed, Symbol, Unreadable
 from graphkin.table import Rows, table_of
 from graphkin.words import Phrase, Wording
@@ -94,66 +94,88 @@ def as_answers(scene: Mechanism, given: AnswersLike) -> tuple[tuple[Answers, ...
     return _answers(scene, table_of(given), str(given), {})
 
 
-@dataclass(frozen=True)
-class _Columns:
-    """What the columns of a table are: values with their units, directions by symbol, and the others by role."""
+def _answers(
+    scene: Mechanism, sheet: Rows, name: str, silent: Mapping[int, frozenset[str]]
+) -> tuple[tuple[Answers, ...], tuple[str, ...]]:
+    problems: list[Problem] = []
+    values, ways, roles = _columns(scene, sheet.heads, name, problems)
+    others = [i for i, head in enumerate(sheet.heads) if head and i not in {*values, *ways, *roles.values()}]
+    if "person" not in roles and others:
+        roles["person"] = others.pop(0)
+    if "person" not in roles and "id" in roles:
+        roles["person"] = roles.pop("id")
+    if not values and not problems:
+        problems.append(Problem(name, "no column is a quantity", "write symbols as heads for example v_d or",
+                                names=', '.join(sheet.heads)[:200]))
+    rows = [(line, (*cells, *[""] * (len(sheet.heads) - len(cells)))) for line, cells in sheet.rows]
+    places = {cells[roles["at"]] for _, cells in rows if "at" in roles} - {""}
+    # numbers are driver values, unless all of them are names of positions
+    positions = scene.question.positions
+    by_name = positions is not None and bool(places) and places <= set(positions.names)
+    found = []
+    for line, cells in rows:
+        told, at = {role: cells[i] for role, i in roles.items()}, None
+        if text := told.get("at", ""):
+            try:
+                at = text if by_name else _plain_number(text, sheet.sign)
+            except ValueError:
+                problems.append(Problem(Phrase("line at", name=name, line=line), "is no driver value", text=text[:40]))
+        person = told.get("person", "") or ("" if at is not None else str(Phrase("line", line=line)))
+        marks = {part: mark for part in ("equations", "drawing") if (mark := _mark(told.get(part, ""))) is not None}
+        made: dict[Symbol, Cell] = {}
+        for i, (symbol, unit) in values.items():
+            if sheet.heads[i] not in silent.get(line, ()):
+                told_ways = [cells[k] for k, of in ways.items() if of == symbol]
+                made[symbol] = _cell(scene, symbol, unit, cells[i], told_ways, sheet.sign)
+        found.append(Answers(person, at, made, variant=told.get("variant", ""), id=told.get("id", ""), marks=marks))
+    if problems:
+        raise CallError(*problems[:50])
+    return tuple(found), tuple(sheet.heads[i] for i in others)
 
-    values: Mapping[int, Symbol]
-    units: Mapping[int, str]
-    ways: Mapping[int, Symbol]
-    roles: Mapping[Role, int]
-    unused: tuple[str, ...]
 
-    def cell(self, role: Role, cells: Sequence[str]) -> str:
-        """The cell of a role, "" where the table has none."""
-        i = self.roles.get(role)
-        return cells[i] if i is not None and i < len(cells) else ""
+def _cell(scene: Mechanism, symbol: Symbol, unit: str, text: str, ways: Sequence[str], sign: str) -> Cell:
+    """A cell with what other columns say of its direction or sense."""
+    if is_blank(text):
+        return None
+    try:
+        way = next((read_way(told, symbol) for told in ways if not is_blank(told)), None)
+        return read_cell(text, symbol, scene.units, unit, sign, way)
+    except Unreadable as error:
+        return text, error.phrase
 
 
-def _columns(scene: Mechanism, heads: Sequence[str], name: str, problems: list[Problem]) -> _Columns:
+def _columns(
+    scene: Mechanism, heads: Sequence[str], name: str, problems: list[Problem]
+) -> tuple[dict[int, tuple[Symbol, str]], dict[int, Symbol], dict[Role, int]]:
+    """The columns of values with their units, those of directions and senses, and others by role; the faults of the
+    heads are added to ``problems``."""
     spelling = spelling_of(scene)
-    values: dict[int, Symbol] = {}
-    units: dict[int, str] = {}
+    values: dict[int, tuple[Symbol, str]] = {}
     ways: dict[int, Symbol] = {}
     roles: dict[Role, int] = {}
-    others: list[int] = []
     for i, head in enumerate(heads):
-        role = _role(head)
+        role, where = _role(head), Phrase("column", name=name, head=head)
         if role is not None and role not in roles:
             roles[role] = i
             continue
         told = _WAY.search(head)
         text, unit = spelling.head(_WAY.sub("", head).strip(" _-:") if told else head)
         symbol = spelling.symbol(re.sub(r"\bof\b", "", text).strip())
-        if told and symbol is None and not _QUANTITY.match(text) and values and i - 1 in values:
-            symbol = values[i - 1]
+        if told and symbol is None and not _QUANTITY.match(text) and i - 1 in values:
+            symbol = values[i - 1][0]
         if symbol is not None and told:
             ways[i] = symbol
-            continue
-        if symbol is None:
-            if _QUANTITY.match(text):
-                problems += _unknown(scene, text, Phrase("column", name=name, head=head))
-            elif head:
-                others.append(i)
-            continue
-        problems += _unknown(scene, str(symbol), Phrase("column", name=name, head=head))
-        if unit and unit_factor(unit, symbol, scene.units) is None:
-            wanted = Phrase("give it in", unit=symbol.unit(scene.units).text)
-            problems.append(
-                Problem(
-                    Phrase("column", name=name, head=head),
-                    Phrase("is no unit of", unit=unit, measure=symbol.measure),
-                    wanted,
-                )
-            )
-        if symbol in values.values():
-            problems.append(Problem(Phrase("column", name=name, head=head), "stands twice", "keep one of them"))
-        values[i], units[i] = symbol, unit
-    if "person" not in roles and others:
-        roles["person"] = others.pop(0)
-    if "person" not in roles and "id" in roles:
-        roles["person"] = roles.pop("id")
-    return _Columns(values, units, ways, roles, tuple(heads[i] for i in others))
+        elif symbol is None:
+            problems += _unknown(scene, text, where) if _QUANTITY.match(text) else []
+        else:
+            problems += _unknown(scene, str(symbol), where)
+            if unit and unit_factor(unit, symbol, scene.units) is None:
+                wanted = Phrase("give it in", unit=symbol.unit(scene.units).text)
+                problems.append(Problem(where, "is no unit of", wanted, unit=unit, measure=symbol.measure))
+            if symbol in {known for known, _ in values.values()}:
+                problems.append(Problem(where, "stands twice", "keep one of them"))
+            values[i] = symbol, unit
+    return values, ways, roles
 
 
 def _role(head: str) -> Role | None:
@@ -167,66 +189,6 @@ def _unknown(scene: Mechanism, text: str, where: Wording) -> list[Problem]:
     except CallError as error:
         return [Problem(where, p.found, p.wanted) for p in error.problems]
     return []
-
-
-def _answers(
-    scene: Mechanism, sheet: Rows, name: str, silent: Mapping[int, frozenset[str]]
-) -> tuple[tuple[Answers, ...], tuple[str, ...]]:
-    problems: list[Problem] = []
-    columns = _columns(scene, sheet.heads, name, problems)
-    if not columns.values and not problems:
-        problems.append(Problem(name, "no column is a quantity", "write symbols as heads for example v_d or",
-                                names=', '.join(sheet.heads)[:200]))
-    places = [own for _, cells in sheet.rows if (own := columns.cell("at", cells))]
-    # numbers are driver values, unless all of them are names of positions
-    positions = scene.question.positions
-    by_name = positions is not None and bool(places) and set(places) <= set(positions.names)
-    found = []
-    for line, cells in sheet.rows:
-        at: float | str | None = None
-        text = columns.cell("at", cells)
-        if text:
-            try:
-                at = text if by_name else _plain_number(text, sheet.sign)
-            except ValueError:
-                problems.append(Problem(Phrase("line at", name=name, line=line), "is no driver value", text=text[:40]))
-        found.append(_row(scene, sheet, columns, line, cells, at, silent.get(line, frozenset())))
-    if problems:
-        raise CallError(*problems[:50])
-    return tuple(found), columns.unused
-
-
-def _row(
-    scene: Mechanism, sheet: Rows, columns: _Columns, line: int, cells: Sequence[str], at: float | str | None,
-    silent: frozenset[str],
-) -> Answers:  # fmt: skip
-    made: dict[Symbol, Cell] = {}
-    ways: dict[Symbol, Way] = {}
-    bad: dict[Symbol, Unreadable] = {}
-    for i, symbol in columns.ways.items():
-        text = cells[i] if i < len(cells) else ""
-        if not is_blank(text):
-            try:
-                ways[symbol] = read_way(text, symbol)
-            except Unreadable as error:
-                bad[symbol] = error
-    for i, symbol in columns.values.items():
-        if sheet.heads[i] in silent:
-            continue
-        text = cells[i] if i < len(cells) else ""
-        try:
-            if symbol in bad and not is_blank(text):
-                raise bad[symbol]
-            way, unit = ways.get(symbol), columns.units[i]
-            made[symbol] = None if is_blank(text) else read_cell(text, symbol, scene.units, unit, sheet.sign, way)
-        except Unreadable as error:
-            made[symbol] = text, error.phrase
-    person = columns.cell("person", cells)
-    marks = {role: _mark(columns.cell(role, cells)) for role in ("equations", "drawing") if role in columns.roles}
-    name = person or ("" if at is not None else str(Phrase("line", line=line)))
-    other = columns.cell("id", cells) if "id" in columns.roles else ""
-    known = {role: mark for role, mark in marks.items() if mark is not None}
-    return Answers(name, at, made, variant=columns.cell("variant", cells), id=other, marks=known)
 
 
 def _mark(text: str) -> float | None:
