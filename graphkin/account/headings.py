@@ -256,26 +256,13 @@ def _sentences(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -
                 said.append(f"{step.number}. {_sentence(step.phrase, language)}")
         if diagram != "mechanism":
             said += _vectors(sheet, diagram, language)
-    said += remarks(sheet, language)
+    said += (_sentence(note, language) for note in remarks(sheet))
     return said
 
 
-def remarks(sheet: Sheet, language: str, letters: Letters | None = None) -> list[str]:
-    """What is to be said of the drawing as a whole: badly conditioned crossings, legs that are parallel; with
-    ``letters``, symbols stand between dollar signs as a convention writes them."""
-    notes = list(dict.fromkeys(r.phrase for r in sheet.remarks if r.key != "zero vector"))
-    if letters is None:
-        return [_sentence(note, language) for note in notes]
-
-    def written(thing: object) -> str:
-        try:
-            return f"${letters.vector(Symbol.parse(str(thing)))}$"
-        except ValueError:
-            text = str(thing)
-            return f"${letters.point(text)}$" if text in sheet.scene.holders else in_markup(text)
-
-    said = (say(n, language, written) for n in notes)
-    return [_capital(text).rstrip("。.") + word("full stop", language) for text in said]
+def remarks(sheet: Sheet) -> list[Phrase]:
+    """What is to be said of the drawing as a whole: badly conditioned crossings, legs that are parallel."""
+    return list(dict.fromkeys(r.phrase for r in sheet.remarks if r.key != "zero vector"))
 
 
 def structure_words(scene: Mechanism, language: str) -> list[str]:

@@ -245,7 +245,7 @@ def _lines_meet(
     """Lines along two vectors of unknown size, each through a point; where they cross the vector ``symbol`` from
     ``tail`` ends."""
     (p, left), (q, right) = ((at, plot.slip.line(part.symbol, part.along)) for at, part in lines)
-    meeting = plot.slip.found(symbol, tail, plot.board.cross(order, p, left, q, right, str(symbol)))
+    meeting = plot.slip.found(symbol, tail, plot.board.cross(order, p, left, q, right, symbol))
     for through, part in lines:
         ray = Ray(through, part.along, meeting, part.direction, part.symbol)
         plot.do(Step("line", "direction", order, (ray,), equation, symbol=part.symbol, direction=part.direction))

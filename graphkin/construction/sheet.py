@@ -490,10 +490,7 @@ def _crossing(remark: Remark) -> Symbol:
     (of,) = remark.of
     if isinstance(of, Phrase):
         return Symbol("omega", link=str(of.args[0]).split(", ")[0])
-    try:
-        return Symbol.parse(str(of))
-    except ValueError:
-        return Symbol("v", PointRef(str(of)))
+    return of if isinstance(of, Symbol) else Symbol("v", PointRef(of))
 
 
 # -- the board on which it grows ---------------------------------------------------------------------------------------
@@ -553,7 +550,9 @@ class Board:
         """Take note of what may have to be said, at this scale or at another."""
         self.noticed.append(Remark(diagram, key, of, size))
 
-    def cross(self, diagram: DiagramName, p: complex, d: complex, q: complex, e: complex, what: str) -> complex:
+    def cross(
+        self, diagram: DiagramName, p: complex, d: complex, q: complex, e: complex, what: str | Symbol
+    ) -> complex:
         """Where the line through p along d meets the line through q along e, drawn as ruler lines.
 
         Raises
@@ -565,7 +564,7 @@ class Board:
         at = cross_lines(p, d, q, e)
         if sine < PARALLEL or at is None:
             said = Phrase("the two lines that should find it are"), Phrase("move the driver off this position")
-            raise Unsolvable("dead point", Problem(what, *said))
+            raise Unsolvable("dead point", Problem(str(what), *said))
         self.notice(diagram, "sharp crossing", what, size=sine)
         self.notice(diagram, "off the sheet", what, size=max(abs(at - p), abs(at - q)))
         return self.instrument.point(at)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property, partial
+from typing import TypeAlias
 
 from graphkin.account.account import WrittenLine, rule_alone
 from graphkin.account.arithmetic import bound, carried_by, factors_of, substituted
@@ -58,6 +59,8 @@ class _Cell:
         return max(runs_width(self.runs), runs_width(self.size), runs_width(self.direction), runs_width(self.over))
 
 
+Placed: TypeAlias = list[tuple[Written, complex]]
+"""Blocks with their left upper corners (mm)."""
 LineToSet = Callable[[float, float], Written]
 """A line as it is set: at most so wide, in letters of a size (mm)."""
 
@@ -77,45 +80,46 @@ def equations_in_room(
 ) -> tuple[tuple[Primitive, ...], int]:
     """Lines as large as they fit an area (mm), with letters of ``most`` mm, in one column or two, about its left upper
     corner; and how many of them, the first ones, fit."""
-    fullest: list[tuple[Written, complex]] = []
-    for size, columns in WAYS:
-        if size > most:
-            continue
-        wide = (width - (columns - 1) * COLUMN_GAP) / columns
-        # lines are set as they are placed, since those after one that has no room are not wanted
-        blocks = (line(wide, size) for line in lines)
-        placed = _in_columns(blocks, wide, height, columns)
-        fullest = max(fullest, placed, key=len)
-        if len(placed) == len(lines):
-            return _written(placed), len(placed)
-    return _written(fullest), len(fullest)
+
+    def tried() -> Iterator[Placed]:
+        for size, columns in WAYS:
+            if size <= most:
+                wide = (width - (columns - 1) * COLUMN_GAP) / columns
+                # lines are set as they are placed, since those after one that has no room are not wanted
+                yield _in_columns((line(wide, size) for line in lines), wide, height, columns)
+
+    return _fullest(tried(), len(lines))
 
 
 def equations_on_page(lines: Sequence[LineToSet], width: float, height: float) -> tuple[tuple[Primitive, ...], int]:
     """Lines on a page of their own (mm), as ``equations_in_room``, in columns of one height where it is wide."""
     columns = 2 if width >= WIDE else 1
     wide = (width - (columns - 1) * COLUMN_GAP) / columns
-    fullest: list[tuple[Written, complex]] = []
-    for size in dict.fromkeys(size for size, _ in WAYS):
-        blocks = [line(wide, size) for line in lines]
-        whole = added_up(block.height for block in blocks)
-        high = min(height, whole / columns)
-        while high < height and len(_in_columns(blocks, wide, high, columns)) < len(blocks):
-            high = min(height, high + size)
-        placed = _in_columns(blocks, wide, high, columns)
-        fullest = max(fullest, placed, key=len)
-        if len(placed) == len(lines):
+
+    def tried() -> Iterator[Placed]:
+        for size in dict.fromkeys(size for size, _ in WAYS):
+            blocks = [line(wide, size) for line in lines]
+            high = min(height, added_up(block.height for block in blocks) / columns)
+            while high < height and len(_in_columns(blocks, wide, high, columns)) < len(blocks):
+                high = min(height, high + size)
+            yield _in_columns(blocks, wide, high, columns)
+
+    return _fullest(tried(), len(lines))
+
+
+def _fullest(tried: Iterable[Placed], count: int) -> tuple[tuple[Primitive, ...], int]:
+    """What is drawn of the first way in which all lines fit, or the most, and how many."""
+    best: Placed = []
+    for placed in tried:
+        best = max(best, placed, key=len)
+        if len(best) == count:
             break
-    return _written(fullest), len(fullest)
+    return tuple(p for block, at in best for p in moved(block.children, at)), len(best)
 
 
-def _written(blocks: Sequence[tuple[Written, complex]]) -> tuple[Primitive, ...]:
-    return tuple(p for block, at in blocks for p in moved(block.children, at))
-
-
-def _in_columns(blocks: Iterable[Written], wide: float, height: float, columns: int) -> list[tuple[Written, complex]]:
+def _in_columns(blocks: Iterable[Written], wide: float, height: float, columns: int) -> Placed:
     """Blocks below each other in columns, with their corners, as far as they fit."""
-    placed: list[tuple[Written, complex]] = []
+    placed: Placed = []
     column, y = 0, 0.0
     for block in blocks:
         if y + block.height > height:

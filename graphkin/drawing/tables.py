@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 from graphkin.account.headings import drivers, number, remarks, rolling_starts, term, written
 from graphkin.account.notation import Letters
+from graphkin.account.voice import Voice
 from graphkin.checking.readings import Reading, read_off
 from graphkin.checking.report import Compared, Report, deviation, exact, measured, paper
 from graphkin.construction.sheet import Sheet
@@ -147,7 +148,8 @@ def given_lines(sheet: Sheet, letters: Letters, language: str, width: float, siz
             fixed.append(f"{term('guide', language)} ${name}$ ({_pair(guide.through, scene)}) {unit}, {angle}°")
     lines = [line for group in (items, fixed) for line in _flowed(group, size, width)]
     for each in languages(language):
-        lines += [line for note in remarks(sheet, each, letters) for line in wrapped(note, size, width)]
+        notes = (Voice(sheet, letters).sentence(note, each) for note in remarks(sheet))
+        lines += [line for note in notes for line in wrapped(note, size, width)]
     return lines
 
 
