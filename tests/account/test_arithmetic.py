@@ -378,12 +378,13 @@ def test_two_links_turn_on_each_other_by_the_difference_of_their_rates(more, tol
 
 
 def test_by_rates_is_laid_off_what_they_give_over_the_length_between_two_points():
-    sheet, (step, _) = seen_from_a_held_link()
-    (velocity,) = step.data
-    start, end = (sheet.points[PointRef(ref.point)] for ref in (step.refs[0], step.ref))
-    omega = sheet.omega[step.link].value - sheet.omega[step.held].value
-    expected = 1j * omega * (end - start) * sheet.scales.length / sheet.scales.velocity
-    assert expected == pytest.approx(velocity.span)
+    sheet, steps = seen_from_a_held_link()
+    for step in steps:
+        start, end = (sheet.points[PointRef(ref.point)] for ref in (step.refs[0], step.ref))
+        omega, alpha = (rates[step.link].value - rates[step.held].value for rates in (sheet.omega, sheet.alpha))
+        arm = (end - start) * sheet.scales.length / sheet.scales.of(step.diagram)
+        expected = [1j * omega * arm] if step.diagram == "velocity" else [-(omega**2) * arm, 1j * alpha * arm]
+        assert expected == pytest.approx([part.span for part in step.data])
 
 
 def test_by_rates_that_are_nought_nothing_is_laid_off():

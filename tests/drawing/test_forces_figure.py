@@ -154,6 +154,19 @@ def test_a_sum_of_moments_gives_in_figures_what_is_drawn(name: str) -> None:
     assert [drawn for drawn, _ in found] == [written for _, written in found]
 
 
+@pytest.mark.parametrize("name", ["rocker-return-spring", "boom-lifted", "engine-gas-force", "shaper-forces"])
+def test_a_sum_of_moments_comes_to_nought_as_it_is_written(name: str) -> None:
+    lines = [line for stage in stages_of(name) for step in stage.steps for line in step.lines("en") if "ΣM" in line]
+    whole = [m for line in lines if (m := re.fullmatch(r"\S+ = (.*) = 0;  (\$\S+\$) = (\S+) k?N(?:·m)?", line))]
+    assert whole
+    for terms, unknown, value in (m.groups() for m in whole):
+        signed = terms if terms.startswith("−") else f"+ {terms}"
+        products = re.findall(r"([+−]) (\S+)", signed.replace(unknown, value))
+        moments = [(-1.0 if sign == "−" else 1.0) * math.prod(float(x.replace("−", "-")) for x in factors.split("·"))
+                   for sign, factors in products]  # fmt: skip
+        assert sum(moments) == pytest.approx(0.0, abs=2e-4 * max(map(abs, moments)))
+
+
 def test_a_part_of_a_force_that_is_nought_is_not_told_as_the_force() -> None:
     at_pin = graphkin.read("four-bar-coupler-point").to_dict()
     links = list(at_pin["links"])
