@@ -20,11 +20,8 @@ from graphkin.construction.centres import find_centres
 from graphkin.races.work import Entry, Work, best_time
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import PreparedMechanism
-from graphkin.solver.assemblies import choose_forms
-from graphkin.solver.expressions import Code, Name
+from graphkin.solver.expressions import Code
 from graphkin.solver.pose import Array
-from graphkin.solver.prepared import formulas
-from graphkin.solver.program import program_of
 from graphkin.study.equations import Equations, Solution
 
 __all__ = ["METHODS", "Numeric", "acts", "copy_time", "one_by_one"]
@@ -126,24 +123,15 @@ def one_by_one(work: Work, repeats: int, tag: str) -> Entry:
 
 def single_precision(work: Work, kinds: str) -> Callable[[Array], Array]:
     """The same formulas in numbers of 7 digits: a function of the values of the first driver."""
-    structure, drivers = work.structure, work.scene.drivers
-    dimensioned = program_of(structure, tuple(d.values[2] != 0 for d in drivers))
-    program = dimensioned.program
-    code = Code(program.graph, list(formulas(program, structure, columns_of(work, kinds)).values()))
-    forms = choose_forms(structure)
-    given: dict[Name, float] = {}
-    for k, driver in enumerate(drivers):
-        value, given["rate", k], given["second", k] = driver.values
-        given["cos", k], given["sin", k], given["travel", k] = math.cos(value), math.sin(value), value
-    given |= {("sign", i): float(form) for i, form in forms.items()}
-    same = [np.asarray(x, dtype=np.float32) for x in code.same(dimensioned.params(code.params, given)) or []]
+    ready = solver.prepare(work.structure, columns_of(work, kinds))
+    code = Code(ready.dimensioned.program.graph, ready.asked, ready.fixed)
+    same = code.same(ready.given(code), np.float32)
 
     def run(values: Array) -> Array:
-        moving = {("cos", 0): np.cos(values), ("sin", 0): np.sin(values), ("travel", 0): values}
-        inputs = [moving[name] if name in moving else np.full(len(values), given[name], dtype=np.float32)
-                  for name in code.inputs]
+        given = {} if ready.signs is not None else ready.signs_at(values)
+        given |= {("cos", 0): np.cos(values), ("sin", 0): np.sin(values), ("travel", 0): values}
         out = np.empty((len(code.asked), len(values)), dtype=np.float32)
-        code.arrays(same, inputs, list(out))
+        code.arrays(same, [given[name] for name in code.inputs], list(out))
         return out
 
     return run

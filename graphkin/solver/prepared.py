@@ -239,7 +239,7 @@ class PreparedMechanism:
             if steady:
                 inputs = [given[k] for k in order]
             else:
-                signs = self._signs_at(np.array([value]))
+                signs = self.signs_at(np.array([value]))
                 inputs = [given[k] if k < 3 else float(signs[n][0]) for k, n in zip(order, names, strict=True)]
             try:
                 found = function(params, inputs)
@@ -264,7 +264,8 @@ class PreparedMechanism:
         """The form of each group at values of the first driver; beyond its reach that at its end."""
         return self.range.forms(self.range.offsets(value) / abs(self.range.wide))
 
-    def _signs_at(self, value: Array) -> dict[Name, Array]:
+    def signs_at(self, value: Array) -> dict[Name, Array]:
+        """The assembly of each group at values of the first driver, where it changes."""
         return {("sign", i): form for i, form in self._forms_at(value).items() if form.ndim == 1}
 
     def _poses_by_newton(self, value: Array, ok: Array) -> dict[Name, Array]:
@@ -360,7 +361,7 @@ class PreparedMechanism:
         if not ok.any():
             out[...] = 0.0
             return ok
-        given: dict[Name, Array] = {} if self.signs is not None else self._signs_at(way.values)
+        given: dict[Name, Array] = {} if self.signs is not None else self.signs_at(way.values)
         if compiled:
             kernel = self._on_grid if isinstance(way, UniformGrid) else self._at_values
             rows = [np.array([given[name] for name in kernel.signs])] if kernel.signs else []

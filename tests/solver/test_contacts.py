@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
-from graphkin import check, read, solve, sweep
+from graphkin import check, read, solve, solver, sweep
 from graphkin.scene import mechanism_of
+from graphkin.scene.symbol import Symbol
+from graphkin.solver.motion import contact_motion
 from graphkin.structure import analyse
 
 
@@ -28,6 +30,19 @@ def test_two_discs_move_as_the_four_bar_of_their_centres():
     here = frame_of(solve("disc-on-disc").data)
     assert here["links"]["2"]["alpha"] == pytest.approx(55.609990265700986, rel=1e-12)
     assert here["contacts"]["K"]["pressure"]["2"] == pytest.approx(0.1991395448398155, rel=1e-12)
+
+
+@pytest.mark.parametrize("scene", ["disc-on-disc", "cam-eccentric-flat-rocker"])
+def test_at_a_contact_the_relative_acceleration_has_a_part_along_the_normal_one_along_the_tangent_and_that_of_coriolis(
+    scene,
+):
+    motion = solver.solve(mechanism_of(scene))
+    normal = contact_motion(motion, motion.scene.contacts[0]).normal[0]
+    an, ar, ak = (motion.value(Symbol.parse(f"{kind}_K@1/K@2"))[0] / normal for kind in ("an", "ar", "ak"))
+    whole = (motion.acceleration("K", "1") - motion.acceleration("K", "2"))[0] / normal
+    assert (0.0, 0.0) == pytest.approx((an.imag, ar.real), abs=1e-14 * abs(whole))
+    assert whole == pytest.approx(an + ar + ak, rel=1e-13)
+    assert min(abs(an), abs(ar), abs(ak)) > 0.05 * abs(whole)
 
 
 def test_the_outlines_touch_all_the_turn_and_slide_along_the_tangent():

@@ -266,6 +266,15 @@ def test_both_values_stand_where_a_load_begins_by_the_drivers_value():
         assert [0.0 if edge else 100.0, 0.0] == pytest.approx(here["P_P"])
 
 
+def test_over_a_sweep_both_values_stand_only_where_a_load_begins_or_ends():
+    scene = graphkin.read(SHAPER).to_dict()
+    scene["loads"]["P"] = {"on": "6", "at": "C", "force": 100, "angle": 0, "when": {"driver": [40, 60]}}
+    scene["driver"] |= {"angle": 40}
+    turn = graphkin.solve(scene, sweep=36).data["positions"]
+    edges = [round(math.degrees(here["driver"]["2"])) % 360 for here in turn if "P_P+" in here["forces"]]
+    assert [40, 60] == sorted(edges)
+
+
 def test_a_load_may_act_while_the_driver_passes_its_own_nought():
     scene = graphkin.read(SHAPER).to_dict()
     scene["loads"]["P"] = {"on": "6", "at": "C", "force": 100, "angle": 0, "when": {"driver": [300, 60]}}
