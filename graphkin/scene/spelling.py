@@ -3,7 +3,7 @@
 Names: ``v_B3``, ``ω₃``, ``omega3``, ``vB``, ``a_{CB}^{n}``, ``v_C/(m/s)``; a spelling is held against the names that
 the scene has, so that ``v_B3`` is the pin B3 where there is one, and else B as a point of link 3.  Directions and
 senses: ``clockwise``, ``←``, ``12° above x``, ``S 50° E``, ``向右下``, ``⊥AB``.  Cells: ``482,7``, ``≈575``,
-``↻ 2.82``, ``0.483 m/s ←``.
+``↻ 2.82``, ``0.483 m/s ←``.  The words for them are those of the tables of words (``[spelling]``), of every language.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from functools import cached_property
 from graphkin.plane import added_up
 from graphkin.scene.symbol import KINDS, Line, PointRef, Printed, Symbol, Unreadable, forms_of_names, stated
 from graphkin.scene.tables import FORCES, LENGTHS, Units
-from graphkin.words import Phrase
+from graphkin.words import LANGUAGES, Phrase, area
 
 __all__ = [
     "NUMBER", "Spelling", "Way", "is_blank", "is_unit", "plain_text", "read_cell", "read_way", "unit_factor",
@@ -160,15 +160,13 @@ class Spelling:
         return replace(symbol, of=plain(of), to=plain(to))
 
 
-_CHINESE_UNITS = (
-    ("毫米", "mm"), ("厘米", "cm"), ("米", "m"), ("弧度", "rad"), ("转", "r"), ("度", "deg"), ("分钟", "min"),
-    ("分", "min"), ("平方秒", "s2"), ("秒", "s"), ("每", "/"),
-)
-_WORDED_UNITS = (
-    (r"millimet(?:re|er)s?", "mm"), (r"centimet(?:re|er)s?", "cm"), (r"met(?:re|er)s?", "m"),
-    (r"radians?|rads(?!-)", "rad"), (r"per\s+|\bp(?=s\b)", "/"),
-    (r"minutes?", "min"), (r"seconds?|secs", "s"), (r"newtons?", "n"), ("squared", "2"),
-)  # fmt: skip
+def _said(key: str, signs: str = "(?!)") -> re.Pattern[str]:
+    """How people say something, in any language (``[spelling]`` in the tables of words) or by signs."""
+    words = (area("spelling", language)[f"spelt {key}"] for language in LANGUAGES)
+    return re.compile("|".join((*words, signs)), re.IGNORECASE)
+
+
+_UNITS = {unit: _said(f"unit {unit}") for unit in ("mm", "cm", "m", "rad", "deg", "r", "/", "min", "s2", "s", "n", "2")}
 _LENGTHS = {**LENGTHS, "dm": 0.1, "km": 1e3, "um": 1e-6, "inch": 0.0254, "inches": 0.0254, "\"": 0.0254, "feet": 0.3048}
 _FORCES = {**{force.lower(): newtons for force, newtons in FORCES.items()}, "lb": FORCES["lbf"]}
 _ANGLES = {**dict.fromkeys(("rad", "", "1"), 1.0), **dict.fromkeys(("deg", "°", "degrees"), math.radians(1.0)),
@@ -187,11 +185,9 @@ def unit_factor(text: str, symbol: Symbol, units: Units) -> float | None:
     0.10472
     """
     plain = plain_text(text).lower()
-    for pattern, unit in _WORDED_UNITS:
-        plain = re.sub(pattern, unit, plain)
+    for unit, pattern in _UNITS.items():
+        plain = pattern.sub(unit, plain)
     bare = re.sub(r"[\s^·*⋅.{}]", "", plain).replace("µ", "u").replace("μ", "u")
-    for word, unit in _CHINESE_UNITS:
-        bare = bare.replace(word, unit)
     if symbol.measure in ("force", "moment"):
         force, arm = next(((f, bare[len(f) :]) for f in _FORCES if bare.startswith(f)), ("", bare))
         arm = arm.removeprefix("-")
@@ -234,12 +230,6 @@ def is_unit(text: str, units: Units) -> bool:
 
 
 NUMBER = r"[+\-]?(?:\d+(?:[.,]\d+)*[.]?|\.\d+)(?:[eE][+\-]?\d+)?"
-_COUNTER = re.compile(
-    r"\b(?:c\.?c\.?w\.?|a\.?c\.?w\.?)(?![a-z])|counter[\s-]*clock[\s-]*wise|anti[\s-]*clock[\s-]*wise"
-    r"|逆(?:时针)?(?:方向|转动|转|旋转)?|[↺⟲⥀↶]",
-    re.IGNORECASE,
-)
-_CLOCKWISE = re.compile(r"\bc\.?w\.?(?![a-z])|clock[\s-]*wise|顺(?:时针)?(?:方向|转动|转|旋转)?|[↻⟳⥁↷]", re.IGNORECASE)
 _NUMBERED = r"(?P<deg>[+\-]?\d+(?:[.,]\d+)?)\s*(?:°|deg(?:rees?)?|度)"
 _SIDE = re.compile(
     _NUMBERED + r"\s*(?P<side>above|below|over|under|left of|right of"
@@ -261,28 +251,18 @@ _DEGREES = re.compile(_NUMBERED + r"(?!\s*/)", re.IGNORECASE)
 _RADIANS = re.compile(r"[,;(∠@]\s*" + _TURN + r"\s*rad\b(?!\s*/)", re.IGNORECASE)
 _ARROWS = {"→": 0.0, "↗": 45.0, "↑": 90.0, "↖": 135.0, "←": 180.0, "↙": -135.0, "↓": -90.0, "↘": -45.0,
            "⇒": 0.0, "⇑": 90.0, "⇐": 180.0, "⇓": -90.0, "➔": 0.0, "➜": 0.0}  # fmt: skip
-_TO = r"[\s-]*(?:(?:and[\s-]*)?to the[\s-]*)?"
-_WAYS = (
-    (rf"(?:to the )?(?:upper|up(?:wards?)?){_TO}right|(?:向|往|朝)?右上(?:方)?", 45.0),
-    (rf"(?:to the )?(?:upper|up(?:wards?)?){_TO}left|(?:向|往|朝)?左上(?:方)?", 135.0),
-    (rf"(?:to the )?(?:lower|down(?:wards?)?){_TO}left|(?:向|往|朝)?左下(?:方)?", -135.0),
-    (rf"(?:to the )?(?:lower|down(?:wards?)?){_TO}right|(?:向|往|朝)?右下(?:方)?", -45.0),
-    (r"(?:horizontally\s*)?(?:to the |to )?\b(?:right(?:wards?)?)\b|(?:水平)?(?:向|往|朝)?右(?:方)?", 0.0),
-    (r"(?:horizontally\s*)?(?:to the |to )?\b(?:left(?:wards?)?)\b|(?:水平)?(?:向|往|朝)?左(?:方)?", 180.0),
-    (r"(?:vertically\s*)?\bup(?:wards?)?\b|(?:竖直|垂直|铅垂)?(?:向|往|朝)?上(?:方)?", 90.0),
-    (r"(?:vertically\s*)?\bdown(?:wards?)?\b|(?:竖直|垂直|铅垂)?(?:向|往|朝)?下(?:方)?", -90.0),
-    (r"(?:along\s*)?(?:\+|positive)\s*x(?:[\s-]*axis)?\b|沿?\+?\s*x\s*轴?正(?:方)?向", 0.0),
-    (r"(?:along\s*)?(?:-|negative)\s*x(?:[\s-]*axis)?\b|沿?-?\s*x\s*轴?负(?:方)?向", 180.0),
-    (r"(?:along\s*)?(?:\+|positive)\s*y(?:[\s-]*axis)?\b|沿?\+?\s*y\s*轴?正(?:方)?向", 90.0),
-    (r"(?:along\s*)?(?:-|negative)\s*y(?:[\s-]*axis)?\b|沿?-?\s*y\s*轴?负(?:方)?向", -90.0),
+_CLOCKWISE = _said("clockwise", "[↻⟳⥁↷]")
+_SENSES = (
+    (_said("counter-clockwise", "[↺⟲⥀↶]"), 1), (_CLOCKWISE, -1), (_said("into the paper"), -1),
+    (_said("out of the paper"), 1), (_said("negative", r"[-]\s*k\u0302?\b"), -1), (_said("positive"), 1),
 )  # fmt: skip
-_WAY = [(re.compile(pattern, re.IGNORECASE), angle) for pattern, angle in _WAYS]
-_PAPER = r" (?:the )?(?:page|paper|plane|sheet)\b|(?:垂直)?于?(?:纸面)?指?向"
-_INTO = re.compile(rf"\binto{_PAPER}里", re.IGNORECASE)
-_OUT_OF = re.compile(rf"\bout of{_PAPER}外", re.IGNORECASE)
-_NEGATIVE = re.compile(r"\b(?:negative|minus)\b|[-]\s*k\u0302?\b|为?负", re.IGNORECASE)
-_POSITIVE = re.compile(r"\b(?:positive|plus)\b|为?正", re.IGNORECASE)
-_SENSES = ((_COUNTER, 1), (_CLOCKWISE, -1), (_INTO, -1), (_OUT_OF, 1), (_NEGATIVE, -1), (_POSITIVE, 1))
+_WAY = [
+    (_said(f"{way}"), angle) for way, angle in (
+        ("to the upper right", 45.0), ("to the upper left", 135.0), ("to the lower left", -135.0),
+        ("to the lower right", -45.0), ("to the right", 0.0), ("to the left", 180.0), ("upward", 90.0),
+        ("downward", -90.0), ("along x", 0.0), ("against x", 180.0), ("along y", 90.0), ("against y", -90.0),
+    )
+]  # fmt: skip
 
 _COMPASS = {"east": 0, "e": 0, "东": 0, "north": 90, "n": 90, "北": 90, "west": 180, "w": 180, "西": 180,
             "south": -90, "s": -90, "南": -90}  # fmt: skip
@@ -307,17 +287,8 @@ _POINTS = (
     re.compile(r"(?:向|往|朝|正)?(?P<one>[东西])(?P<two>[南北])?(?:方向?|面|边)?"),
     re.compile(r"(?:向|往|朝|正)?(?P<one>[南北])(?P<two>)(?:方向?|面|边)?"),
 )
-_UP = re.compile(r"\b(?:up(?:per|wards?)?|above|over)\b|上", re.IGNORECASE)
-_DOWN = re.compile(r"\b(?:down(?:wards?)?|lower|below|under)\b|下", re.IGNORECASE)
-_RIGHT = re.compile(r"\bright(?:wards?)?\b|右", re.IGNORECASE)
-_LEFT = re.compile(r"\bleft(?:wards?)?\b|左", re.IGNORECASE)
-_FROM_UPRIGHT = re.compile(r"\b(?:vertical|y)\b|竖直|铅垂|铅直|[yY]\s*轴", re.IGNORECASE)
-_QUADRANT_ASIDE = re.compile(
-    r"\b(?:up(?:per|wards?)?|above|over|down(?:wards?)?|lower|below|under|right(?:wards?)?|left(?:wards?)?|to|from|with|the|and|at"
-    r"|an?|angle|of|horizontal(?:ly)?|vertical(?:ly)?|[xy](?:[\s-]*axis)?)\b"
-    r"|指?[向往朝]?[左右上下]+方?|与|和|水平|竖直|铅垂|铅直|方向|线|成|的?夹角为?|[xy]\s*轴",
-    re.IGNORECASE,
-)
+_QUARTER = [_said(f"{side}") for side in ("right of it", "left of it", "above", "below")]
+_FROM_UPRIGHT, _QUADRANT_ASIDE = _said("from the vertical"), _said("beside a quarter")
 _POLAR = re.compile(r"\be\s*\^?\s*[({]*\s*(?:[ij]\s*[*·]?\s*)?" + _NUMBERED + r"\s*[*·]?\s*[ij]?\s*[)}]*")
 _LINE = re.compile(
     r"(?:(?P<square>⊥|⟂|(?i:\b(?:perpendicular|square|normal)\s*to\b)|垂直于?)"
@@ -330,8 +301,7 @@ _FROM_TO = re.compile(
     rf"\s*{_POINT.format('two')}\s*点?"
 )
 _TOWARDS = re.compile(rf"(?:(?i:\btowards?\b|\bto\b)|指向)\s*(?:(?i:point)\s*)?{_POINT.format('two')}\s*点?")
-_UPRIGHT_LINE = re.compile(r"\bvertical(?:ly)?\b|竖直|铅垂|铅直", re.IGNORECASE)
-_LEVEL_LINE = re.compile(r"\bhorizontal(?:ly)?\b|水平", re.IGNORECASE)
+_UPRIGHT_LINE, _LEVEL_LINE = _said("vertical"), _said("horizontal")
 ROUGH = math.radians(45.0)  # an arrow or a word is meant for all that lies nearest to it
 
 
@@ -478,7 +448,7 @@ def _by_quadrant(text: str) -> tuple[Way, str] | None:
     if match is None or match["deg"][0] in "+-" or _CLOCKWISE.search(text):
         return None
     rest = _without(text, match)
-    sides = [bool(side.search(rest)) for side in (_RIGHT, _LEFT, _UP, _DOWN)]
+    sides = [bool(side.search(rest)) for side in _QUARTER]
     off, room = _degrees(match["deg"])
     if sides[0] == sides[1] or sides[2] == sides[3] or off > math.pi / 2:
         return None
@@ -505,16 +475,10 @@ def _from_axis(match: re.Match[str]) -> tuple[float, float]:
     return base + sign * turn * off, room
 
 
-_NOTHING = {"", "-", "--", "/", "?", "n/a", "na", "无", "未答", "缺", "空", "—", "none", "missing",
-            "n.a.", "blank", "空白", "未求", "未做", "没做", "不会"}  # fmt: skip
+_NOTHING = _said("nothing", "[-?/—]?|--")
 _DECIMAL = re.compile(r"[+\-]?\d+,\d+(?:[eE][+\-]?\d+)?")
 _THOUSANDS = re.compile(r"[+\-]?\d{1,3}(?:,\d{3})+(?:\.\d+)?")
-_ABOUT = re.compile(r"[≈~≃≅∼]|\b(?:approx(?:imately)?|about|circa|ca)\b\.?|大约|约(?:为|等于)?|近似", re.IGNORECASE)
-_ASIDE = re.compile(
-    r"\b(?:along|on|in) (?:the|its) (?:guide|slot|line|rod)\b|\b(?:in|at|of|the|and|with|to|towards?|along|is|it|turns?"
-    r"|turning|rotat(?:es|ing)|direct(?:ed|ion)|points?|pointing|sense|axis)\b"
-    r"|沿(?:导路|导轨|导杆|滑道)|方向|转向|指向|大小|转动|旋转|为|沿|偏|的|与|线", re.IGNORECASE
-)  # fmt: skip
+_ABOUT, _ASIDE = _said("about", "[≈~≃≅∼]"), _said("beside a value")
 _RAISED = re.compile(r"(?<=[A-Za-z])\s*\^\s*\{?\s*([+-]?\d)\s*\}?")
 _PER_TIME = re.compile(r"(?<=[\d\s])\b1\s*/\s*(?=s|min)")
 _SPACED = re.compile(r"(?<![\d.,])\d{1,3}(?: \d{3})+(?![\d.,]*\d)(?:[.,]\d+)?")
@@ -533,7 +497,7 @@ _COMPLEX = re.compile(rf"({NUMBER})\s*([+-])\s*({NUMBER})\s*[*·]?\s*[ij]\b")
 
 def is_blank(text: str) -> bool:
     """Whether a cell says that there is no answer."""
-    return plain_text(text).lower() in _NOTHING
+    return _NOTHING.fullmatch(plain_text(text)) is not None
 
 
 def read_cell(
