@@ -94,14 +94,19 @@ def test_a_guide_of_which_nothing_but_its_pin_is_sketched_lies_towards_what_slid
 
 
 def test_directions_are_told_by_two_sketched_points_and_by_sliding_pairs_from_them() -> None:
-    sheet = graphkin.check(BESIDE_A_GUIDE).sheet
+    """Those of link 3 by its guide on the crank, of link 4 by D and K, of link 5 by its guide for link 4, of link 2 by
+    the other one."""
+    block = {**BESIDE_A_GUIDE["links"]["4"], "at": {"K": [30.0, 12.0]}}
+    scene = {**BESIDE_A_GUIDE, "links": {**BESIDE_A_GUIDE["links"], "4": block}}
+    sheet = graphkin.check(scene).sheet
     (group,) = (e for e in sheet.structure.elements if isinstance(e, LargerGroup))
     per = 1e3 * sheet.scales.length
-    places = {p: sheet.points[PointRef(p)] * per for p in "BD"}
-    exact = mechanism_of({**BESIDE_A_GUIDE, "sketch": {p: [z.real, z.imag] for p, z in places.items()}})
+    places = {p: sheet.points[PointRef(p)] * per for p in "BDK"}
+    exact = mechanism_of({**scene, "sketch": {p: [z.real, z.imag] for p, z in places.items()}})
     known = {name: pose for name, pose in sheet.poses.items() if name not in group.members}
     paper = PlacedLinks(sheet.structure.links, 1.0 / sheet.scales.length, dict(sheet.drivers), known)
     told = sketched_poses(analyse(exact), group, paper)
-    assert set(group.members) & set(told) == {"3"}
-    here, drawn = told["3"], sheet.poses["3"]
-    assert (drawn.axis, drawn.origin) == pytest.approx((here.axis, here.origin), abs=1e-6)
+    assert set(group.members) & set(told) == {"2", "3", "4", "5"}
+    for name in "2345":
+        here, drawn = told[name], sheet.poses[name]
+        assert (drawn.axis, drawn.origin) == pytest.approx((here.axis, here.origin), abs=1e-6)
