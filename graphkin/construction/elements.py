@@ -25,13 +25,14 @@ from graphkin.construction.equations import (
     same_turn,
     share_rate,
     spread,
+    turned,
 )
 from graphkin.construction.group_plan import GroupPlan, equation_of, plan_group
 from graphkin.construction.links_on_paper import stuck
 from graphkin.construction.net import Edge, Net, VectorChain, contacts_of, node, past
 from graphkin.construction.polygons import RATE, Polygons, letter
 from graphkin.construction.proportional_division import divide, magnified
-from graphkin.construction.seen_from import contours_of
+from graphkin.construction.seen_from import Joint, contours
 from graphkin.construction.sheet import Rate
 from graphkin.construction.steps import (
     ORDERS,
@@ -351,7 +352,7 @@ def _with_fewer_trials(plot: Polygons, group: LargerGroup, trials: int) -> tuple
     theirs, its contours drawn first where that spares more; none where neither does, and then the special point
     met with that is no use.  The links held still are chosen so that what is seen from them is laid off as it was
     seen."""
-    choices = [_rests_on(plot, group, links) for links in contours_of(plot, group)]
+    choices = [_rests_on(plot, group, links) for links in _contours_of(plot, group)]
     choices = [some for some in choices if some]
     best: tuple[tuple[int, bool], list[GroupPlan]] | None = None
     far: FarPoint | None = None
@@ -369,6 +370,25 @@ def _with_fewer_trials(plot: Polygons, group: LargerGroup, trials: int) -> tuple
             break
     del plot.contours[group]
     return (best[1] if best is not None else []), far
+
+
+def _contours_of(plot: Polygons, group: LargerGroup) -> list[tuple[str, ...]]:
+    """The contours of a group as it lies on paper; none where links of it roll or touch."""
+    if group.rolling or (plot.at_contacts and contacts_of(plot.structure, group)):
+        return []
+    held = [driver_pair(driver, plot.links, plot.structure.slides) for driver in group.drivers]
+    hinged = {frozenset(pair.links) for pair in held if pair is not None and pair.turns}
+    keys = {driver.key for driver in group.drivers if not driver.turns}
+    inside, joints = set(group.members), list[Joint]()
+    for pair in (pair for pair in group.pairs if inside.issuperset(pair.links)):
+        if pair.turns:
+            joints.append((pair.links, plot.places[pair.point], None, frozenset(pair.links) in hinged))
+        else:
+            at = plot.places[pair.pin] if pair.pin else plot.paper.poses[pair.a].origin
+            along = plot.paper.poses[pair.b].axis * pair.guide.direction
+            joints.append((pair.links, at, along, pair.key in keys))
+    turning = [(a, b) for a, b, _ in turned(plot, None, group) if inside.issuperset((a, b))]
+    return contours(group.members, joints, turning)
 
 
 def _rests_on(plot: Polygons, group: LargerGroup, contour: Sequence[str]) -> list[tuple[str, LargerGroup]]:

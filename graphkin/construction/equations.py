@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import Literal
 
-from graphkin.construction.net import Edge, Unknown, VectorChain, contacts_of, node
+from graphkin.construction.net import Edge, Unknown, VectorChain, contacts_of, links_alike, node
 from graphkin.construction.polygons import PARTS, RATE, Polygons, letter
 from graphkin.construction.sheet import Equation, Rate
 from graphkin.construction.steps import GIVEN, ORDERS, Aid, Bar, Direction, Mark, Order, Ray, Size, Step, Term, Vector
@@ -21,7 +21,7 @@ from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, 
 from graphkin.words.written import MOST, figures, on_paper
 
 __all__ = [
-    "draw_equation", "draw_relative", "first_ends", "known_turns", "links_alike", "parts_of", "same_turn", "share_rate",
+    "draw_equation", "draw_relative", "first_ends", "known_turns", "parts_of", "same_turn", "share_rate",
     "spread", "symbol_of", "turned",
 ]  # fmt: skip
 
@@ -29,16 +29,6 @@ Side = list[tuple[Edge, list[Term]]]
 
 
 # -- links that turn alike ---------------------------------------------------------------------------------------------
-
-
-def links_alike(links: Iterable[str], pairs: Iterable[tuple[str, str, float]]) -> dict[str, set[str]]:
-    """For each link all those with the same rotation but for given ones."""
-    alike = {n: {n} for n in links}
-    for a, b, _ in pairs:
-        merged = alike.get(a, {a}) | alike.get(b, {b})
-        for n in merged:
-            alike[n] = merged
-    return alike
 
 
 def same_turn(plot: Polygons, group: Dyad | LargerGroup) -> dict[str, str]:

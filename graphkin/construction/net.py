@@ -15,7 +15,7 @@ the relative rate of turning, and its acceleration is the same seen from either 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from itertools import chain, pairwise
@@ -26,7 +26,7 @@ from graphkin.scene.model import PlacedContact, PlacedLink
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import DrivenJoint, Dyad, LargerGroup, Pair, Structure
 
-__all__ = ["Edge", "Net", "Path", "Unknown", "VectorChain", "contacts_of", "node", "past", "split"]
+__all__ = ["Edge", "Net", "Path", "Unknown", "VectorChain", "contacts_of", "links_alike", "node", "past", "split"]
 
 
 class Unknown(NamedTuple):
@@ -315,3 +315,13 @@ def past(pairs: Sequence[Pair], gone: Collection[str]) -> list[Pair]:
             around.setdefault(pair.point, []).extend(n for n in (pair.a, pair.b) if n not in gone)
     joined = (Pair(point, *both) for point, names in around.items() for both in pairwise(dict.fromkeys(names)))
     return [*(p for p in pairs if p.a not in gone and p.b not in gone), *joined]
+
+
+def links_alike(links: Iterable[str], pairs: Iterable[tuple[str, str, float]]) -> dict[str, set[str]]:
+    """For each link all those with the same rotation but for given ones."""
+    alike = {n: {n} for n in links}
+    for a, b, _ in pairs:
+        merged = alike.get(a, {a}) | alike.get(b, {b})
+        for n in merged:
+            alike[n] = merged
+    return alike

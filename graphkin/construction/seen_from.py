@@ -13,36 +13,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from graphkin.construction.equations import links_alike, turned
-from graphkin.construction.net import contacts_of
-from graphkin.construction.polygons import Polygons
-from graphkin.structure import LargerGroup, driver_pair
+from graphkin.construction.net import links_alike
 
-__all__ = ["contours", "contours_of"]
+__all__ = ["Joint", "contours"]
 
 ALIKE = 1e-9  # of unit motions: what differs less moves alike
 Joint = tuple[tuple[str, str], complex, complex | None, bool]
 """What joins two links: a hinge in a place, or along a direction a sliding pair; and whether a driver gives how they
 turn or slide on each other."""
-
-
-def contours_of(plot: Polygons, group: LargerGroup) -> list[tuple[str, ...]]:
-    """The contours of a group as it lies on paper; none where links of it roll or touch."""
-    if group.rolling or (plot.at_contacts and contacts_of(plot.structure, group)):
-        return []
-    held = [driver_pair(driver, plot.links, plot.structure.slides) for driver in group.drivers]
-    hinged = {frozenset(pair.links) for pair in held if pair is not None and pair.turns}
-    keys = {driver.key for driver in group.drivers if not driver.turns}
-    inside, joints = set(group.members), list[Joint]()
-    for pair in (pair for pair in group.pairs if inside.issuperset(pair.links)):
-        if pair.turns:
-            joints.append((pair.links, plot.places[pair.point], None, frozenset(pair.links) in hinged))
-        else:
-            at = plot.places[pair.pin] if pair.pin else plot.paper.poses[pair.a].origin
-            along = plot.paper.poses[pair.b].axis * pair.guide.direction
-            joints.append((pair.links, at, along, pair.key in keys))
-    turning = [(a, b) for a, b, _ in turned(plot, None, group) if inside.issuperset((a, b))]
-    return contours(group.members, joints, turning)
 
 
 def contours(
