@@ -19,7 +19,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 
-from graphkin.construction.net import Edge, Net, Path, Unknown, VectorChain, split
+from graphkin.construction.net import Edge, Net, Path, Unknown, VectorChain
 from graphkin.construction.steps import FarPoint
 from graphkin.plane import cross, cross_lines, unit
 from graphkin.scene.symbol import PointRef
@@ -153,7 +153,7 @@ class _Search:
                 # from what was known before to what was found: from the frame where it can be
                 places = self.net.places
                 best = max(pairs, key=lambda e: (
-                    -self.strange((e,)), self.net.fixed(e.start), self.net.known(e.start),
+                    -self.strange((e,)), e.start in self.net.fixed, e.start in self.net.known,
                     abs(places[e.end.point] - places[e.start.point]), e.forward,
                 ))  # fmt: skip
                 return self.drawn(VectorChain.closing(self.seen(best)), (best,))
@@ -387,7 +387,7 @@ def equation_of(net: Net, drawn: Collection[PointRef]) -> VectorChain | None:
     ----------
     drawn : nodes that stand in the polygon already (preferred as starting points)
     """
-    search = _Search(net, lambda *_: 1j, iter(()), {n for n in net.nodes if net.known(n)}, set(), [])
+    search = _Search(net, lambda *_: 1j, iter(()), set(net.known), set(), [])
     # it may come back to where it begins: a pin that both guides belong to
     paths = [path for start in search.in_order() for path in search.ways(start, 2, search.nodes.__contains__, 0)
              if sum(bool(e.unknown) for e in path) == 2]  # fmt: skip
@@ -395,10 +395,15 @@ def equation_of(net: Net, drawn: Collection[PointRef]) -> VectorChain | None:
     def cost(path: Path) -> tuple[float, bool, int]:
         ends = sum(n not in drawn for n in (path[0].start, path[-1].end))
         start = path[0].start
-        return len(path) + 0.6 * search.strange(path) + 0.1 * ends, net.fixed(start), net.order[start]
+        return len(path) + 0.6 * search.strange(path) + 0.1 * ends, start in net.fixed, net.order[start]
 
     best = min(reversed(paths), key=cost, default=None)
     return None if best is None else split(best, [i for i, e in enumerate(best) if e.unknown][1])
+
+
+def split(path: Path, at: int) -> VectorChain:
+    """A path with two unknowns split at the node before the second of them, the edge of that number."""
+    return VectorChain(path[at].start, (tuple(e.reversed() for e in reversed(path[at:])), path[:at]))
 
 
 def plan_group(
@@ -411,7 +416,7 @@ def plan_group(
     along : direction of the relative motion of an edge
     letters : free letters for special points
     """
-    start = _Search(net, along, iter(letters), {n for n in net.nodes if net.known(n)}, set(), [])
+    start = _Search(net, along, iter(letters), set(net.known), set(), [])
     for trials in range(MOST_TRIALS + 1):
         for relative in (False, True):  # a special point of two moving links is looked for where no other serves
             served = False

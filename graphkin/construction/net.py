@@ -26,7 +26,7 @@ from graphkin.scene.model import PlacedContact, PlacedLink
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import DrivenJoint, Dyad, LargerGroup, Pair, Structure
 
-__all__ = ["Edge", "Net", "Path", "Unknown", "VectorChain", "contacts_of", "links_alike", "node", "past", "split"]
+__all__ = ["Edge", "Net", "Path", "Unknown", "VectorChain", "contacts_of", "links_alike", "node", "past"]
 
 
 class Unknown(NamedTuple):
@@ -145,7 +145,7 @@ class Net:
         contacts: Sequence[PlacedContact] = (), rolling: Mapping[str, tuple[str, tuple[str, str]]] | None = None,
         contours: Sequence[tuple[str, str]] = (), wide: bool = False,
     ) -> None:  # fmt: skip
-        self.links, self.frame, self.places, self.tiny = links, frame, places, tiny
+        self.links, self.places, self.tiny = links, places, tiny
         self.inside, self.shares, rolling = inside, shares, rolling or {}
         slides, turns = [p for p in pairs if not p.turns], [p for p in pairs if p.turns]
         touching = [c.name for c in contacts]
@@ -166,6 +166,8 @@ class Net:
         for letter, both in rolling.values():
             self.owners |= {PointRef(letter, link): [link] for link in both}
         self.nodes = list(self.owners)
+        self.fixed = {n for n, names in self.owners.items() if frame in names}
+        self.known = {n for n, names in self.owners.items() if not set(inside).issuperset(names)}
         self.order = {n: i for i, n in enumerate(self.nodes)}
         self.edges: dict[PointRef, list[Edge]] = {n: [] for n in self.nodes}
         for name in inside:
@@ -204,12 +206,6 @@ class Net:
         made.owners, made.nodes, made.order = dict(self.owners), list(self.nodes), dict(self.order)
         made.edges = {n: list(edges) for n, edges in self.edges.items()}
         return made
-
-    def fixed(self, n: PointRef) -> bool:
-        return self.frame in self.owners[n]
-
-    def known(self, n: PointRef) -> bool:
-        return any(name not in self.inside for name in self.owners[n])
 
     def turning(self, link: str) -> Unknown:
         """How a link turns, by the name of one that turns alike."""
@@ -294,11 +290,6 @@ def _near(
         if not on[a] & on[b]:  # far from any point: what slides there is looked at somewhere
             on[a], on[b] = on[a] | on[b], on[a] | on[b]
     return on
-
-
-def split(path: Path, at: int) -> VectorChain:
-    """A path with two unknowns split at the node before the second of them, the edge of that number."""
-    return VectorChain(path[at].start, (tuple(e.reversed() for e in reversed(path[at:])), path[:at]))
 
 
 def contacts_of(structure: Structure, group: Dyad | LargerGroup) -> tuple[PlacedContact, ...]:

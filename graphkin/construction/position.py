@@ -39,7 +39,7 @@ from graphkin.construction.links_on_paper import (
 )
 from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.sheet import Board
-from graphkin.construction.steps import FINDS_A_POINT, Cause, Mark, Reason, Step
+from graphkin.construction.steps import FINDS_A_POINT, Mark, Reason, Step
 from graphkin.construction.touching import coordinate_on_paper
 from graphkin.plane import added_up, dot, unit
 from graphkin.scene.symbol import PointRef
@@ -96,7 +96,7 @@ def place(
     """
     paper, so_far = (start_board(structure, mm, assembly.values, hand) for hand in (instrument, EXACT))
     frame, met = structure.scene.frame, dict[Element, tuple[Meeting, int]]()
-    causes: list[tuple[int, Cause]] = [(instrument.acts, Phrase("placing", (frame.name,)))]
+    placed = [(instrument.acts, frame.name)]
     named = set(frame.points)
     done = 0 if board is None else len(board.causes)
     if board is not None:
@@ -117,7 +117,7 @@ def place(
         if board is None:
             continue
         links = element.link if isinstance(element, Driven) else ", ".join(element.links)
-        causes.append((instrument.acts, Phrase("placing", (links,))))
+        placed.append((instrument.acts, links))
         if isinstance(element, Driven):
             _, story = drive(so_far, element)
         elif isinstance(element, LargerGroup):
@@ -127,7 +127,7 @@ def place(
         _record(board, paper, element, story, named)
         so_far.poses.update({name: paper.poses[name] for name in element.members})
     if board is not None:
-        board.causes[done:] = causes
+        board.causes[done:] = [(acts, Phrase("placing", (links,))) for acts, links in placed]
     return paper
 
 
