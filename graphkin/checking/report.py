@@ -270,7 +270,7 @@ def _motion(
         floor, alone = _floor(sheet, reading, lost, EXACT_TOLERANCE * most), by_drivers_alone(sheet.structure, symbol)
         if not symbol.is_vector and math.isfinite(floor):  # over its own bar, which may be short
             rounded = max(rounded, floor)
-        made = row(reading, value, most, floor, rounded, share, least, not lost.slight and not alone, alone)
+        made = row(reading, value, most, floor, rounded, share, least, not lost.slight, alone)
         if alone and (not made.determined or 0.0 < abs(value) <= floor):
             # no group comes before it whose rounding it could have
             made = row(reading, value, most, min(floor, CANCELLED * led[symbol.kind]), 0.0, share, least, False, True)

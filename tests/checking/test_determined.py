@@ -223,3 +223,29 @@ def test_a_value_that_rounding_may_have_made_is_not_called_zero_beside_a_dead_po
     rows = graphkin.check(stephenson(83.8756421)).report.rows
     called_zero = [str(row.symbol) for row in rows if row.ok and row.exact != 0.0 and 0.0 in (row.measured, row.true)]
     assert [] == called_zero
+
+
+@pytest.mark.quick
+@pytest.mark.parametrize(("off", "agrees"), [(1e-10, True), (1e-7, False)])
+def test_exact_hands_may_be_off_by_a_billionth_of_the_largest_and_by_no_more(off: float, agrees: bool) -> None:
+    sheet = draft(mechanism_of("engine-gas-force"))
+    readings = read_off(sheet)
+    exact = {r.symbol: r.value for r in readings}
+    largest: dict[str, float] = {}
+    for symbol, value in exact.items():
+        largest[symbol.measure] = max(largest.get(symbol.measure, 0.0), abs(value))
+    report = compare(sheet, readings, lambda symbol: exact[symbol] + off * largest[symbol.measure])
+    judged = [row for row in report.rows if row.symbol.measure in ("velocity", "acceleration", "force", "angle")]
+    assert {agrees} == {row.ok for row in judged if row.ok is not None}
+
+
+@pytest.mark.quick
+def test_what_rounding_leaves_of_a_moment_is_what_it_leaves_of_a_force_times_the_size() -> None:
+    sheet = draft(mechanism_of("engine-gas-force"))
+    readings = read_off(sheet)
+    exact = {r.symbol: r.value for r in readings}
+    forces, moments = ([abs(v) for s, v in exact.items() if s.measure == measure] for measure in ("force", "moment"))
+    report = compare(sheet, readings, exact.__getitem__, rounding=lambda symbol: Lost(force=1e-9 * max(forces)))
+    expected = 1e-9 * max(*moments, max(forces) * sheet.scene.size)
+    floors = {row.floor for row in report.rows if row.symbol.measure == "moment"}
+    assert [pytest.approx(expected)] == list(floors)
