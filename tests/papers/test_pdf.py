@@ -4,8 +4,10 @@ import random
 
 import pytest
 
+from graphkin.drawing.ink.primitives import Line, Scan, Stroke
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.blocks import Heading, Paragraph, Picture
-from graphkin.papers.pdf import KEPT, Page, Piece, balanced, fill_pages
+from graphkin.papers.pdf import FORMS, KEPT, Page, Piece, balanced, fill_pages
 
 HEIGHT = 260.0
 WORDS, ROOM, FRESH = Paragraph(()), Paragraph((), fills=True), Heading((), fresh=True)
@@ -84,3 +86,16 @@ def test_a_page_is_not_filled_beyond_its_height_by_a_millimetre():
 def test_steps_in_two_columns_take_half_their_height_below_what_stands_above_them():
     pieces = [Piece(WORDS, 100.0), *(Piece(WORDS, 70.0, 2.0, 0.08, half=True) for _ in range(4))]
     assert [[0, 1, 2, 3, 4]] == [numbers(pieces, page) for page in pages(pieces)]
+
+
+def test_a_figure_is_set_at_true_scale_with_room_for_lines_on_its_edge():
+    line = Line(0j, 10 + 10j, Stroke(0.5))
+    told = FORMS["drawing"](Drawing(10.0, 10.0, (line,), "title", "desc", "en"))
+    expected = ('width="11mm"', 'height="11mm"', 'viewBox="0 0 11 11"', 'x1="0.5" x2="10.5" y1="0.5" y2="10.5"')
+    assert (10.0, 10.0, 0.5) == tuple(told[key] for key in ("width", "height", "edge"))
+    assert [] == [part for part in expected if part not in told["svg"]]
+
+
+def test_a_scan_under_a_figure_is_no_part_of_a_paper():
+    scan = Scan(0j, 1 + 0j, 1, 1, "image/png", b"")
+    assert "" == FORMS["drawing"](Drawing(10.0, 10.0, (scan,), "title", "desc", "en"))["svg"]
