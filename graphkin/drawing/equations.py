@@ -8,8 +8,8 @@ from functools import cache, cached_property, partial
 from typing import TypeAlias
 
 from graphkin.account.account import WrittenLine, rule_alone
-from graphkin.account.arithmetic import bound, carried_by, factors_of, substituted
-from graphkin.account.headings import number, term, written
+from graphkin.account.arithmetic import bound, rule_sum, scale_of, unit_of
+from graphkin.account.headings import number, term
 from graphkin.account.notation import Letters, rows_of
 from graphkin.construction.sheet import Equation, Sheet
 from graphkin.construction.steps import GIVEN, Term
@@ -17,7 +17,7 @@ from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Line, Primitive, Run, Text, moved
 from graphkin.drawing.text import rich, run_box, runs_width, symbol, wrapped
 from graphkin.plane import added_up
-from graphkin.words.written import MOST, product
+from graphkin.words.written import MOST
 
 __all__ = [
     "LEAST_LETTERS", "LineToSet", "Written", "equations_in_room",
@@ -71,7 +71,7 @@ def line_to_set(line: WrittenLine, sheet: Sheet, letters: Letters, language: str
     if short is not None:
         return cache(lambda width, size: _sentence(short, size, width))
     assert isinstance(line, Equation)
-    cells = cache(partial(_cells, sheet, line, letters))
+    cells = cache(partial(_cells, sheet, line.sides, letters))
     return cache(lambda width, size: _written_cells(cells(size), letters, language, width, size))
 
 
@@ -164,7 +164,7 @@ def write_sum(
     sheet: Sheet, terms: Sequence[Term], letters: Letters, language: str, width: float, size: float = 3.2
 ) -> Written:
     """Vectors whose sum is nought, with their rows of sizes and directions, at most ``width`` mm wide."""
-    cells = _side(sheet, terms, letters, size)
+    cells = _cells(sheet, [terms], letters, size)
     cells += [_Cell(symbol("=", size), is_term=False), _Cell(rich("0", size), is_term=True)]
     return _written_cells(cells, letters, language, width, size)
 
@@ -176,36 +176,25 @@ def _short(sheet: Sheet, equation: Equation, letters: Letters) -> str | None:
     only = equation.sides[-1][0]
     vector = sheet.vectors(equation.diagram)[only.symbol]
     parts = [f"${letters.vector(side[0].symbol)}$" for side in equation.sides]
-    said = ""  # the product of what is written
     if only.size and only.size != GIVEN:
         parts.append(f"${letters.size(only.size)}$")
-        factors = factors_of(sheet, only.size)
-        if factors:
-            parts.append(bound(substituted(only.size, factors)))
-            said = written(product(*factors, carried=carried_by(sheet, only.size)))
-    unit = sheet.scene.units.rates.length + ("/s" if equation.diagram == "velocity" else "/s²")
-    laid_off = (s.mm for s in sheet.steps if s.verb == "lay off" and s.symbol == only.symbol)
-    # what is given is not what a hand has made of it
-    value = next(laid_off, abs(vector.span)) * sheet.scales.of(equation.diagram) / sheet.scene.units.rates.metres
-    parts.append(f"{said or number(value, MOST)}\u00a0{unit}")
+    found = bound(rule_sum(sheet, only.size, equation.diagram))  # the product of what is written
+    if not found:
+        laid_off = (s.mm for s in sheet.steps if s.verb == "lay off" and s.symbol == only.symbol)
+        # what is given is not what a hand has made of it
+        value = next(laid_off, abs(vector.span)) * scale_of(sheet, equation.diagram)
+        found = f"{number(value, MOST)}\u00a0{unit_of(sheet, equation.diagram)}"
+    parts.append(found)
     way = letters.direction(only.direction, sheet.scene.frame.name)
     return " =\u00a0".join(parts) + (f",  ${way}$" if way else "")
 
 
-def _cells(sheet: Sheet, equation: Equation, letters: Letters, size: float) -> list[_Cell]:
+def _cells(sheet: Sheet, sides: Sequence[Sequence[Term]], letters: Letters, size: float) -> list[_Cell]:
+    """The terms of equal sums, each behind its sign."""
     cells: list[_Cell] = []
-    for i, side in enumerate(equation.sides):
-        if i:
-            cells.append(_Cell(symbol("=", size), is_term=False))
-        cells += _side(sheet, side, letters, size)
-    return cells
-
-
-def _side(sheet: Sheet, terms: Sequence[Term], letters: Letters, size: float) -> list[_Cell]:
-    cells: list[_Cell] = []
-    for i, one in enumerate(terms):
-        if i:
-            cells.append(_Cell(symbol("+", size), is_term=False))
+    for k, one in (numbered for side in sides for numbered in enumerate(side)):
+        if cells:
+            cells.append(_Cell(symbol("+" if k else "=", size), is_term=False))
         cells.append(_cell(sheet, one, letters, size))
     return cells
 
