@@ -6,8 +6,17 @@ from collections.abc import Callable, Iterator, Mapping
 from decimal import Decimal
 from typing import NamedTuple
 
-from graphkin.construction.centre_speeds import Turning, by_centres, error_by_centres, moving_pins, turning_of
-from graphkin.construction.centres import Centre, CentreRelation, Centres, LinkPair
+from graphkin.construction.centres import (
+    Centre,
+    CentreRelation,
+    Centres,
+    LinkPair,
+    Turning,
+    by_centres,
+    error_by_centres,
+    moving_pins,
+    turning_of,
+)
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, written

@@ -30,15 +30,19 @@ from graphkin.api.arguments import (
 from graphkin.api.checked import solved_here
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.report import Known, in_unit
-from graphkin.construction.centre_speeds import (
+from graphkin.construction.centres import (
+    Centre,
+    Centres,
+    LinkPair,
     Turning,
     by_centres,
     error_by_centres,
+    find_centres,
     moving_pins,
     speeds,
     turning_of,
 )
-from graphkin.construction.centres import Centre, Centres, LinkPair, find_centres, normal, wedge
+from graphkin.construction.projective import normal, wedge
 from graphkin.construction.scales import Room
 from graphkin.errors import CallError, as_text, did_you_mean
 from graphkin.files import Json

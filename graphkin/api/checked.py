@@ -162,7 +162,7 @@ class Checked(OfScene, Result):
         """What was read, found in other ways: by instant centres (velocities), by Zhukovsky's lever (what balances),
         and on the drawing at the contacts, which is this one where pins slide in straight slots; sizes of vectors, SI.
         """
-        from graphkin.construction.centre_speeds import by_centres, speeds
+        from graphkin.construction.centres import by_centres, speeds
 
         symbols = [row.symbol for row in self.report.rows]
         turning = speeds(self.centres)

@@ -151,7 +151,7 @@ class Drawn(OfScene, Result):
 
 def _centres(drawn: Drawn) -> tuple[Any, ...]:
     from graphkin.api.centred import ROOM, found_centres
-    from graphkin.construction.centre_speeds import speeds
+    from graphkin.construction.centres import speeds
 
     whole = drawn.checked
     # what exact hands have drawn serves this figure too; finite ones draw nothing of the centres

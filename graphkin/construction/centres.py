@@ -1,11 +1,12 @@
 """All instant centres of a scene as a student finds them: those that joints give, Kennedy's theorem with its circle
 diagram, and what remains by the motion of the links, which is measured on the velocity polygon.
 
-Places of the plane with infinity among them have homogeneous coordinates of unit length.  A place is (x, y, w): the
-point (x + iy) / w of the chart, or for w = 0 the direction x + iy.  A line is (a, b, c) with a x + b y + c w = 0.  The
-line through two places and the place where two lines cross are both vector products; the length of the product is the
-sine of the angle between the two on the unit sphere, and says how well they tell apart (Coxeter, Projective Geometry;
-Kimbrell, Kinematics Analysis and Synthesis, on centres at infinity).
+Velocities by centres: from the driver to every link by the shortest chain of centres, measured on the figure.
+
+The point P_ij belongs to both links and has one velocity: omega_i * P_ij P_i0 = omega_j * P_ij P_j0, the same sense of
+turning where P_i0 and P_j0 lie on one side of P_ij, the opposite where it lies between them; a point X of link j then
+moves with omega_j * P_j0 X square to P_j0 X (Norton, Design of Machinery, 6.5).  The distances are measured as products
+of homogeneous coordinates, so that a centre at infinity needs no rule of its own: links that turn alike, sliders.
 """
 
 from __future__ import annotations
@@ -22,27 +23,24 @@ from typing import Literal
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import LinkMotion, Pose
 from graphkin.construction.plan import draft
+from graphkin.construction.projective import Line, Place, ProjectiveChart, product, wedge
 from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import Superposed
 from graphkin.construction.touching import Touching
 from graphkin.plane import dot
-from graphkin.scene.model import Mechanism
+from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Structure, analyse, part_of
+from graphkin.structure import Structure, analyse, driver_pair, part_of
 from graphkin.words import Phrase
 
 __all__ = [
-    "Centre", "CentreRelation", "Centres", "Line", "LinkPair", "Place", "ProjectiveChart", "centres_on", "find_centres",
-    "measured", "normal", "product", "wedge",
+    "Centre", "CentreRelation", "Centres", "LinkPair", "Turning", "by_centres", "centres_on", "error_by_centres",
+    "find_centres", "measured", "moving_pins", "speeds", "turning_of",
 ]  # fmt: skip
 
-Place = tuple[float, float, float]
-Line = tuple[float, float, float]
 LinkPair = tuple[str, str]
 
-INFINITE = 1e-12
-"""A place whose third coordinate is smaller lies at infinity: so far off that doubles do not tell it from there."""
 AT_REST = 1e-9
 """Two links whose relative motion is smaller than this part of the largest do not move relative to each other."""
 MEASURED = 1e-15  # so far off a measured centre may be (on the unit sphere)
@@ -52,81 +50,6 @@ SURE = 1e-10
 """A crossing whose place may err by more than this (of the mechanism's size) is not taken."""
 MOST_LINES = 24  # for one centre; a mechanism of many links has hundreds, and a few of them cross well
 TOGETHER = 1e-9  # two centres nearer to each other (on the unit sphere) give no line
-
-
-def wedge(a: Place, b: Place) -> tuple[Place, float]:
-    """The vector product of two places (a line) or of two lines (a place), of unit length, and the sine between them.
-
-    Both are (0, 0, 0) and 0 where the two are the same.
-    """
-    x, y, w = a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
-    sine = math.sqrt(x * x + y * y + w * w)
-    if sine == 0.0:
-        return (0.0, 0.0, 0.0), 0.0
-    return (x / sine, y / sine, w / sine), sine
-
-
-def product(a: Place, b: Place) -> float:
-    """Scalar product: for a place and a line the distance (on the sphere) of one from the other."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def normal(a: Place) -> Place:
-    """The same place with coordinates of unit length, w not negative."""
-    length = math.copysign(math.sqrt(product(a, a)), a[2])
-    return a[0] / length, a[1] / length, a[2] / length
-
-
-@dataclass(frozen=True)
-class ProjectiveChart:
-    """The sheet as seen from the middle of the mechanism: ``unit`` (mm) is half its size, so that it spans about 1."""
-
-    middle: complex
-    unit: float
-
-    def at(self, z: complex) -> Place:
-        """A point of the sheet (mm)."""
-        s = (z - self.middle) / self.unit
-        return normal((s.real, s.imag, 1.0))
-
-    def towards(self, direction: complex) -> Place:
-        """The place at infinity in a direction."""
-        size = abs(direction)
-        return direction.real / size, direction.imag / size, 0.0
-
-    def line(self, z: complex, along: complex) -> Line:
-        """The line through a point of the sheet (mm) along a direction."""
-        return wedge(self.at(z), self.towards(along))[0]
-
-    def point(self, place: Place) -> complex | None:
-        """The point of the sheet (mm), None at infinity."""
-        x, y, w = place
-        return None if abs(w) < INFINITE else self.middle + self.unit * (complex(x, y) / w)
-
-    def direction(self, place: Place) -> complex:
-        """The way to a place from the middle of the sheet, of unit length; to the right, or straight up."""
-        x, y, _ = place
-        size = math.hypot(x, y) or 1.0
-        sense = -1.0 if x < 0.0 or (x == 0.0 and y < 0.0) else 1.0
-        return complex(x, y) * (sense / size)
-
-    def pole(self, at: complex, velocity: complex, omega: float) -> tuple[Place, float]:
-        """Where a motion has no velocity: the motion that gives the point ``at`` (mm) a velocity (mm/s) and turns at
-        ``omega`` (rad/s).  Returns the place and the strength: 0 where nothing moves (and then no place is meant).
-
-        The velocity of z is i omega (z - pole): with pole = q / omega, q = omega z + i v at any z.
-        """
-        q = omega * (at - self.middle) / self.unit + 1j * velocity / self.unit
-        strength = math.hypot(abs(q), omega)
-        if strength == 0.0:
-            return (0.0, 0.0, 0.0), 0.0
-        place = (q.real / strength, q.imag / strength, omega / strength)
-        return (place, strength) if omega >= 0.0 else ((-place[0], -place[1], -place[2]), -strength)
-
-    def velocity(self, place: Place, strength: float, z: complex) -> complex:
-        """The velocity (mm/s) of the point z of the sheet in a rotation about a place; the reverse of `pole`."""
-        x, y, w = place
-        return 1j * strength * (w * (z - self.middle) - complex(x, y) * self.unit)
 
 
 @dataclass(frozen=True)
@@ -548,3 +471,159 @@ def _otherwise(diagram: CircleDiagram, motions: Mapping[str, LinkMotion], larges
     error = MEASURED * max(1.0, SLOW * largest / abs(strength))
     way: Literal["superposition", "velocity polygon"] = "superposition" if diagram.links.kept else "velocity polygon"
     return Centre(pair, "found", place, way=way, why=why, error=error)
+
+
+# -- velocities by centres ---------------------------------------------------------------------------------------------
+
+
+CERTAIN = 1e-6  # of the driver's own: a link whose motion may err by more waits for a longer chain that gives it better
+
+
+@dataclass(frozen=True)
+class Turning:
+    """The motion of a link by centres.
+
+    ``strength`` (1/s) belongs to the centre's homogeneous coordinates (`ProjectiveChart.velocity`), ``omega`` is the
+    angular velocity (rad/s).  ``chain`` names the links from the driver to this one, each measured from the one before;
+    ``error`` (1/s) is how far the strength may be off, since centres near each other measure badly.
+    """
+
+    link: str
+    strength: float
+    omega: float
+    chain: tuple[str, ...]
+    error: float = 0.0
+
+
+def speeds(centres: Centres) -> dict[str, Turning]:
+    """The motion of every link that a chain of centres reaches from a driver; a link at rest is among them.
+
+    Returns
+    -------
+    dict from the link's name to its motion; with several drivers the first that moves is the start
+    """
+    frame = centres.scene.frame.name
+    moving = [d for d in centres.scene.drivers if d.values[1] != 0.0]
+    if not moving:
+        return {name: Turning(name, 0.0, 0.0, (name,)) for name in centres.names}
+    found = {frame: Turning(frame, 0.0, 0.0, (frame,)), **_driven(centres, moving[0])}
+    steps = max(len(t.chain) for t in found.values())
+    largest = CERTAIN * max(abs(t.strength) for t in found.values())
+    while len(found) < len(centres.names):
+        fresh: dict[str, Turning] = {}
+        last = steps > len(centres.names)  # no further chain gives anything better
+        known = [t for t in found.values() if t.link != frame and (last or len(t.chain) == steps)]
+        for name in (name for name in centres.names if name not in found):
+            # from one link to the next by their common centre
+            chains = [_carried(t, centres.of(t.link, frame), centres.of(name, t.link), centres.of(name, frame),
+                               (*t.chain, name)) for t in known]  # fmt: skip
+            best = min((t for t in chains if t is not None), key=lambda turning: turning.error, default=None)
+            if best is not None and (last or best.error <= max(largest, CERTAIN * abs(best.strength))):
+                fresh[name] = best
+        if not fresh and last:
+            break
+        found.update(fresh)
+        steps += 1
+    return found
+
+
+def _driven(centres: Centres, driver: Driver) -> dict[str, Turning]:
+    """The links that the driver's own pair moves, from its rate: turning about their common centre, or sliding."""
+    chart, structure, frame = centres.chart, centres.sheet.structure, centres.scene.frame.name
+    pin = next((p for p in centres.scene.pins if p.key == driver.key), None)
+    if driver.turns:
+        a, b = driver.links
+    else:
+        pair = driver_pair(driver, structure.links, structure.slides)
+        assert pair is not None
+        a, b = (pin.of, pin.on) if pin else (pair.a, pair.b)
+    centre = centres.of(a, b)
+    if centre.place is None:
+        return {}
+    once, reach = centre.place[2], 1.0
+    if not driver.turns:
+        at = centres.point(pin.point) if pin else chart.middle
+        along = centres.poses[b].axis * structure.slide(driver.key).guide.direction
+        once = dot(chart.velocity(centre.place, 1.0, at), along) / centres.mm
+        reach = (abs(at - chart.middle) + chart.unit) / centres.mm
+    if once == 0.0:
+        return {}
+    strength = driver.values[1] / once
+    own = Turning(a, strength, strength * centre.place[2], (a,), abs(strength / once) * centre.error * reach)
+    if b == frame:
+        return {a: own}
+    back = Turning(b, -own.strength, -own.omega, (b,), own.error)
+    if a == frame:
+        return {b: back}
+    # two moving links: the difference of their motions is known
+    found = (_carried(turning, centre, centres.of(other, frame), centres.of(turning.link, frame), turning.chain)
+             for turning, other in ((own, b), (back, a)))  # fmt: skip
+    return {turning.link: turning for turning in found if turning is not None}
+
+
+def _carried(
+    turning: Turning, known: Centre, common: Centre, wanted: Centre, chain: tuple[str, ...]
+) -> Turning | None:
+    """From a motion about ``known`` to that about ``wanted``, three centres on a line, where the motion about
+    ``common`` is the difference; None where a centre is missing, or the last two fall together.
+
+    k * known - m * wanted is a multiple of common: k (known x common) = m (wanted x common).
+    """
+    if known.place is None or common.place is None or wanted.place is None:
+        return None
+    line, apart = wedge(wanted.place, common.place)
+    over, sine = wedge(known.place, common.place)
+    if apart == 0.0:
+        return None
+    ratio = product(over, line) * sine / apart
+    off = (known.error + common.error + 2 * (sine / apart) * (wanted.error + common.error)) / apart
+    strength, error = turning.strength * ratio, turning.error * abs(ratio) + abs(turning.strength) * off
+    return Turning(chain[-1], strength, strength * wanted.place[2], chain, error)
+
+
+def turning_of(centres: Centres, moving: Mapping[str, Turning], ref: PointRef) -> Turning | None:
+    """The motion of the link of a point: that of the first link with it that is known."""
+    holders = [ref.link] if ref.link else centres.scene.holders[ref.point]
+    return next((moving[name] for name in holders if name in moving), None)
+
+
+def by_centres(centres: Centres, moving: Mapping[str, Turning], symbol: Symbol) -> complex | float | None:
+    """A velocity (m/s) or an angular velocity (rad/s) by centres, measured on the figure; None where no chain leads to
+    it, or where it is neither."""
+    if symbol.kind == "omega":
+        return moving[symbol.link].omega if symbol.link in moving else None
+    if symbol.kind != "v" or symbol.of is None:
+        return None
+    of = _velocity(centres, moving, symbol.of)
+    to = _velocity(centres, moving, symbol.to) if symbol.to else 0j
+    return None if of is None or to is None else of - to
+
+
+def _velocity(centres: Centres, moving: Mapping[str, Turning], ref: PointRef) -> complex | None:
+    turning = turning_of(centres, moving, ref)
+    place = None if turning is None else centres.of(turning.link, centres.scene.frame.name).place
+    if turning is None or place is None or turning.strength == 0.0:
+        return 0j if turning else None
+    return centres.chart.velocity(place, turning.strength, centres.point(ref.point)) / centres.mm
+
+
+def error_by_centres(centres: Centres, moving: Mapping[str, Turning], symbol: Symbol) -> float:
+    """How far a velocity by centres (m/s, rad/s) may be off by the rounding of the centres' places."""
+    chart, frame = centres.chart, centres.scene.frame.name
+    refs = [ref for ref in (symbol.of, symbol.to) if ref is not None]
+    spots = [chart.middle + chart.unit, *(centres.point(ref.point) for ref in refs)]
+    reach = 1.0 + max(abs(z - chart.middle) for z in spots) / chart.unit
+    whole = 0.0
+    for ref in refs or [PointRef("", symbol.link)]:
+        turning = turning_of(centres, moving, ref)
+        if turning is not None and turning.link != frame:
+            # a motion of nothing may be off by all there is, where centres fall together
+            whole += turning.error + abs(turning.strength) * centres.of(turning.link, frame).error
+    return whole * reach * (1.0 if symbol.link else chart.unit / centres.mm)
+
+
+def moving_pins(centres: Centres) -> tuple[Symbol, ...]:
+    """The velocities of all pins that links move."""
+    frame, links = centres.scene.frame, set(centres.names) - {centres.scene.frame.name}
+    pins = (p for p, names in centres.scene.holders.items() if p not in frame.points and links.intersection(names))
+    return tuple(Symbol("v", PointRef(p)) for p in pins)

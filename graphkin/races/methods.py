@@ -15,8 +15,7 @@ import numpy as np
 from graphkin import solver
 from graphkin.checking.readings import read_off
 from graphkin.construction import EXACT, Instrument, Plan, Scales, cad, execute, pencil, plan
-from graphkin.construction.centre_speeds import by_centres, speeds
-from graphkin.construction.centres import find_centres
+from graphkin.construction.centres import by_centres, find_centres, speeds
 from graphkin.races.work import Entry, Work, best_time
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import PreparedMechanism

@@ -24,8 +24,7 @@ import numpy as np
 from graphkin import solver
 from graphkin.checking.uncertainty import COVERAGE, predict
 from graphkin.construction import EXACT, Scales, execute, pencil, plan
-from graphkin.construction.centre_speeds import by_centres, speeds
-from graphkin.construction.centres import find_centres
+from graphkin.construction.centres import by_centres, find_centres, speeds
 from graphkin.construction.instruments import Instrument
 from graphkin.construction.sheet import Sheet
 from graphkin.errors import Unsolvable

@@ -8,8 +8,7 @@ import pytest
 
 from graphkin.account.centres import velocity_sentences
 from graphkin.api.centred import centres as checked_centres
-from graphkin.construction.centre_speeds import speeds
-from graphkin.construction.centres import find_centres
+from graphkin.construction.centres import find_centres, speeds
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol
 from graphkin.words import written

@@ -11,8 +11,7 @@ from typing import Any
 import pytest
 
 from graphkin.api.centred import centres as checked_centres
-from graphkin.construction.centre_speeds import by_centres, speeds
-from graphkin.construction.centres import Centres, find_centres
+from graphkin.construction.centres import Centres, by_centres, find_centres, speeds
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol
 

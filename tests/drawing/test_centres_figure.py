@@ -11,8 +11,7 @@ import pytest
 import graphkin
 from graphkin.account.notation import letters_of
 from graphkin.api.centred import centrodes, found_centres
-from graphkin.construction.centre_speeds import speeds
-from graphkin.construction.centres import Centres
+from graphkin.construction.centres import Centres, speeds
 from graphkin.construction.scales import Room
 from graphkin.drawing.box import Box
 from graphkin.drawing.figures.centres import background, centre_marks, centres_figure, named_centres, untold

@@ -10,8 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.construction.centre_speeds import by_centres, speeds
-from graphkin.construction.centres import Centres, find_centres
+from graphkin.construction.centres import Centres, by_centres, find_centres, speeds
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
 
