@@ -4,15 +4,16 @@ import math
 
 import pytest
 
+from graphkin import draw
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Arc, Circle, Line, Polygon, Text
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Text, walk
 from graphkin.drawing.ink.symbols import (
     block,
     fixed_pivot,
     guide,
     hatched_line,
-    rigid_link,
+    hull,
     sense_arc,
     slot,
     turning_pair,
@@ -63,18 +64,19 @@ def test_a_slot_reaches_half_its_width_past_its_centres():
     assert pytest.approx(max(arc.at((arc.start + arc.end) / 2).real for arc in arcs)) == 31.3
 
 
-def test_a_rigid_link_is_the_hull_of_its_points():
-    (area,) = rigid_link((0j, 10 + 0j, 5 + 8j, 5 + 3j))
-    assert set(area.points) == {0j, 10 + 0j, 5 + 8j}
+def test_the_hull_of_points_has_none_within():
+    assert {0j, 10 + 0j, 5 + 8j} == set(hull((0j, 10 + 0j, 5 + 8j, 5 + 3j)))
 
 
-def test_the_area_of_a_rigid_link_is_a_light_tint():
-    (area,) = rigid_link((0j, 10 + 0j, 5 + 8j), "#0067a6")
-    assert area.fill == strokes.tint("#0067a6")
+def test_points_on_a_line_have_no_area():
+    assert {0j, 20 + 10j} == set(hull((0j, 20 + 10j, 10 + 5j)))
 
 
-def test_a_straight_rigid_link_is_drawn_as_bars():
-    assert [Line, Line] == [type(shape) for shape in rigid_link((0j, 20 + 10j, 10 + 5j))]
+def test_the_area_of_a_link_is_a_light_tint_of_its_colour():
+    (link,) = [one for one in walk(draw("four-bar-coupler-point", figures=["mechanism"]).figures["mechanism"].children)
+               if isinstance(one, Group) and one.id == "link-2"]  # fmt: skip
+    area = next(one for one in link.children if isinstance(one, Polygon))
+    assert strokes.tint(area.stroke.colour) == area.fill
 
 
 @pytest.mark.parametrize("sense", [1, -1])

@@ -18,7 +18,7 @@ from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, on_page
 from graphkin.drawing.ink.symbols import JOINT_RADIUS
 from graphkin.drawing.parts.mechanism import bare_mechanism, links_alone
-from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, replaced_pairs
+from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
 from graphkin.drawing.parts.touching import replacing_links
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
@@ -95,7 +95,7 @@ def _diagram(sheet: Sheet, letters: Letters, spoken: str, panel: Box) -> Piece:
                                    f"badge-roller-{cam.cam.follower}", colour=strokes.GREY, rank=1))
     dashed = Piece({"mechanism": replacing_links(here, JOINT_RADIUS)}, tuple(labels))
     stood_for = {f"label-guide-{b.slide.b}-{b.slide.guide.name}" for b in here.sliders
-                 if b.slide.key in replaced_pairs(small)}  # fmt: skip
+                 if b.slide.key in here.replaced_pairs}  # fmt: skip
     piece = replace(piece, labels=tuple(label for label in piece.labels if label.text.id not in stood_for))
     whole = joined((piece, dashed) if here.cams else (dashed, piece))  # a profile covers what lies under it
     ink = ink_box(whole.drawn) or panel
@@ -243,7 +243,7 @@ def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[l
     known = {b.slide.key: b for b in here.sliders}
     rolling = {contact.block for contact in here.scene.contacts if contact.rolling}  # their centres keep a distance
     for slide in (pair for pair in (*inner, *outer) if not pair.turns and pair.key not in rolling):
-        stands = slide.key not in known or (slide.slot and slide.key in replaced_pairs(here.sheet))
+        stands = slide.key not in known or (slide.slot and slide.key in here.replaced_pairs)
         at = here.places[slide.pin] if stands and slide.pin else known[slide.key].at
         along = here.sheet.poses[slide.b].axis * slide.guide.direction
         colour = here.colour(slide.a)

@@ -9,15 +9,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from itertools import pairwise
 
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Stroke, page_direction
 
 __all__ = [
     "BLOCK_LENGTH", "BLOCK_WIDTH", "COMPONENT", "FOOT_HEIGHT", "HATCH_DEPTH", "JOINT_RADIUS", "POINTER", "RESULTANT",
-    "SLOT_WIDTH", "arrow", "arrowhead", "block", "block_with_pin", "circular_slot", "cylinder", "fixed_pivot", "guide",
-    "hatched_line", "head_size", "hull", "pin", "rigid_link", "sense_arc", "slot", "spring", "turning_pair",
+    "SLOT_WIDTH", "arrow", "arrowhead", "block", "circular_slot", "cylinder", "fixed_pivot", "guide",
+    "hatched_line", "head_size", "hull", "pin", "sense_arc", "slot", "spring", "turning_pair",
     "vector_group", "weld",
 ]  # fmt: skip
 
@@ -155,11 +154,6 @@ def block(
     return (Polygon(_rectangle(at, angle, length, width), strokes.WHITE, strokes.OUTLINE.coloured(colour)),)
 
 
-def block_with_pin(at: complex, angle: float, colour: str = strokes.BLACK) -> tuple[Shape, ...]:
-    """Sliding block that turns about a pin at its middle."""
-    return *block(at, angle, colour), *turning_pair(at, radius=JOINT_RADIUS * 0.85)
-
-
 def slot(start: complex, end: complex, colour: str = strokes.BLACK, width: float = SLOT_WIDTH) -> tuple[Shape, ...]:
     """Slot in a link between the centres of its round ends."""
     along = (end - start) / abs(end - start)
@@ -191,22 +185,6 @@ def circular_slot(
         Arc(centre, radius - half, start, end, stroke),
         *caps,
     )
-
-
-def rigid_link(points: tuple[complex, ...], colour: str = strokes.BLACK) -> tuple[Shape, ...]:
-    """A link with three or more points: the area they span in a light tint; bars one after the other where all of
-    them lie on one line.
-
-    Raises ValueError for fewer than two points.
-    """
-    corners = hull(points)
-    stroke = strokes.LINK.coloured(colour)
-    if len(corners) < 3:
-        ends = sorted(set(points), key=lambda z: (z.real, z.imag))
-        if len(ends) < 2:
-            raise ValueError("a link needs two places to be drawn between")
-        return tuple(Line(a, b, stroke) for a, b in pairwise(ends))
-    return (Polygon(corners, strokes.tint(colour), stroke),)
 
 
 def weld(

@@ -12,12 +12,11 @@ from itertools import pairwise, product
 from typing import TypeAlias
 
 from graphkin.account.headings import number, slide_index, written
-from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Line, Primitive, Run, on_page
 from graphkin.drawing.parts.given_shapes import along_its_guide, as_line, off_its_guide, used_guides
-from graphkin.drawing.parts.mechanism_on_paper import GUIDE_LENGTH, Slider, link_since, shapes, sliders
+from graphkin.drawing.parts.mechanism_on_paper import GUIDE_LENGTH, MechanismOnPaper, Slider
 from graphkin.drawing.place.dimensions import (
     GAP,
     LEAST_EXTENSION,
@@ -33,13 +32,12 @@ from graphkin.drawing.place.piece import Piece, ink_box, obstacles_of
 from graphkin.drawing.text import rich
 from graphkin.plane import cross, cross_lines, dot
 from graphkin.scene.model import Mechanism, PlacedLink
-from graphkin.scene.symbol import PointRef
 from graphkin.words.written import as_given
 
 __all__ = ["LENGTHS", "drawn_lengths"]
 
 LENGTHS = "dimensions"  # id of their group
-Dimensioner: TypeAlias = Callable[[Sheet, DimensionClearance], Iterator[Parts | Label]]
+Dimensioner: TypeAlias = Callable[[MechanismOnPaper, DimensionClearance], Iterator[Parts | Label]]
 Spot: TypeAlias = tuple[complex, float]
 """Where a dimension begins, on the page: a point, or the middle of a guide, with what is drawn of it to either side
 (mm)."""
@@ -59,7 +57,7 @@ LEAST_ANGLE = math.radians(0.5)
 
 
 def drawn_lengths(
-    sheet: Sheet, drawn: Iterable[Primitive], panel: Box | None, most: tuple[float, float] | None = None
+    here: MechanismOnPaper, drawn: Iterable[Primitive], panel: Box | None, most: tuple[float, float] | None = None
 ) -> Piece | None:
     """Dimensions of the frame, bars, drivers and guides for which there is room; the lengths of bars and values of
     drivers for whose dimensions there is none are labels.  Drivers come before all others where they had no room.
@@ -75,7 +73,7 @@ def drawn_lengths(
 
     def placed(*kinds: Dimensioner) -> tuple[Piece, int] | None:
         room = DimensionClearance(obstacles, panel)
-        return _placed((one for kind in kinds for one in kind(sheet, room)), around, most)
+        return _placed((one for kind in kinds for one in kind(here, room)), around, most)
 
     usual = placed(_frame, _bars, _angles, guide_dimensions, travels)
     if usual is None or not usual[1]:
@@ -108,14 +106,13 @@ def _placed(
     return Piece({"mechanism": (Group(tuple(parts), id=LENGTHS),)}, tuple(labels)), without
 
 
-def _bars(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
+def _bars(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts | Label]:
     """Lengths of bars, and of further points from them: as many as it takes, round ones first."""
-    places = {ref.point: z for ref, z in sheet.points.items() if not ref.link}
-    scene = sheet.scene.whole
+    places, scene = here.places, here.scene.whole
     for link in scene.links:
         if link.redundant:
             continue
-        spans, corners = _spans(link, sheet.scene.units.metres)
+        spans, corners = _spans(link, here.scene.units.metres)
         if len(link.bar) < 2 and along_its_guide(scene, link):
             beside = off_its_guide(scene, link)  # dimensioned along their guide
             spans = [span for span in spans if span[1] not in beside]
@@ -127,7 +124,7 @@ def _bars(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
             if one not in places or other not in places or abs(places[one] - places[other]) < 1.0:
                 continue
             start, end = on_page(places[one]), on_page(places[other])
-            value = abs(link.points[other] - link.points[one]) / sheet.scene.units.metres
+            value = abs(link.points[other] - link.points[one]) / here.scene.units.metres
             runs = rich(written(as_given(value)), SIZE)
             parts = None
             if abs(end - start) >= LEAST:
@@ -187,24 +184,22 @@ def _round(link: PlacedLink, one: str, other: str, metres: float) -> bool:
     return value > 0.0 and abs(float(f"{value:.4g}") - value) < 1e-9 * value
 
 
-def _frame(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
+def _frame(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts]:
     """Distances of fixed points from the pivot of the driver, and of guides from the nearest fixed point: across below
     or above the mechanism, upright beside it."""
-    scene = sheet.scene
-    spots = {
-        ref.point: on_page(z) for ref, z in sheet.points.items() if not ref.link and ref.point in scene.frame.points
-    }
-    datum = next((spots[p] for p in _datums(sheet) if p in spots), None)
+    scene = here.scene
+    spots = {point: on_page(z) for point, z in here.places.items() if point in scene.frame.points}
+    datum = next((spots[p] for p in _datums(here) if p in spots), None)
     guides: tuple[list[complex], list[complex]] = ([], [])
     on_guides: list[complex] = []  # points of what slides, on the line of its guide
-    for slider in sliders(sheet):
+    for slider in here.sliders:
         if slider.slide.b == scene.frame.name and slider.slide.guide.name:
             if abs(slider.along.imag) < 1e-9:
                 guides[1].append(on_page(slider.at))
             elif abs(slider.along.real) < 1e-9:
                 guides[0].append(on_page(slider.at))
             sliding = scene.by_name.get(slider.slide.a)  # none is the block of a pin, which has no other points
-            ends = (sheet.points.get(PointRef(p), slider.at) for p in (sliding.points if sliding else ()))
+            ends = (here.places.get(p, slider.at) for p in (sliding.points if sliding else ()))
             on_guides += [on_page(z) for z in ends if abs(z - slider.at) > GUIDE_LENGTH / 2]
     for upright in (False, True):
         places = [(z, 0.0) for z in spots.values()]
@@ -222,19 +217,19 @@ def _frame(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
         wide = [pair for pair in sorted(pairs) if pair[1] - pair[0] >= SHORTEST]
         whole = None
         if len(wide) > 1 and all(one[1] == two[0] for one, two in pairwise(wide)):
-            whole = _beside(sheet, room, places, (*(low for low, _ in wide), wide[-1][1]), upright)
+            whole = _beside(here, room, places, (*(low for low, _ in wide), wide[-1][1]), upright)
         if whole is not None:
             yield whole
             continue
         for pair in sorted(wide, key=lambda pair: pair[1] - pair[0]):
-            parts = _beside(sheet, room, places, pair, upright)
+            parts = _beside(here, room, places, pair, upright)
             if parts is not None:
                 yield parts
 
 
-def _datums(sheet: Sheet) -> Iterator[str]:
+def _datums(here: MechanismOnPaper) -> Iterator[str]:
     """Fixed points from which others are measured: the pivots of drivers first."""
-    scene = sheet.scene
+    scene = here.scene
     for driver in scene.drivers:
         if driver.turns:
             yield from (p for p in scene.by_name[driver.link].points if p in scene.frame.points)
@@ -252,7 +247,7 @@ def _part(z: complex, imaginary: bool) -> float:
 
 
 def _beside(
-    sheet: Sheet, room: DimensionClearance, places: Sequence[Spot], levels: Sequence[float], upright: bool
+    here: MechanismOnPaper, room: DimensionClearance, places: Sequence[Spot], levels: Sequence[float], upright: bool
 ) -> Parts | None:
     """The distances of levels, one after the other on a line beside the mechanism; for want of room within it, over
     other lines only where nothing else is left."""
@@ -269,7 +264,7 @@ def _beside(
     within = [high + far if side > 0 else low - far for far in INSIDE for side in sides]
     within += [line for far in INSIDE for line in (low + far, high - far) if low < line < high]
     ways = (1j, 1 + 0j) if upright else (1 + 0j, 1j)
-    given = [_given(sheet, level, upright) for level in levels]
+    given = [_given(here, level, upright) for level in levels]
     values = [rich(written(as_given(high - low)), SIZE) for low, high in pairwise(given)]
     for lines, over_lines in (*((lot, False) for lot in lots), (within, False), (within, True)):
         shares = SHARES[:3] if over_lines else SHARES[:1]
@@ -280,26 +275,26 @@ def _beside(
     return None
 
 
-def _given(sheet: Sheet, level: float, upright: bool) -> float:
+def _given(here: MechanismOnPaper, level: float, upright: bool) -> float:
     """What the problem gives for a level (mm on paper) that a hand has drawn, in its unit."""
-    frame = sheet.scene.frame
+    frame = here.scene.frame
     fixed = [*frame.points.values(), *(guide.through for guide in frame.guides.values())]
-    given = [_part(on_page(z), upright) / sheet.scales.length for z in fixed]
+    given = [_part(on_page(z), upright) / here.sheet.scales.length for z in fixed]
     near = min(given, key=lambda own: abs(own - level), default=level)
-    return (near if abs(near - level) < NEAR else level) * sheet.scales.length / sheet.scene.units.metres
+    return (near if abs(near - level) < NEAR else level) * here.sheet.scales.length / here.scene.units.metres
 
 
-def _angles(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
+def _angles(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts | Label]:
     """The angles of drivers, from the x axis or from the axis of another link."""
-    for driver in sheet.scene.drivers:
-        if not driver.turns or driver.link not in sheet.poses:
+    for driver in here.scene.drivers:
+        if not driver.turns or driver.link not in here.sheet.poses:
             continue
-        points = sheet.scene.by_name[driver.relative_to].points
-        pivot = next((sheet.points[PointRef(p)] for p in sheet.scene.by_name[driver.link].points if p in points), None)
-        value = sheet.drivers[driver.key]
+        points = here.scene.by_name[driver.relative_to].points
+        pivot = next((here.places[p] for p in here.scene.by_name[driver.link].points if p in points), None)
+        value = here.sheet.drivers[driver.key]
         # as it is given, else the shorter way
         turns = tuple(dict.fromkeys((math.fmod(value, 2 * math.pi), math.remainder(value, 2 * math.pi))))
-        base = sheet.poses.get(driver.relative_to)
+        base = here.sheet.poses.get(driver.relative_to)
         if pivot is None:
             continue
         start = phase(base.axis) if base is not None else 0.0
@@ -318,9 +313,9 @@ def _angles(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
         if found is not None:
             yield found
             continue
-        index = driver.link if driver.relative_to == sheet.scene.frame.name else driver.link + driver.relative_to
+        index = driver.link if driver.relative_to == here.scene.frame.name else driver.link + driver.relative_to
         told = rich(f"$φ_{{{index}}}$ = {number(math.degrees(turns[0]), 5)}°", SIZE)
-        yield driven_value(sheet, driver.key, told, at)
+        yield driven_value(here, driver.key, told, at)
 
 
 DRIVEN = "label-driven-"  # how the id of a driver's value begins where it is a label
@@ -329,64 +324,64 @@ RADII = (8.0, 11.0, 14.0, 18.0, 23.0)
 LEVEL = 1e-9
 
 
-def guide_dimensions(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
+def guide_dimensions(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts]:
     """Those for which there is room: of the frame's guides, then of links."""
-    scene = sheet.scene.whole
-    shown = _shown(sheet)
+    scene = here.scene.whole
+    shown = _shown(here)
     tried: list[Parts | None] = []
     slanted: set[str] = set()
     for slider in shown:
         frames = slider.slide.b == scene.frame.name and slider.slide.guide.name not in slanted
         if frames and slider.slide.guide.name and abs(slider.along.real * slider.along.imag) > LEVEL:
             slanted.add(slider.slide.guide.name)
-            tried += [_off_pivot(sheet, room, slider), _slant(room, slider)]
+            tried += [_off_pivot(here, room, slider), _slant(room, slider)]
     for parts in tried:
         if parts is not None:
             yield parts
     for link in scene.links:
-        if link.name in sheet.poses and not link.redundant:
-            yield from _on_link(sheet, scene, link, room, shown)
+        if link.name in here.sheet.poses and not link.redundant:
+            yield from _on_link(here, scene, link, room, shown)
 
 
-def travels(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
+def travels(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts | Label]:
     """How far each driver has pushed along its guide, from the guide's origin; where there is no room for a dimension,
     as a label."""
-    for slider in _shown(sheet):
+    for slider in _shown(here):
         if slider.driven:
-            key, pose = slider.slide.key, sheet.poses[slider.slide.b]
-            value = sheet.drivers[key] / sheet.scene.units.metres
-            start = pose.origin + pose.axis * slider.slide.guide.through / sheet.scales.length
-            runs = rich(f"$s_{{{slide_index(sheet, key)}}}$ = {written(as_given(value))}", SIZE)
+            key, pose = slider.slide.key, here.sheet.poses[slider.slide.b]
+            value = here.sheet.drivers[key] / here.scene.units.metres
+            start = pose.origin + pose.axis * slider.slide.guide.through / here.sheet.scales.length
+            runs = rich(f"$s_{{{slide_index(here.sheet, key)}}}$ = {written(as_given(value))}", SIZE)
             parts = _apart(room, (start,), (slider.at,), slider.along, abs(value), runs)
-            yield parts or driven_value(sheet, key, runs, (on_page(start), on_page(slider.at)))
+            yield parts or driven_value(here, key, runs, (on_page(start), on_page(slider.at)))
 
 
-def driven_value(sheet: Sheet, key: str, runs: tuple[Run, ...], mark: Mark) -> Label:
+def driven_value(here: MechanismOnPaper, key: str, runs: tuple[Run, ...], mark: Mark) -> Label:
     """The value of a driver as a label; it is given, so everything else gives way to it."""
-    id, since = f"{DRIVEN}{key.replace('/', '-')}", link_since(sheet, key.split("/")[0])
+    id, since = f"{DRIVEN}{key.replace('/', '-')}", here.since(key.split("/")[0])
     return Label.of(runs, mark, id, since=since)
 
 
-def _shown(sheet: Sheet) -> list[Slider]:
+def _shown(here: MechanismOnPaper) -> list[Slider]:
     """The sliding pairs of the scene, not those that stand for something else."""
-    keys = {pair.key for pair in sheet.scene.whole.slides}
-    return [one for one in sliders(sheet) if one.slide.key in keys]
+    keys = {pair.key for pair in here.scene.whole.slides}
+    return [one for one in here.sliders if one.slide.key in keys]
 
 
-def _off_pivot(sheet: Sheet, room: DimensionClearance, slider: Slider) -> Parts | None:
+def _off_pivot(here: MechanismOnPaper, room: DimensionClearance, slider: Slider) -> Parts | None:
     """How far a slanted guide of the frame runs from the nearest fixed point, square to it."""
-    frame = sheet.scene.frame
+    frame = here.scene.frame
     guide = slider.slide.guide
-    apart = {p: abs(cross(z - guide.through, guide.direction)) for p, z in frame.points.items() if p in _places(sheet)}
+    apart = {p: abs(cross(z - guide.through, guide.direction)) for p, z in frame.points.items() if p in here.places}
     if not apart:
         return None
     nearest = min(apart, key=lambda p: (apart[p], p))
-    pivot = _places(sheet)[nearest]
-    off = (guide.through - frame.points[nearest]) / sheet.scene.units.metres
+    pivot = here.places[nearest]
+    off = (guide.through - frame.points[nearest]) / here.scene.units.metres
     for way, given in ((1j, off.imag), (1 + 0j, off.real)):
         if abs(given) < LEVEL or abs(off - given * way) > LEVEL * abs(off):
             continue  # the problem gives no distance straight from the pivot
-        foot = pivot + given * way * sheet.scene.units.metres / sheet.scales.length
+        foot = pivot + given * way * here.scene.units.metres / here.sheet.scales.length
         end = min((slider.at + s * GUIDE_LENGTH / 2 * slider.along for s in (1, -1)), key=lambda z: abs(z - foot))
         along = (Line(on_page(end), on_page(foot), strokes.DIMENSION),) if abs(end - foot) > SHORTEST else ()
         found = _apart(room, (pivot,), (foot,), way, abs(given), also=along)
@@ -394,7 +389,7 @@ def _off_pivot(sheet: Sheet, room: DimensionClearance, slider: Slider) -> Parts 
             return found
     end = GUIDE_LENGTH / 2 * slider.along
     spots = (slider.at - end, slider.at + end)
-    return _apart(room, (pivot,), spots, slider.along * 1j, apart[nearest] / sheet.scene.units.metres)
+    return _apart(room, (pivot,), spots, slider.along * 1j, apart[nearest] / here.scene.units.metres)
 
 
 def _slant(room: DimensionClearance, slider: Slider) -> Parts | None:
@@ -418,18 +413,18 @@ def _slant(room: DimensionClearance, slider: Slider) -> Parts | None:
 
 
 def _on_link(
-    sheet: Sheet, scene: Mechanism, link: PlacedLink, room: DimensionClearance, shown: Sequence[Slider]
+    here: MechanismOnPaper, scene: Mechanism, link: PlacedLink, room: DimensionClearance, shown: Sequence[Slider]
 ) -> Iterator[Parts]:
     """The places of a link's points and guides, and its angles, as they follow from what it slides on."""
     pairs = along_its_guide(scene, link)
-    pose, metres = sheet.poses[link.name], scene.units.metres
+    pose, metres = here.sheet.poses[link.name], scene.units.metres
     tried: list[Parts | None] = []
     if pairs and len(link.bar) < 2:
         along = pose.axis / pairs[0].turn  # of the guide
         for point in off_its_guide(scene, link):
             z = link.points[point] * pairs[0].turn
-            if point in _places(sheet):
-                ends = (pose.origin,), (_places(sheet)[point],)
+            if point in here.places:
+                ends = (pose.origin,), (here.places[point],)
                 tried.append(_apart(room, *ends, along, abs(z.real) / metres))
                 tried.append(_apart(room, *ends, along * 1j, abs(z.imag) / metres))
     if len(pairs) == 2:
@@ -445,14 +440,14 @@ def _on_link(
         if abs(float(f"{value:.4g}") - value) < 1e-9 * value:  # as it is given, no result of slanted places
             tried.append(_apart(room, (pose.origin,), (on.at,), on.along * 1j, value))
         corner = cross_lines(pose.origin, pose.axis, on.at, on.along)
-        if corner is not None and abs(corner - pose.origin) > GUIDE_LENGTH / 2 and _drawn_at(sheet, link, corner):
+        if corner is not None and abs(corner - pose.origin) > GUIDE_LENGTH / 2 and _drawn_at(here, link, corner):
             tried.append(_guide_angle(room, corner, pose.origin - corner, on.at - corner))
     yield from (parts for parts in tried if parts is not None)
 
 
-def _drawn_at(sheet: Sheet, link: PlacedLink, corner: complex) -> bool:
+def _drawn_at(here: MechanismOnPaper, link: PlacedLink, corner: complex) -> bool:
     """Whether two lines of a link meet in a place as it is drawn."""
-    shape = next((s for s in shapes(sheet) if s.link == link.name), None)
+    shape = next((s for s in here.shapes if s.link == link.name), None)
     ends = [end for segment in (shape.segments if shape else ()) for end in segment]
     return sum(abs(end - corner) < NEAR for end in ends) > 1
 
@@ -512,7 +507,3 @@ def _on_line(
     for (p, q), runs in zip(pairwise(feet), values, strict=True):
         parts += dimension(p, q, 0.0, runs, share)
     return tuple(parts)
-
-
-def _places(sheet: Sheet) -> dict[str, complex]:
-    return {ref.point: z for ref, z in sheet.points.items() if not ref.link}

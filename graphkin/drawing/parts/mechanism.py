@@ -37,7 +37,6 @@ from graphkin.drawing.parts.mechanism_on_paper import (
     LinkShape,
     MechanismOnPaper,
     Slider,
-    points_since,
 )
 from graphkin.drawing.parts.polygon import same_place
 from graphkin.drawing.parts.touching import contact_marks, faces_of_frame, outlines_of, wheels_of
@@ -224,12 +223,11 @@ def _welds(here: MechanismOnPaper, shape: LinkShape, colour: str) -> list[Primit
 
 def joints(here: MechanismOnPaper, without: Collection[str] = ()) -> Piece:
     """Every point but some with its symbol, and the letters that want a place beside them."""
-    found = points_since(here.sheet)
     pieces = [Piece({"mechanism": ()})]
     for point in here.places:
         if point not in without:
             drawn = Group(tuple(_joint(here, point)), id=f"point-{point}", classes=("point",))
-            pieces.append(dated(Piece({"mechanism": (drawn,)}, (_letter(here, point),)), found.get(point)))
+            pieces.append(dated(Piece({"mechanism": (drawn,)}, (_letter(here, point),)), here.found.get(point)))
     return joined(pieces)
 
 
@@ -417,7 +415,7 @@ def _with_lengths(
     here: MechanismOnPaper, bare: Piece, panel: Box | None, most: tuple[float, float] | None = None
 ) -> Piece | None:
     drawn = [thing for layer in ("construction", "mechanism", "answers") for thing in bare.layers[layer]]
-    lengths = drawn_lengths(here.sheet, drawn, panel, most)
+    lengths = drawn_lengths(here, drawn, panel, most)
     if lengths is None:
         return None
     return joined((bare, dated(lengths, here.stands), link_names(here, panel), _marks(here)))

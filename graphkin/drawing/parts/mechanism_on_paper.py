@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from cmath import phase
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -24,13 +24,9 @@ from graphkin.plane import cross, dot
 from graphkin.scene.bodies import CircularSlot
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import Mechanism
-from graphkin.scene.symbol import PointRef
 from graphkin.structure import Pair
 
-__all__ = [
-    "GUIDE_LENGTH", "CamOnPaper", "CurvedSlot", "LinkShape", "MechanismOnPaper", "Slider",
-    "replaced_pairs", "sliders",
-]  # fmt: skip
+__all__ = ["GUIDE_LENGTH", "CamOnPaper", "CurvedSlot", "LinkShape", "MechanismOnPaper", "Slider"]
 
 # mm: how far a bar of no fixed length goes on beyond a block, and a slot beyond its pin
 PAST_BLOCK, PAST_PIN = 9.0, 8.0
@@ -97,34 +93,6 @@ class LinkShape:
         return max(self.segments, key=lambda s: abs(s[1] - s[0]), default=None)
 
 
-def stands_since(sheet: Sheet) -> int | None:
-    """The step from which on the mechanism stands; what is found later in it is no part of it."""
-    steps = [step.number for step in sheet.steps if step.diagram == "mechanism"]
-    polygons = min((step.number for step in sheet.steps if step.diagram != "mechanism"), default=math.inf)
-    return max((number for number in steps if number < polygons), default=max(steps, default=None))
-
-
-def link_since(sheet: Sheet, link: str) -> int | None:
-    """The step from which on a link is there: all its points are marked, and it is drawn."""
-    steps, last = [step for step in sheet.steps if step.diagram == "mechanism"], stands_since(sheet)
-    if link == sheet.scene.frame.name or last is None:
-        return steps[0].number if steps else None
-    if link not in sheet.scene.by_name:
-        return last
-    found = points_since(sheet)
-    drawn = next((step.number for step in steps if link in step.links_drawn), 0)
-    return max([drawn, *(found.get(point, last) for point in sheet.scene.by_name[link].points)]) or last
-
-
-def points_since(sheet: Sheet) -> Mapping[str, int]:
-    """The step that marks each point of the mechanism first."""
-    found: dict[str, int] = {}
-    for step in sheet.steps:
-        for mark in (s for s in step.strokes if step.diagram == "mechanism" and isinstance(s, Mark)):
-            found.setdefault(mark.ref.point, step.number)
-    return found
-
-
 @dataclass(frozen=True)
 class MechanismOnPaper:
     """A sheet's mechanism with the letters of a convention; places in mm, y up, about the world's origin."""
@@ -141,21 +109,86 @@ class MechanismOnPaper:
         return self.sheet.scene.frame.name
 
     def since(self, link: str) -> int | None:
-        """The step from which on a link is there."""
-        return link_since(self.sheet, link)
+        """The step from which on a link is there: all its points are marked, and it is drawn."""
+        steps, last = [step for step in self.sheet.steps if step.diagram == "mechanism"], self.stands
+        if link == self.ground or last is None:
+            return steps[0].number if steps else None
+        if link not in self.scene.by_name:
+            return last
+        drawn = next((step.number for step in steps if link in step.links_drawn), 0)
+        return max([drawn, *(self.found.get(point, last) for point in self.scene.by_name[link].points)]) or last
 
     @cached_property
     def stands(self) -> int | None:
-        """The step from which on the mechanism stands."""
-        return stands_since(self.sheet)
+        """The step from which on the mechanism stands; what is found later in it is no part of it."""
+        steps = [step.number for step in self.sheet.steps if step.diagram == "mechanism"]
+        polygons = min((step.number for step in self.sheet.steps if step.diagram != "mechanism"), default=math.inf)
+        return max((number for number in steps if number < polygons), default=max(steps, default=None))
+
+    @cached_property
+    def found(self) -> Mapping[str, int]:
+        """The step that marks each point of the mechanism first."""
+        found: dict[str, int] = {}
+        for step in self.sheet.steps:
+            for mark in (s for s in step.strokes if step.diagram == "mechanism" and isinstance(s, Mark)):
+                found.setdefault(mark.ref.point, step.number)
+        return found
 
     @cached_property
     def shapes(self) -> tuple[LinkShape, ...]:
-        return shapes(self.sheet)
+        """The moving links on paper, in the order of the file; links that were not reached are left out."""
+        slides = tuple(one for one in self.sliders if one.slide.key not in self.replaced_pairs)
+        found = []
+        centres = {slot.bar: slot.centre for slot in self.scene.slots}
+        replaced = {slot.bar for slot in self.scene.slots if not slot.block}
+        for link in self.scene.whole.links:
+            points = {p: self.places[p] for p in link.points if p in self.places and p != centres.get(link.name)}
+            if link.name in replaced:  # it stands for a slot, which is drawn in its place
+                points = {}
+            if link.redundant and len(points) == len(link.points):
+                corners, bars = _spanned(tuple(points.values()))
+                found.append(LinkShape(link.name, points, corners, bars, redundant=True))
+            elif link.name in self.sheet.poses:
+                flat = frozenset(b.slide.key for b in self._faces)
+                found.append(_shape(link.name, points, (*slides, *self._faces), flat))
+        return tuple(found)
+
+    @cached_property
+    def replaced_pairs(self) -> frozenset[str]:
+        """Keys of the sliding pairs that only stand for a cam and its follower."""
+        whole = self.scene.instead_of
+        held = self.scene.pins if whole is None else whole.pins
+        return frozenset(pin.key for pin in self.scene.pins) - {pin.key for pin in held}
 
     @cached_property
     def sliders(self) -> tuple[Slider, ...]:
-        return sliders(self.sheet)
+        """All sliding pairs whose two links stand on paper, pins in slots too."""
+        sheet = self.sheet
+        driven = {d.key for d in self.scene.drivers if not d.turns}
+        # a follower's block stands clear of its roller
+        clear = {
+            cam.motion.pair: cam.roller / sheet.scales.length + PAST_ROLLER
+            for cam in self.scene.cams if isinstance(cam.motion, SlidingFollower)
+        }  # fmt: skip
+        touching = {c.block for c in self.scene.contacts}
+        found = []
+        for slide in sheet.structure.slides:
+            if slide.a in sheet.poses and slide.b in sheet.poses and slide.key not in touching:
+                along = sheet.poses[slide.b].axis * slide.guide.direction
+                at = sheet.poses[slide.a].origin + clear.get(slide.key, 0.0) * along
+                found.append(Slider(slide, at, along, slide.key in driven))
+        return tuple(found)
+
+    @cached_property
+    def _faces(self) -> tuple[Slider, ...]:
+        """The flat faces of moving links: a contact, the direction of the face, as if a slider stood there."""
+        found = []
+        for contact in self.scene.contacts:
+            slide = next((s for s in self.sheet.structure.slides if s.key == contact.block), None)
+            at = self.places.get(contact.name)
+            if slide is not None and at is not None and slide.b in self.sheet.poses:
+                found.append(Slider(slide, at, self.sheet.poses[slide.b].axis * slide.guide.direction, False))
+        return tuple(found)
 
     @cached_property
     def places(self) -> Mapping[str, complex]:
@@ -165,7 +198,16 @@ class MechanismOnPaper:
     @cached_property
     def cams(self) -> tuple[CamOnPaper, ...]:
         """The cams with the followers that they touch."""
-        return tuple(cams(self.sheet))
+        mm, poses, found = 1.0 / self.sheet.scales.length, self.sheet.poses, []
+        outlines = outlines_on_paper(self.scene, poses, mm)
+        for cam in self.scene.cams:
+            if cam.link in outlines and cam.follower in poses:
+                pose = poses[cam.link]
+                at = station(cam, cam.sense * phase(pose.axis))
+                point, contact = (pose.origin + pose.axis * z * mm for z in (at.point, at.contact))
+                normal = pose.axis * at.normal
+                found.append(CamOnPaper(cam, outlines[cam.link], point, contact, normal, cam.roller * mm))
+        return tuple(found)
 
     @cached_property
     def curved(self) -> tuple[CurvedSlot, ...]:
@@ -244,73 +286,6 @@ class MechanismOnPaper:
             return False
         pivot = self.pivot(b)
         return abs(cross(b.at - pivot, b.along)) < 1e-3 and dot(b.at - pivot, b.along) > 12.0
-
-
-def cams(sheet: Sheet) -> Iterator[CamOnPaper]:
-    """The cams that stand on paper with their followers."""
-    mm = 1.0 / sheet.scales.length
-    outlines = outlines_on_paper(sheet.scene, sheet.poses, mm)
-    for cam in sheet.scene.cams:
-        if cam.link not in outlines or cam.follower not in sheet.poses:
-            continue
-        pose = sheet.poses[cam.link]
-        at = station(cam, cam.sense * phase(pose.axis))
-        point, contact = (pose.origin + pose.axis * z * mm for z in (at.point, at.contact))
-        yield CamOnPaper(cam, outlines[cam.link], point, contact, pose.axis * at.normal, cam.roller * mm)
-
-
-def replaced_pairs(sheet: Sheet) -> set[str]:
-    """Keys of the sliding pairs that only stand for a cam and its follower."""
-    whole = sheet.scene.instead_of
-    return set() if whole is None else {p.key for p in sheet.scene.pins} - {p.key for p in whole.pins}
-
-
-def sliders(sheet: Sheet) -> tuple[Slider, ...]:
-    """All sliding pairs whose two links stand on paper, pins in slots too."""
-    driven = {d.key for d in sheet.scene.drivers if not d.turns}
-    # a follower's block stands clear of its roller
-    clear = {
-        cam.motion.pair: cam.roller / sheet.scales.length + PAST_ROLLER
-        for cam in sheet.scene.cams if isinstance(cam.motion, SlidingFollower)
-    }  # fmt: skip
-    touching = {c.block for c in sheet.scene.contacts}
-    found = []
-    for slide in sheet.structure.slides:
-        if slide.a in sheet.poses and slide.b in sheet.poses and slide.key not in touching:
-            along = sheet.poses[slide.b].axis * slide.guide.direction
-            at = sheet.poses[slide.a].origin + clear.get(slide.key, 0.0) * along
-            found.append(Slider(slide, at, along, slide.key in driven))
-    return tuple(found)
-
-
-def faces(sheet: Sheet) -> tuple[Slider, ...]:
-    """The flat faces of moving links: a contact, the direction of the face, as if a slider stood there."""
-    found = []
-    for contact in sheet.scene.contacts:
-        slide = next((s for s in sheet.structure.slides if s.key == contact.block), None)
-        at = sheet.points.get(PointRef(contact.name))
-        if slide is not None and at is not None and slide.b in sheet.poses:
-            found.append(Slider(slide, at, sheet.poses[slide.b].axis * slide.guide.direction, False))
-    return tuple(found)
-
-
-def shapes(sheet: Sheet) -> tuple[LinkShape, ...]:
-    """The moving links on paper, in the order of the file; links that were not reached are left out."""
-    places = {ref.point: z for ref, z in sheet.points.items() if not ref.link}
-    slides, flat = tuple(s for s in sliders(sheet) if s.slide.key not in replaced_pairs(sheet)), faces(sheet)
-    found = []
-    centres = {slot.bar: slot.centre for slot in sheet.scene.slots}
-    replaced = {slot.bar for slot in sheet.scene.slots if not slot.block}
-    for link in sheet.scene.whole.links:
-        points = {p: places[p] for p in link.points if p in places and p != centres.get(link.name)}
-        if link.name in replaced:  # it stands for a slot, which is drawn in its place
-            points = {}
-        if link.redundant and len(points) == len(link.points):
-            corners, bars = _spanned(tuple(points.values()))
-            found.append(LinkShape(link.name, points, corners, bars, redundant=True))
-        elif link.name in sheet.poses:
-            found.append(_shape(link.name, points, (*slides, *flat), frozenset(b.slide.key for b in flat)))
-    return tuple(found)
 
 
 def _shape(
