@@ -107,6 +107,20 @@ def test_a_label_stands_beside_its_vector_without_a_leader():
     assert placed.leader is None
 
 
+def test_the_name_of_a_vector_stands_square_off_its_middle():
+    vector = 20 + 50j, 120 + 50j
+    (placed,) = place([label("$v_B$", vector)], PANEL, Obstacles(solid=(vector,)))
+    assert (70.0, 49.3) == pytest.approx((placed.box.centre.real, placed.box.bottom))
+
+
+def test_a_name_at_a_point_makes_room_for_one_that_has_no_other_place():
+    walls = Obstacles(solid=((40 + 49j, 62 + 49j), (40 + 51j, 62 + 51j), (40 + 20j, 40 + 49j), (62 + 20j, 62 + 49j)))
+    first, second = label("$B$", 50 + 50j), label("$v$", (42 + 49j, 60 + 49j))
+    placed = place([first, second], Box(30.0, 40.0, 72.0, 60.0), walls)
+    assert [True, True] == [one.clear for one in placed]
+    assert not placed[0].box.overlaps(placed[1].box)
+
+
 def test_a_label_in_a_crowd_has_a_leader_to_its_mark():
     marks = [50 + 50j, *(50 + 50j + cmath.rect(1.2, k) for k in range(6))]
     placed = place([label(f"$P_{{{i}4}}$", mark) for i, mark in enumerate(marks)], PANEL)
