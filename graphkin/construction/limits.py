@@ -97,9 +97,9 @@ class TurnOfCrank:
         poses = found_near(self.choices, self.elements, values, guess, self.positions[0].poses)
         return None if poses is None else LimitPosition(value, poses)
 
-    def limits(self, output: Pair | str, why: str) -> tuple[LimitPosition, LimitPosition, float]:
-        """The lowest and the highest position of a slide (by its travel) or of a link (by its angle), and how far it
-        goes from one to the other (mm of paper, or rad).  Raises Unsolvable for a link that turns on and on.
+    def limits(self, output: Pair | str, why: str) -> Limits:
+        """The lowest and the highest position of a slide (by its travel) or of a link (by its angle); of a slide
+        ``swing`` is its stroke (mm of paper).  Raises Unsolvable for a link that turns on and on.
         """
         travels: list[float] = []
         for here in self.positions:
@@ -112,7 +112,7 @@ class TurnOfCrank:
             raise Unsolvable("no whole turn", Problem(why, "does not move it has no limit positions",
                                                       "ask for an output that moves", name=name))
         low, high = (self._extreme(output, travels, sign) for sign in (-1.0, 1.0))
-        return low[0], high[0], high[1] - low[1]
+        return Limits(low[0], high[0], high[1] - low[1])
 
     def _extreme(self, output: Pair | str, travels: Sequence[float], sign: float) -> tuple[LimitPosition, float]:
         height = [sign * value for value in travels]
@@ -177,8 +177,7 @@ def limits_asked(
         if not {n for e in elements for n in e.members} <= poses.keys():
             continue
         turn = turn or TurnOfCrank.of(structure, elements, values, poses, str(symbol))
-        low, high, swing = turn.limits(output, str(symbol))
-        found[symbol.pair] = Limits(LimitPosition(low.value, low.poses), LimitPosition(high.value, high.poses), swing)
+        found[symbol.pair] = turn.limits(output, str(symbol))
     return found
 
 
