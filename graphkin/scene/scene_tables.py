@@ -82,25 +82,23 @@ def forms(wanted: str) -> Discriminator:
     return Discriminator(_form, custom_error_type="form", custom_error_message=wanted)
 
 
-NameOrPlace = Annotated[
-    Annotated[PointName, Tag("<name>")] | Annotated[Place, Tag("<list>")], forms("write the name of a point b or")
-]
+NAME, LIST, NUMBER, POLAR, COMPASS = map(Tag, ("<name>", "<list>", "<number>", "<polar>", "<compass>"))
+ANumber = Annotated[Number, NUMBER]
+APlace = Annotated[Place, LIST]
+NameOrPlace = Annotated[Annotated[PointName, NAME] | APlace, forms("write the name of a point b or")]
 GuideRefs = Annotated[
-    Annotated[GuideRef, Tag("<name>")] | Annotated[List[GuideRef], Rule(min_length=1, max_length=2), Tag("<list>")],
+    Annotated[GuideRef, NAME] | Annotated[List[GuideRef], Rule(min_length=1, max_length=2), LIST],
     forms("write a guide as link or link.guide or"),
 ]
 Numbers = Annotated[
-    Annotated[Number, Tag("<number>")] | Annotated[List[Number], Rule(min_length=1, max_length=2), Tag("<list>")],
+    ANumber | Annotated[List[Number], Rule(min_length=1, max_length=2), LIST],
     forms("write a number or a list with one"),
 ]
 NumberOrSquare = Annotated[
-    Annotated[Number, Tag("<number>")] | Annotated[Literal["square"], Tag("<name>")],
-    forms("write degrees or square for square to the"),
+    ANumber | Annotated[Literal["square"], NAME], forms("write degrees or square for square to the")
 ]
 Stated = Annotated[
-    Annotated[Number, Tag("<number>")]
-    | Annotated[Place, Tag("<list>")]
-    | Annotated[str, StringConstraints(strict=True, max_length=80), Tag("<name>")],
+    ANumber | APlace | Annotated[str, StringConstraints(strict=True, max_length=80), NAME],
     forms("write a number 1.0 for its digits as"),
 ]
 
@@ -126,16 +124,11 @@ class Compass(FileTable):
     side: Literal["left", "right"]
 
 
-FramePlace = Annotated[
-    Annotated[Place, Tag("<list>")] | Annotated[Polar, Tag("<polar>")] | Annotated[Compass, Tag("<compass>")],
-    forms("write x y from a r 400 angle"),
-]
+APolar = Annotated[Polar, POLAR]
+ACompass = Annotated[Compass, COMPASS]
+FramePlace = Annotated[APlace | APolar | ACompass, forms("write x y from a r 400 angle")]
 At = Annotated[
-    Annotated[Place, Tag("<list>")]
-    | Annotated[Polar, Tag("<polar>")]
-    | Annotated[Compass, Tag("<compass>")]
-    | Annotated[Literal["drawn"], Tag("<name>")],
-    forms("write x y from c r 65 angle"),
+    APlace | APolar | ACompass | Annotated[Literal["drawn"], NAME], forms("write x y from c r 65 angle")
 ]
 
 
@@ -196,15 +189,8 @@ class Pin(FileTable):
 
 
 TwoOutlines = Annotated[List[GuideRef], Rule(min_length=2, max_length=2)]
-TwoTeeth = Annotated[
-    List[
-        Annotated[
-            Annotated[Number, Tag("<number>")] | Annotated[Literal["rack"], Tag("<name>")],
-            forms("write a number of teeth or rack"),
-        ]
-    ],
-    Rule(min_length=2, max_length=2),
-]
+Teeth = Annotated[ANumber | Annotated[Literal["rack"], NAME], forms("write a number of teeth or rack")]
+TwoTeeth = Annotated[List[Teeth], Rule(min_length=2, max_length=2)]
 
 
 @file_table
@@ -423,10 +409,7 @@ class StrokeStart(FileTable):
     sense: Literal[1, -1] = 1
 
 
-Start = Annotated[
-    Annotated[Number, Tag("<number>")] | Annotated[StrokeStart, Tag("<polar>")],
-    forms("write a driver value or stroke 5 6"),
-]
+Start = Annotated[ANumber | Annotated[StrokeStart, POLAR], forms("write a driver value or stroke 5 6")]
 
 
 @file_table
