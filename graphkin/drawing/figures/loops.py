@@ -6,6 +6,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 
 from graphkin.account.headings import number
 from graphkin.account.loops import MatrixEquation, equation, matrices, projections, root, size_name
@@ -17,12 +18,12 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import SIZE, Block, FigurePage, column, panel, prose, row
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes, symbols
-from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polyline, Primitive, Run, Stroke, Text, on_page
+from graphkin.drawing.ink.primitives import Arc, Circle, Line, Polyline, Primitive, Run, Stroke, Text, on_page
 from graphkin.drawing.ink.strokes import colour_of_link
 from graphkin.drawing.ink.symbols import POINTER, arrowhead
-from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, moved_piece
+from graphkin.drawing.plate import Plate
 from graphkin.drawing.text import rich, runs_width, symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up
@@ -102,63 +103,48 @@ def _corners(loop: Loop, scale: float) -> list[complex]:
 
 
 def _polygon(sheet: Sheet, loop: Loop, block: LoopBlock, scale: float) -> tuple[Piece, Box]:
-    corners = _corners(loop, scale)
-    drawn: list[Primitive] = []
-    thin: list[Primitive] = []
-    labels: list[Label] = []
-    name = loop.name
-    for k, arrow in enumerate(loop.arrows):
-        tail, tip = corners[k], corners[k + 1]
-        colour = colour_of_link(sheet.scene, arrow.link)
-        ends = "".join(arrow.names) or str(k + 1)
-        group = symbols.vector_group(f"loop-{name}-{k + 1}-{ends}", None, tail, tip, symbols.RESULTANT, colour,
-                                     f"{name}: {ends}", ("loop",))  # fmt: skip
-        drawn.append(group)
+    plate, corners = Plate(), [on_page(z) for z in _corners(loop, scale)]
+    name, drawn = loop.name, list[Primitive]()
+    for k, (arrow, tail, tip) in enumerate(zip(loop.arrows, corners, corners[1:], strict=False), 1):
+        colour, ends = colour_of_link(sheet.scene, arrow.link), "".join(arrow.names) or str(k)
+        drawn.append(symbols.vector_group(f"loop-{name}-{k}-{ends}", None, on_page(tail), on_page(tip),
+                                          symbols.RESULTANT, colour, f"{name}: {ends}", ("loop",)))  # fmt: skip
         if abs(tip - tail) < 1e-6:
             continue
         unknown = ("travel", arrow.slide) in block.unknowns
-        written = rich(f"${size_name(arrow)}$ ?") if unknown else symbol(size_name(arrow))
-        labels.append(Label.of(written, (tail, tip), colour=colour))
+        plate.name(rich(f"${size_name(arrow)}$ ?") if unknown else symbol(size_name(arrow)), (tail, tip), colour=colour)
         along = (sheet.poses[arrow.link].axis.conjugate() * arrow.vector) / abs(arrow.vector)
         if arrow.link != sheet.scene.frame.name and abs(along.imag) < 1e-9:
             # the angle of the vector: the link's own, and half a turn more where the loop runs against it
-            thin += _angle(tail, arrow.vector)
+            plate.put("construction", *_angle(on_page(tail), arrow.vector))
             turned = "" if along.real > 0 else " + 180°"
             mark = " ?" if ("angle", loop.ties[arrow.link]) in block.unknowns else ""
-            middle = on_page(cmath.rect(ARC + 0.5, cmath.phase(arrow.vector) % math.tau / 2))
-            angle = rich(f"$θ_{{{arrow.link}}}${turned}{mark}", 3.0)
-            labels.append(Label.of(angle, tail + middle, colour=colour, rank=1))
-    for k, arrow in enumerate(loop.arrows):
+            middle = tail + cmath.rect(ARC + 0.5, cmath.phase(arrow.vector) % math.tau / 2)
+            plate.name(rich(f"$θ_{{{arrow.link}}}${turned}{mark}", 3.0), middle, colour=colour, rank=1)
+    for arrow, at in zip(loop.arrows, corners, strict=False):
         if arrow.names[0]:
-            drawn.append(Circle(corners[k], 0.55, fill=strokes.BLACK))
-            labels.append(Label.of(symbol(letters_of(sheet, "chinese").point(arrow.names[0])), corners[k],
-                                   rank=1))
-    opened, more = _as_printed(sheet, loop, scale)
-    thin += opened
-    labels += more
-    marks = tuple(corners[:-1])
-    piece = Piece({"construction": tuple(thin), "mechanism": (Group(tuple(drawn), id=f"loop-{name}"),)},
-                  tuple(labels), marks)  # fmt: skip
-    return piece, Box.around(corners)
+            drawn.append(Circle(on_page(at), 0.55, fill=strokes.BLACK))
+            plate.name(symbol(letters_of(sheet, "chinese").point(arrow.names[0])), at, rank=1)
+    _as_printed(plate, sheet, loop, scale)
+    plate.put("mechanism", *drawn, id=f"loop-{name}")
+    marks = tuple(map(on_page, corners))
+    return replace(plate.piece, marks=marks[:-1]), Box.around(marks)
 
 
-def _as_printed(sheet: Sheet, loop: Loop, scale: float) -> tuple[list[Primitive], list[Label]]:
+def _as_printed(plate: Plate, sheet: Sheet, loop: Loop, scale: float) -> None:
     """The loop with the printed angles and travels, dashed, where these leave it open, and its gap."""
     gap = _gap(sheet, loop)
     if gap is None:
-        return [], []
+        return
     at, corners = 0j, [0j]
     for vector in stated_arrows(sheet, loop, sheet.scene.question.printed):
         at += vector / scale
-        corners.append(on_page(at))
-    drawn = Group((Polyline(tuple(corners), strokes.DIRECTION),), classes=("printed",))
-    ends = Line(corners[-1], corners[0], OPEN)
-    if abs(ends.end - ends.start) < 0.05:
-        return [drawn], []
-    metres, unit = sheet.scene.units.metres, sheet.scene.units.length
-    words = rich(f"{number(gap / metres, 4)} {unit}", 2.8)
-    name = Label.of(words, (ends.start, ends.end), colour=OPEN.colour)
-    return [drawn, Group((ends,), id=f"gap-{loop.name}", classes=("gap",))], [name]
+        corners.append(at)
+    plate.put("construction", Polyline(tuple(map(on_page, corners)), strokes.DIRECTION), classes=("printed",))
+    if abs(at) >= 0.05:
+        plate.put("construction", Line(on_page(at), 0j, OPEN), id=f"gap-{loop.name}", classes=("gap",))
+        metres, unit = sheet.scene.units.metres, sheet.scene.units.length
+        plate.name(rich(f"{number(gap / metres, 4)} {unit}", 2.8), (at, 0j), colour=OPEN.colour)
 
 
 def _gap(sheet: Sheet, loop: Loop) -> float | None:
