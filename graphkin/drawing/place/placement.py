@@ -36,6 +36,7 @@ GAIN = 1.0  # mm: for less no label is moved
 PUSHED, PUSH = 200, 10.0
 ROUNDS = 6
 TRIED, LOOKED_AT = 45, 100  # places tried that others stand in, and places that these may make room in
+LOT = 32  # places looked at together for one in which no label stands
 IN_THE_WAY = 2  # labels that make room for another at most
 TOLD, NOWHERE = -1, -2  # in place of a request
 NOTHING = Obstacles()
@@ -164,10 +165,13 @@ class Placement:
 
     def _stand(self, i: int) -> None:
         """Have a label take the cheapest place in which no other stands."""
-        places = self.choices.found[i]
-        free = np.flatnonzero(~meeting(self.forms, places.forms, SPACE).any(axis=0))
-        if free.size:
-            self._take(i, Stand.at(places, int(free[0])))
+        stood = self.forms[:, ~np.isnan(self.forms[0])]
+        for first in range(0, len(self.choices.found[i].costs), LOT):
+            places = self.choices.found[i].picked(slice(first, first + LOT))
+            free = np.flatnonzero(~meeting(stood, places.forms, SPACE).any(axis=0))
+            if free.size:
+                self._take(i, Stand.at(places, int(free[0])))
+                break
 
     def _improve(self, i: int) -> bool:
         """Move a label, and a few in its way, to where they cost less together; whether there is such a place."""
