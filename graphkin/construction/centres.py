@@ -130,7 +130,7 @@ class Centres:
         """Those that Kennedy's theorem does not give."""
         return tuple(c for c in self.found if c.way or c.kind == "undetermined")
 
-    @property
+    @cached_property
     def kept(self) -> tuple[str, ...]:
         """What two superposed motions let fit, where the motion was found by trial: the bars or sliding pairs that the
         trial polygons leave open."""
