@@ -4,6 +4,7 @@ drawn polygons at a few positions; and coupler curves with marks at equal steps 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from types import MappingProxyType
 
@@ -22,7 +23,7 @@ from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece
 from graphkin.drawing.text import rich
-from graphkin.errors import GraphkinError
+from graphkin.errors import GraphkinError, Unsolvable
 from graphkin.scene.force_names import force_names
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
@@ -76,8 +77,10 @@ def diagrams(
     points = [one for one in coupler_points(turn.scene) if np.isfinite(known.position(*one)).all()]
     if points:  # of a mechanism that is singular throughout there are none
         own = dict(zip((d.key for d in turn.scene.drivers), known.values[0].tolist(), strict=True))
-        sheet = draft(turn.reach.structure, own, [Symbol("theta", link=link.name) for link in turn.scene.links])
-        pages |= {f"curve-{point}": curve_page(sheet, axis, point, link, language) for point, link in points}
+        links = [Symbol("theta", link=link.name) for link in turn.scene.links]
+        with suppress(Unsolvable):  # a mechanism that no pencil can draw has no such page
+            sheet = draft(turn.reach.structure, own, links)
+            pages |= {f"curve-{point}": curve_page(sheet, axis, point, link, language) for point, link in points}
     return pages | _balance_pages(turn, language)
 
 

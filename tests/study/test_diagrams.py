@@ -14,6 +14,7 @@ from graphkin.drawing import Box, Drawing, Group, Line, Polyline, Text
 from graphkin.drawing.chart import ChartPage
 from graphkin.drawing.ink.primitives import walk
 from graphkin.drawing.text import text_box
+from graphkin.errors import Unsolvable
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.solver import driver_range
 from graphkin.study.diagrams import coupler_points, diagrams, measured
@@ -31,6 +32,14 @@ def turn_of(name: str) -> TurnStudy:
 @cache
 def pages(name: str, language: str = "en", positions: int = 12) -> dict[str, ChartPage | Drawing]:
     return diagrams(turn_of(name), language, positions)
+
+
+def test_a_mechanism_that_no_pencil_can_draw_has_its_diagrams_and_no_coupler_curve(monkeypatch) -> None:
+    def refuses(*given: object) -> None:
+        raise Unsolvable("not drawn")
+
+    monkeypatch.setattr("graphkin.study.diagrams.draft", refuses)
+    assert ["motion-link-3", "motion-link-6"] == sorted(pages.__wrapped__("sixbar-coupler-1A", positions=0))
 
 
 @pytest.mark.parametrize("name", ["sixbar-420rpm", "shaper-scheme-2"])
