@@ -13,11 +13,6 @@ from typing import Any, Self
 
 from graphkin.words import Phrase, Wording, clause_of, say, word
 
-__all__ = [
-    "CallError", "Disagreement", "GraphkinError", "NoDriver", "Problem", "SceneError", "Unsolvable", "as_list",
-    "as_text", "did_you_mean", "printable", "unfit",
-]  # fmt: skip
-
 PAGE = 4000
 """Characters of a clause that are shown."""
 _LONG_WORD = re.compile("[!-~\x00]{300,}")

@@ -15,8 +15,6 @@ from typing import IO, Any
 from graphkin.errors import CallError, unfit
 from graphkin.words import Phrase
 
-__all__ = ["Json", "OwnTables", "Tables", "folder_alone", "json_text", "opened", "path_of", "whole_file"]
-
 Json = str | float | bool | None | Sequence["Json"] | Mapping[str, "Json"]
 """What stands in a file of JSON or TOML."""
 Tables = Mapping[str, Any]

@@ -35,8 +35,6 @@ from graphkin.words import Phrase
 if TYPE_CHECKING:
     from distributed import Client
 
-__all__ = ["Checkpoints", "FinishedPiece", "Progress", "Started", "Workers", "cluster", "key_of", "process_pool"]
-
 Progress = Callable[[int, int], None]
 """Called with how much is done, and with all there is to do."""
 Result = TypeVar("Result")

@@ -16,11 +16,6 @@ if TYPE_CHECKING:
     Points = NDArray[np.complex128]
     Floats = NDArray[np.float64]
 
-__all__ = [
-    "Values", "added_up", "cross", "cross_arcs", "cross_line_arc", "cross_lines", "degrees", "direction", "dot",
-    "unit",
-]  # fmt: skip
-
 Values: TypeAlias = Any
 """A number, an array, or whatever else sums and products are made of: decimals, formulas."""
 

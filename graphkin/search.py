@@ -17,8 +17,6 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["Pieces", "Turn", "changes", "greatest_and_least", "intervals", "last_true", "least_value", "resolve"]
-
 Array = NDArray[Any]
 SECTIONS = 64
 LEAST_SECTIONS = 16

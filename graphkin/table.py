@@ -41,11 +41,6 @@ if TYPE_CHECKING:
     import pyarrow.csv
     import xarray
 
-__all__ = [
-    "Array", "Column", "Rows", "Table", "Values", "have", "parquet_of_csv", "table_of", "table_of_csv", "text_column",
-    "with_points",
-]  # fmt: skip
-
 BLOCK = 16384
 """Rows that are turned into text at once, so that a table of any length needs little more memory."""
 FEW = 20_000

@@ -21,8 +21,6 @@ from graphkin.structure import Pair
 from graphkin.words import Phrase, languages, word
 from graphkin.words.written import pointing
 
-__all__ = ["Account", "WrittenLine", "reasons", "rule_alone", "written_lines"]
-
 
 @dataclass(frozen=True)
 class Account(Voice):

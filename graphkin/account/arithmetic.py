@@ -35,12 +35,6 @@ from graphkin.words.written import (
     quotient,
 )
 
-__all__ = [
-    "Division", "bound", "carried_by", "divisions", "factors_of", "laid_sum", "lengths_measured",
-    "plan_sum", "rate_sum", "rule_sum", "scale_of", "substituted", "times_scale", "trials_of",
-    "unit_of",
-]  # fmt: skip
-
 SAME_RATE = 1e-12  # of rates: what rounding leaves of the difference of two that are the same
 _TAILS = {"mechanism": "", "velocity": "/s", "acceleration": "/s²"}
 

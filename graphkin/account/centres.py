@@ -22,8 +22,6 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, written
 from graphkin.words.written import MOST, amount, on_paper, true_minus
 
-__all__ = ["how_found", "line_through", "place_of", "points_asked", "velocity_sentences"]
-
 SURE = 1e-6  # of the largest rate: one that may err by more, and is no larger than that, is nothing but rounding
 TOGETHER = 1e-9  # mm: places nearer than this are one
 STILL = 1e-12  # part of the largest speed that is none

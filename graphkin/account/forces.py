@@ -38,11 +38,6 @@ from graphkin.scene.symbol import Symbol
 from graphkin.words import Neutral, Phrase, Wording, about, in_all, languages, listed, say
 from graphkin.words.written import FINER, MOST, amount, is_quotient, on_paper, pointing, product, to_lay_off
 
-__all__ = [
-    "SHORT", "ForceAccount", "ForceStage", "ForceStep", "balance", "corner_at", "corners", "given_loads",
-    "lever_on_page", "spots_of",
-]  # fmt: skip
-
 ZERO = 1e-8  # mm: a shorter force is nothing but rounding
 SAME = 1e-6  # mm
 APART = 0.3  # mm: corners that are nearer bear one letter

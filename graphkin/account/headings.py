@@ -21,11 +21,6 @@ from graphkin.version import __version__
 from graphkin.words import Phrase, as_plain, languages, listed, rich_text, say, word
 from graphkin.words.written import amount, in_markup, on_paper, product, true_minus
 
-__all__ = [
-    "FIGURE_WORDS", "describe", "dimensions_in", "drivers", "facts", "figure_title", "number", "once", "punctuation",
-    "remarks", "slide_index", "spoken_ref", "spoken_vector", "structure_words", "term", "titles", "written",
-]  # fmt: skip
-
 FIGURE_WORDS: Mapping[DiagramName, str] = {
     "mechanism": "mechanism", "velocity": "velocity polygon", "acceleration": "acceleration polygon", "force": "forces",
 }  # fmt: skip

@@ -30,8 +30,6 @@ from graphkin.scene.symbol import PointRef
 from graphkin.words import Markup, Neutral, Phrase, in_turn, listed
 from graphkin.words.written import in_markup, on_paper, true_minus
 
-__all__ = ["InMechanism"]
-
 SAME = 1e-6  # mm
 STRAIGHT = 1e-6  # of a length: so little beside a line a point lies on it
 IN_LINE = 1e-9  # rad, or of a length: so near to an axis or a guide its own points lie

@@ -43,8 +43,6 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Markup, Neutral, Phrase, in_turn, languages, listed
 from graphkin.words.written import MOST, amount, on_paper, pointing, quotient, true_minus
 
-__all__ = ["InPolygon", "alike", "rate_name"]
-
 SEEN = 0.005  # mm on paper: less than that is not taken off
 RATE_UNITS = {"omega": "rad/s", "alpha": "rad/s²"}
 ON_THE_POINT = 1e-9  # of a bar: so near to its end a point divides nothing

@@ -30,11 +30,6 @@ from graphkin.words import Phrase, say, word
 if TYPE_CHECKING:
     from graphkin.solver import Motion
 
-__all__ = [
-    "LoopText", "MatrixEquation", "as_latex", "as_plain", "equation", "loops_text", "matrices", "matrix_latex",
-    "matrix_lines", "projections", "root", "size_name",
-]  # fmt: skip
-
 STRAIGHT = 1e-9  # rad
 ROUNDING = 1e-12  # of the size of the mechanism
 ROUNDED = 1e-11  # of the longest arrow: a sum of arrows that is less is nothing but rounding

@@ -20,10 +20,6 @@ from graphkin.scene.scene_tables import Convention
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words.written import true_minus
 
-__all__ = [
-    "Letters", "as_vector", "force_letters", "in_counting_order", "letters_of", "pole", "rows_of", "scale_statement",
-]  # fmt: skip
-
 Rows = Literal["rows", "over", "table", "underlines"]
 
 _POLES: Mapping[str, tuple[str, str]] = {

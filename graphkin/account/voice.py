@@ -22,11 +22,6 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Markup, Neutral, Phrase, as_markup, filled, rich_text, word
 from graphkin.words.written import in_markup
 
-__all__ = [
-    "SAME", "ZERO", "NamedPoint", "PolygonPoints", "Telling", "Voice", "capital", "link_of_vector", "numeral",
-    "whole_sentence",
-]  # fmt: skip
-
 SAME = 0.02  # mm: nearer end points fall together on paper
 ZERO = 0.02  # mm: a shorter vector is drawn as a dot
 NUMERALS = "I", "II", "III", "IV", "V"

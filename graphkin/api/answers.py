@@ -17,8 +17,6 @@ from graphkin.scene.symbol import KINDS, Printed, Symbol, Unreadable
 from graphkin.table import Rows, table_of
 from graphkin.words import Phrase, Wording
 
-__all__ = ["Answers", "AnswersLike", "Cell", "as_answers"]
-
 Role = Literal["at", "variant", "person", "id", "equations", "drawing"]
 AnswersLike = str | os.PathLike[str] | Mapping[str, Mapping[str, object]]
 

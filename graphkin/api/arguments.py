@@ -28,13 +28,6 @@ if TYPE_CHECKING:
     from graphkin.construction import Instrument
     from graphkin.study.quantities import Quantity
 
-__all__ = [
-    "CHART_FORMATS", "FORMATS", "INSTRUMENTS", "MOST_SEED", "ON_SHEETS", "At", "SceneLike", "as_scene", "asked_here",
-    "asked_symbols", "drawn_symbols", "driver_values", "for_paper", "hand_of", "known_words", "known_workers",
-    "own_folder", "passed_words", "placed", "quantity_shown", "require_callable", "unknown_words", "value_at",
-    "whole_number", "write_files",
-]  # fmt: skip
-
 FORMATS = ("svg", "pdf", "png", "dxf")
 CHART_FORMATS = ("svg", "pdf", "png")
 TEXTS = ("glyphs", "outlines")

@@ -16,12 +16,13 @@ import numpy as np
 
 from graphkin import solver
 from graphkin.api.answers import Answers, AnswersLike, Cell, as_answers
-from graphkin.api.arguments import At, SceneLike, as_scene, driver_values, known_words, placed
+from graphkin.api.arguments import At, as_scene, driver_values, known_words, placed
 from graphkin.api.checked import solved_here
 from graphkin.api.results import OfScene, Result, named
-from graphkin.checking.audit import Judged, judge, judge_table, with_gaps
+from graphkin.checking.audit import judge, judge_table, with_gaps
 from graphkin.checking.report import Known
 from graphkin.checking.scans import JudgedScan, judge_scans
+from graphkin.checking.slip_likelihood import Judged
 from graphkin.checking.slips import Evidence, ValuesElsewhere
 from graphkin.checking.uncertainty import predict
 from graphkin.construction import execute, plan
@@ -30,14 +31,13 @@ from graphkin.files import Json, path_of
 from graphkin.plane import added_up
 from graphkin.scene.asked import spelling_of
 from graphkin.scene.model import Mechanism
+from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Printed, Symbol, Value
 from graphkin.solver import Motion, as_drawn, driver_range, exact_values, structure_of
 from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
     from graphkin.table import Table
-
-__all__ = ["Audited", "audit"]
 
 POSITIONS = 72
 MOST_DRAWN = 6  # rows of a table that are drawn each

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from graphkin.api.arguments import ON_SHEETS, SceneLike, for_paper, known_words
+from graphkin.api.arguments import ON_SHEETS, for_paper, known_words
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.closed_form import CamPoints, compare_cam
 from graphkin.construction.cam_sheet import CamSheet
@@ -19,6 +19,7 @@ from graphkin.errors import CallError, unfit
 from graphkin.files import Json
 from graphkin.scene.cams import LawCam, SwingingFollower
 from graphkin.scene.model import Mechanism
+from graphkin.scene.scene import SceneLike
 from graphkin.words import Neutral, Phrase, say
 from graphkin.words.written import true_minus
 
@@ -27,8 +28,6 @@ if TYPE_CHECKING:
     from graphkin.solver.cams import AtDegree, CamAt, CamStudy
     from graphkin.solver.discs import DiscCam, DiscCourse
     from graphkin.table import Array, Table
-
-__all__ = ["CamMade", "Cams", "cam", "cam_made", "cam_table"]
 
 STEP = 1.0
 FINEST, COARSEST = 0.001, 30.0

@@ -16,17 +16,7 @@ from numpy.typing import NDArray
 
 from graphkin.account.centres import how_found, place_of, velocity_sentences
 from graphkin.account.notation import in_counting_order
-from graphkin.api.arguments import (
-    ON_SHEETS,
-    At,
-    SceneLike,
-    as_scene,
-    for_paper,
-    known_words,
-    own_folder,
-    placed,
-    write_files,
-)
+from graphkin.api.arguments import ON_SHEETS, At, as_scene, for_paper, known_words, own_folder, placed, write_files
 from graphkin.api.checked import solved_here
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.report import Known, in_unit
@@ -48,6 +38,7 @@ from graphkin.errors import CallError, as_text, did_you_mean
 from graphkin.files import Json
 from graphkin.scene.drivers import moves_by_law
 from graphkin.scene.model import Mechanism
+from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.structure import Structure
 from graphkin.words import Phrase, as_plain, languages, rich_text, say, word
@@ -57,8 +48,6 @@ if TYPE_CHECKING:
     from graphkin.solver import Motion
     from graphkin.solver.motion import Centrode
     from graphkin.table import Table
-
-__all__ = ["ROOM", "Centred", "Centroded", "SpeedByCentres", "centres", "centres_text", "centrodes", "found_centres"]
 
 
 def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str, str]], list[str]]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from graphkin.api.arguments import At, SceneLike, as_scene, asked_here, drawn_symbols, hand_of, placed, value_at
+from graphkin.api.arguments import At, as_scene, asked_here, drawn_symbols, hand_of, placed, value_at
 from graphkin.api.results import OfScene, Result, named
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import Compared, ReadValue, Report, compare, reading_row, rounding_of, without_residues
@@ -16,6 +16,7 @@ from graphkin.construction import EXACT, Instrument, Plan, Sheet, execute, plan
 from graphkin.errors import Problem, Unsolvable
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
+from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Structure, part_of
 from graphkin.structure.assembly import ChangePoint
@@ -27,8 +28,6 @@ if TYPE_CHECKING:
     from graphkin.construction.forces import ForceSheet
     from graphkin.solver import Motion
     from graphkin.table import Table
-
-__all__ = ["Checked", "check", "checked", "solved_here", "with_elsewhere"]
 
 _FORMS = {
     "symbol": "", "unit": "", "on_paper_mm": ".12g", "measured": ".12g", "exact": ".12g", "error": ".3g",

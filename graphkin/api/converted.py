@@ -9,17 +9,15 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from graphkin.api.arguments import SceneLike, as_scene, write_files
+from graphkin.api.arguments import as_scene, write_files
 from graphkin.api.results import Result
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.exchange import FRAME, READ, Bodies, BodyDrive, BodySlide, is_address, read_bodies, write_bodies
 from graphkin.files import Json, Tables, path_of
 from graphkin.scene.model import Mechanism, PlacedLink
-from graphkin.scene.scene import Scene, safe_name, toml_text
+from graphkin.scene.scene import Scene, SceneLike, safe_name, toml_text
 from graphkin.table import Table
 from graphkin.words import Phrase
-
-__all__ = ["Converted", "convert"]
 
 
 @dataclass(frozen=True, repr=False, eq=False)

@@ -15,7 +15,6 @@ from graphkin.account.headings import number
 from graphkin.api.arguments import (
     ON_SHEETS,
     At,
-    SceneLike,
     as_scene,
     asked_symbols,
     driver_values,
@@ -67,14 +66,12 @@ from graphkin.papers.pdf import FORMATS, can_join, can_typeset, one_after_anothe
 from graphkin.papers.pictures import bare_picture, mechanism_picture
 from graphkin.papers.variants import asked_of
 from graphkin.scene.model import Mechanism
-from graphkin.scene.scene import safe_name
+from graphkin.scene.scene import SceneLike, safe_name
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.named_positions import named_positions
 from graphkin.table import Table, table_of
 from graphkin.words import Phrase, languages, word
 from graphkin.words.written import in_markup
-
-__all__ = ["CourseDesigns", "course_design"]
 
 HEADED = 24.0  # mm of a page for the heading above a figure, and its caption
 MOST_VALUES = 7  # columns of values that a table has room for

@@ -40,8 +40,6 @@ if TYPE_CHECKING:
     from graphkin.study.turn import TurnStudy
     from graphkin.table import Table
 
-__all__ = ["Designed", "design"]
-
 CONFIRMS = 1e-6  # of what was asked: a turn found by searching for its limits
 
 

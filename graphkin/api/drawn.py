@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 from graphkin.api.arguments import (
     ON_SHEETS,
     At,
-    SceneLike,
     as_scene,
     asked_here,
     drawn_symbols,
@@ -36,6 +35,7 @@ from graphkin.drawing.figures.positions import Shown
 from graphkin.errors import CallError, GraphkinError, Unsolvable, as_list, unfit
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
+from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Dyad, Structure
 from graphkin.structure.analysis import driven_by
@@ -48,7 +48,6 @@ if TYPE_CHECKING:
     from graphkin.drawing import Drawing
     from graphkin.solver import Motion
 
-__all__ = ["Drawn", "draw", "drawn_figure", "known_figures"]
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Drawn(OfScene, Result):

@@ -10,7 +10,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 
-from graphkin.api.arguments import SceneLike, as_scene, known_words
+from graphkin.api.arguments import as_scene, known_words
 from graphkin.api.report_text import plain_said
 from graphkin.api.results import OfScene, Result
 from graphkin.construction import EXACT, execute, plan
@@ -18,11 +18,10 @@ from graphkin.errors import GraphkinError, Unsolvable
 from graphkin.files import Json
 from graphkin.scene.force_names import force_names
 from graphkin.scene.model import Driver, Mechanism, PlacedGuide, PlacedLink
+from graphkin.scene.scene import SceneLike
 from graphkin.structure import LargerGroup, Structure, mobility_of
 from graphkin.table import Table
 from graphkin.words import Phrase, Wording, class_of, word
-
-__all__ = ["Explained", "explain"]
 
 Sentence = tuple[str, Phrase]
 """What a sentence is about (a heading of the words' area ``explanation``), and the sentence."""

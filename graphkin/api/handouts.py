@@ -13,7 +13,6 @@ from graphkin import solver
 from graphkin.api.arguments import (
     ON_SHEETS,
     At,
-    SceneLike,
     as_scene,
     asked_symbols,
     for_paper,
@@ -49,13 +48,12 @@ from graphkin.papers.screen import handout_page, motion_data
 from graphkin.papers.variants import Variant, asked_of
 from graphkin.scene.drivers import moves_by_law
 from graphkin.scene.model import Mechanism
+from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, languages
 
 if TYPE_CHECKING:
     from graphkin.table import Table
-
-__all__ = ["Handout", "handout", "papers_of"]
 
 
 @dataclass(frozen=True, repr=False, eq=False)

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphkin.api.arguments import SceneLike, as_scene, quantity_shown
+from graphkin.api.arguments import as_scene, quantity_shown
 from graphkin.api.results import OfScene, Tabled
 from graphkin.errors import CallError, as_list, as_text, did_you_mean, unfit
 from graphkin.scene.model import Mechanism
-from graphkin.scene.scene import written
+from graphkin.scene.scene import SceneLike, written
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Unit
 from graphkin.study.quantities import settled
@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     from graphkin import solver
     from graphkin.solver.designs import PreparedMechanisms
     from graphkin.study.designs import DesignKeys
-
-__all__ = ["Prepared", "PreparedDesigns", "Samples", "prepare"]
 
 Reals = NDArray[np.float64]
 

@@ -16,7 +16,6 @@ import numpy as np
 from graphkin.api.arguments import (
     MOST_SEED,
     ON_SHEETS,
-    SceneLike,
     as_scene,
     asked_symbols,
     known_words,
@@ -46,14 +45,12 @@ from graphkin.papers.variants import (
 )
 from graphkin.scene.model import Mechanism
 from graphkin.scene.reading import as_mapping
-from graphkin.scene.scene import safe_name, toml_text, written
+from graphkin.scene.scene import SceneLike, safe_name, toml_text, written
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import KeyPath, value_at
 from graphkin.study.designs import applied
 from graphkin.table import Rows, Table, table_of, with_points
 from graphkin.words import Phrase, languages
-
-__all__ = ["ProblemSet", "drawn_schemes", "problem_set", "schemes_of"]
 
 MOST = 100_000
 MOST_OF_A_TURN = 355.0  # degrees: a driver that goes farther is free to stand anywhere

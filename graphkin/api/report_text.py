@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from graphkin.study.extremes import Extreme
     from graphkin.study.turn import Output, TurnStudy
 
-__all__ = ["contact_lines", "lever_lines", "plain_said", "reading_words", "report_text", "turn_text"]
-
 
 def plain_said(phrase: Phrase, language: str) -> str:
     """A sentence in plain text, symbols without marks of markup: ω_32 = v_B/A / AB."""

@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from graphkin.table import Table
     from graphkin.words import Wording
 
-__all__ = ["OfScene", "Result", "Tabled", "named"]
-
 T = TypeVar("T")
 
 

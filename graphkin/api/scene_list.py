@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from graphkin.scene.scene import Scene
     from graphkin.table import Table
 
-__all__ = ["Listed", "scenes"]
-
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Listed(Result):

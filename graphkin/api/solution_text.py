@@ -24,8 +24,6 @@ from graphkin.words import Phrase, Wording, say, word
 if TYPE_CHECKING:
     from graphkin.api.solved import Solved
 
-__all__ = ["SolutionTable", "solution_tables"]
-
 
 @dataclass(frozen=True)
 class SolutionTable:

@@ -11,20 +11,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.api.arguments import (
-    At,
-    SceneLike,
-    as_scene,
-    known_words,
-    placed,
-    quantity_shown,
-    whole_number,
-)
+from graphkin.api.arguments import At, as_scene, known_words, placed, quantity_shown, whole_number
 from graphkin.api.results import OfScene, Result
 from graphkin.errors import CallError, Problem, Unsolvable, as_list, as_text
 from graphkin.files import Json
 from graphkin.scene.drivers import asked_time, moments, moves_by_law
 from graphkin.scene.model import Mechanism
+from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import mobility_of
 from graphkin.table import Values
@@ -35,9 +28,6 @@ if TYPE_CHECKING:
     from graphkin.solver import Forces, Motion
     from graphkin.structure import Structure
     from graphkin.table import Array, Column, Table
-
-__all__ = ["Solved", "refused", "solve"]
-
 
 BALANCE_IDLE = Phrase("the balance does no work in this position")
 

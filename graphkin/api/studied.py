@@ -9,10 +9,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
-from graphkin.api.arguments import CHART_FORMATS, SceneLike, as_scene, known_words, unknown_words, whole_number
+from graphkin.api.arguments import CHART_FORMATS, as_scene, known_words, unknown_words, whole_number
 from graphkin.api.results import Result, named
 from graphkin.errors import CallError, as_list
 from graphkin.files import Json, path_of
+from graphkin.scene.scene import SceneLike
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
@@ -20,8 +21,6 @@ if TYPE_CHECKING:
     from graphkin.races import Entry, Race
     from graphkin.study.error_laws import Singularity
     from graphkin.table import Table
-
-__all__ = ["SpeedAccuracy", "Stability", "speed_accuracy", "stability"]
 
 T = TypeVar("T")
 

@@ -17,7 +17,6 @@ import numpy as np
 from graphkin.api.arguments import (
     CHART_FORMATS,
     At,
-    SceneLike,
     as_scene,
     asked_symbols,
     driver_values,
@@ -33,7 +32,7 @@ from graphkin.files import Json, path_of
 from graphkin.jobs import Progress, Workers, cluster
 from graphkin.scene.drivers import moves_by_law
 from graphkin.scene.model import Mechanism
-from graphkin.scene.scene import written
+from graphkin.scene.scene import SceneLike, written
 from graphkin.scene.symbol import KINDS, Symbol
 from graphkin.table import Table, Values, have, table_of_csv
 from graphkin.words import Phrase, say, word
@@ -50,8 +49,6 @@ if TYPE_CHECKING:
     from graphkin.study.sweeps import Found, Sweep
     from graphkin.study.turn import TurnStudy
     from graphkin.table import Array
-
-__all__ = ["Swept", "sweep"]
 
 MOST_POSITIONS = 1_000_000_000
 OF_TURN = tuple(f"{kind.name}_" for kind in KINDS.values() if kind.scope in ("turn", "cycle"))

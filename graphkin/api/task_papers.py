@@ -47,8 +47,6 @@ from graphkin.scene.cams import SwingingFollower
 from graphkin.words import languages, say, word
 from graphkin.words.written import in_markup
 
-__all__ = ["cam_papers", "design_papers", "write_design_papers"]
-
 MANY = 6  # steps that stand in two columns
 
 Result = tuple[str, str, str, str, str]

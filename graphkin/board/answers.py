@@ -35,8 +35,6 @@ from graphkin.scene.tables import as_sentence
 from graphkin.structure import mobility_of
 from graphkin.words import LANGUAGES, Phrase, area, say
 
-__all__ = ["LINK", "QUESTIONS", "Desk", "answer", "scene_link", "text_of_link"]
-
 LINK = "graphkin:"
 """How a link begins that carries a scene in itself."""
 MOST_VARIANTS = 60

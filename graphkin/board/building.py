@@ -21,8 +21,6 @@ from graphkin.scene.scene import parsed
 from graphkin.solver import Motion
 from graphkin.words import Phrase
 
-__all__ = ["EMPTY", "STEPS", "built", "draft", "movable", "pulled", "trial_driver"]
-
 EMPTY = 'title = "New mechanism"\n\n[units]\nlength = "mm"\n\n[frame]\nname = "0"\n'
 _LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 

@@ -36,11 +36,6 @@ from graphkin.structure import Structure, mobility_of
 from graphkin.words import Phrase, languages, say
 from graphkin.words.written import in_markup
 
-__all__ = [
-    "FigureOptions", "drawn_at", "mobility_text", "motion_at", "scene_of", "shown", "thumbnail",
-    "with_own_files",
-]  # fmt: skip
-
 NEAR_END = 1e-6  # of the range: so far from its end the drawing is whole
 FAST = 1e3  # times a driver's own speed over the size: so fast is what stands beside a dead point
 

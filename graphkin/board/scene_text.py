@@ -13,8 +13,6 @@ from graphkin.scene.scene import LARGEST_FILE, parsed
 from graphkin.scene.tables import item_of
 from graphkin.words import Phrase, Wording
 
-__all__ = ["changed", "completions", "line_of", "places"]
-
 MOST_CHANGES = 500
 
 

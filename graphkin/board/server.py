@@ -28,8 +28,6 @@ if TYPE_CHECKING:
     from anywidget import AnyWidget
     from starlette.applications import Starlette
 
-__all__ = ["LARGEST_MESSAGE", "Address", "application", "needs_live", "open_board", "serve"]
-
 LARGEST_MESSAGE = 2_000_000
 STATIC = Path(__file__).parent / "static"
 FONTS = Path(__file__).parent.parent / "drawing" / "fonts"

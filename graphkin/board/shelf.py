@@ -16,8 +16,6 @@ from graphkin.files import Json, whole_file
 from graphkin.scene.scene import LARGEST_FILE, file_text, library, library_text
 from graphkin.words import Phrase, from_others
 
-__all__ = ["Shelf", "mark_of"]
-
 _NAME = re.compile(r"[^\W_][\w .-]{0,80}\.toml")
 
 

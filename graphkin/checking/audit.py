@@ -35,8 +35,6 @@ from graphkin.solver import Motion, forces_of, listed_points, senses_along, valu
 from graphkin.solver.pose import Array
 from graphkin.words import Phrase
 
-__all__ = ["Judged", "Row", "Value", "computing_errors", "explained", "judge", "judge_table", "with_gaps"]
-
 RIGHT_SHARE = 0.7  # drawn values that are right but for drafting errors
 SURER = 10.0  # so much likelier must a slip be than drafting errors, to call a value in their reach wrong
 DIGITS = 5  # fewer digits than this tell no slip from an error of drafting

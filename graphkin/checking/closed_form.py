@@ -21,8 +21,6 @@ from graphkin.scene.designs import DesignTask
 from graphkin.scene.scene_tables import Tools
 from graphkin.solver.cams import cam_at
 
-__all__ = ["CamPoints", "FoundLength", "compare_cam", "compare_lengths", "predict_cam", "predict_lengths"]
-
 AGREES = 1e-9
 """Of the largest length, or of the base radius and in rad: so far may exact hands be off."""
 

@@ -11,8 +11,6 @@ from graphkin.scene.symbol import Symbol
 from graphkin.structure.loops import Loop, loops_of
 from graphkin.structure.model import Coordinate
 
-__all__ = ["loop_gaps", "places_of_loops", "stated_arrows"]
-
 
 def places_of_loops(sheet: Sheet) -> tuple[dict[str, complex], dict[str, float]]:
     """The unit vector of each link's own axis, and the travel (m) of each sliding pair, as they are drawn."""

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from graphkin.construction.centres import Centres
     from graphkin.construction.forces import ForceSheet
 
-__all__ = ["Reading", "read_off"]
-
 Place = Callable[[str], complex | None]
 Measured = tuple[float | None, float]
 """A length in mm on paper (None for an angle or a number) and the value (m, rad)."""

@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from graphkin.checking.readings import Reading
 from graphkin.construction.scales import Scales
-from graphkin.construction.sheet import Sheet, greatest_before
+from graphkin.construction.sheet import Reading, Sheet, greatest_before
 from graphkin.construction.steps import DiagramName, phrase_of
 from graphkin.errors import CallError, Disagreement, Problem
 from graphkin.files import Json
@@ -30,11 +29,6 @@ if TYPE_CHECKING:
     from graphkin.scene.model import Mechanism
     from graphkin.solver import Motion
     from graphkin.solver.pose import Array
-
-__all__ = [
-    "JUDGED", "Compared", "Known", "Lost", "ReadValue", "Report", "compare", "deviation", "exact", "finite", "in_unit",
-    "measured", "paper", "reading_row", "rounding_of", "without_residues",
-]  # fmt: skip
 
 EXACT_TOLERANCE = 1e-9
 ROUNDING = 1e-14

@@ -19,8 +19,6 @@ from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.pictures import PlacedScan
 from graphkin.words import Phrase
 
-__all__ = ["JudgedScan", "ReadLine", "judge_scans"]
-
 POLE = "pole"
 SAME = 1e-9
 """Of the largest vector: two ends as near lie at one place."""

@@ -19,11 +19,6 @@ from graphkin.scene.symbol import Printed, Symbol, Value, stated
 from graphkin.scene.tables import Units
 from graphkin.words import Phrase
 
-__all__ = [
-    "CHANCE", "COMPUTED", "NEVER", "Judged", "Suspect", "Suspects", "Verdict", "comparable", "likelihood",
-    "transcription_errors",
-]  # fmt: skip
-
 Reals = NDArray[np.float64]
 Verdict = Literal["right", "within drafting accuracy", "right from own values", "wrong", "not judged"]
 

@@ -30,8 +30,6 @@ from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.solver import Motion, as_drawn, forces_of, senses_along, solve, value_of
 from graphkin.words import Phrase
 
-__all__ = ["CANCELLING", "NOTHING", "Evidence", "ExpectedValue", "ValuesElsewhere", "slipped_forces"]
-
 NOTHING = 1e-9  # of the greatest value of its sort: what is smaller is zero
 CANCELLING = ("motion", "position", "force")  # scopes of what may be a difference that leaves nothing
 RPM = 60.0 / math.tau

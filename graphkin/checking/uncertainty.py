@@ -25,17 +25,16 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.checking.readings import Reading, read_off
+from graphkin.checking.readings import read_off
 from graphkin.construction import Plan, Redrawn, Scales, Sheet, erring, nudged
 from graphkin.construction.instruments import Instrument
+from graphkin.construction.sheet import Reading
 from graphkin.construction.steps import Cause, Order, phrase_of
 from graphkin.errors import Unsolvable
 from graphkin.plane import added_up
 from graphkin.scene.scene_tables import Tools
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
-
-__all__ = ["COVERAGE", "Advice", "Uncertainty", "advise", "deviations", "predict"]
 
 Values = Mapping[Symbol, complex | float]
 Drawn = Callable[..., Values | None]

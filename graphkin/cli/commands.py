@@ -24,8 +24,6 @@ from graphkin.words import Phrase, from_others
 if TYPE_CHECKING:
     from typing_extensions import Buffer
 
-__all__ = ["app_of", "main"]
-
 INTERRUPTED = 130
 """Exit status of what was interrupted, as shells have it."""
 

@@ -16,8 +16,6 @@ import typer
 from graphkin.errors import CallError, Problem
 from graphkin.words import BOTH, LANGUAGES
 
-__all__ = ["At", "Given", "command", "driver_values", "named_numbers", "processes", "split_words"]
-
 T = TypeVar("T")
 At = float | str | dict[str, float] | None
 """Driver values as public functions take them."""

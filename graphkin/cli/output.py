@@ -19,11 +19,6 @@ if TYPE_CHECKING:
     from graphkin.api.results import Result
     from graphkin.cli.options import Given
 
-__all__ = [
-    "asked_languages", "complain", "finish", "print_json", "print_paths", "print_table", "progress_bar", "short_bar",
-    "tell", "tell_unused", "unsolvable_as_json",
-]  # fmt: skip
-
 
 def tell(text: str, err: bool = False) -> None:
     """Print lines of text, on stderr if it is no result; what in them would command the terminal is written out."""

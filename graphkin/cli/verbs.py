@@ -35,11 +35,6 @@ if TYPE_CHECKING:
     from graphkin.api.handouts import Handout
     from graphkin.api.solved import Solved
 
-__all__ = [
-    "audit", "cam", "centres", "check", "convert", "design", "draw", "explain", "handout", "open_page", "scenes",
-    "solve", "study", "sweep",
-]  # fmt: skip
-
 # -- drawings ----------------------------------------------------------------------------------------------------------
 
 UNCHECKED = {"instrument": "exact", "ok": False, "status": "", "why": "", "readings": []}

@@ -20,8 +20,6 @@ from graphkin.scene.laws import TURN
 from graphkin.words import Phrase
 from graphkin.words.written import amount
 
-__all__ = ["CamSheet", "cam_sheet", "division_by_hand"]
-
 STEP = math.radians(15.0)
 FEWEST, MOST = 4, 12
 

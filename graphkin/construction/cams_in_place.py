@@ -21,8 +21,6 @@ from graphkin.structure.assembly import ways
 from graphkin.structure.replacement import cams_replaced
 from graphkin.words import Phrase
 
-__all__ = ["cams_in_place", "follower_limits"]
-
 STEP = math.radians(3.0)
 
 

@@ -34,11 +34,6 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Structure, analyse, driver_pair, part_of
 from graphkin.words import Phrase
 
-__all__ = [
-    "Centre", "CentreRelation", "Centres", "LinkPair", "Turning", "by_centres", "centres_on", "error_by_centres",
-    "find_centres", "measured", "moving_pins", "speeds", "turning_of",
-]  # fmt: skip
-
 LinkPair = tuple[str, str]
 
 AT_REST = 1e-9

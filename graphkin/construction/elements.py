@@ -57,8 +57,6 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Pair, Rolled, driver_pair
 from graphkin.words.written import MOST, figures, on_paper
 
-__all__ = ["draw_element"]
-
 LETTERS = tuple("SQTUVWXYZ") + tuple(f"S{i}" for i in range(1, 30))  # of special points
 MOST_WAYS = 12  # choices of held links that are tried
 MUCH_BETTER = 2.0  # so many times as well must another plan find the rates

@@ -20,11 +20,6 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Pair
 from graphkin.words.written import MOST, figures, on_paper
 
-__all__ = [
-    "draw_equation", "draw_relative", "first_ends", "known_turns", "parts_of", "same_turn", "share_rate",
-    "spread", "symbol_of", "turned",
-]  # fmt: skip
-
 Side = list[tuple[Edge, list[Term]]]
 
 

@@ -19,11 +19,6 @@ from graphkin.scene.model import Driver
 from graphkin.structure import Driven, Dyad, Element, LargerGroup, Rolled, Structure, started
 from graphkin.structure.assembly import out_of_reach, ways
 
-__all__ = [
-    "Choices", "Pace", "best_first", "best_reduced", "drawn_near", "fitted", "found_near", "moved", "moved_to",
-    "standing", "walk",
-]  # fmt: skip
-
 Array = NDArray[np.float64]
 
 STEP, LONG_STEP = math.radians(2.0), math.radians(8.0)  # of the driver at most, with larger groups and without

@@ -25,8 +25,6 @@ from graphkin.plane import cross, cross_lines, unit
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import LargerGroup
 
-__all__ = ["GroupPlan", "equation_of", "plan_group"]
-
 FLAT = 1e-9  # sine below which the legs of a special point are parallel
 MOST_TRIALS = 4
 LONGEST, LONGEST_LEG = 5, 3  # edges of an equation, and of a leg between two moving links

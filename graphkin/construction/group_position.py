@@ -42,8 +42,6 @@ from graphkin.scene.model import Driver
 from graphkin.structure import Driven
 from graphkin.words import Phrase
 
-__all__ = ["place_by_trial", "trial_steps"]
-
 POINTS = 7  # trial positions drawn
 BETWEEN = 6  # parts into which the curve between two of them is divided
 AWAY = 0.35  # of the trial driver (rad, or the mechanism's size): how far the first trial is from the last

@@ -15,8 +15,6 @@ from dataclasses import dataclass, replace
 from graphkin.scene.scene_tables import Tools
 from graphkin.words.written import computed, on_paper
 
-__all__ = ["EXACT", "EXACT_NAME", "Instrument", "cad", "erring", "nudged", "pencil"]
-
 EXACT_NAME = "exact"  # of the instrument that errs nowhere
 LAST_PLACE = 0.01  # mm; of a length as it is written
 UNIFORM = math.sqrt(12)  # a value read to the nearest mark errs evenly within a mark: its width over sqrt(12)

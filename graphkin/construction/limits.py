@@ -27,8 +27,6 @@ from graphkin.structure import Element, Pair, Structure
 from graphkin.structure.transmission import sliding_pair
 from graphkin.words import Phrase
 
-__all__ = ["TurnOfCrank", "limits_asked", "limits_on_paper"]
-
 STEP = math.radians(3.0)
 SURPRISE, AT_FIRST = 0.05, 0.28  # so far from where it was expected a link may be found, and at first
 SMALLEST = 1e-5  # steps shorter than this part of the usual one find nothing

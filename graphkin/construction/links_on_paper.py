@@ -31,12 +31,6 @@ from graphkin.structure import (
 )
 from graphkin.words import Phrase
 
-__all__ = [
-    "Choose", "LinkMotion", "Meeting", "PlacedLinks", "Pose", "Poses", "RigidBody", "Story", "across", "apart",
-    "assemble", "assembled", "drive", "meant", "meet", "pushed_by_driver", "reading", "refuse", "start_board", "stuck",
-    "travel",
-]  # fmt: skip
-
 SAME_HOLE = 1e-9
 """Points of a link that lie nearer to each other on paper (mm) are pricked once."""
 DEAD = 1e-7  # sine of a crossing below which a group is at a dead point

@@ -26,8 +26,6 @@ from graphkin.scene.model import PlacedContact, PlacedLink
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import DrivenJoint, Dyad, LargerGroup, Pair, Structure
 
-__all__ = ["Edge", "Net", "Path", "Unknown", "VectorChain", "contacts_of", "links_alike", "node", "past"]
-
 
 class Unknown(NamedTuple):
     """A rate that is not known: how a link turns, and all that turn with it, or the speed along a sliding pair or at a

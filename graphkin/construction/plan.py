@@ -30,9 +30,6 @@ from graphkin.words import Phrase
 if TYPE_CHECKING:
     from graphkin.construction.group_plan import GroupPlan
 
-__all__ = ["GoneOn", "Plan", "Redrawn", "Task", "carried_out", "draft", "execute", "finished", "plan", "positioned"]
-
-
 # -- what is to be drawn -----------------------------------------------------------------------------------------------
 
 

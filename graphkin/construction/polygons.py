@@ -43,8 +43,6 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Dyad, LargerGroup, Pair, Structure
 from graphkin.words import Phrase
 
-__all__ = ["NO_SLIP", "PARTS", "RATE", "Polygons", "Slip", "draw_asked", "letter"]
-
 RATE: Mapping[Order, Literal["omega", "alpha"]] = {"velocity": "omega", "acceleration": "alpha"}
 PARTS: Mapping[str, Role] = {"an": "normal", "at": "tangential", "ak": "coriolis", "ar": "sliding"}
 """Of a relative acceleration."""

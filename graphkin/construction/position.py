@@ -48,8 +48,6 @@ from graphkin.structure import Driven, Dyad, Element, Rolled, Structure, pick
 from graphkin.structure.model import LargerGroup
 from graphkin.words import Phrase
 
-__all__ = ["Assembly", "assembly_at", "each_assembly", "fits_between", "own_position", "place"]
-
 TRIALS = 3  # trial drivers used, one after the other, to find all assemblies
 TWINS = 1e-6  # of the size: as near as this places are the same
 ROUGHLY = 0.1  # of the size: so far off a sketch may be

@@ -12,8 +12,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-__all__ = ["Line", "Place", "ProjectiveChart", "normal", "product", "wedge"]
-
 Place = tuple[float, float, float]
 Line = tuple[float, float, float]
 

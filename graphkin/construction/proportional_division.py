@@ -11,8 +11,6 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["divide", "magnified", "shares"]
-
 Array = NDArray[np.float64]
 
 

@@ -21,8 +21,6 @@ from graphkin.scene.model import Driver
 from graphkin.structure import Driven, Dyad, LargerGroup, Pair, RollingRelation, Structure, regrouped, unrolled, without
 from graphkin.words import Phrase
 
-__all__ = ["ReducedMechanism", "RemovedConstraint", "reduced_mechanisms"]
-
 MOST_REMOVED = 4
 MOST_KEPT = 24  # reduced mechanisms with several trial drivers that are looked at
 

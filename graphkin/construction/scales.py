@@ -10,8 +10,6 @@ from dataclasses import dataclass
 from graphkin.construction.steps import DIAGRAMS, DiagramName
 from graphkin.scene.model import Mechanism
 
-__all__ = ["SERIES", "Extent", "Room", "Scales", "chosen_scales", "fitting_scale", "next_of_series"]
-
 SERIES = (1.0, 2.0, 2.5, 5.0)
 UNMET = 40.0  # what a wish that a room does not hold costs, as `Room.cost`
 

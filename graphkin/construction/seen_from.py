@@ -15,8 +15,6 @@ import numpy as np
 
 from graphkin.construction.net import links_alike
 
-__all__ = ["Joint", "contours"]
-
 ALIKE = 1e-9  # of unit motions: what differs less moves alike
 Joint = tuple[tuple[str, str], complex, complex | None, bool]
 """What joins two links: a hinge in a place, or along a direction a sliding pair; and whether a driver gives how they

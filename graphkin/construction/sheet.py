@@ -42,11 +42,6 @@ from graphkin.words import Phrase
 if TYPE_CHECKING:
     from graphkin.construction.trains import TrainPlan
 
-__all__ = [
-    "MOST_LOST", "Board", "Equation", "GroupWay", "LimitPosition", "Limits", "Rate", "Reading", "Remark", "Sheet",
-    "either_way", "greatest_before", "without_residues",
-]  # fmt: skip
-
 PARALLEL = 1e-12  # sine below which two lines have no crossing at all
 REACH = 2000.0  # mm to either side: how far a construction line is drawn
 SHARP = math.sin(math.radians(15.0))

@@ -17,14 +17,6 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, gaps_of, listed, word
 from graphkin.words.written import MOST, amount, computed, figures, increase, on_paper, product, true_minus
 
-__all__ = [
-    "DIAGRAMS", "FINDS_A_POINT", "GIVEN", "LENGTHS", "NO_DIRECTION", "ORDERS", "SENTENCES", "Aid", "Arrow",
-    "Bar", "Cause", "CompassArc", "DiagramName", "Direction", "FarPoint", "Image", "Mark", "Missed", "Moved",
-    "OnPaper", "Order", "Part", "RateTrial", "Ray", "Reason", "Role", "Size", "Step", "Stroke", "Superposed",
-    "Term", "TrialCurve", "TrialPositions", "TrialRow", "TrialTable", "Vector", "Verb", "end_of", "phrase_of",
-    "plain_in",
-]  # fmt: skip
-
 Order = Literal["velocity", "acceleration"]
 Role = Literal["resultant", "relative", "normal", "tangential", "coriolis", "sliding"]
 ORDERS: tuple[Order, ...] = ("velocity", "acceleration")

@@ -29,8 +29,6 @@ from graphkin.scene.designs import (
 )
 from graphkin.words import Markup, Phrase
 
-__all__ = ["DesignSheet", "DesignStroke", "construct"]
-
 DECIMALS = range(2, 9)
 """Of lengths (mm) from which others are reckoned, until that is true as it is written."""
 SEEN = 0.05

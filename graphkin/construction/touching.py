@@ -23,10 +23,6 @@ from graphkin.scene.model import Mechanism, PlacedContact, PlacedGear
 from graphkin.structure import Rolled, Structure
 from graphkin.structure.model import Coordinate
 
-__all__ = [
-    "CamStation", "Touch", "Touching", "coordinate_on_paper", "outline", "outlines_on_paper", "rolled_near", "station",
-]  # fmt: skip
-
 POINTS = 180
 """Points of an outline, those at the seams beside them."""
 

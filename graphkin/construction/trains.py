@@ -30,8 +30,6 @@ from graphkin.structure import Mesh, Structure, meshes_of
 from graphkin.structure.model import Coordinate
 from graphkin.words import Phrase
 
-__all__ = ["CentreLine", "PlanLine", "PlansDrawn", "Spot", "TrainPlan", "centre_lines", "rolled"]
-
 ALIKE = 1e-9  # of a length: heights that are one
 WIDE, HIGH = 62.0, 100.0
 """mm that velocities and heights may take on paper."""

@@ -26,8 +26,6 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Driven, DrivenTriangle, Dyad, Element, LargerGroup, Structure, analyse, pick, without
 
-__all__ = ["Inversion", "inversions_of", "opened_at_triangles", "own_assembly"]
-
 FITS = 1e-6  # of the size: so well the slide must have its travel in an assembly
 
 

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-__all__ = ["Box"]
-
 
 class Box(NamedTuple):  # a page has thousands
     """A rectangle on the page, in mm, y down: ``left <= right`` and ``top <= bottom``."""

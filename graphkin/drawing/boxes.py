@@ -25,12 +25,6 @@ from graphkin.scene.scene_tables import Convention
 from graphkin.words import Phrase, Wording, in_all, languages, word
 from graphkin.words.written import in_markup
 
-__all__ = [
-    "GAP", "HEAD_LINE", "INSIDE", "MARGIN", "SIZE", "STEP", "TOLD", "WORKED", "Block", "FigurePage", "column", "foot",
-    "framed", "heading", "line", "numbered", "numeral", "page", "pages", "panel", "picture", "prose", "row", "rows",
-    "steps", "table", "without_titles", "worked_page",
-]  # fmt: skip
-
 MARGIN = 8.0  # of a page
 INSIDE = 174.0  # width of a page between its margins, where a figure has none of its own
 BELOW = 6.0  # from the base line of the foot to the edge of the page

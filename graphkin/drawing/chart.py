@@ -46,11 +46,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure as Figure
     from matplotlib.transforms import Transform
 
-__all__ = [
-    "BEHIND", "NUMBER", "SOLID_AND_DASHED", "ChartPage", "Look", "Shape", "add_labels", "add_legend", "add_panel",
-    "add_words", "count_powers", "count_steps", "degree_step", "look", "marker",
-]  # fmt: skip
-
 Look = dict[str, Any]
 """Properties of a line of matplotlib, by their names there."""
 Shape = Literal["circle", "disc", "up", "down", "square", "diamond", "cross"]

@@ -19,11 +19,6 @@ from graphkin.drawing.text import rich, run_box, runs_width, symbol, wrapped
 from graphkin.plane import added_up
 from graphkin.words.written import MOST
 
-__all__ = [
-    "LEAST_LETTERS", "LineToSet", "Written", "equations_in_room",
-    "equations_on_page", "line_to_set", "write_equation", "write_sum",
-]  # fmt: skip
-
 # mm, of the letters, and columns; the first that fits is taken: sums break in narrow columns
 WAYS = ((3.2, 1), (2.9, 1), (3.2, 2), (2.9, 2), (2.6, 1), (2.6, 2))
 LEAST_LETTERS = min(size for size, _ in WAYS)

@@ -26,11 +26,6 @@ from zlib import crc32
 if TYPE_CHECKING:
     from fontTools.ttLib import TTFont
 
-__all__ = [
-    "EM", "FALLBACK", "FAMILY", "FOLDER", "Style", "face_rules", "families", "glyph", "holds", "outline", "part",
-    "style_of",
-]  # fmt: skip
-
 FAMILY = "Graphkin Serif"
 FOLDER = Path(__file__).parent / "fonts"
 EM = 1000

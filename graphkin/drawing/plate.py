@@ -15,8 +15,6 @@ from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, cut_to, middle_of, moved_piece
 from graphkin.drawing.text import symbol
 
-__all__ = ["Plate", "centred", "cut_piece"]
-
 
 @dataclass
 class Plate:

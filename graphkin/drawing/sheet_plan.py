@@ -17,11 +17,6 @@ from graphkin.plane import added_up
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene_tables import PAPERS
 
-__all__ = [
-    "BLOCK", "CAPTION", "GUTTER", "MARGIN", "SheetPlan", "sheet_plan", "sheet_room", "with_less_mechanism",
-    "with_less_polygons",
-]  # fmt: skip
-
 MARGIN, GUTTER, CAPTION = 10.0, 2.0, 5.5
 HEAD, BLOCK = 11.0, 16.0  # heading above, title block below
 FILL = 0.87  # of a panel, by the polygon with the finest scale

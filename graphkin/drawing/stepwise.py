@@ -22,8 +22,6 @@ from graphkin.drawing.ink.primitives import (
     map_tree,
 )
 
-__all__ = ["so_far", "step_of", "stepped", "tied"]
-
 FADED = 0.42  # of its colour is left to what was drawn before
 HALO, HALO_WIDTH = "#ffe08a", 2.0  # mm around what is new: pale enough to print as a light grey
 

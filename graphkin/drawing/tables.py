@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 from graphkin.account.headings import drivers, number, remarks, rolling_starts, term, written
 from graphkin.account.notation import Letters
 from graphkin.account.voice import Voice
-from graphkin.checking.readings import Reading, read_off
+from graphkin.checking.readings import read_off
 from graphkin.checking.report import Compared, Report, deviation, exact, measured, paper
-from graphkin.construction.sheet import Sheet
+from graphkin.construction.sheet import Reading, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import Block, row, table
 from graphkin.drawing.ink.primitives import Primitive, Run, Text
@@ -21,11 +21,6 @@ from graphkin.plane import degrees
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.words import languages, word
 from graphkin.words.written import as_given
-
-__all__ = [
-    "TableRow", "given_data", "given_lengths", "given_lines", "given_teeth", "readings_table", "set_lines",
-    "table_rows",
-]  # fmt: skip
 
 ROW, LEAST_ROW, GUTTER = 4.2, 3.75, 4.0  # mm
 NO_LENGTH = 1e-12  # of the mechanism's size: what is shorter are two points that fall together

@@ -22,11 +22,6 @@ from graphkin.drawing.font import EM, Style, glyph, style_of
 from graphkin.drawing.ink.primitives import Run, Text
 from graphkin.plane import added_up
 
-__all__ = [
-    "CAP_HEIGHT", "SMALLEST", "Atom", "box_about", "fitted", "has_cjk", "is_italic", "parsed", "plain", "rich",
-    "run_box", "runs_width", "stacked", "start_runs", "symbol", "text_box", "width", "wrapped",
-]  # fmt: skip
-
 LETTER, INDEX, SMALLEST = 3.5, 2.5, 2.0  # mm
 _DROP, _DROP_STACKED, _RISE = 0.24, 0.30, 0.40  # of the size of the letter, after the usual practice of typesetting
 _GAP_SUB, _GAP_SUPER = 0.02, 0.06

@@ -13,8 +13,6 @@ from graphkin.errors import CallError
 from graphkin.files import Json
 from graphkin.words import Phrase
 
-__all__ = ["FRAME", "Bodies", "BodyDrive", "BodySlide", "number"]
-
 FRAME = "0"
 FARTHEST = 1e12
 SAME = 1e-9

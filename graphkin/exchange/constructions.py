@@ -30,8 +30,6 @@ from graphkin.files import Tables
 from graphkin.plane import cross_arcs
 from graphkin.words import Phrase
 
-__all__ = ["STEP", "construct_linkage", "read_geogebra"]
-
 STEP = math.tau / 360
 """rad: what a driver of pylinkage turns in a step, where nothing is said; a step is taken for a second."""
 INPUT_SPEED = 1.0

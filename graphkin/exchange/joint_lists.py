@@ -22,8 +22,6 @@ from graphkin.errors import CallError, Problem
 from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide, number
 from graphkin.words import Phrase
 
-__all__ = ["is_address", "read_address", "read_pyslvs", "read_table", "write_pyslvs"]
-
 DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"
 UNITS = ("in", "cm", "m")
 MOST_DIGITS = 12

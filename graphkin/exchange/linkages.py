@@ -22,8 +22,6 @@ from graphkin.exchange.constructions import STEP, construct_linkage
 from graphkin.files import OwnTables, Tables
 from graphkin.words import Phrase
 
-__all__ = ["read_linkage2", "read_pylinkage", "write_linkage2", "write_pylinkage"]
-
 RPM = 15.0
 """Where a motor of Linkage says no speed."""
 

@@ -17,12 +17,6 @@ from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.paper import A4, Paper
 from graphkin.words import Phrase, languages, say, word
 
-__all__ = [
-    "Beside", "Block", "Document", "Fields", "Heading", "Leaf", "Paragraph", "Picture", "Plate", "Said", "StepItem",
-    "Steps", "TableBlock", "Together", "clean", "finished", "in_each", "laid_out", "numbered", "said", "sentences",
-    "spoken",
-]  # fmt: skip
-
 # control characters, halves of surrogates, what no file may hold, and marks that turn the direction of writing
 _UNFIT = re.compile(
     "[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069\ud800-\udfff\ufeff\ufffe\uffff]"

@@ -22,8 +22,6 @@ from graphkin.files import Tables
 from graphkin.papers.fresh_numbers import drivers_of
 from graphkin.words import Phrase
 
-__all__ = ["Columns", "columns_of", "replaced", "value_of"]
-
 LONGEST = 200
 _OPERATORS: Mapping[type[ast.operator], Callable[[float, float], float]] = {
     ast.Add: operator.add,

@@ -54,12 +54,6 @@ from graphkin.scene.tables import Units
 from graphkin.words import Phrase, about, languages, say, word
 from graphkin.words.written import LEAST, amount, in_markup, true_minus
 
-__all__ = [
-    "KeyRow", "answer_key", "answers_template", "beginning", "given", "head_of", "key_rows", "key_table", "labelled",
-    "length_on_paper", "paper_title", "problem", "reach", "results_blocks", "scene_title", "solution",
-    "solution_blocks", "stage_title", "step_items", "unsigned", "way",
-]  # fmt: skip
-
 BOUND = "\u00a0"  # between a number and its unit no line ends
 RPM = 30.0 / math.pi
 HEAD = 22.0  # mm for a heading and the lines under it

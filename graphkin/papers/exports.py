@@ -28,8 +28,6 @@ from graphkin.papers.pictures import mechanism_picture
 from graphkin.scene.symbol import Symbol
 from graphkin.words import languages, say, word
 
-__all__ = ["BANKED", "PLATFORMS", "AskedNumber", "Question", "bank", "files_for", "question_of"]
-
 PLATFORMS = ("moodle", "gift", "prairielearn")
 BANKED = ("moodle.xml", "questions.gift")
 """Files of single questions that are put together for a set."""

@@ -26,10 +26,6 @@ from graphkin.scene.model import Mechanism, PlacedContact, PlacedGear
 from graphkin.scene.tables import KeyPath, path_of_key, put_at, value_at
 from graphkin.words import Phrase
 
-__all__ = [
-    "LEVELS", "Bounds", "Spread", "candidate", "drivers_of", "level_of", "round_step", "rules_checked", "varied_keys",
-]  # fmt: skip
-
 SHY = 0.12  # part of its reach that a driver keeps off both ends
 STEPS = (1.0, 2.0, 5.0)
 LEAST_TEETH = 8

@@ -25,8 +25,6 @@ from graphkin.words import Phrase, area, say, word
 if TYPE_CHECKING:
     from jinja2 import Environment
 
-__all__ = ["blocks_html", "document_page", "rendered", "said_html", "spoken_words", "whole_page", "words_html"]
-
 ALIGNED = {"l": "", "r": Markup(' class="right"'), "c": Markup(' class="middle"')}
 PIXEL = 25.4 / 96  # mm
 

@@ -38,11 +38,6 @@ from graphkin.solver.values import force_values
 from graphkin.structure import Structure
 from graphkin.words import Phrase
 
-__all__ = [
-    "MECHANISM", "POSITIONS", "Lesson", "Stage", "common_scales", "compared", "evidence_of", "lesson_of", "plain_words",
-    "positions", "rows_in_order", "stages", "usual_count", "views_of",
-]  # fmt: skip
-
 POSITIONS = 12
 MANY_LINKS = 10
 MECHANISM, POLYGON = (160.0, 218.0), 190.0  # mm that the mechanism in all positions and a polygon may fill

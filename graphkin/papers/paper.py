@@ -15,8 +15,6 @@ from graphkin.scene.scene_tables import PAPERS
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Structure
 
-__all__ = ["A4", "Paper", "paper_of", "paper_plan"]
-
 SIDE, TOP, BOTTOM = 15.0, 13.0, 15.0  # mm, margins
 CAPTION = 7.0  # mm that a line under a figure takes
 HEAD = 22.0  # mm for a heading and the lines under it

@@ -52,11 +52,6 @@ from graphkin.words import word
 if TYPE_CHECKING:
     import typst
 
-__all__ = [
-    "COLUMN_GAP", "FORMATS", "HALVES_GAP", "KEPT", "MANY_ROWS", "Measure", "Page", "Piece", "Row", "balanced",
-    "can_join", "can_typeset", "fill_pages", "lines_of", "one_after_another", "pages_of", "papers_as", "pdf",
-]  # fmt: skip
-
 FORMATS = ("html", "pdf")
 """What papers are written as."""
 Data: TypeAlias = dict[str, object]

@@ -29,11 +29,6 @@ from graphkin.papers.paper import paper_of
 from graphkin.plane import added_up
 from graphkin.words import languages
 
-__all__ = [
-    "LEAST_FRAME", "POLYGONS", "bare_picture", "blank_equations", "blank_sums", "draw_frame", "equation_picture",
-    "force_space", "mechanism_picture", "parts", "stage_picture", "workspace",
-]  # fmt: skip
-
 ROOM = 11.0  # mm around a figure, for names
 AROUND = 14.0  # mm around a polygon that is still to be drawn
 FOOT = 9.0  # mm for the scale and the check bar beside it

@@ -60,8 +60,6 @@ from graphkin.solver.pose import Array
 from graphkin.solver.quantities import pole
 from graphkin.words import about, languages, word
 
-__all__ = ["handout_page", "motion_data", "positions_data"]
-
 WIDE = 96.0  # mm of the sketch of a group, its polygon below
 LISTED = ("figures", "steps")
 LEAST, MOST = 0.01, 0.08  # parts of a value: what is taken for right at least, and at most

@@ -36,11 +36,6 @@ from graphkin.solver.quantities import transmission
 from graphkin.structure import Dyad, LargerGroup, Pair, analyse
 from graphkin.words import Wording
 
-__all__ = [
-    "Answer", "Job", "Render", "Unfit", "Variant", "accepted", "asked_of", "distinct", "examined", "jobs_of_seed",
-    "make",
-]  # fmt: skip
-
 LEAST_READING = 10.0  # mm on paper
 AMPLE = 0.8  # of a tolerance, to which errors that act together may still add
 MOST_ASKED = 6  # of what a pencil does not miss

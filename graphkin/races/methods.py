@@ -23,8 +23,6 @@ from graphkin.solver.expressions import Code
 from graphkin.solver.pose import Array
 from graphkin.study.equations import Equations, Solution
 
-__all__ = ["METHODS", "Numeric", "acts", "copy_time", "one_by_one"]
-
 ITERATIONS = range(1, 7)
 STEPS = range(1, 10)
 COMING = math.radians(5.0)

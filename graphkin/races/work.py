@@ -28,12 +28,6 @@ from graphkin.words import Phrase
 if TYPE_CHECKING:
     from mpmath import MPContext, mpc
 
-__all__ = [
-    "ComparedPoint", "Entry", "Family", "Machine", "Skipped", "Work", "best_time", "compared_points", "this_machine",
-    "work_of",
-]  # fmt: skip
-
-
 PLACES = 24
 FINE = 720
 

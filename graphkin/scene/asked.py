@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     # all the ways in which people write are loaded where somebody wrote otherwise than a symbol and its number
     from graphkin.scene.spelling import Spelling
 
-__all__ = ["asked", "at_its_position", "loops_named", "positions_named", "spelling_of", "stated_values"]
-
 BY = ("drawing", "computation")
 Stated = float | str | Sequence[float]
 

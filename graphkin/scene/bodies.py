@@ -21,11 +21,6 @@ from graphkin.scene.scene_tables import Compass, DrivenSlide, Driver, Frame, Gui
 from graphkin.scene.tables import KeyPath, Units
 from graphkin.words import Phrase, Wording
 
-__all__ = [
-    "CircularSlot", "Reading", "SlidingPair", "check_own_points", "check_references", "driver_tables",
-    "islands", "listed", "not_held", "pins_in_slots", "references", "sliding_pairs", "with_bars", "with_carriages",
-]  # fmt: skip
-
 AnyBody = TypeVar("AnyBody", Frame, Link)
 
 

@@ -20,8 +20,6 @@ from graphkin.scene.scene_tables import Cam
 from graphkin.scene.tables import in_si
 from graphkin.words import Phrase
 
-__all__ = ["Course", "LawCam", "SlidingFollower", "SwingingFollower", "cams_of"]
-
 AGREES = 1e-6
 
 # -- cams as they are --------------------------------------------------------------------------------------------------

@@ -27,12 +27,6 @@ from graphkin.scene.scene_tables import SMALLEST, List, Magnitude, NotNegative, 
 from graphkin.scene.tables import FileTable, Form, Units, file_table, file_table_by_name, plain, shown, xy
 from graphkin.words import Phrase, Wording
 
-__all__ = [
-    "KINDS", "BarPlace", "BarPositionsTask", "CrankRockerTask", "Design", "DesignLike", "DesignTask",
-    "FunctionTask", "GuideBarTask", "LimitsTask", "SliderCrankTask", "design_of", "designs", "is_design",
-    "scene_table",
-]  # fmt: skip
-
 SAME_BAR = 1e-3
 """Of its length: so much a bar may differ between its places."""
 

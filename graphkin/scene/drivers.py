@@ -22,8 +22,6 @@ from graphkin.scene.scene_tables import SMALLEST, DrivenSlide, Driver, Positions
 from graphkin.scene.tables import Units, in_si, in_units
 from graphkin.words import Phrase, alternatives
 
-__all__ = ["asked_time", "at_time", "drives", "moments", "moves_by_law", "placed_driver", "stated_driver", "time_span"]
-
 # -- reading -----------------------------------------------------------------------------------------------------------
 
 

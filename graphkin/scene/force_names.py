@@ -11,8 +11,6 @@ from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 
-__all__ = ["ForceJoint", "force_names", "joints", "no_force", "opposite"]
-
 
 @dataclass(frozen=True)
 class ForceJoint:

@@ -18,11 +18,6 @@ from graphkin.scene.bodies import Reading
 from graphkin.scene.scene_tables import DriverLaw, LawPiece
 from graphkin.words import Phrase
 
-__all__ = [
-    "LAWS", "SEAM", "TURN", "FollowerLaw", "Lift", "LiftPiece", "MotionLaw", "follower_law", "form_of",
-    "motion_law",
-]  # fmt: skip
-
 ROUNDING = 1e-12
 """Of the way: so much nearer a value is reached."""
 HALVINGS = 200

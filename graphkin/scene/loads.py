@@ -17,8 +17,6 @@ from graphkin.scene.scene_tables import STANDARD_GRAVITY, Balance, Load, LoadPha
 from graphkin.scene.tables import in_si
 from graphkin.words import Phrase
 
-__all__ = ["loading_of"]
-
 TURN = math.tau * (1 + 1e-12)
 
 # -- reading -----------------------------------------------------------------------------------------------------------

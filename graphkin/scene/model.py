@@ -23,12 +23,6 @@ from graphkin.scene.scene_tables import Flywheel, LoadPhase, Positions, SheetWis
 from graphkin.scene.symbol import Printed, Symbol
 from graphkin.scene.tables import FileTable, Measure, Unit, Units
 
-__all__ = [
-    "Dimension", "Driver", "FromDeadPoint", "LinkMass", "LoadOn", "Loading", "Mechanism",
-    "PlacedContact", "PlacedDisc", "PlacedGear", "PlacedGuide", "PlacedLink", "Question", "SpringOn",
-    "StatedValues", "changed_beside", "dimensions", "same_but_for_dimensions", "with_dimensions",
-]  # fmt: skip
-
 
 @dataclass(frozen=True)
 class LinkMass:

@@ -16,8 +16,6 @@ from graphkin.scene.bodies import Reading
 from graphkin.scene.scene_tables import Background
 from graphkin.words import Phrase, from_others
 
-__all__ = ["PlacedBackground", "PlacedScan", "background_of", "scans_of"]
-
 LARGEST, MOST_PIXELS = 10_000_000, 50_000_000
 KINDS = {"PNG": "image/png", "JPEG": "image/jpeg"}
 TURNED = 0x0112

@@ -20,11 +20,6 @@ from graphkin.scene.scene_tables import Compass, Guide, Link, Polar
 from graphkin.scene.tables import in_si
 from graphkin.words import Phrase
 
-__all__ = [
-    "DrawnPosition", "Placement", "check_agreement", "check_all_found", "check_contacts", "check_distances",
-    "check_placed_twice", "check_starts", "drawn_position", "starts_of",
-]  # fmt: skip
-
 GIVEN_TWICE = 1e-6
 """Of the size: so far two statements of one place may lie apart."""
 FARTHEST = 4e10

@@ -38,8 +38,6 @@ from graphkin.scene.scene_tables import Frame, Guide, Link, SceneTables
 from graphkin.scene.tables import KeyPath, path_name, plain, tidy
 from graphkin.scene.touching import contacts_of, discs_of, gears_of, wrong_distances
 
-__all__ = ["as_mapping", "mechanism_said"]
-
 MOST_LINKS = 200
 MOST_POINTS = 100
 AnyBody = TypeVar("AnyBody", Link, Frame)

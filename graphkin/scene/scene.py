@@ -26,13 +26,6 @@ from graphkin.scene.scene_tables import SCENE, SceneTables
 from graphkin.scene.tables import path_of_key, plain, value_at
 from graphkin.words import Phrase, Wording, from_others
 
-__all__ = [
-    "LARGEST_FILE", "NEW", "Scene", "SceneLike", "file_text", "files_named", "library", "library_text",
-    "mechanism_of", "mechanism_of_text", "new_scene", "parsed", "put", "read", "resolved", "safe_name", "shelf",
-    "toml_text", "written",
-]  # fmt: skip
-
-
 # -- files -------------------------------------------------------------------------------------------------------------
 
 LARGEST_FILE = 1_000_000

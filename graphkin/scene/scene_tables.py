@@ -19,15 +19,6 @@ from pydantic import Field as Rule
 from graphkin.scene.tables import FileTable, Form, Units, file_table, file_table_by_name, key
 from graphkin.words import LANGUAGES
 
-__all__ = [
-    "PAPERS", "SCENE", "STANDARD_GRAVITY", "AllowedPressure", "At", "Background", "Balance", "BaseCircle", "Cam",
-    "Compass", "Contact", "Convention", "Disc", "Drawing", "DrivenSlide", "Driver", "DriverLaw", "Drivers",
-    "EndName", "Flywheel", "Frame", "FramePlace", "Gear", "Gravity", "Guide", "Keys", "LawName", "LawPiece",
-    "Level", "Link", "Load", "LoadPhase", "Mass", "OneDriver", "Pin", "Polar", "Positions", "PrintedTable", "Range",
-    "ReadScan", "SceneTables", "SheetWishes", "Spring", "Start", "StrokeStart", "Tools", "TwoOutlines", "TwoTeeth",
-    "Vary",
-]  # fmt: skip
-
 SMALLEST, LARGEST = 1e-15, 1e15
 """The smallest length, and the smallest rate that is not 0; the largest number."""
 LONGEST_TEXT = 300

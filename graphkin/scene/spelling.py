@@ -21,11 +21,6 @@ from graphkin.scene.symbol import KINDS, Line, PointRef, Printed, Symbol, Unread
 from graphkin.scene.tables import FORCES, LENGTHS, Units
 from graphkin.words import LANGUAGES, Phrase, area
 
-__all__ = [
-    "NUMBER", "Spelling", "Way", "is_blank", "is_unit", "plain_text", "read_cell", "read_way", "unit_factor",
-    "way_in",
-]  # fmt: skip
-
 _GREEK = {"ω": "omega", "Ω": "omega", "α": "alpha", "ε": "alpha", "ϵ": "alpha", "θ": "theta", "φ": "theta",
           "ϕ": "theta", "ψ": "theta", "γ": "gamma", "τ": "t"}  # fmt: skip
 _WRITTEN = {"w": "omega", "epsilon": "alpha", "phi": "theta", "ac": "ak", "l": "d", "V": "v",

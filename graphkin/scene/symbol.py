@@ -17,12 +17,6 @@ from graphkin.errors import Problem
 from graphkin.scene.tables import Measure, Unit, Units
 from graphkin.words import Phrase, say
 
-__all__ = [
-    "KINDS", "VECTORS", "Kind", "Line", "PointRef", "Printed", "Symbol", "Unreadable", "Value", "centre_links",
-    "forms_of_names", "missing_names", "stated",
-]  # fmt: skip
-
-
 Value = complex | float
 """What a quantity is: a vector of the plane, or a number."""
 Scope = Literal["motion", "position", "turn", "force", "cycle"]

@@ -42,13 +42,6 @@ from graphkin.errors import Problem, SceneError, did_you_mean
 from graphkin.files import Json, OwnTables, Tables
 from graphkin.words import Phrase, Wording, area, from_others, say
 
-__all__ = [
-    "FileTable", "Form", "KeyPath", "Measure", "Unit", "Units", "as_sentence", "entries", "file_table",
-    "file_table_by_name", "in_si", "in_units", "item_of", "key", "key_of", "keys_of", "meaning", "path_name",
-    "path_of_key", "plain", "put_at", "shown", "tidy", "value_at", "xy",
-]  # fmt: skip
-
-
 AnyTable = TypeVar("AnyTable", bound="FileTable")
 
 # -- tables and keys ---------------------------------------------------------------------------------------------------

@@ -14,8 +14,6 @@ from graphkin.scene.model import PlacedContact, PlacedDisc, PlacedGear, PlacedGu
 from graphkin.scene.scene_tables import Contact, Gear
 from graphkin.words import Phrase
 
-__all__ = ["contacts_of", "discs_of", "gears_of", "rack_place", "wrong_distances"]
-
 AGREE = 1e-6
 
 

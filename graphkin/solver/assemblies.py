@@ -34,8 +34,6 @@ from graphkin.words import Phrase, Wording
 if TYPE_CHECKING:
     from graphkin.solver.larger_groups import GroupSolved
 
-__all__ = ["choose_forms", "new_places", "reading"]
-
 STARTS = 360
 ROUNDS = 80
 SAME = 1e-6

@@ -22,8 +22,6 @@ from graphkin.solver.drivers import conversion_error, meant, meant_angle
 from graphkin.solver.pose import GIVEN, UNIT, Array, Drive, ErrorBound, Pose
 from graphkin.structure import Structure
 
-__all__ = ["LOOKED_UP", "Accuracy", "error_bounds", "most_of", "roughness"]
-
 FEW = 4
 """The roundings of a sum of products."""
 FEW_ROUNDINGS = 8

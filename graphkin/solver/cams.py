@@ -30,11 +30,6 @@ from graphkin.solver.pose import Array, turned
 from graphkin.structure import Structure
 from graphkin.words import Phrase, Wording
 
-__all__ = [
-    "AtDegree", "CamAt", "CamStudy", "Jump", "beginning", "cam_angle", "cam_at", "cam_with",
-    "follower_inputs", "greatest_jerk", "least_base", "lifts", "meeting_followers", "slip_of", "study_cam",
-]  # fmt: skip
-
 
 @dataclass(frozen=True)
 class CamAt:

@@ -25,8 +25,6 @@ from graphkin.solver.pose import FIELDS, Array, Drive, Pose, rest, together, tur
 from graphkin.structure import Driven, Dyad, LargerGroup, Pair, RollingRelation, Structure
 from graphkin.structure.model import Coordinate
 
-__all__ = ["Constraints", "Jet", "Layout", "Parts", "led_relation", "product", "solve_all"]
-
 Jet = list[Array]
 """A quantity and its rates, as many as are asked for."""
 NOTHING = np.zeros(1)

@@ -21,8 +21,6 @@ from graphkin.structure import Driven, Dyad, LargerGroup, Rolled, Structure
 from graphkin.structure.assembly import ChangePoint, Passage, follow
 from graphkin.words import Phrase
 
-__all__ = ["FAR", "Path", "follow_path"]
-
 FAR = 4.0  # sizes of the mechanism that a slide driver which nothing limits is followed to either side
 CLOSE = 2e-13
 """A position is found where no constraint is open by more, with lengths in the size."""

@@ -22,8 +22,6 @@ from graphkin.solver.sentences import dyad_words, group_words, lies_at, links_wo
 from graphkin.structure import Dyad, LargerGroup, Structure
 from graphkin.words import Phrase, Wording
 
-__all__ = ["DeadPoint", "dead_points", "nearest_dead_point", "singular", "without_singular"]
-
 GRID = 1440
 FAR = 4.0
 MOST_GROUPS = 6

@@ -25,8 +25,6 @@ from graphkin.solver.prepared import PreparedMechanism, formulas, prepare
 from graphkin.solver.program import program_of
 from graphkin.structure import analyse
 
-__all__ = ["PreparedMechanisms"]
-
 NODES = 360
 """Positions of a turn at which the groups of a design are looked at."""
 CLEAR = 0.04

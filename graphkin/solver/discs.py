@@ -17,8 +17,6 @@ from graphkin.solver.motion import _between, contact_motion
 from graphkin.solver.pose import Array
 from graphkin.structure import Structure
 
-__all__ = ["DiscCam", "DiscCourse", "disc_cams", "disc_course"]
-
 
 @dataclass(frozen=True)
 class DiscCam:

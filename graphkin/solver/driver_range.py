@@ -40,8 +40,6 @@ from graphkin.words import Phrase, Wording
 if TYPE_CHECKING:
     from graphkin.solver.continuity import Path
 
-__all__ = ["DriverRange", "Extremes", "extremes", "joined", "motion_of", "range_from", "stopped_why", "way_to"]
-
 CLOSED = 1e-7
 """Two positions are the same where links lie closer than this, in the size of the mechanism, and turn closer (rad)."""
 SAME = 1e-8

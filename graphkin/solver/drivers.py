@@ -17,12 +17,6 @@ from graphkin.errors import CallError, did_you_mean
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.solver.pose import GIVEN, Array, turned
 
-__all__ = [
-    "GivenValues", "UniformGrid", "conversion_error", "cos_sin", "goal_values", "meant", "meant_angle",
-    "meant_direction", "meant_value", "own_values", "quarter", "working",
-]  # fmt: skip
-
-
 NEAR = 1e-14
 HALF_PI = math.pi / 2
 FULL = 7.0

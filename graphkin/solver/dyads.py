@@ -24,8 +24,6 @@ from graphkin.solver.expressions import Real, Vec, fmax, fmin, root, two_sum
 from graphkin.solver.pose import Number, Pose, R, V
 from graphkin.structure import DyadKind
 
-__all__ = ["DyadSolution", "Joints", "PoseFormula", "solve_dyad"]
-
 
 @dataclass(frozen=True)
 class Joints(Generic[V, R]):

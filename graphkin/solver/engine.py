@@ -26,11 +26,6 @@ from graphkin.solver.pose import FIELDS, GIVEN, Array, Drive, ErrorBound, Pose, 
 from graphkin.solver.program import DimensionedProgram, program_of
 from graphkin.structure import Driven, LargerGroup, Rolled, Structure
 
-__all__ = [
-    "SINGULAR", "ExtendedPrecision", "State", "closes", "discriminant_of", "group_at", "known_exactly",
-    "least_closes", "newton", "positions", "touch",
-]  # fmt: skip
-
 ROUGH = 1e-10
 """Relative bound of a rate above which a position is computed in more digits."""
 CLEAR = 0.05

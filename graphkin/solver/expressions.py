@@ -19,11 +19,6 @@ from typing import Any, TypeVar, overload
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-__all__ = [
-    "DECIMALS", "Code", "ExpressionGraph", "Line", "Name", "Real", "Vec", "components", "defined", "fmax", "fmin",
-    "operands", "root", "two_sum",
-]  # fmt: skip
-
 Line = tuple[Any, ...]
 """One operation: ("add", i, j), ("root", i), ("const", 2.0), ("param", name), ("input", name)."""
 

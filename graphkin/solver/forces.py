@@ -27,10 +27,6 @@ from graphkin.solver.motion import SLIGHT, Motion, contact_motion, pitch_point
 from graphkin.solver.pose import Array
 from graphkin.structure import Pair
 
-__all__ = [
-    "Action", "Forces", "PairForce", "actions", "balances", "forces_of", "pair_forces", "spring_ends", "without_line",
-]  # fmt: skip
-
 
 @dataclass(frozen=True)
 class PairForce:

@@ -19,8 +19,6 @@ from numpy.typing import NDArray
 from graphkin.errors import CallError
 from graphkin.solver.expressions import Code, ExpressionGraph, Name, Real, defined, operands
 
-__all__ = ["LONG", "Kernel", "kernel_text"]
-
 TILE = 512
 """Positions that compiled code computes together."""
 FINE = 64

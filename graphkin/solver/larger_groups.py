@@ -16,8 +16,6 @@ from graphkin.solver.constraints import Constraints, solve_all
 from graphkin.solver.pose import UNIT, Array, Drive, Pose
 from graphkin.structure import LargerGroup, Structure
 
-__all__ = ["GroupSolved", "as_place", "form_of", "solve_group"]
-
 ROUNDS = 40
 ROUNDINGS = 32 * UNIT
 TOLD = 8 * UNIT

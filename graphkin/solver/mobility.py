@@ -30,8 +30,6 @@ from graphkin.solver.sentences import driver_text
 from graphkin.structure import Driven, Dyad, LargerGroup, Structure, analyse, mobility_of
 from graphkin.words import Phrase, Wording, clauses, listed
 
-__all__ = ["from_dead_point", "structure_of"]
-
 NEARBY = 0.01
 
 

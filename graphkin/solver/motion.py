@@ -25,11 +25,6 @@ from graphkin.structure import Pair, Structure
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, Wording
 
-__all__ = [
-    "SLIGHT", "Centrode", "ContactMotion", "Motion", "Sliding", "centrode", "contact_motion", "listed_points",
-    "own_slides", "pitch_point",
-]  # fmt: skip
-
 _FIELDS: tuple[Measure, ...] = (
     "length", "velocity", "acceleration", "angle", "angular velocity", "angular acceleration",
 )  # fmt: skip

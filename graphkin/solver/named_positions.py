@@ -19,8 +19,6 @@ from graphkin.solver.mobility import structure_of
 from graphkin.solver.pose import Array
 from graphkin.words import Phrase
 
-__all__ = ["PlacesByName", "named_positions", "standing"]
-
 TRIES = 24
 SAME = 1e-9
 

@@ -15,8 +15,6 @@ from numpy.typing import NDArray
 from graphkin.plane import Values, cross, dot
 from graphkin.structure import Structure
 
-__all__ = ["FIELDS", "UNIT", "Array", "Drive", "ErrorBound", "Number", "Pose", "aimed", "rest", "together", "turned"]
-
 Array = NDArray[Any]
 
 

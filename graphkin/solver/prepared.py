@@ -29,8 +29,6 @@ from graphkin.solver.program import DimensionedProgram, Program, program_of
 from graphkin.solver.quantities import ORDERS, VALUES, Posed, bound_of_symbol
 from graphkin.structure import Structure
 
-__all__ = ["PreparedMechanism", "Units", "column_symbol", "force_heads", "force_rows", "formulas", "prepare"]
-
 CHUNK = 16384  # positions in a piece, so that all columns of one stay in the cache
 PRODUCTS = 4
 """Roundings in the cosine and sine of an angle, those of many even steps included."""

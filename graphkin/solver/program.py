@@ -19,8 +19,6 @@ from graphkin.solver.pose import GIVEN, Pose
 from graphkin.structure import Body, Driven, Dyad, LargerGroup, Pair, Rolled, Structure
 from graphkin.structure.model import Coordinate
 
-__all__ = ["DimensionedProgram", "Program", "body_shape", "driven", "dyad_joints", "members", "program_of"]
-
 SPECIAL = (0.0, 1.0, -1.0)
 """Numbers with which formulas are shorter."""
 

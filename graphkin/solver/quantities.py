@@ -30,10 +30,6 @@ from graphkin.structure.transmission import (
 )
 from graphkin.words import Phrase
 
-__all__ = [
-    "ORDERS", "VALUES", "Posed", "all_slides", "bound_of_symbol", "pole", "transmission", "value_of_symbol",
-]  # fmt: skip
-
 
 def _angle(direction: Array) -> Array:
     """In (-pi, pi] (rad)."""

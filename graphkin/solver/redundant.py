@@ -16,8 +16,6 @@ from graphkin.structure import Structure
 from graphkin.structure.model import slide_pair
 from graphkin.words import Phrase
 
-__all__ = ["Fit", "fit", "redundant_poses"]
-
 FITS = 1e-9
 MOVED = 4.0
 """As many bounds of points come together where a link is laid between two others."""

@@ -12,8 +12,6 @@ from graphkin.solver.pose import Array
 from graphkin.structure import Dyad, LargerGroup, Pair, Structure, named_with_contact
 from graphkin.words import Phrase, Wording
 
-__all__ = ["assembly_words", "driver_text", "dyad_words", "group_words", "lies_at", "limit_why", "links_words"]
-
 
 def limit_why(
     structure: Structure, by: int, moved: Sequence[int], values: Sequence[float],

@@ -27,8 +27,6 @@ from graphkin.structure import Structure, part_of
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, Wording
 
-__all__ = ["as_drawn", "driver_range", "over_time", "solve", "sweep_in_blocks"]
-
 
 def driver_range(scene: Mechanism | Structure, at: Mapping[str, float] | None = None) -> DriverRange:
     """``range_of`` a scene, or of its structure.  Raises Unsolvable also for a wrong mobility."""

@@ -26,8 +26,6 @@ from graphkin.scene.designs import (
 )
 from graphkin.words import Phrase, Wording
 
-__all__ = ["FreeDatum", "Synthesis", "choice", "crank_angle", "synthesise"]
-
 IN_LINE = 1e-12  # of the size: three points whose circle is larger than this allows lie in one line
 
 

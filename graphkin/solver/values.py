@@ -37,11 +37,6 @@ from graphkin.structure import Dyad, LargerGroup
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, Wording, say
 
-__all__ = [
-    "FlywheelStudy", "MomentArea", "entries", "exact_values", "flywheel_of", "force_values", "head", "json_text",
-    "load_edges", "needed_moment", "senses_along", "value_of",
-]  # fmt: skip
-
 
 def value_of(motion: Motion, symbol: Symbol) -> Array:
     """A quantity of the motion or a force by its symbol: complex for vectors, real for others (SI), shape (n,).

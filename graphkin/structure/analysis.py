@@ -42,9 +42,6 @@ from graphkin.structure.replacement import replacing_link
 from graphkin.structure.rolling import followers_of, meshes_of, relations_of, rolled_by, start_drivers, unrolled
 from graphkin.words import Phrase, Wording, about, clauses
 
-__all__ = ["analyse", "components", "driven_by", "match", "mobility_of", "regrouped", "started"]
-
-
 Node = tuple[str, str]  # ("link" | "point", name)
 Unknown = tuple[Node, str]  # a node and one of its coordinates x, y, t
 

@@ -22,8 +22,6 @@ from graphkin.scene.model import Driver, Mechanism
 from graphkin.search import last_true, least_value
 from graphkin.words import Phrase, Wording, listed
 
-__all__ = ["MOST_TURNS", "TOUCH", "ChangePoint", "Passage", "follow", "out_of_reach", "pick", "ways"]
-
 
 def pick(
     scene: Mechanism, links: Sequence[str], candidates: Sequence[Mapping[str, complex]], default: int | None

@@ -25,8 +25,6 @@ from graphkin.errors import CallError
 from graphkin.plane import added_up, cross, dot
 from graphkin.structure.model import Coordinate, Driven, Dyad, Element, Pair, Structure
 
-__all__ = ["Arrow", "Loop", "LoopBlock", "Root", "loops_in_numbers", "loops_of"]
-
 
 @dataclass(frozen=True)
 class Arrow:

@@ -20,13 +20,6 @@ from graphkin.scene.model import Driver, Mechanism, PlacedGuide, PlacedLink
 from graphkin.scene.symbol import Symbol, centre_links
 from graphkin.words import Phrase
 
-__all__ = [
-    "Body", "Driven", "DrivenJoint", "DrivenTriangle", "Dyad", "DyadKind", "Element", "LargerGroup", "Mobility", "Pair",
-    "Rolled", "RollingRelation", "Structure", "by_drivers_alone", "driver_pair", "leading", "links_for",
-    "named_with_contact", "needed", "part_of", "reached", "slide_pair", "without",
-]  # fmt: skip
-
-
 NO_GUIDE = PlacedGuide("", 0j, 0j)
 """Where a pair has no direction in which it slides: it turns."""
 OWN_AXIS = {"": PlacedGuide("", 0j, 1 + 0j)}

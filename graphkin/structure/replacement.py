@@ -26,8 +26,6 @@ from graphkin.scene.model import Mechanism, PlacedContact, PlacedDisc, PlacedGui
 from graphkin.structure.model import OWN_AXIS, Mobility, Pair, Structure
 from graphkin.words import Phrase
 
-__all__ = ["cams_replaced", "pins_on_circles", "replacement_told", "replacing_link"]
-
 
 def replacing_link(contact: PlacedContact, links: Mapping[str, PlacedLink]) -> tuple[PlacedLink, Pair | None]:
     """The link that stands for a contact, and for a flat face the sliding pair.  The point of contact is a point of it.

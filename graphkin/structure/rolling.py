@@ -23,8 +23,6 @@ from graphkin.scene.model import Driver, Mechanism, PlacedContact, PlacedGear, P
 from graphkin.scene.touching import rack_place
 from graphkin.structure.model import Coordinate, LargerGroup, Pair, Rolled, RollingRelation, Structure
 
-__all__ = ["Mesh", "drawn_angle", "followers_of", "meshes_of", "relations_of", "rolled_by", "start_drivers", "unrolled"]
-
 
 @dataclass(frozen=True)
 class Mesh:

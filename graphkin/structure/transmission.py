@@ -26,8 +26,6 @@ from graphkin.scene.symbol import Symbol
 from graphkin.structure.model import Dyad, Pair, Structure
 from graphkin.words import Phrase
 
-__all__ = ["TransmissionAngle", "joint_between", "joint_of_dyad", "joint_of_follower", "sliding_pair"]
-
 Spot = tuple[str, complex]
 """A link, and a place in its own axes (m)."""
 Way = tuple[Spot, Spot]

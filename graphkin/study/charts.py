@@ -27,12 +27,6 @@ from graphkin.study.turn import TurnStudy
 from graphkin.words import Phrase, say, word
 from graphkin.words.written import in_markup, true_minus
 
-__all__ = [
-    "EMPTY", "HEIGHT", "LEFT", "MARGIN", "RIGHT", "TOP", "WIDTH", "ZERO", "Axis", "DriverAxis", "Panel", "chart_page",
-    "draw_panel", "draw_pieces", "driver_axis", "force_symbol", "heading", "legend_of", "motion_panel", "number",
-    "panel_of", "quantity_title", "span_of", "title_of",
-]  # fmt: skip
-
 Array = NDArray[np.float64]
 
 WIDTH, HEIGHT = 210.0, 297.0

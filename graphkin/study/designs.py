@@ -29,8 +29,6 @@ from graphkin.solver.pose import turned
 from graphkin.table import table_of
 from graphkin.words import Phrase
 
-__all__ = ["DesignKeys", "Designs", "Value", "applied", "design_keys", "designs_of", "read_designs"]
-
 Value = float | str
 MOST_DESIGNS = 10_000_000
 MOST_ROWS = 1_000_000

@@ -38,8 +38,6 @@ from graphkin.study.turn import Output, TurnStudy
 from graphkin.words import Phrase, say, word
 from graphkin.words.written import in_markup
 
-__all__ = ["LaidOver", "coupler_points", "diagrams", "measured"]
-
 LaidOver = Mapping[Quantity, Sequence[tuple[float, float]]]
 """Values measured elsewhere: offset of the driver's range and value (SI)."""
 

@@ -30,8 +30,6 @@ if TYPE_CHECKING:
 
     Digits = Sequence[float | mpf]
 
-__all__ = ["Arithmetic", "Equations", "Solution", "Split", "context", "reference", "refined", "split"]
-
 DIGITS = 50
 STEPS = 60
 CLOSED = 1e-38

@@ -17,11 +17,6 @@ from graphkin.table import Table
 from graphkin.words import Phrase, say, word
 from graphkin.words.written import true_minus
 
-__all__ = [
-    "LOST", "Answer", "ErrorLaw", "Singularity", "grid", "in_powers", "laws_table", "lessons", "measured",
-    "stability_pages", "to_json",
-]  # fmt: skip
-
 LOST = 0.03  # an error beyond this (relative, rad) is no longer of first order and tells no slope
 PER_DECADE = 2
 

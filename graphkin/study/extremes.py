@@ -18,8 +18,6 @@ from graphkin.solver import DriverRange, Motion
 from graphkin.solver.pose import Array
 from graphkin.study.quantities import Quantity, rates_of
 
-__all__ = ["CurveParameter", "Extreme", "Traced", "driver_value", "trace"]
-
 NOTHING = 5e-11
 """A driver value this small (rad, m) is 0: no extreme of an acceleration is placed better."""
 SAMPLES, LOCAL = 400, 1e-9

@@ -21,8 +21,6 @@ from graphkin.study.extremes import Extreme
 from graphkin.study.quantities import Quantity, load_quantity, named_quantity
 from graphkin.words import Phrase, say, word
 
-__all__ = ["flywheel_page", "force_extremes", "force_page", "force_panel", "polar_page", "whole_turn"]
-
 JUMP = 1e-8
 """Of the range: so far on both sides of where a load begins or ends its two values are taken."""
 GROWS = 50.0

@@ -33,11 +33,6 @@ from graphkin.words import Phrase, say, word
 if TYPE_CHECKING:
     from graphkin.drawing.chart import Axes, Figure
 
-__all__ = [
-    "Chords", "Ordinate", "Way", "chords_page", "chords_table", "graphical", "known_ordinate",
-    "ordinate_chains",
-]  # fmt: skip
-
 Array = NDArray[np.float64]
 Way = Literal["derivative", "integral"]
 

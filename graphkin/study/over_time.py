@@ -22,8 +22,6 @@ from graphkin.study.quantities import Quantity, link_quantities, slide_quantitie
 from graphkin.study.turn import output_links, output_slides
 from graphkin.words import Phrase, say, word
 
-__all__ = ["TimeStudy", "study_time"]
-
 Array = NDArray[np.float64]
 POINTS = 361
 BEFORE = 1e-9

@@ -21,11 +21,6 @@ from graphkin.structure import Structure, links_for
 from graphkin.table import Column, Table
 from graphkin.words import Wording
 
-__all__ = [
-    "Parts", "Quantity", "Words", "all_that_moves", "link_quantities", "load_quantity", "motion_table",
-    "named_quantity", "rates_of", "settled", "slide_quantities", "word_column",
-]  # fmt: skip
-
 Parts = tuple[tuple[Array, ...], ...]
 """Of each quantity its values, two for a vector."""
 Words = Sequence[Wording] | Array

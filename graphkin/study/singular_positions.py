@@ -45,8 +45,6 @@ from graphkin.words.written import true_minus
 if TYPE_CHECKING:
     from mpmath import MPContext, mpc, mpf
 
-__all__ = ["KINDS", "run_singularities"]
-
 
 def _turned(scene: Mechanism, angle: float) -> Mechanism:
     """The scene with its crank at another angle (rad)."""

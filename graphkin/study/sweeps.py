@@ -32,10 +32,6 @@ from graphkin.study.quantities import Parts, Quantity, Words, all_that_moves, mo
 from graphkin.table import Column, Table, have, parquet_of_csv
 from graphkin.words import from_others
 
-__all__ = [
-    "MANY", "FollowedDesign", "Found", "Outcome", "Sweep", "collect", "designs_table", "write_tables",
-]  # fmt: skip
-
 BLOCK = 16384
 """Positions that are computed and written together, about."""
 MANY = 500_000

@@ -27,8 +27,6 @@ from graphkin.structure import Dyad, DyadKind, Pair, Structure
 from graphkin.study.extremes import Extreme, Traced, trace
 from graphkin.study.quantities import Quantity, link_quantities, rates_of, slide_quantities
 
-__all__ = ["BasicLoop", "Output", "TurnStudy", "four_bar_class", "study_turn"]
-
 EQUAL = 1e-9
 """Lengths that differ by less than this part of the longest count as equal: a change point."""
 

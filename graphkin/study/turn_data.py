@@ -12,8 +12,6 @@ from graphkin.scene.model import Mechanism
 from graphkin.study.extremes import Extreme, Traced
 from graphkin.study.turn import Output, TurnStudy
 
-__all__ = ["design_row", "to_json"]
-
 UNBOUNDED = "it goes away without bound at an end of the motion"
 
 

@@ -10,11 +10,6 @@ import cmath
 import math
 from decimal import Decimal, localcontext
 
-__all__ = [
-    "FINER", "LEAST", "MOST", "ROUNDED", "amount", "as_given", "computed", "difference", "figures", "in_markup",
-    "increase", "increased", "is_quotient", "on_paper", "pointing", "product", "quotient", "to_lay_off", "true_minus",
-]  # fmt: skip
-
 MOST = 5  # figures of a computed number
 FINER = range(MOST, MOST + 4)  # figures, where those few do not give what they should as they are written
 LEAST = 0.05  # mm; what is shorter is read where it is drawn larger

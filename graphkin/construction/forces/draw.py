@@ -33,8 +33,6 @@ from graphkin.scene.model import Driver, PlacedGuide
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, Dyad, analyse
 
-__all__ = ["ROOM", "force_readings", "force_scale", "forces_on", "readings_of"]
-
 ROOM = (98.0, 84.0)
 """Width and height (mm) that the largest force polygon fills at most, where the scene wishes for no scale."""
 SAME = 1e-12

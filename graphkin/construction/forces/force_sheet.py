@@ -15,11 +15,6 @@ from graphkin.construction.steps import NO_DIRECTION, Direction, Part, Term
 from graphkin.plane import cross, unit
 from graphkin.scene.symbol import Symbol
 
-__all__ = [
-    "ForceGroup", "ForceSheet", "ForceState", "ForceVector", "Inertia", "Lever", "MomentEquation", "MomentTerm", "Way",
-    "opposite",
-]  # fmt: skip
-
 Way = Literal["polygon", "driver", "drawn system"]
 """How the forces of a group are found: by moments and one polygon, at last at a driver, by one drawn system."""
 

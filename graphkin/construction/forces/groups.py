@@ -30,8 +30,6 @@ from graphkin.scene.symbol import Symbol
 from graphkin.structure import Driven, DrivenJoint, Dyad, LargerGroup, Pair
 from graphkin.words import Phrase
 
-__all__ = ["NORMAL", "TANGENT", "CutFree", "at_driver", "of_dyad", "of_larger_group"]
-
 NORMAL, TANGENT = "n-n", "t-t"
 """The common normal and tangent of what touches, by name as a guide."""
 PARALLEL = 1e-12

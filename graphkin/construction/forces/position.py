@@ -28,8 +28,6 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Element, LargerGroup, Pair, Structure, analyse
 from graphkin.words import Phrase
 
-__all__ = ["DrawnPosition", "acting_loads", "force_groups", "from_outside", "inertias", "strokes_of_loads"]
-
 
 @dataclass(frozen=True)
 class DrawnPosition:

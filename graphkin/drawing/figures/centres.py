@@ -57,11 +57,6 @@ from graphkin.plane import cross, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Markup, Phrase, RichText, as_markup, as_plain, languages, rich_text, word
 
-__all__ = [
-    "FIGURES", "background", "centre_marks", "centres_figure", "id_of", "mark_of", "named_centres", "near_box",
-    "untold",
-]  # fmt: skip
-
 
 def id_of(pair: LinkPair) -> str:
     """A centre as an id."""

@@ -26,8 +26,6 @@ from graphkin.drawing.text import rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import Phrase, languages, say
 
-__all__ = ["centres_in_motion", "centrodes_figure"]
-
 ROOM, KEY = 8.0, 17.0  # mm around the figure, and of a line in the legend
 AROUND = 0.6  # of the mechanism's size: how far around it paths are shown
 SECONDS = 8.0

@@ -54,12 +54,6 @@ from graphkin.words.written import amount, on_paper, product
 if TYPE_CHECKING:
     from graphkin.drawing.chart import Figure as Chart
 
-__all__ = [
-    "FIGURES", "Confirmed", "asked_words", "cam_figure", "cam_given", "cam_pictures", "choice_chart",
-    "construction_picture", "design_figure", "design_scale", "scaled_cam", "step_words",
-]  # fmt: skip
-
-
 # -- a synthesis -------------------------------------------------------------------------------------------------------
 
 ROOM = 9.0  # mm around the construction, for names

@@ -48,8 +48,6 @@ from graphkin.drawing.write.drawing import Drawing
 from graphkin.scene.model import Mechanism
 from graphkin.words import Phrase, languages, say
 
-__all__ = ["DIAGRAMS", "FIGURES", "diagram_figures", "figure_in_motion"]
-
 DIAGRAMS: tuple[DiagramName, ...] = ("mechanism", "velocity", "acceleration")
 ROOM = 12.0  # mm around the figure, for names
 

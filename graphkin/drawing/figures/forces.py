@@ -54,8 +54,6 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, about, languages, listed, say, word
 from graphkin.words.written import amount, on_paper, product
 
-__all__ = ["FIGURES", "group_equation", "group_picture", "lever_figure"]
-
 SKETCH = 64.0  # mm, width of a sketch
 AROUND = 11.0  # mm of room around a polygon
 LEAST, SMALLEST, NARROW = 46.0, 26.0, 40.0  # mm, least heights of a sketch and a polygon, and width

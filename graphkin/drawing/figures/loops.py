@@ -30,8 +30,6 @@ from graphkin.plane import added_up
 from graphkin.structure.loops import Loop, LoopBlock, loops_in_numbers
 from graphkin.words import Neutral, Phrase, in_all, languages, say
 
-__all__ = ["FIGURES", "loop_blocks", "loops_figure"]
-
 PANEL = (84.0, 62.0)  # width and least height of a polygon's panel (mm)
 ROOM = 11.0  # around a polygon, for names
 BESIDE = 6.0  # between a polygon and its equations

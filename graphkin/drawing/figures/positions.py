@@ -42,8 +42,6 @@ from graphkin.drawing.write.drawing import Drawing
 from graphkin.scene.symbol import PointRef
 from graphkin.words import Neutral, Wording
 
-__all__ = ["FIGURES", "Shown", "positions_figure"]
-
 ROOM = 16.0  # mm around the figure, for names
 OFFSETS = tuple(side * far for far in (9.0, 12.5, 17.0, 22.0, 28.0, 35.0, 43.0, 52.0) for side in (-1.0, 1.0))  # mm
 SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9)  # of an arc, where its number may stand

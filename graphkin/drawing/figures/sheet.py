@@ -48,8 +48,6 @@ from graphkin.drawing.text import fitted, plain, wrapped
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import Phrase, about, languages, say, word
 
-__all__ = ["FIGURES"]
-
 GIVEN = (2.8, 2.5)  # mm, letters of the given data: usual, and where room is short
 NAMES = 7.0  # mm above and below a polygon that gives room to the equations
 POLYGONS: tuple[DiagramName, DiagramName] = ("velocity", "acceleration")

@@ -30,8 +30,6 @@ from graphkin.scene.cams import LawCam
 from graphkin.structure import Driven, Dyad, Element, LargerGroup, Pair, Structure, replacement_told
 from graphkin.words import Phrase, class_of, languages, say
 
-__all__ = ["FIGURES", "structure_figure"]
-
 DIAGRAM = (96.0, 84.0)  # mm, room of the numbered diagram
 PART = (56.0, 46.0)  # of a group
 BESIDE = 5.0  # between the diagram and its numbers

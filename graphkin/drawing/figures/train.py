@@ -25,8 +25,6 @@ from graphkin.structure import Mesh
 from graphkin.words import Phrase, languages, word
 from graphkin.words.written import amount, on_paper, product
 
-__all__ = ["FIGURES", "moving_plans", "scheme", "train_figure"]
-
 ROOM = 9.0  # mm above and below a line of centres
 SCHEME = 68.0
 """mm that the train seen from the side may take."""

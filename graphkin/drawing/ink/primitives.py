@@ -11,11 +11,6 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple, TypeAlias
 
-__all__ = [
-    "PALE", "Arc", "Circle", "Group", "Line", "Page", "Polygon", "Polyline", "Primitive", "Run", "Scan", "Segment",
-    "Stroke", "Text", "Travel", "class_names", "map_tree", "moved", "on_page", "page_direction", "walk",
-]  # fmt: skip
-
 PALE = 0.5  # how much of a scan is seen
 
 Segment: TypeAlias = tuple[complex, complex]

@@ -15,12 +15,6 @@ from graphkin.drawing.ink.primitives import Circle, Group, Polygon, Primitive, S
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 
-__all__ = [
-    "BLACK", "CONSTRUCTION", "DIMENSION", "DIRECTION", "FRAME", "GREY", "HATCHING", "LEADER", "LINK", "LINK_COLOURS",
-    "OF_CENTRES", "OUTLINE", "REDUNDANT", "RELATIVE", "RESULTANT", "TRIALS", "TRIAL_CURVE", "WHITE", "colour_of_link",
-    "colour_of_vector", "link_colour", "pale", "texture", "tint",
-]  # fmt: skip
-
 BLACK, WHITE, GREY = "#000000", "#ffffff", "#595959"
 LINK = Stroke(0.5)
 REDUNDANT = Stroke(0.5, (3.0, 1.2))  # a link that only repeats what others hold

@@ -13,13 +13,6 @@ from dataclasses import dataclass
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Stroke, page_direction
 
-__all__ = [
-    "BLOCK_LENGTH", "BLOCK_WIDTH", "COMPONENT", "FOOT_HEIGHT", "HATCH_DEPTH", "JOINT_RADIUS", "POINTER", "RESULTANT",
-    "SLOT_WIDTH", "arrow", "arrowhead", "block", "circular_slot", "cylinder", "fixed_pivot", "guide",
-    "hatched_line", "head_size", "hull", "pin", "sense_arc", "slot", "spring", "turning_pair",
-    "vector_group", "weld",
-]  # fmt: skip
-
 # A vector shorter than this (mm) has no length a ruler could tell from none; it is drawn as a dot.
 ZERO = 0.02
 DOT_RADIUS = 0.55

@@ -34,8 +34,6 @@ from graphkin.plane import cross, cross_lines, dot
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.words.written import as_given
 
-__all__ = ["LENGTHS", "drawn_lengths"]
-
 LENGTHS = "dimensions"  # id of their group
 Dimensioner: TypeAlias = Callable[[MechanismOnPaper, DimensionClearance], Iterator[Parts | Label]]
 Spot: TypeAlias = tuple[complex, float]

@@ -15,8 +15,6 @@ from graphkin.scene.bodies import SlidingPair
 from graphkin.scene.model import Mechanism, PlacedGuide, PlacedLink
 from graphkin.words import Phrase, languages, say
 
-__all__ = ["along_its_guide", "as_line", "given_shapes", "off_its_guide", "used_guides"]
-
 _BETWEEN_CHINESE = re.compile(r"(?<=[\u4e00-\u9fff]) (?=[\u4e00-\u9fff])")
 LEVEL = 1e-9  # of directions and of lengths by the size of a scene: what rounding leaves
 

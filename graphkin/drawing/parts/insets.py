@@ -59,11 +59,6 @@ from graphkin.drawing.text import fitted, plain, runs_width, symbol, text_box
 from graphkin.plane import cross, unit
 from graphkin.scene.symbol import PointRef, Symbol
 
-__all__ = [
-    "INSET", "CoriolisTerm", "background_piece", "coriolis_row", "coriolis_terms", "mechanism_with_inset", "per_row",
-    "polygon_with_insets", "scan_piece", "strip_height",
-]  # fmt: skip
-
 SMALL_INSET = 24.0, 21.0  # mm
 ROUNDING = 1e-6  # mm
 MOST_DETAILS, MOST_CROWDS = 3, 3

@@ -47,8 +47,6 @@ from graphkin.drawing.text import plain, symbol
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.model import Driver
 
-__all__ = ["bare_mechanism", "links_alone", "mechanism_piece"]
-
 AROUND_POINTS = 5.0  # mm for the symbols of points, which no edge cuts
 
 

@@ -26,8 +26,6 @@ from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import Mechanism
 from graphkin.structure import Pair
 
-__all__ = ["GUIDE_LENGTH", "CamOnPaper", "CurvedSlot", "LinkShape", "MechanismOnPaper", "Slider"]
-
 # mm: how far a bar of no fixed length goes on beyond a block, and a slot beyond its pin
 PAST_BLOCK, PAST_PIN = 9.0, 8.0
 PAST_ROLLER = 17.0  # mm from the roller of a follower to the middle of its guide

@@ -34,11 +34,6 @@ from graphkin.drawing.text import SMALLEST, plain, runs_width, symbol, text_box
 from graphkin.plane import added_up, cross, dot
 from graphkin.scene.symbol import PointRef, Symbol
 
-__all__ = [
-    "END_RADIUS", "Detail", "PolygonOnPage", "crowds", "details", "extent", "polygon_piece", "rings", "same_place",
-    "side_by_side", "step_numbers",
-]  # fmt: skip
-
 FAR = 60.0  # mm: construction further outside than this is cut off
 SMALL = 2.0  # mm: shorter vectors are drawn again larger
 TOGETHER = 3.0  # mm: small vectors nearer than this share an inset

@@ -17,8 +17,6 @@ from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.piece import Piece, dated
 from graphkin.drawing.text import symbol
 
-__all__ = ["contact_marks", "faces_of_frame", "marks_cut_free", "outlines_of", "replacing_links", "wheels_of"]
-
 NORMAL, TANGENT = 15.0, 12.0
 """mm of normal and tangent to either side of a contact."""
 FACE = 16.0

@@ -22,11 +22,6 @@ from graphkin.drawing.place.obstacles import Flags, Floats, Indices, Obstacles, 
 from graphkin.drawing.text import CAP_HEIGHT, plain, text_box
 from graphkin.plane import cross
 
-__all__ = [
-    "GAP", "LEAST_EXTENSION", "OVERRUN", "DimensionClearance", "Part", "Parts", "angle_dimension", "check_bar",
-    "dimension",
-]  # fmt: skip
-
 OVERRUN, GAP = 1.5, 0.8  # extension lines reach past the dimension line and start off the object, mm
 SHORT_ARC = 5.0  # mm of an arc that has no room for a number beside its middle
 CLEAR = 0.7  # between a number and the line broken for it, mm

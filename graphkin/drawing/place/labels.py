@@ -32,8 +32,6 @@ from graphkin.drawing.place.obstacles import (
 )
 from graphkin.drawing.text import box_about
 
-__all__ = ["FORBIDDEN", "Label", "LabelPanel", "Mark", "Places", "meeting"]
-
 Mark: TypeAlias = complex | Segment
 """What a label names: a point, or the line between two."""
 

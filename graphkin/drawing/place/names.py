@@ -19,8 +19,6 @@ from graphkin.drawing.place.placement import Placed, Placement
 from graphkin.drawing.text import rich, runs_width, text_box
 from graphkin.plane import added_up
 
-__all__ = ["named", "with_crowd", "with_labels", "without"]
-
 POLYGONS = ("velocity", "acceleration", "forces")  # layers of vectors
 BEHIND = 1.0  # mm between a key and the name behind it
 APART = 3.0, 1.0  # mm between columns and between lines of the list

@@ -23,12 +23,6 @@ from graphkin.drawing.ink.primitives import (
 )
 from graphkin.plane import cross
 
-__all__ = [
-    "CLEAR", "ON_LINE", "Flags", "Floats", "Indices", "Obstacles", "Points", "RateArrowClearance", "crosses",
-    "distances", "first_free", "free_boxes", "joined", "meets", "near", "separated", "sides", "sides_around",
-    "touching",
-]  # fmt: skip
-
 Points: TypeAlias = NDArray[np.complex128]
 Floats: TypeAlias = NDArray[np.float64]
 Flags: TypeAlias = NDArray[np.bool_]

@@ -29,11 +29,6 @@ from graphkin.drawing.place.labels import Label, Mark
 from graphkin.drawing.place.obstacles import Obstacles
 from graphkin.drawing.text import text_box
 
-__all__ = [
-    "Piece", "cut_to", "dated", "ink_box", "joined", "kept_in", "layer_groups", "middle_of", "moved_piece",
-    "obstacles_of", "renamed",
-]  # fmt: skip
-
 # In the order of drawing.
 LAYERS = (
     "background", "construction", "mechanism", "velocity", "acceleration", "forces", "centres", "answers", "labels",

@@ -23,8 +23,6 @@ from graphkin.drawing.place.labels import FORBIDDEN, Label, LabelPanel, Mark, Pl
 from graphkin.drawing.place.obstacles import Flags, Obstacles
 from graphkin.plane import added_up
 
-__all__ = ["Placed", "Placement", "place"]
-
 SPACE = complex(1.8, 0.9)  # mm between two labels, beside each other and one above the other
 # What it costs that a label stands nowhere, by its rank: from the last two on it may be missing rather than have a
 # leader across vectors.

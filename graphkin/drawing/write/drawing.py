@@ -11,8 +11,6 @@ from graphkin.drawing.write.svg import svg_bytes
 from graphkin.errors import CallError
 from graphkin.files import path_of, whole_file
 
-__all__ = ["FORMATS", "TEXTS", "Drawing", "Kept", "save"]
-
 FORMATS = ("svg", "pdf", "png", "dxf")
 TEXTS = ("glyphs", "outlines")
 

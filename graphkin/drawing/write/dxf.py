@@ -43,8 +43,6 @@ if TYPE_CHECKING:
     from ezdxf.document import Drawing as DxfFile
     from ezdxf.entities import DXFGraphic
 
-__all__ = ["dxf_bytes", "outline_dxf", "profile_dxf"]
-
 WIDTHS = (0, 5, 9, 13, 15, 18, 20, 25, 30, 35, 40, 50, 53, 60, 70, 80, 90, 100, 106, 120, 140, 158, 200, 211)
 """Widths of lines that the format knows, in hundredths of a millimetre."""
 STYLES = {"serif": "times.ttf", "serif-italic": "timesi.ttf", "serif-bold": "timesbd.ttf", "chinese": "simsun.ttc"}

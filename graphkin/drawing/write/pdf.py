@@ -38,11 +38,6 @@ if TYPE_CHECKING:
     from matplotlib.path import Path
     from matplotlib.transforms import Transform
 
-__all__ = [
-    "MM_PER_INCH", "POINTS_PER_MM", "MissingFont", "empty_page", "faces", "figure_pdf", "figure_png", "ink",
-    "leave_undocumented", "own_settings", "pdf_bytes", "png_bytes", "whole_pixels",
-]  # fmt: skip
-
 MM_PER_INCH, POINTS_PER_MM = 25.4, 72 / 25.4
 
 # In the order of liking: serif faces of simplified Chinese, then any face that has the signs.

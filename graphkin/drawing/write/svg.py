@@ -37,8 +37,6 @@ from graphkin.drawing.ink.primitives import (
 )
 from graphkin.drawing.text import has_cjk, runs_width, start_runs, width
 
-__all__ = ["number", "svg_bytes", "svg_element"]
-
 # What XML 1.0 cannot hold, and other control characters.
 _UNFIT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
 _HIDING = re.compile("[\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069\ufeff]")  # what could hide what stands beside it
