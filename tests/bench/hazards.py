@@ -20,9 +20,10 @@ import numpy as np
 from graphkin.errors import GraphkinError
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
-from graphkin.solver import Motion, solve, structure_of, to_json
+from graphkin.solver import Motion, solve, structure_of
 from graphkin.solver.dead_points import dead_points
 from graphkin.structure import Structure
+from tests.solver.checks import to_json
 
 __all__ = ["Found", "look"]
 

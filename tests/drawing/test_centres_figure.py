@@ -180,7 +180,7 @@ def test_the_pages_of_single_centres_are_files_beside_the_figure(tmp_path: Path)
     assert "centres-2.pdf" not in written
 
 
-@pytest.mark.parametrize("name", ["single-flier", "sixbar-rotating-guide-35rpm", "scissor-lift"])
+@pytest.mark.parametrize("name", ["single-flier", "sixbar-rotating-guide-35rpm", "whitworth"])
 def test_no_label_of_a_picture_is_overlapped_crossed_or_cut(
     name: str, violations: Callable[[bytes], list[str]]
 ) -> None:
