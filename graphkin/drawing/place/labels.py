@@ -22,6 +22,7 @@ from graphkin.drawing.place.obstacles import (
     Indices,
     Obstacles,
     Points,
+    Sides,
     crosses,
     joined,
     near,
@@ -128,22 +129,32 @@ def meeting(ones: Points, others: Points, space: complex) -> Flags:
 
     Both come as the forms of `Places`; one of nan is nowhere, and meets none.
     """
-    middles, halves, feet, tips = ones[:, :, None]
+    over: Flags = np.zeros((ones.shape[1], others.shape[1]), dtype=bool)
+    room = complex(max(space.real, LEADER_SPACE), max(space.imag, LEADER_SPACE))
+    some = joined([*near(_around(others, room), _around(ones, 0j))])
+    if not some[0].size:
+        return over
+    columns, rows = some
+    (middles, halves, feet, tips), others = ones.take(rows, axis=1), others.take(columns, axis=1)
     its_middles, its_halves, its_feet, its_tips = others
-    its_reach = its_halves + space
-    # copies lie side by side in memory, which halves the time
-    over: Flags = np.abs(middles.real - its_middles.real.copy()) < halves.real + its_reach.real.copy()
-    over &= np.abs(middles.imag - its_middles.imag.copy()) < halves.imag + its_reach.imag.copy()
-    rows, columns = np.flatnonzero(feet != tips), np.flatnonzero(its_feet != its_tips)
+    off, reach = middles - its_middles, halves + (its_halves + space)
+    met: Flags = (np.abs(off.real) < reach.real) & (np.abs(off.imag) < reach.imag)
+    its_leader, leader = its_feet != its_tips, feet != tips
     reach = LEADER_SPACE * (1 + 1j)
-    if rows.size:
-        over[rows] |= _strikes(feet[rows], tips[rows], its_middles, its_halves + reach)
-    if columns.size:
-        its_feet, its_tips = its_feet[columns], its_tips[columns]
-        over[:, columns] |= _strikes(its_feet, its_tips, middles, halves + reach)
-        if rows.size:
-            over[np.ix_(rows, columns)] |= crosses(feet[rows], tips[rows], its_feet, its_tips)
+    met |= leader & _strikes(feet, tips, its_middles, its_halves + reach)
+    met |= its_leader & _strikes(its_feet, its_tips, middles, halves + reach)
+    met |= leader & its_leader & crosses(feet, tips, its_feet, its_tips)
+    over[rows[met], columns[met]] = True
     return over
+
+
+def _around(forms: Points, room: complex) -> Sides:
+    """The sides of boxes around boxes with their leaders, and so much room (mm)."""
+    middles, halves, feet, _ = forms
+    low, high = middles - halves, middles + halves
+    left, top = np.minimum(low.real, feet.real) - room.real, np.minimum(low.imag, feet.imag) - room.imag
+    right, bottom = np.maximum(high.real, feet.real) + room.real, np.maximum(high.imag, feet.imag) + room.imag
+    return left, top, right, bottom
 
 
 def _strikes(start: Points, end: Points, middles: Points, halves: Points) -> Flags:
@@ -168,6 +179,7 @@ FORBIDDEN = 1e5
 OUTSIDE = 100  # faults that leaving the panel counts for
 FOOT_REACH = 0.45  # mm: what lies nearer to the foot of a leader is the mark itself
 NEAR_END = 2.0
+TILE = 8.0  # mm: boxes are judged strip by strip
 
 
 class LabelPanel:
@@ -293,7 +305,7 @@ class LabelPanel:
         if not keep:
             places, faults = places.picked(faults == 0), faults[faults == 0]
         middles, halves, _, _ = places.forms
-        which, what = self._touched(middles, halves + CLEARANCE * (1 + 1j))
+        which, what = self._touched(middles, halves + CLEARANCE * (1 + 1j), keep)
         np.add.at(faults, which[what < self.solid], 1)
         dashed = which[what >= self.solid]
         np.add.at(places.costs, dashed, DASHED_COST)
@@ -340,16 +352,28 @@ class LabelPanel:
         beyond: Flags = across | (low.imag < panel.top) | (high.imag > panel.bottom)
         return beyond
 
-    def _touched(self, middles: Points, halves: Points) -> tuple[Indices, Indices]:
+    def _touched(self, middles: Points, halves: Points, keep: bool) -> tuple[Indices, Indices]:
         """Pairs of a box and an obstacle that it meets; obstacles count areas, solid, dashed in turn."""
-        found = []
-        for which, what in near(sides(middles - halves, middles + halves), self.reach):
-            lines = (what >= self.areas).nonzero()[0]  # for what lies around an area its box will do
-            i, j = which.take(lines), what.take(lines)
-            meeting = np.ones(len(what), dtype=bool)
-            meeting[lines] = ~separated(middles.take(i), halves.take(i), self.start.take(j), self.end.take(j))
-            found.append((which[meeting], what[meeting]))
-        return joined(found)
+        order = np.argsort(np.floor(middles.real / TILE) * FORBIDDEN + middles.imag)
+        middles, halves = middles.take(order), halves.take(order)
+        boxes = sides(middles - halves, middles + halves)
+        areas: list[Any] = [side[: self.areas] for side in self.reach]
+        lines: list[Any] = [side[self.areas :] for side in self.reach]
+        found = [*near(boxes, areas)]
+        if not keep:
+            free = np.ones(len(middles), dtype=bool)
+            for which, _ in found:
+                free[which] = False
+            some = free.nonzero()[0]
+            boxes = [side.take(some) for side in boxes]
+        for which, what in near(boxes, lines):
+            if not keep:
+                which = some.take(which)
+            what += self.areas
+            hit = ~separated(middles.take(which), halves.take(which), self.start.take(what), self.end.take(what))
+            found.append((which[hit], what[hit]))
+        which, what = joined(found)
+        return order.take(which), what
 
     def _needs_leader(self, places: Places) -> Flags:
         """Which places need a leader: far ones, and those about as near to another mark of the same kind as to their

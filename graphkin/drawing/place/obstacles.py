@@ -32,6 +32,7 @@ Sides: TypeAlias = tuple[Floats, Floats, Floats, Floats]
 
 ON_LINE = 1e-9  # mm⁴: so near to a line, but for rounding, lies on it
 MOST_PAIRS = 1 << 15  # of boxes compared at a time: what a processor holds near
+FEW = 50
 
 
 def sides(low: Points, high: Points) -> Sides:
@@ -47,23 +48,27 @@ def sides_around(start: Points, end: Points) -> Sides:
 
 def near(boxes: Sides, others: Sides) -> Iterator[tuple[Indices, Indices]]:
     """Pairs of upright boxes that meet, by their indices, in lots; a box of nan meets none."""
-    left, top, right, bottom = others
-    count = len(left)
+    count = len(others[0])
     if not count:
         return
     rows = max(1, MOST_PAIRS // count)
     for first in range(0, len(boxes[0]), rows):
-        own_left, own_top, own_right, own_bottom = (side[first : first + rows, None] for side in boxes)
-        meeting = left <= own_right
-        meeting &= right >= own_left
-        meeting &= top <= own_bottom
-        meeting &= bottom >= own_top
+        own_left, own_top, own_right, own_bottom = own = [side[first : first + rows] for side in boxes]
+        left, top, right, bottom = others
+        if count > FEW:  # boxes that follow each other mostly lie together, and far from most others
+            low, high = np.fmin.reduce(own[:2], axis=1), np.fmax.reduce(own[2:], axis=1)
+            some = ((left <= high[0]) & (right >= low[0]) & (top <= high[1]) & (bottom >= low[1])).nonzero()[0]
+            left, top, right, bottom = (side.take(some) for side in others)
+        meeting = left <= own_right[:, None]
+        meeting &= right >= own_left[:, None]
+        meeting &= top <= own_bottom[:, None]
+        meeting &= bottom >= own_top[:, None]
         pairs = meeting.ravel().nonzero()[0]
-        which = pairs // count
-        pairs -= which * count
+        which = pairs // max(1, len(left))
+        pairs -= which * len(left)
         if first:
             which += first
-        yield which, pairs
+        yield which, some.take(pairs) if count > FEW else pairs
 
 
 def joined(lots: Sequence[tuple[Indices, Indices]]) -> tuple[Indices, Indices]:

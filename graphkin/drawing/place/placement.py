@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -180,14 +181,11 @@ class Placement:
         self._take(i, without)
         chosen = {i: without if without.cost < here.cost else here}
         offers, met = self._offers(places, least)
-        free: dict[int, tuple[Places, Flags]] = {}
+        free = self._free(sorted({j for others in met for j in others}), offers)
         for n, others in enumerate(met):
             stand = Stand.at(offers, n)
             moved, cost = {i: stand}, stand.cost
             for j in others:
-                if j not in free:
-                    places = self._free(j)
-                    free[j] = places, ~meeting(offers.forms, places.forms, SPACE)
                 moved[j] = self._elsewhere(j, free[j][0], free[j][1][n], [*moved.values()][1:])
                 cost += moved[j].cost - self.stands[j].cost
                 if cost >= least:
@@ -242,12 +240,21 @@ class Placement:
         some = np.concatenate((few, free))
         return places.picked(some), [np.flatnonzero(column).tolist() for column in met[:, some].T]
 
-    def _free(self, j: int) -> Places:
-        """Places of a label that no other is in the way of."""
-        places = self._places(j, LOOKED_AT)
+    def _free(self, some: Sequence[int], offers: Places) -> dict[int, tuple[Places, Flags]]:
+        """Places of some labels that no other is in the way of, and which of them each of the places offered leaves
+        clear, in rows."""
+        tables = [self._places(j, LOOKED_AT) for j in some]
+        if not tables:
+            return {}
+        places = Places.stacked(tables)
+        labels = np.repeat(some, [len(table.costs) for table in tables])
         met = meeting(self.forms, places.forms, SPACE)
-        met[j] = False
-        return places.picked(np.flatnonzero(~met.any(axis=0)))
+        met[labels, np.arange(len(labels))] = False
+        free = np.flatnonzero(~met.any(axis=0))
+        places, bounds = places.picked(free), np.searchsorted(labels[free], [*some, np.inf]).tolist()
+        clear = ~meeting(offers.forms, places.forms, SPACE)
+        lots = [slice(*bound) for bound in pairwise(bounds)]
+        return {j: (places.picked(lot), clear[:, lot]) for j, lot in zip(some, lots, strict=True)}
 
     def _elsewhere(self, j: int, places: Places, clear: Flags, moved: Sequence[Stand]) -> Stand:
         """The cheapest of some places of a label, as far as they are clear, that meets none of those moved."""
