@@ -131,19 +131,20 @@ def meeting(ones: Points, others: Points, space: complex) -> Flags:
     """
     over: Flags = np.zeros((ones.shape[1], others.shape[1]), dtype=bool)
     room = complex(max(space.real, LEADER_SPACE), max(space.imag, LEADER_SPACE))
-    some = joined([*near(_around(others, room), _around(ones, 0j))])
-    if not some[0].size:
+    columns, rows = joined([*near(_around(others, room), _around(ones, 0j))])
+    if not rows.size:
         return over
-    columns, rows = some
-    (middles, halves, feet, tips), others = ones.take(rows, axis=1), others.take(columns, axis=1)
-    its_middles, its_halves, its_feet, its_tips = others
-    off, reach = middles - its_middles, halves + (its_halves + space)
+    ones, others = ones.take(rows, axis=1), others.take(columns, axis=1)
+    off, reach = ones[0] - others[0], ones[1] + (others[1] + space)
     met: Flags = (np.abs(off.real) < reach.real) & (np.abs(off.imag) < reach.imag)
-    its_leader, leader = its_feet != its_tips, feet != tips
-    reach = LEADER_SPACE * (1 + 1j)
-    met |= leader & _strikes(feet, tips, its_middles, its_halves + reach)
-    met |= its_leader & _strikes(its_feet, its_tips, middles, halves + reach)
-    met |= leader & its_leader & crosses(feet, tips, its_feet, its_tips)
+    for leads, boxes in ((ones, others), (others, ones)):
+        some = (~met & (leads[2] != leads[3])).nonzero()[0]
+        if some.size:
+            middles, halves = boxes[:2].take(some, axis=1)
+            met[some] = _strikes(*leads[2:].take(some, axis=1), middles, halves + LEADER_SPACE * (1 + 1j))
+    some = (~met & (ones[2] != ones[3]) & (others[2] != others[3])).nonzero()[0]
+    if some.size:
+        met[some] = crosses(*ones[2:].take(some, axis=1), *others[2:].take(some, axis=1))
     over[rows[met], columns[met]] = True
     return over
 
