@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -21,7 +20,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Line, Text
 from graphkin.drawing.place.labels import FORBIDDEN, Label, LabelPanel, Mark, Places, meeting
-from graphkin.drawing.place.obstacles import Flags, Obstacles
+from graphkin.drawing.place.obstacles import Flags, Indices, Obstacles
 from graphkin.plane import added_up
 
 SPACE = complex(1.8, 0.9)  # mm between two labels, beside each other and one above the other
@@ -181,12 +180,16 @@ class Placement:
         self._take(i, without)
         chosen = {i: without if without.cost < here.cost else here}
         offers, met = self._offers(places, least)
-        free = self._free(sorted({j for others in met for j in others}), offers)
+        room, lots, clear = self._room(sorted({j for others in met for j in others}), offers)
         for n, others in enumerate(met):
             stand = Stand.at(offers, n)
-            moved, cost = {i: stand}, stand.cost
+            moved, left, cost = {i: stand}, clear[n], stand.cost
             for j in others:
-                moved[j] = self._elsewhere(j, free[j][0], free[j][1][n], [*moved.values()][1:])
+                moved[j] = self._without(j)
+                some = lots[j][left[lots[j]]]  # those that are still to be had
+                if some.size and room.costs[some[0]] < moved[j].cost:
+                    moved[j] = Stand.at(room, some[0])
+                    left = left & clear[len(met) + some[0]]
                 cost += moved[j].cost - self.stands[j].cost
                 if cost >= least:
                     break
@@ -240,30 +243,18 @@ class Placement:
         some = np.concatenate((few, free))
         return places.picked(some), [np.flatnonzero(column).tolist() for column in met[:, some].T]
 
-    def _free(self, some: Sequence[int], offers: Places) -> dict[int, tuple[Places, Flags]]:
-        """Places of some labels that no other is in the way of, and which of them each of the places offered leaves
-        clear, in rows."""
-        tables = [self._places(j, LOOKED_AT) for j in some]
-        if not tables:
-            return {}
-        places = Places.stacked(tables)
-        labels = np.repeat(some, [len(table.costs) for table in tables])
+    def _room(self, some: Sequence[int], offers: Places) -> tuple[Places, dict[int, Indices], Flags]:
+        """Places of some labels that no other is in the way of, the cheapest first; the indices of those of each label;
+        and which of them (columns) each of the places offered leaves clear, and then each of themselves (rows)."""
+        lots = [self._places(j, LOOKED_AT) for j in some]
+        places = Places.stacked((offers.picked(slice(0)), *lots))
+        labels = np.repeat(some, [len(lot.costs) for lot in lots]).astype(int)
         met = meeting(self.forms, places.forms, SPACE)
         met[labels, np.arange(len(labels))] = False
         free = np.flatnonzero(~met.any(axis=0))
-        places, bounds = places.picked(free), np.searchsorted(labels[free], [*some, np.inf]).tolist()
-        clear = ~meeting(offers.forms, places.forms, SPACE)
-        lots = [slice(*bound) for bound in pairwise(bounds)]
-        return {j: (places.picked(lot), clear[:, lot]) for j, lot in zip(some, lots, strict=True)}
-
-    def _elsewhere(self, j: int, places: Places, clear: Flags, moved: Sequence[Stand]) -> Stand:
-        """The cheapest of some places of a label, as far as they are clear, that meets none of those moved."""
-        if moved:
-            there = np.array([stand.form for stand in moved], dtype=complex).T
-            clear = clear & ~meeting(there, places.forms, SPACE).any(axis=0)
-        k = int(clear.argmax()) if clear.any() else -1
-        without = self._without(j)
-        return Stand.at(places, k) if k >= 0 and places.costs[k] < without.cost else without
+        places, labels = places.picked(free), labels[free]
+        clear = ~meeting(np.hstack((offers.forms, places.forms)), places.forms, SPACE)
+        return places, {j: np.flatnonzero(labels == j) for j in some}, clear
 
     def _insist(self, i: int) -> None:
         """Put a label where it does least harm, and give up those in its way that may be given up."""
