@@ -140,8 +140,8 @@ def meeting(ones: Points, others: Points, space: complex) -> Flags:
     for leads, boxes in ((ones, others), (others, ones)):
         some = (~met & (leads[2] != leads[3])).nonzero()[0]
         if some.size:
-            middles, halves = boxes[:2].take(some, axis=1)
-            met[some] = _strikes(*leads[2:].take(some, axis=1), middles, halves + LEADER_SPACE * (1 + 1j))
+            (middles, halves), (start, end) = boxes[:2].take(some, axis=1), leads[2:].take(some, axis=1)
+            met[some] = _strikes(start, end, middles, halves + LEADER_SPACE * (1 + 1j))
     some = (~met & (ones[2] != ones[3]) & (others[2] != others[3])).nonzero()[0]
     if some.size:
         met[some] = crosses(*ones[2:].take(some, axis=1), *others[2:].take(some, axis=1))
@@ -358,8 +358,8 @@ class LabelPanel:
         order = np.argsort(np.floor(middles.real / TILE) * FORBIDDEN + middles.imag)
         middles, halves = middles.take(order), halves.take(order)
         boxes = sides(middles - halves, middles + halves)
-        areas: list[Any] = [side[: self.areas] for side in self.reach]
-        lines: list[Any] = [side[self.areas :] for side in self.reach]
+        areas = [side[: self.areas] for side in self.reach]
+        lines = [side[self.areas :] for side in self.reach]
         found = [*near(boxes, areas)]
         if not keep:
             free = np.ones(len(middles), dtype=bool)

@@ -27,7 +27,7 @@ Points: TypeAlias = NDArray[np.complex128]
 Floats: TypeAlias = NDArray[np.float64]
 Flags: TypeAlias = NDArray[np.bool_]
 Indices: TypeAlias = NDArray[np.intp]
-Sides: TypeAlias = tuple[Floats, Floats, Floats, Floats]
+Sides: TypeAlias = Sequence[Floats]
 """Left, top, right, bottom of upright boxes."""
 
 ON_LINE = 1e-9  # mm⁴: so near to a line, but for rounding, lies on it
