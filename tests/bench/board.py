@@ -16,7 +16,7 @@ from pathlib import Path
 
 from graphkin.scene.scene import library_text
 from tests.board.served import served, talking
-from tests.papers.test_browser import FLAGS
+from tests.conftest import CHROMIUM_FLAGS
 
 PULLS = 300
 LONG = 3000
@@ -55,7 +55,7 @@ def on_screen(url: str, pulls: int) -> list[float]:
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as play:
-        browser = play.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
+        browser = play.chromium.launch(executable_path=shutil.which("chromium"), args=CHROMIUM_FLAGS)
         page = browser.new_page(viewport={"width": 1400, "height": 1000})
         page.goto(url)
         page.wait_for_selector("[data-point=B]")
