@@ -240,8 +240,10 @@ class Pieces:
         return np.stack([self.at(before, curve), self.at(self.seams, curve, after=True)])
 
     def is_constant(self, curve: int) -> bool:
-        """Whether a curve does not change beyond rounding."""
-        c = self.coefficients[:, :, curve]
+        """Whether a curve does not change beyond rounding, as far as it is known."""
+        c = self.coefficients[np.isfinite(self.doubt[:, curve]), :, curve]
+        if not len(c):
+            return False
         level = float(np.max(np.abs(c[:, 0] - c[0, 0])))
         return bool(max(level, float(np.max(np.abs(c[:, 1:])))) <= 1e-12 * self.scale[curve])
 

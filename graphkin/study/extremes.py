@@ -58,8 +58,8 @@ class Traced:
 
     def furthest(self, sense: float, kind: str = "") -> Extreme | None:
         """The extreme (of a kind) of the greatest value, with -1 for ``sense`` of the least; the first of equal ones.
-        None where there is none."""
-        own = [e for e in self.extremes if kind in ("", e.kind)]
+        None where there is none, or none is known."""
+        own = [e for e in self.extremes if kind in ("", e.kind) and not math.isnan(e.value)]
         most = max((sense * e.value for e in own), default=0.0)
         return next((e for e in own if math.isclose(sense * e.value, most, rel_tol=EQUAL)), None)
 

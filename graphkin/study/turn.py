@@ -381,7 +381,8 @@ def study_turn(reach: DriverRange, asked: Sequence[Quantity] = (), everything: b
     groups = {Quantity(Symbol("transmission", name="-".join(d.links))): d for d in reach.structure.dyads.values()}
     traced = trace(reach, (*wanted, *groups))
     outputs = tuple(_output(reach, t) for t in traced if t.quantity in mains)
-    leasts = tuple(_least(groups[t.quantity], t) for t in traced if t.quantity in groups)
+    known = (t for t in traced if t.quantity in groups and not (t.least is None and t.constant is None))
+    leasts = tuple(_least(groups[t.quantity], t) for t in known)
     curves = tuple(t for t in traced if t.quantity not in groups)
     return TurnStudy(reach, ranges(reach), outputs, curves, leasts, loops(reach.structure))
 

@@ -10,12 +10,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from graphkin.api.arguments import as_scene
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.solver import driver_range
 from graphkin.study.turn import Output, TurnStudy, study_turn
 from graphkin.study.turn_data import to_json
 from tests import scenes
+from tests.mechanisms import redriven
 
 TRUTH = json.loads((Path(__file__).parents[1] / "validation" / "limits.json").read_text())
 LIMITS = {
@@ -401,3 +403,16 @@ def test_an_extreme_a_hundredth_of_a_degree_from_the_end_of_the_motion_is_found(
     slider = next(t for t in study.curves if t.quantity.name == "s_6/1")
     places = [math.degrees(e.driver) for e in slider.extremes if e.kind != "end"]
     assert any(abs(place - 19.2707) < 2e-3 for place in places)
+
+
+@pytest.mark.parametrize(
+    ("seed", "least", "places"),
+    [(7007, [33.0635], [300.938]), (7014, [87.62775, 90.0], [None, None])],
+)
+def test_the_least_transmission_angle_is_told_where_the_ends_of_the_range_cannot_be_computed(
+    seed: int, least: list[float], places: list[float | None]
+) -> None:
+    turn = study_turn(driver_range(as_scene(redriven(seed))))
+    assert least == pytest.approx([math.degrees(found.angle) for found in turn.transmission], abs=1e-4)
+    drivers = [None if found.driver is None else math.degrees(found.driver) for found in turn.transmission]
+    assert places == [None if at is None else pytest.approx(at, abs=1e-3) for at in drivers]
