@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -20,7 +21,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Line, Text
 from graphkin.drawing.place.labels import FORBIDDEN, Label, LabelPanel, Mark, Places, meeting
-from graphkin.drawing.place.obstacles import Flags, Indices, Obstacles
+from graphkin.drawing.place.obstacles import Flags, Obstacles
 from graphkin.plane import added_up
 
 SPACE = complex(1.8, 0.9)  # mm between two labels, beside each other and one above the other
@@ -178,27 +179,31 @@ class Placement:
         if here.cost <= without.cost and not (places.costs[:1] < least).any():
             return False
         self._take(i, without)
-        chosen = {i: without if without.cost < here.cost else here}
         offers, met = self._offers(places, least)
         room, lots, clear = self._room(sorted({j for others in met for j in others}), offers)
+        costs, room_costs = offers.costs.tolist(), room.costs.tolist()
+        shut: dict[int, Flags] = {}  # what each place of those in the way leaves clear
+        best, moved = without if without.cost < here.cost else here, dict[int, int]()
         for n, others in enumerate(met):
-            stand = Stand.at(offers, n)
-            moved, left, cost = {i: stand}, clear[n], stand.cost
+            left, cost, goes = clear[n], costs[n], dict[int, int]()
             for j in others:
-                moved[j] = self._without(j)
-                some = lots[j][left[lots[j]]]  # those that are still to be had
-                if some.size and room.costs[some[0]] < moved[j].cost:
-                    moved[j] = Stand.at(room, some[0])
-                    left = left & clear[len(met) + some[0]]
-                cost += moved[j].cost - self.stands[j].cost
+                lot, lacking = lots[j], self._without(j).cost
+                k = lot.start + int(left[lot].argmax()) if lot.start < lot.stop else -1
+                goes[j] = k = k if k >= 0 and left[k] and room_costs[k] < lacking else -1
+                cost += (room_costs[k] if k >= 0 else lacking) - self.stands[j].cost
                 if cost >= least:
                     break
+                if k >= 0 and j != others[-1]:
+                    if k not in shut:
+                        shut[k] = ~meeting(room.forms[:, k : k + 1], room.forms, SPACE)[0]
+                    left = left & shut[k]
             else:
                 if cost < least:
-                    least, chosen = cost, moved
-        for j, stand in chosen.items():
-            self._take(j, stand)
-        return self.stands[i] != here
+                    least, best, moved = cost, Stand.at(offers, n), goes
+        self._take(i, best)
+        for j, k in moved.items():
+            self._take(j, Stand.at(room, k) if k >= 0 else self._without(j))
+        return best != here
 
     def _push(self, i: int) -> None:
         """Put a label where it costs little, whoever stands there, and let these find places; back where that costs
@@ -241,20 +246,25 @@ class Placement:
         free = np.flatnonzero(crowd == 0)[:1]
         few = np.flatnonzero(crowd[: free[0] if free.size else None] <= IN_THE_WAY)[:TRIED]
         some = np.concatenate((few, free))
-        return places.picked(some), [np.flatnonzero(column).tolist() for column in met[:, some].T]
+        which, who = met.T[some].nonzero()
+        lots = np.split(who, np.searchsorted(which, np.arange(1, len(some))))[: len(some)]
+        return places.picked(some), [lot.tolist() for lot in lots]
 
-    def _room(self, some: Sequence[int], offers: Places) -> tuple[Places, dict[int, Indices], Flags]:
-        """Places of some labels that no other is in the way of, the cheapest first; the indices of those of each label;
-        and which of them (columns) each of the places offered leaves clear, and then each of themselves (rows)."""
+    def _room(self, some: Sequence[int], offers: Places) -> tuple[Places, dict[int, slice], Flags]:
+        """Places of some labels that no other is in the way of, the cheapest first; which of them are those of each
+        label; and which of them (columns) each of the places offered (rows) leaves clear."""
+        if not some:
+            return offers, {}, np.empty((len(offers.costs), 0), dtype=bool)
         lots = [self._places(j, LOOKED_AT) for j in some]
-        places = Places.stacked((offers.picked(slice(0)), *lots))
-        labels = np.repeat(some, [len(lot.costs) for lot in lots]).astype(int)
+        places = Places.stacked(lots)
+        labels = np.repeat(some, [len(lot.costs) for lot in lots])
         met = meeting(self.forms, places.forms, SPACE)
         met[labels, np.arange(len(labels))] = False
         free = np.flatnonzero(~met.any(axis=0))
-        places, labels = places.picked(free), labels[free]
-        clear = ~meeting(np.hstack((offers.forms, places.forms)), places.forms, SPACE)
-        return places, {j: np.flatnonzero(labels == j) for j in some}, clear
+        places = places.picked(free)
+        bounds = np.searchsorted(labels[free], [*some, len(self.labels)]).tolist()
+        spans = {j: slice(*span) for j, span in zip(some, pairwise(bounds), strict=True)}
+        return places, spans, ~meeting(offers.forms, places.forms, SPACE)
 
     def _insist(self, i: int) -> None:
         """Put a label where it does least harm, and give up those in its way that may be given up."""
