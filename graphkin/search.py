@@ -242,10 +242,9 @@ class Pieces:
     def is_constant(self, curve: int) -> bool:
         """Whether a curve does not change beyond rounding, as far as it is known."""
         c = self.coefficients[np.isfinite(self.doubt[:, curve]), :, curve]
-        if not len(c):
-            return False
-        level = float(np.max(np.abs(c[:, 0] - c[0, 0])))
-        return bool(max(level, float(np.max(np.abs(c[:, 1:])))) <= 1e-12 * self.scale[curve])
+        level = c[:1] * np.eye(1, c.shape[1])  # the constant of the first piece
+        most = float(np.max(np.abs(c - level), initial=0.0))
+        return most <= 1e-12 * float(self.scale[curve])
 
     def _roots(self, coefficients: Array, scale: float, doubt: Array) -> Array:
         found: list[float] = []
