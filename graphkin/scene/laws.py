@@ -93,8 +93,6 @@ PEAKS: Mapping[str, tuple[tuple[float, ...], tuple[float, ...]]] = {
 }
 """Where inside a form its first derivative, and its second, is extreme: the next derivative is 0 there.  The other laws
 are extreme at their ends."""
-SPELLINGS = (*LAWS, *("-".join(name) for name in LAWS if name.isdigit()))
-"""The names as people write them: "3-4-5" too."""
 
 
 def form_of(by: str | None) -> str:

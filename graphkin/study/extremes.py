@@ -134,7 +134,7 @@ class CurveParameter:
         found = values.tolist()
         for k in range(1, len(found)):
             found = [b - (c - b) * x / (y - x) for b, c, x, y in zip(found, found[1:], steps, steps[k:], strict=False)]
-        return curve.quantity.at_least(float(found[0]))
+        return curve.quantity.of_extrapolated(float(found[0]))
 
     def offset(self, parameter: Array) -> Array:
         low, high = self.reach.ends

@@ -183,7 +183,7 @@ class Quantity:
             return math.asin(math.sqrt(min(1.0, sine))) if sine > IN_LINE else 0.0
         return math.sqrt(max(0.0, value)) if self._apart or self.is_size else value
 
-    def at_least(self, value: float) -> float:
+    def of_extrapolated(self, value: float) -> float:
         """A value that was extrapolated: angles of 90 degrees at most are not less than 0, nor is what rounding
         leaves of 0."""
         return 0.0 if self._folded and value < IN_LINE else value

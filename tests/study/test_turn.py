@@ -407,12 +407,21 @@ def test_an_extreme_a_hundredth_of_a_degree_from_the_end_of_the_motion_is_found(
 
 @pytest.mark.parametrize(
     ("seed", "least", "places"),
-    [(7007, [33.0635], [300.938]), (7014, [87.62775, 90.0], [None, None])],
+    [
+        (7007, [33.0635], [300.938]),
+        (7014, [87.62775, 90.0], [None, None]),
+        (7511, [0.0, 68.5851], [155.481, 155.481]),  # in line at an end
+    ],
 )
 def test_the_least_transmission_angle_is_told_where_the_ends_of_the_range_cannot_be_computed(
     seed: int, least: list[float], places: list[float | None]
 ) -> None:
     turn = study_turn(driver_range(as_scene(redriven(seed))))
     assert least == pytest.approx([math.degrees(found.angle) for found in turn.transmission], abs=1e-4)
+    assert all(found.angle >= 0.0 for found in turn.transmission)
     drivers = [None if found.driver is None else math.degrees(found.driver) for found in turn.transmission]
     assert places == [None if at is None else pytest.approx(at, abs=1e-3) for at in drivers]
+
+
+def test_a_mechanism_that_stands_nowhere_has_no_outputs() -> None:
+    assert () == study_turn(driver_range(as_scene(redriven(7504)))).outputs
