@@ -44,6 +44,8 @@ def test_prepared_forces_are_those_of_solve():
     turn, solved = ready.sweep(24), graphkin.solve(SHAPER, sweep=24)
     for name in ("F_4/3", "v_C", "M_2"):
         assert (np.abs(turn[name] - solved[name]) <= 2 * turn.bound(name) + 1e-12).all()
+        assert 1e-18 < (turn.bound(name) / np.abs(turn[name]).max()).min()
+        assert 1e-9 > (turn.bound(name) / np.abs(turn[name]).max()).max()
     assert BALANCE == pytest.approx(ready.at(14.900596687829875)[-1], rel=1e-10)
     with pytest.raises(graphkin.CallError, match="not given over designs"):
         ready.over({"links.2.length": [80, 90]})
