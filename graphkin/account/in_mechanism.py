@@ -19,14 +19,12 @@ from graphkin.construction.steps import (
     CompassArc,
     Mark,
     Missed,
-    Moved,
     Reason,
     TrialPositions,
     TrialRow,
-    TrialTable,
 )
 from graphkin.plane import cross, dot, unit
-from graphkin.scene.symbol import PointRef
+from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Markup, Neutral, Phrase, in_turn, listed
 from graphkin.words.written import in_markup, on_paper, true_minus
 
@@ -171,16 +169,16 @@ class InMechanism(Telling):
 
     def _positions(self) -> Phrase | None:
         """Trial positions with what is measured in each, and the division."""
-        assert isinstance(self.step.data, TrialPositions)
-        table = self.step.data.table
-        if table is None:
+        table = self.step.data
+        assert isinstance(table, TrialPositions)
+        if not table.trials:
             return None
         moved, missed = self._moved_and_missed(table)
         values, misses = zip(*(_told_in(table, row) for row in table.trials), strict=True)
         if len(table.moved) > 1:
             told = Phrase("trial table several", (moved, _numbered(values), missed, _numbered(misses)))
             return Phrase("in turn", (self.plain, _divided_by_parts(table, told)))
-        unit = " mm" if not table.missed[0].angle else "°"
+        unit = "°" if table.missed[0].angle else " mm"
         told = Phrase("trial table", (moved, ", ".join(values), missed, "; ".join(misses).replace(unit, "") + unit))
         if table.divided:
             before = table.before
@@ -197,22 +195,22 @@ class InMechanism(Telling):
         assert isinstance(trial, TrialPositions)
         out, moved, rolled = (", ".join(n) for n in (trial.left_out, trial.driven, trial.rolling))
         told = Phrase("written trial rolling", (moved, rolled)) if rolled else Phrase("written trial", (out, moved))
-        parts, table = [told], trial.table
-        if table is not None:
-            moved_words, missed = self._moved_and_missed(table)
-            rows = [_told_in(table, row) for row in table.trials]
-            if len(table.moved) > 1:
+        parts = [told]
+        if trial.trials:
+            moved_words, missed = self._moved_and_missed(trial)
+            rows = [_told_in(trial, row) for row in trial.trials]
+            if len(trial.moved) > 1:
                 numbered = ([Neutral(f"${numeral(i)}$ {row[k]}") for i, row in enumerate(rows, 1)] for k in (0, 1))
                 values, misses = map(listed, numbered)
                 parts += [Phrase("written tried", (moved_words, values)), Phrase("written missed", (missed, misses))]
             else:
                 values = listed([row[0] for row in rows])
                 parts.append(Phrase("written tried one", (moved_words, values, len(rows))))
-                near = (table.before, table.before + 1)
+                near = (trial.before, trial.before + 1)
                 seen = listed([Phrase("written miss", (rows[i - 1][1], i)) for i in near])
                 parts.append(Phrase("written missed", (missed, seen)))
-            if table.divided:
-                parts.append(Phrase("written fits", (_told_in(table, table.divided[-1])[0],)))
+            if trial.divided:
+                parts.append(Phrase("written fits", (_told_in(trial, trial.divided[-1])[0],)))
         if route := [*self._route()]:
             parts.insert(2, Phrase("written route", (listed([*map(Neutral, route)]),)))
         yield in_turn(parts)
@@ -248,7 +246,7 @@ class InMechanism(Telling):
     def _points(self, names: Sequence[str]) -> str:
         return ", ".join(f"${self.voice.letters.point(name)}$" for name in names)
 
-    def _moved_and_missed(self, table: TrialTable) -> tuple[Phrase, Phrase]:
+    def _moved_and_missed(self, table: TrialPositions) -> tuple[Phrase, Phrase]:
         """All that is moved in trial positions, and all that is missed."""
         moved = reduce(lambda a, b: Phrase("moved too", (a, b)), map(self._moved, table.moved))
         return moved, reduce(lambda a, b: Phrase("missed too", (a, b)), map(self._missed, table.missed))
@@ -269,21 +267,22 @@ class InMechanism(Telling):
         told = (", ".join(points), slide.b)
         return Phrase("missed guide", (*told, name)) if name else Phrase("missed guide of link", told)
 
-    def _moved(self, moved: Moved) -> Phrase:
+    def _moved(self, moved: Symbol) -> Phrase:
+        """What is moved in trial positions: a travel, the angle of a link or of its bar, or that between two."""
         links = self.sheet.structure.links
-        if not moved.turned:
-            return Phrase("trial travel", (moved.name,))
-        if not moved.base:
-            points = links[moved.name].points.items()
+        if moved.kind == "s":
+            return Phrase("trial travel", (moved.pair,))
+        if not moved.other:
+            points = links[moved.link].points.items()
             spans = ((p + q, w - z) for p, z in points for q, w in points if z != w)
             # a bar along the axis of the link
             bars = [bar for bar, span in spans if abs(cmath.phase(span)) < IN_LINE]
-            return Phrase("trial angle of bar" if bars else "trial angle", (moved.name, *bars[:1]))
-        one, other = links[moved.base], links[moved.name]
+            return Phrase("trial angle of bar" if bars else "trial angle", (moved.link, *bars[:1]))
+        one, other = links[moved.other], links[moved.link]
         hinge = next((p for p in one.points if p in other.points), "")
         if len(one.bar) < 2 or len(other.bar) < 2 or not hinge:
-            return Phrase("trial turn", (moved.name, moved.base))
-        return Phrase("trial turn of bars", (moved.name, "".join(other.bar[:2]), "".join(one.bar[:2]), hinge))
+            return Phrase("trial turn", (moved.link, moved.other))
+        return Phrase("trial turn of bars", (moved.link, "".join(other.bar[:2]), "".join(one.bar[:2]), hinge))
 
     sentences: ClassVar[Mapping[Reason, tuple[str, ...] | Callable[[InMechanism], Phrase | None]]] = {
         "frame": ("fixed on paper",), "angle": ("lay off angle from link", "lay off angle from x"),
@@ -326,12 +325,12 @@ def _degrees(angle: float) -> str:
 # -- trials in words ---------------------------------------------------------------------------------------------------
 
 
-def _divided_by_parts(table: TrialTable, told: Phrase) -> Phrase:
+def _divided_by_parts(table: TrialPositions, told: Phrase) -> Phrase:
     """The divisions of trials in each of which another thing was moved."""
     for i, row in enumerate(table.divided):
         values, misses = _told_in(table, row)
         if i:
-            told = Phrase("trial parts again", (told, numeral(table.instead[i - 1]), values, misses))
+            told = Phrase("trial parts again", (told, numeral(table.replaced[i - 1]), values, misses))
         else:
             steps = ", ".join(numeral(k) for k in range(2, len(table.trials) + 1))
             told = Phrase("trial parts", (told, ", ".join(map(_two_digits, table.parts)), steps, values, misses))
@@ -342,11 +341,11 @@ def _numbered(rows: Sequence[str]) -> str:
     return "; ".join(f"{numeral(i)} {row}" for i, row in enumerate(rows, 1))
 
 
-def _told_in(table: TrialTable, row: TrialRow) -> tuple[str, str]:
+def _told_in(table: TrialPositions, row: TrialRow) -> tuple[str, str]:
     """The values of a trial, and what it misses, each with its unit."""
     values = (  # angles from -180 to 180
-        f"{_two_digits(180.0 - (180.0 - v) % 360.0)}°" if one.turned else f"{_two_digits(v)} mm"
-        for v, one in zip(row[0], table.moved, strict=True)
+        f"{_two_digits(180.0 - (180.0 - v) % 360.0)}°" if symbol.measure == "angle" else f"{_two_digits(v)} mm"
+        for v, symbol in zip(row[0], table.moved, strict=True)
     )
     misses = (_two_digits(m) + ("°" if one.angle else " mm") for m, one in zip(row[1], table.missed, strict=True))
     return ", ".join(values), ", ".join(misses)

@@ -29,16 +29,15 @@ from graphkin.construction.steps import (
     Bar,
     CompassArc,
     Missed,
-    Moved,
     Step,
     Stroke,
     TrialCurve,
     TrialPositions,
     TrialRow,
-    TrialTable,
 )
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import Driver
+from graphkin.scene.symbol import Symbol
 from graphkin.structure import Driven
 from graphkin.words import Phrase
 
@@ -200,7 +199,6 @@ def _trial_positions(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses
     """The step of the trial positions of a group, whose links lie so in the end, at these values."""
     tried, alone = _trial_drawings(known, reduced, poses, values), len(values) == 1
     point, strokes = _curve(known, reduced, poses, [drawn for _, drawn in tried]) if alone else ("", ())
-    table = _trial_table(known, reduced, poses, tried[:: BETWEEN if alone else 1]) if tried else None
     rolling = tuple(r.name for r in reduced.removed if r.rolling is not None)
     angles = [d for d in reduced.structure.scene.drivers if d.turns]
     instead = tuple(
@@ -208,7 +206,9 @@ def _trial_positions(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses
         if r.left_out and r.slides and any(r.left_out in d.links for d in angles)
     )  # fmt: skip
     driven, left_out = tuple(d.key for d in reduced.trial), tuple(n for n in reduced.left_out if n not in rolling)
-    told = TrialPositions(reduced.group.links, driven, left_out, point, POINTS, rolling, table, instead)
+    told = TrialPositions(reduced.group.links, driven, left_out, point, POINTS, rolling, instead)
+    if tried:
+        told = _measured(told, known, reduced, poses, tried[:: BETWEEN if alone else 1])
     return Step("trial", "positions", strokes=strokes, data=told)
 
 
@@ -267,8 +267,10 @@ def _curve(
     return point, (TrialCurve(places, places[::BETWEEN], point), goal)
 
 
-def _trial_table(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, tried: Sequence[Tried]) -> TrialTable:
-    """What is missed in trial positions, and the divisions of it, in degrees and mm on paper.
+def _measured(
+    positions: TrialPositions, known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, tried: Sequence[Tried]
+) -> TrialPositions:
+    """Trial positions with what is missed in each, and the divisions of it, in degrees and mm on paper.
 
     Of several trials of one driver the two on either side of the place sought are divided, then that of them goes
     whose miss has the sense of the new one; of several drivers that goes which misses most.
@@ -286,8 +288,8 @@ def _trial_table(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, tr
         return tuple(float(math.degrees(gap) if r.is_angle else gap * size) for gap, r in pairs)
 
     def row(values: np.ndarray, gaps: Sequence[float] | np.ndarray) -> TrialRow:
-        shown = (math.degrees(v + ahead) if one.turned else v * size
-                 for v, (one, ahead) in zip(values, moved, strict=True))  # fmt: skip
+        shown = (math.degrees(v + ahead) if symbol.measure == "angle" else v * size
+                 for v, (symbol, ahead) in zip(values, moved, strict=True))  # fmt: skip
         return tuple(map(float, shown)), misses(gaps)
 
     at, gaps = [values for values, _ in tried], [np.array(reduced.gaps(drawn)) for _, drawn in tried]
@@ -299,7 +301,7 @@ def _trial_table(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, tr
         at, gaps = ([], []) if sides is None else (at[sides : sides + 2], gaps[sides : sides + 2])
     parts: tuple[float, ...] = ()
     divided: list[TrialRow] = []
-    instead: list[int] = []
+    replaced: list[int] = []
     while gaps and len(divided) < DIVISIONS:
         sizes = np.linalg.svd(np.array([gap - gaps[0] for gap in gaps[1:]]), compute_uv=False)
         if sizes[-1] <= LEAST * sizes[0] or not sizes[0]:
@@ -315,7 +317,7 @@ def _trial_table(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, tr
             break
         gone = int(left_open[0] * gaps[1][0] >= 0.0) if alone else int(np.argmax([np.abs(gap).max() for gap in gaps]))
         at[gone], gaps[gone] = found, left_open
-        instead.append(gone + 1)
+        replaced.append(gone + 1)
     missed = []
     for r in reduced.removed:
         length, names = 0.0, tuple[str, ...]((r.name,))
@@ -327,15 +329,17 @@ def _trial_table(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, tr
             one, two = (reduced.structure.links[r.left_out].points[point] for point in names)
             length = abs(two - one) * known.mm
         missed.append(Missed(r.kind, names, length, r.is_angle))
-    about = () if alone else parts, () if alone else tuple(instead)
-    return TrialTable(tuple(one for one, _ in moved), tuple(missed), trials, tuple(divided), before, *about)
+    return replace(
+        positions, moved=tuple(symbol for symbol, _ in moved), missed=tuple(missed), trials=trials,
+        divided=tuple(divided), before=before, parts=() if alone else parts, replaced=() if alone else tuple(replaced),
+    )  # fmt: skip
 
 
-def _moved(known: PlacedLinks, reduced: ReducedMechanism, driver: Driver) -> tuple[Moved, float]:
+def _moved(known: PlacedLinks, reduced: ReducedMechanism, driver: Driver) -> tuple[Symbol, float]:
     """What a trial driver moves, and how far (rad) its angle is ahead where it is taken to the x axis."""
     base, ground = driver.relative_to, reduced.structure.scene.frame.name
     if not driver.turns:
-        return Moved(driver.key, "", False), 0.0
+        return Symbol.parse(f"s_{driver.key}"), 0.0
     if base in known.poses:  # a link that stands already: its angle is taken to the x axis
-        return Moved(driver.link, "", True), cmath.phase(known.poses[base].axis)
-    return Moved(driver.link, "" if base == ground else base, True), 0.0
+        return Symbol("theta", link=driver.link), cmath.phase(known.poses[base].axis)
+    return Symbol("theta", link=driver.link, other="" if base == ground else base), 0.0

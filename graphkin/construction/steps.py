@@ -11,6 +11,7 @@ import math
 import re
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from operator import mul
 from typing import Any, Literal, Self, TypeAlias, TypeVar
 
 from graphkin.scene.symbol import PointRef, Symbol
@@ -133,7 +134,7 @@ Part = Literal["", "t", "n"]
 Value = TypeVar("Value")
 LENGTHS = {
     "tail", "tip", "through", "to", "centre", "radius", "at", "a", "b", "curve", "corners", "mm", "apart", "origin",
-    "poses", "low", "high", "less", "table", "span",
+    "poses", "low", "high", "less", "span",
 }  # fmt: skip
 """Places and lengths on paper (mm), and what has such, which a scale changes; a direction stays."""
 
@@ -159,7 +160,7 @@ def _times(value: Any, times: float) -> Any:
         return tuple(_times(part, times) for part in value)
     if isinstance(value, dict):
         return {name: _times(part, times) for name, part in value.items()}
-    if isinstance(value, OnPaper | TrialTable):
+    if isinstance(value, OnPaper):
         return value.scaled(times)
     return value * times if isinstance(value, float | complex) else value
 
@@ -492,16 +493,6 @@ Stroke = Vector | Aid | TrialCurve | Ray | CompassArc | Bar | Mark | Image
 
 
 @dataclass(frozen=True)
-class Moved:
-    """What is moved in trial positions: a link ``name`` that is turned, by degrees from the link ``base`` ("" for the x
-    axis), or the pair whose travel is changed (``turned`` false; mm on paper)."""
-
-    name: str
-    base: str
-    turned: bool
-
-
-@dataclass(frozen=True)
 class Missed:
     """What is measured of what was left out, with the ``names`` that it lies between and the ``length`` of a bar (mm on
     paper): degrees where it is an ``angle``, else mm."""
@@ -517,46 +508,20 @@ TrialRow: TypeAlias = tuple[tuple[float, ...], tuple[float, ...]]
 
 
 @dataclass(frozen=True)
-class TrialTable:
-    """What is measured in the trial positions of a group, and divided.
-
-    ``divided`` are positions that proportional division gives, one after the other, the last one where nothing is
-    missed.  Where one thing is moved the first lies between the trial number ``before`` (from 1) and the next; where
-    several are, each further trial differs from the first in one of them, ``parts`` of these steps together make the
-    first that is divided, and each that is divided takes the place of the trial number ``instead`` (from 1).
-    """
-
-    moved: tuple[Moved, ...]
-    missed: tuple[Missed, ...]
-    trials: tuple[TrialRow, ...]
-    divided: tuple[TrialRow, ...]
-    before: int = 0
-    parts: tuple[float, ...] = ()
-    instead: tuple[int, ...] = ()
-
-    def scaled(self, times: float) -> TrialTable:
-        """The same with its lengths so many times as large."""
-        x = [1.0 if one.turned else times for one in self.moved]
-        y = [1.0 if one.angle else times for one in self.missed]
-
-        def rows(old: tuple[TrialRow, ...]) -> tuple[TrialRow, ...]:
-            return tuple((_each_times(values, x), _each_times(misses, y)) for values, misses in old)
-
-        missed = tuple(replace(one, length=one.length * times) for one in self.missed)
-        return replace(self, missed=missed, trials=rows(self.trials), divided=rows(self.divided))
-
-
-def _each_times(values: tuple[float, ...], by: list[float]) -> tuple[float, ...]:
-    return tuple(v * k for v, k in zip(values, by, strict=True))
-
-
-@dataclass(frozen=True)
 class TrialPositions(OnPaper):
     """A group placed by trial: ``driven`` names what is moved, ``left_out`` the link (or driver) left out until it
     fits, ``rolling`` the contacts or gears at which as much must have rolled off as since the scene's own position,
-    ``point`` the free point whose trial curve is drawn ("" for none), in ``count`` trial positions, ``table`` what is
-    measured in them.  ``instead`` are driven blocks left out, each with the link that is driven in its stead and by how
-    much the block is turned from it (rad)."""
+    ``point`` the free point whose trial curve is drawn ("" for none), in ``count`` trial positions.  ``instead`` are
+    driven blocks left out, each with the link that is driven in its stead and by how much the block is turned from it
+    (rad).
+
+    ``moved`` and ``missed`` are what is measured in the ``trials``: angles from a link ("" for the x axis) and travels,
+    in degrees and mm on paper; without any where none could be drawn.  ``divided`` are positions that proportional
+    division gives, one after the other, the last one where nothing is missed.  Where one thing is moved the first lies
+    between the trial number ``before`` (from 1) and the next; where several are, each further trial differs from the
+    first in one of them, ``parts`` of these steps together make the first that is divided, and each that is divided
+    takes the place of the trial of its number in ``replaced`` (from 1).
+    """
 
     links: tuple[str, ...]
     driven: tuple[str, ...]
@@ -564,8 +529,25 @@ class TrialPositions(OnPaper):
     point: str
     count: int
     rolling: tuple[str, ...] = ()
-    table: TrialTable | None = None
     instead: tuple[tuple[str, str, float], ...] = ()
+    moved: tuple[Symbol, ...] = ()
+    missed: tuple[Missed, ...] = ()
+    trials: tuple[TrialRow, ...] = ()
+    divided: tuple[TrialRow, ...] = ()
+    before: int = 0
+    parts: tuple[float, ...] = ()
+    replaced: tuple[int, ...] = ()
+
+    def scaled(self, times: float) -> Self:
+        """The same with its lengths so many times as large."""
+        x = [1.0 if symbol.measure == "angle" else times for symbol in self.moved]
+        y = [1.0 if miss.angle else times for miss in self.missed]
+
+        def rows(old: tuple[TrialRow, ...]) -> tuple[TrialRow, ...]:
+            return tuple((tuple(map(mul, values, x)), tuple(map(mul, misses, y))) for values, misses in old)
+
+        missed = tuple(replace(miss, length=miss.length * times) for miss in self.missed)
+        return replace(self, missed=missed, trials=rows(self.trials), divided=rows(self.divided))
 
 
 @dataclass(frozen=True)

@@ -375,10 +375,9 @@ def test_the_trial_curve_passes_the_place_found_between_its_trials() -> None:
 def test_the_arc_that_the_trial_curve_meets_has_the_bar_for_radius_about_its_other_end(name: str) -> None:
     sheet = draft(mechanism_of(name))
     ((curve, arc, table),) = (
-        (*step.strokes, step.data.table) for step in sheet.steps if isinstance(step.data, TrialPositions)
+        (*step.strokes, step.data) for step in sheet.steps if isinstance(step.data, TrialPositions)
     )
     at = {str(ref): z for ref, z in sheet.points.items()}
-    assert table is not None
     (missed,) = table.missed
     (other,) = set(missed.names) - {curve.point}
     assert [at[other], at[curve.point]] == pytest.approx([arc.centre, arc.at], abs=1e-9)
@@ -388,9 +387,7 @@ def test_the_arc_that_the_trial_curve_meets_has_the_bar_for_radius_about_its_oth
 @pytest.mark.parametrize(("name", "bar"), [("triad-slider", "BC"), ("double-butterfly", "DK")])
 def test_what_is_missed_in_trial_positions_is_divided_to_the_place_where_nothing_is(name: str, bar: str) -> None:
     sheet = draft(mechanism_of(name))
-    (act,) = (step.data for step in sheet.steps if isinstance(step.data, TrialPositions))
-    table = act.table
-    assert table is not None
+    (table,) = (step.data for step in sheet.steps if isinstance(step.data, TrialPositions))
     (missed,), (moved,) = table.missed, table.moved
     assert ("bar", set(bar)) == (missed.kind, set(missed.names))
     at = {str(ref): z for ref, z in sheet.points.items()}
@@ -398,7 +395,7 @@ def test_what_is_missed_in_trial_positions_is_divided_to_the_place_where_nothing
     ((a,), (one,)), ((b,), (two,)) = table.trials[table.before - 1 : table.before + 1]
     assert one * two < 0
     assert table.divided[0][0][0] == pytest.approx((a * two - b * one) / (two - one), abs=1e-9)
-    p, q = mechanism_of(name).by_name[moved.name].bar
+    p, q = mechanism_of(name).by_name[moved.link].bar
     turned = math.degrees(cmath.phase((at[q] - at[p]) * cmath.rect(1, -math.radians(table.divided[-1][0][0]))))
     assert 0 == pytest.approx(turned, abs=0.1)
 
@@ -406,9 +403,7 @@ def test_what_is_missed_in_trial_positions_is_divided_to_the_place_where_nothing
 @pytest.mark.parametrize("scene", [BARE, UNBARRED], ids=["BARE", "UNBARRED"])
 def test_what_two_trial_drivers_miss_is_divided_to_the_place_where_nothing_is(scene: dict[str, Any]) -> None:
     sheet = draft(mechanism_of(scene))
-    (act,) = (step.data for step in sheet.steps if isinstance(step.data, TrialPositions))
-    table = act.table
-    assert table is not None
+    (table,) = (step.data for step in sheet.steps if isinstance(step.data, TrialPositions))
     (a, one), (b, two), (c, three) = table.trials
     assert [0, 0] == [b[1] - a[1], c[0] - a[0]]
     p, q = table.parts
@@ -418,9 +413,9 @@ def test_what_two_trial_drivers_miss_is_divided_to_the_place_where_nothing_is(sc
     assert first[0] == pytest.approx((a[0] + p * (b[0] - a[0]), a[1] + q * (c[1] - a[1])))
     assert max(map(abs, first[1])) > 0.02 > max(map(abs, last[1]))
     misses = [max(map(abs, row)) for _, row in table.trials]
-    assert table.instead[0] == 1 + misses.index(max(misses))  # what misses most gives way
-    assert "" == table.moved[0].base
-    laid = next(s for s in sheet.steps if s.reason == "angle" and s.link == table.moved[0].name)
+    assert table.replaced[0] == 1 + misses.index(max(misses))  # what misses most gives way
+    assert "" == table.moved[0].other
+    laid = next(s for s in sheet.steps if s.reason == "angle" and s.link == table.moved[0].link)
     assert math.degrees(laid.value) == pytest.approx(last[0][0], abs=0.01)
 
 

@@ -93,7 +93,7 @@ def test_a_sheet_found_by_trial_shows_the_link_that_was_left_out() -> None:
 
 @pytest.mark.parametrize("name", ["triad-slider", "loader-cylinder", "scissor-lift"])
 def test_each_division_is_made_between_the_nearest_trials_on_either_side(name: str) -> None:
-    (table,) = (s.data.table for s in draft(mechanism_of(name)).steps if isinstance(s.data, TrialPositions))
+    (table,) = (s.data for s in draft(mechanism_of(name)).steps if isinstance(s.data, TrialPositions))
     (((a,), (one,)), ((b,), (two,))) = table.trials[table.before - 1 : table.before + 1]
     assert len(table.divided) > 1
     for (value,), (missed,) in table.divided:
