@@ -14,16 +14,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from graphkin.construction.cams_in_place import follower_limits
 from graphkin.construction.follow import Choices, Pace, found_near, moved, walk
 from graphkin.construction.instruments import Instrument
 from graphkin.construction.links_on_paper import Poses, travel
-from graphkin.construction.position import Assembly, assembly_at, place
+from graphkin.construction.position import Assembly, assembly_at, place, poses_at
 from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import LimitPosition, Limits
 from graphkin.errors import Problem, Unsolvable
+from graphkin.scene.cams import SwingingFollower
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Element, Pair, Structure
+from graphkin.structure import Element, Pair, Structure, analyse
 from graphkin.structure.transmission import sliding_pair
 from graphkin.words import Phrase
 
@@ -165,7 +166,7 @@ def limits_asked(
     CallError : a sliding pair that there is not
     """
     if structure.scene.instead_of is not None:
-        return follower_limits(structure, asked, values)
+        return _follower_limits(structure.scene.instead_of, asked, values)
     found: dict[str, Limits] = {}
     turn: TurnOfCrank | None = None
     for symbol in asked:
@@ -176,6 +177,33 @@ def limits_asked(
             continue
         turn = turn or TurnOfCrank.of(structure, elements, values, poses, str(symbol))
         found[symbol.pair] = turn.limits(output, str(symbol))
+    return found
+
+
+def _follower_limits(scene: Mechanism, asked: Sequence[Symbol], values: Mapping[str, float]) -> dict[str, Limits]:
+    """The limit positions of followers as the law gives them; of what stands still there for a while, the end of it.
+
+    Raises
+    ------
+    Unsolvable : of what is no follower of the driven cam
+    """
+    found: dict[str, Limits] = {}
+    structure, driver = analyse(scene), scene.drivers[0]
+    for symbol in asked:
+        if symbol.scope != "turn" or symbol.pair in found:
+            continue
+        cam = next((c for c in scene.cams if symbol.pair in (c.follower, getattr(c.motion, "pair", ""))), None)
+        if cam is None or driver.key != cam.link or not driver.turns_about(scene.frame.name):
+            said = Phrase("is drawn of followers of the driven cam"), Phrase("ask for s_ theta_ or d_ at single")
+            raise Unsolvable("no whole turn", Problem(str(symbol), *said))
+        ends = []
+        for lift in (cam.law.least, cam.law.greatest):
+            value = cam.leaves(lift, -1 if driver.rate < 0.0 else 1)
+            poses = poses_at(Choices(structure, structure.elements), {**values, driver.key: value})
+            ends.append(LimitPosition(value, poses))
+        backwards = isinstance(cam.motion, SwingingFollower) and cam.motion.side < 0
+        low, high = ends[::-1] if backwards else ends
+        found[symbol.pair] = Limits(low, high, cam.law.greatest - cam.law.least)
     return found
 
 

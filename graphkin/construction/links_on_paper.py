@@ -15,6 +15,7 @@ from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.steps import Bar, CompassArc, OnPaper, Step
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
+from graphkin.scene.cams import LawCam
 from graphkin.scene.model import Driver, PlacedLink
 from graphkin.structure import (
     Body,
@@ -465,8 +466,12 @@ def assemble(
     """
     for i, element in enumerate(elements):
         if isinstance(element, Driven):
-            if rolled is not None and isinstance(element.driver, Rolled):
-                paper.values = {**paper.values, element.driver.key: rolled(element.driver)}
+            driver = element.driver
+            if rolled is not None and isinstance(driver, Rolled):
+                paper.values = {**paper.values, driver.key: rolled(driver)}
+            elif isinstance(driver, LawCam):
+                lifted = driver.follower_at(cmath.phase(paper.poses[driver.link].axis))
+                paper.values = {**paper.values, driver.key: lifted}
             poses: Poses | None = {element.link: drive(paper, element)[0]}
         else:
             poses = choose(i, element)

@@ -16,7 +16,7 @@ from graphkin.construction.elements import draw_element
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.net import VectorChain, contacts_of
 from graphkin.construction.polygons import NO_SLIP, RATE, Polygons, Slip, draw_asked
-from graphkin.construction.position import Assembly, assembly_at, place
+from graphkin.construction.position import Assembly, assembly_at, cams_in_place, place
 from graphkin.construction.scales import Room, Scales, chosen_scales
 from graphkin.construction.sheet import Board, GroupWay, Limits, Sheet, without_residues
 from graphkin.construction.steps import ORDERS, Order
@@ -293,13 +293,13 @@ class Plan(Task):
                 return self._touching()
             size = self.exact.scales.length
             poses = {name: (pose.origin * size, pose.axis) for name, pose in self.exact.poses.items()}
-            drivers = tuple(d.at_value(self.values[d.key]) for d in scene.drivers)
-            other = plan(replace(pins_on_circles(scene, poses), drivers=drivers), None, self.asked)
+            other = _plan(analyse(pins_on_circles(scene, poses, self.values)), self.asked)
             return other._touching() or other
         barred = any(slot.bar not in whole.by_name for slot in self.structure.scene.slots)
         if not barred and not whole.contacts and not any(cam.flat for cam in whole.cams):
             return None
-        other = plan(whole, self.values, self.asked, bars=False)
+        own = {d.key: self.values[d.key] for d in whole.drivers}
+        other = _plan(cams_in_place(analyse(whole), self.asked, own, bars=False), self.asked)
         return other._touching() or (other if barred else None)
 
     def _touching(self) -> Plan | None:
@@ -324,20 +324,23 @@ def plan(
     find: Iterable[Symbol] | None = None,
     room: Room | None = None,
     near: Sheet | None = None,
-    bars: bool = True,
 ) -> Plan:
-    """Decide what to draw, and carry it out exactly; parameters and errors as for `draft`.
-
-    With ``bars`` these stand for rollers and edges of cams, else pins on the pitch curves.
-    """
+    """Decide what to draw, and carry it out exactly; parameters and errors as for `draft`."""
     structure = analyse(scene.whole)
     scene = structure.scene
     asked = tuple(scene.question.find if find is None else find)
     if scene.cams:
-        from graphkin.construction.cams_in_place import cams_in_place
+        values = {d.key: (at or {}).get(d.key, d.values[0]) for d in scene.drivers}
+        structure, near = cams_in_place(structure, asked, values), None
+    return _plan(structure, asked, at, room, near)
 
-        structure = cams_in_place(structure, {d.key: d.values[0] for d in scene.drivers} | dict(at or {}), bars)
-        scene = structure.scene
+
+def _plan(
+    structure: Structure, asked: tuple[Symbol, ...], at: Mapping[str, float] | None = None, room: Room | None = None,
+    near: Sheet | None = None,
+) -> Plan:  # fmt: skip
+    """The plan for a mechanism without cams."""
+    scene = structure.scene
     opened = opened_at_triangles(structure) if structure.larger_groups else structure
     if any(isinstance(e, LargerGroup) for e in needed(opened, asked)):
         opened = structure  # groups that remain are found by trial, driven triangles with them
@@ -351,7 +354,7 @@ def plan(
         own = {**start.values}
         triangles = tuple(v.followed(own, values) for v in taken)
         values |= {v.key: v.near(own[v.key], v.value(values)) for v in triangles}
-    elif near is not None and {n for e in elements for n in e.members} <= near.poses.keys() and not scene.instead_of:
+    elif near is not None and {n for e in elements for n in e.members} <= near.poses.keys():
         size = near.scales.length / near.scene.size
         start = Assembly(near.drivers, {name: pose.scaled(size) for name, pose in near.poses.items()})
     here = {d.key: values[d.key] for d in opened.scene.drivers}

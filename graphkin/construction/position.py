@@ -36,16 +36,28 @@ from graphkin.construction.links_on_paper import (
     refuse,
     start_board,
     stuck,
+    travel,
 )
 from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.sheet import Board
 from graphkin.construction.steps import FINDS_A_POINT, Mark, Reason, Step
 from graphkin.construction.touching import coordinate_on_paper
 from graphkin.plane import added_up, dot, unit
-from graphkin.scene.symbol import PointRef
+from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.search import last_true
-from graphkin.structure import Driven, Dyad, Element, Rolled, Structure, pick
-from graphkin.structure.model import LargerGroup
+from graphkin.structure import (
+    Driven,
+    Dyad,
+    Element,
+    LargerGroup,
+    Rolled,
+    Structure,
+    analyse,
+    cams_replaced,
+    leading,
+    needed,
+    pick,
+)
 from graphkin.words import Phrase
 
 TRIALS = 3  # trial drivers used, one after the other, to find all assemblies
@@ -189,16 +201,14 @@ def assembly_at(
     SceneError : a group has several assemblies and no sketch says which is meant
     """
     scene, choices = structure.scene, Choices(structure, elements)
-    own: Mapping[str, float] = {d.key: d.values[0] for d in scene.drivers}
-    at_start = all(values[key] == value for key, value in own.items())
+    at_start = all(values[d.key] == d.values[0] for d in scene.drivers)
     there = choices.at_start if at_start else choices
     if near is None:
-        start = choices.at_start
-        poses: Poses = own_position(start, elements).poses
+        poses = poses_at(choices, values)
     else:
-        own, poses = near.values, near.poses
-    if any(values[key] != own[key] for key in values):
-        poses = moved_to(choices, elements, {key: own[key] for key in values}, values, poses)
+        poses, before = near.poses, {key: near.values[key] for key in values}
+        if values != before:
+            poses = moved_to(choices, elements, before, values, poses)
     starts = {d.key: d.values[0] for d in there.structure.scene.drivers if d.key not in values}
     paper = start_board(structure, 1.0 / scene.size, {**values, **starts})
     branches: dict[int, int] = {}
@@ -216,6 +226,38 @@ def assembly_at(
     rolling = [e.driver for e in elements if isinstance(e, Driven) and isinstance(e.driver, Rolled)]
     rolled = {r.key: coordinate_on_paper(structure, paper, r.coordinate) for r in rolling}
     return Assembly({**values, **starts, **rolled}, poses, branches, reduced)
+
+
+def poses_at(choices: Choices, values: Mapping[str, float]) -> Poses:
+    """Where the links of some elements lie at driver values (rad, m), on paper of the mechanism's size, followed from
+    the scene's own position; errors as for `assembly_at`."""
+    own = {d.key: d.values[0] for d in choices.structure.scene.drivers}
+    poses = own_position(choices.at_start, choices.elements).poses
+    return poses if values == own else moved_to(choices, choices.elements, own, values, poses)
+
+
+def cams_in_place(
+    structure: Structure, asked: Sequence[Symbol], values: Mapping[str, float], bars: bool = True
+) -> Structure:
+    """What stands for a mechanism with cams at driver values (rad, m), where the links lie that lead to what is asked.
+
+    Parameters
+    ----------
+    bars : whether bars stand for rollers and edges, as far as they can, else pins on the pitch curves
+
+    Raises
+    ------
+    Unsolvable : a follower that does not come to its base circle, a position that cannot be assembled or reached
+    """
+    scene, mm = structure.scene, 1.0 / structure.scene.size
+    moving = leading(structure, [cam.link for cam in scene.cams])
+    elements = [e for i, e in enumerate(structure.elements) if i in moving or e in needed(structure, asked)]
+    poses = poses_at(Choices(structure, elements), values)
+    rolling = {n for g in scene.gears for n in g.wheels} | {n for c in scene.contacts if c.rolling for n in c.links}
+    starts = {**scene.starts, **{name: cmath.phase(poses[name].axis) for name in rolling & poses.keys()}}
+    starts |= {s.key: travel(s, poses, mm) / mm for s in structure.slides if rolling and poses.keys() >= {*s.links}}
+    lying = {name: (pose.origin / mm, pose.axis) for name, pose in poses.items()}
+    return analyse(replace(cams_replaced(scene, lying, values, bars), starts=starts))
 
 
 # -- the scene's own position: all the places at which the groups close -----------------------------------------------

@@ -230,12 +230,11 @@ class CamStation(NamedTuple):
 
 def station(cam: LawCam, degree: float, lift: Lift | None = None) -> CamStation:
     """The follower at an angle of the law (rad), lengths in m; ``lift`` is that of one side, at a seam."""
-    start, lift = cam.beginning or 0.0, lift or cam.law.at(degree)
+    lift = lift or cam.law.at(degree)
     back = cmath.rect(1.0, -cam.sense * degree)
     motion = cam.motion
-    point = cam.course(start, lift).point
-    way = cam.course(start, lift).way
-    base = cam.course(start, Lift(0.0, 0.0, 0.0, 0.0)).point
+    course, base = cam.course(lift), cam.course(Lift(0.0, 0.0, 0.0, 0.0)).point
+    point, way, outward = course.point, course.way, 1j * course.tangent
     if isinstance(motion, SlidingFollower):
         line = motion.foot - cam.axis
         centre: complex | None = -1j * way * cam.sense * lift.slope
@@ -248,10 +247,9 @@ def station(cam: LawCam, degree: float, lift: Lift | None = None) -> CamStation:
         normal, contact = way, centre + way * dot(way, point)
     else:
         # square to the motion of the point as seen from the cam, and so through the instant centre
-        normal = 1j * cam.course(start, lift).tangent if centre is None else (point - centre)
+        normal = outward if centre is None else point - centre
         normal = unit(normal) if normal else way
-        if dot(normal, 1j * cam.course(start, lift).tangent) < 0.0:
-            normal = -normal
+        normal = -normal if dot(normal, outward) < 0.0 else normal
         contact = point - cam.roller * normal
     centre = None if centre is None else centre * back
     return CamStation(degree, lift.lift, line * back, base * back, point * back, centre, normal * back, contact * back,

@@ -13,11 +13,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
+from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Values, cross, dot
 from graphkin.scene.bodies import Reading
 from graphkin.scene.laws import FollowerLaw, Lift, follower_law
 from graphkin.scene.scene_tables import Cam
-from graphkin.scene.tables import in_si
+from graphkin.scene.tables import Units, in_si
 from graphkin.words import Phrase
 
 AGREES = 1e-6
@@ -142,16 +143,15 @@ class LawCam:
         ends = [piece.start if grows else piece.end for piece in moving if lift == (piece.low if grows else piece.high)]
         return min(self.sense * end % math.tau for end in ends)
 
-    def course(self, start: float, lift: Lift, exp: Callable[[Values], Values] = cmath.exp) -> Course:
-        """The follower's point where it has some lift.
+    def course(self, lift: Lift, exp: Callable[[Values], Values] = cmath.exp) -> Course:
+        """The follower's point where it has some lift.  Raises Unsolvable as `beginning`.
 
         Parameters
         ----------
-        start : where it stands at lift 0 (`beginning`)
         lift : with its derivatives by the degree of the cam
         exp : the exponential function, of NumPy for arrays
         """
-        motion = self.motion
+        motion, start = self.motion, self.beginning()
         s1, s2, s3 = self.sense * lift.slope, lift.bend, self.sense * lift.jerk
         if isinstance(motion, SlidingFollower):
             point = motion.foot - self.axis + motion.along * (start + lift.lift)
@@ -164,20 +164,44 @@ class LawCam:
         return Course(motion.centre - self.axis + bar, 1j * t1 * bar, (1j * t2 - t1 * t1) * bar, third,
                       1j * motion.side * bar / motion.arm, t1)  # fmt: skip
 
-    @property
-    def beginning(self) -> float | None:
+    def beginning(self, units: Units | None = None) -> float:
         """Lift 0: of a sliding follower the distance beyond the foot (m), of a swinging one the angle of its bar from
-        the line to the cam's axis (rad); None where the follower does not come to the base circle."""
-        motion = self.motion
+        the line to the cam's axis (rad).
+
+        Parameters
+        ----------
+        units : in which the message tells lengths
+
+        Raises
+        ------
+        Unsolvable : "not assembled": the follower does not come to the base circle
+        """
+        motion, length = self.motion, (units or Units()).of("length")
         if isinstance(motion, SlidingFollower):
-            if self.flat:
-                return self.base
             square = (self.base - motion.offset) * (self.base + motion.offset)
-            return math.sqrt(square) if square >= 0.0 else None
-        a, b, c = abs(self.axis - motion.centre), motion.arm, self.base
-        half = (a + b + c) / 2
-        under, over = (half - a) * (half - b), half * (half - c)
-        return 2.0 * math.atan2(math.sqrt(under), math.sqrt(over)) if under >= 0.0 < over else None
+            if self.flat or square >= 0.0:
+                return self.base if self.flat else math.sqrt(square)
+            said = Phrase("the line of follower passes outside the base", follower=self.follower)
+            wanted = Phrase("its radius is at least the offset", length=length.said(abs(motion.offset)))
+        else:
+            # half the angle at the pivot of a triangle with these three sides
+            a, b, c = abs(self.axis - motion.centre), motion.arm, self.base
+            half = (a + b + c) / 2
+            under, over = (half - a) * (half - b), half * (half - c)
+            if under >= 0.0 < over:
+                return 2.0 * math.atan2(math.sqrt(under), math.sqrt(over))
+            said = Phrase("follower does not reach the base circle of", follower=self.follower)
+            wanted = Phrase("its radius lies between and", length=length.said(abs(a - b)), other=length.said(a + b))
+        raise Unsolvable("not assembled", Problem(f"cams.{self.link}", said, wanted))
+
+    def follower_at(self, angle: float) -> float:
+        """Where the follower stands at an angle of the cam's own axis (rad): the travel of its sliding pair (m), or the
+        angle of its own axis (rad).  Raises Unsolvable as `beginning`."""
+        motion, moved = self.motion, self.beginning() + float(self.law.at(self.sense * angle).lift)
+        if isinstance(motion, SlidingFollower):
+            return motion.travel + moved
+        line = self.axis - motion.centre
+        return cmath.phase(-line if motion.back else line) + motion.side * moved
 
 
 # -- reading -----------------------------------------------------------------------------------------------------------

@@ -24,11 +24,9 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.laws import SEAM, TURN, FollowerLaw, Lift, LiftPiece
-from graphkin.scene.tables import Units
 from graphkin.search import intervals, last_true, resolve
 from graphkin.solver.pose import Array, turned
 from graphkin.structure import Structure
-from graphkin.words import Phrase, Wording
 
 
 @dataclass(frozen=True)
@@ -86,14 +84,14 @@ def cam_with(cam: LawCam, degree: Array, lift: Lift) -> CamAt:
     sense, motion = cam.sense, cam.motion
     u = np.exp(1j * sense * np.asarray(degree, dtype=float))
     s0, s1, s2 = np.asarray(lift.lift), sense * np.asarray(lift.slope), np.asarray(lift.bend)
-    course = cam.course(beginning(cam), lift, np.exp)
+    course = cam.course(lift, np.exp)
     point, way, tangent, bend = course.point, course.way, course.tangent, course.bend
     with np.errstate(all="ignore"):
         if cam.flat:
             assert isinstance(motion, SlidingFollower)
             normal = way
-            contact = motion.along * (beginning(cam) + s0) - 1j * motion.along * s1
-            radius = beginning(cam) + s0 + s2
+            contact = motion.along * (cam.base + s0 - 1j * s1)
+            radius = cam.base + s0 + s2
         else:
             normal = 1j * tangent / np.abs(tangent)
             contact = point - cam.roller * normal
@@ -151,41 +149,12 @@ def cam_angle(cam: LawCam, turn: Array) -> Array:
     return np.asarray(cam.sense * np.angle(turn))
 
 
-def beginning(cam: LawCam, units: Units | None = None) -> float:
-    """Where the follower stands at lift 0: distance beyond the foot (m), or angle of its bar (rad).
-
-    Raises
-    ------
-    Unsolvable : it does not come to the base circle
-    """
-    found = cam.beginning
-    if found is not None:
-        return found
-    raise Unsolvable("not assembled", Problem(f"cams.{cam.link}", *_apart(cam, units or Units())))
-
-
-def _apart(cam: LawCam, units: Units) -> tuple[Wording, Wording]:
-    motion = cam.motion
-
-    def length(metres: float) -> str:
-        return f"{metres / units.metres:.6g} {units.length}"
-
-    if isinstance(motion, SlidingFollower):
-        said = Phrase("the line of follower passes outside the base", follower=cam.follower)
-        return said, Phrase("its radius is at least the offset", length=length(abs(motion.offset)))
-    far = abs(cam.axis - motion.centre)
-    said = Phrase("follower does not reach the base circle of", follower=cam.follower)
-    return said, Phrase(
-        "its radius lies between and", length=length(abs(far - motion.arm)), other=length(far + motion.arm)
-    )
-
-
 def meeting_followers(structure: Structure) -> Structure:
     """The structure itself, if every follower comes to its base circle.  Raises Unsolvable, all of them named."""
     problems: list[Problem] = []
     for cam in structure.scene.cams:
         try:
-            beginning(cam, structure.scene.units)
+            cam.beginning(structure.scene.units)
         except Unsolvable as stop:
             problems += stop.problems
     if problems:
@@ -199,7 +168,7 @@ def follower_inputs(cam: LawCam, turn: Array) -> Mapping[str, Array]:
     travel (m), or cos and sin of the angle of the follower's own axis, and the two derivatives of either by the angle
     of the cam's own axis, slope and bend
     """
-    lift, start = lifts(cam.law, cam_angle(cam, turn)), beginning(cam)
+    lift, start = lifts(cam.law, cam_angle(cam, turn)), cam.beginning()
     motion = cam.motion
     if isinstance(motion, SlidingFollower):
         return {"travel": motion.travel + start + lift.lift, "slope": cam.sense * lift.slope, "bend": lift.bend}

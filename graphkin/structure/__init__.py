@@ -25,12 +25,12 @@ from graphkin.structure.model import (
     part_of,
     without,
 )
-from graphkin.structure.replacement import pins_on_circles, replacement_told
+from graphkin.structure.replacement import cams_replaced, pins_on_circles, replacement_told
 from graphkin.structure.rolling import Mesh, meshes_of, unrolled
 
 __all__ = [
     "Body", "Driven", "DrivenJoint", "DrivenTriangle", "Dyad", "DyadKind", "Element", "LargerGroup",
     "Mesh", "Mobility", "Pair", "Rolled", "RollingRelation", "Structure", "analyse", "by_drivers_alone",
-    "driver_pair", "leading", "links_for", "meshes_of", "mobility_of", "named_with_contact", "needed",
+    "cams_replaced", "driver_pair", "leading", "links_for", "meshes_of", "mobility_of", "named_with_contact", "needed",
     "part_of", "pick", "pins_on_circles", "regrouped", "replacement_told", "started", "unrolled", "without",
 ]  # fmt: skip

@@ -49,9 +49,14 @@ def replacing_link(contact: PlacedContact, links: Mapping[str, PlacedLink]) -> t
     return PlacedLink(contact.block, places, (one.centre, two.centre), OWN_AXIS), None
 
 
-def pins_on_circles(scene: Mechanism, poses: Mapping[str, tuple[complex, complex]]) -> Mechanism:
+Lying = Mapping[str, tuple[complex, complex]]
+"""Where links lie: their origins (m) and the directions of their own x axes."""
+
+
+def pins_on_circles(scene: Mechanism, poses: Lying, values: Mapping[str, float]) -> Mechanism:
     """The mechanism at one position with pins in its circular slots, instead of the bars that stand for them: in a
-    straight guide along the tangent that carries the curvature; ``poses`` are origin (m) and direction of each link."""
+    straight guide along the tangent that carries the curvature; ``values`` are those of the drivers, by key (rad, m).
+    """
     links, slides = dict(scene.by_name), list(scene.slides)
     for slot in scene.slots:
         if slot.block or slot.bar not in links:
@@ -61,16 +66,21 @@ def pins_on_circles(scene: Mechanism, poses: Mapping[str, tuple[complex, complex
         (origin, axis), on = poses[holder], links[slot.on]
         place = origin + axis * scene.by_name[holder].points[slot.point]
         at = (place - poses[slot.on][0]) / poses[slot.on][1]
-        way = 1j * unit(at - on.points[slot.centre])
-        guide = PlacedGuide(slot.name, at, way, 1.0 / slot.radius)
+        guide = PlacedGuide(slot.name, at, 1j * unit(at - on.points[slot.centre]), 1.0 / slot.radius)
         links[slot.on] = replace(on, guides={**on.guides, guide.name: guide})
         slides.append(SlidingPair.of_pin(slot.point, holder, slot.on, guide.name))
-    places = {p: poses[link.name][0] + poses[link.name][1] * z
-              for link in scene.links if link.name in poses for p, z in link.points.items()}  # fmt: skip
     return replace(
-        scene, frame=links.pop(scene.frame.name), links=tuple(links.values()), slides=tuple(slides),
-        slots=tuple(s for s in scene.slots if s.block), sketch=places, drawn={},
+        _standing(scene, poses, values), frame=links.pop(scene.frame.name), links=tuple(links.values()),
+        slides=tuple(slides), slots=tuple(s for s in scene.slots if s.block),
     )  # fmt: skip
+
+
+def _standing(scene: Mechanism, poses: Lying, values: Mapping[str, float]) -> Mechanism:
+    """The mechanism at other driver values, where links lie so: their points are sketched there."""
+    lying = ((link, *poses[link.name]) for link in scene.links if link.name in poses)
+    places = {p: origin + axis * z for link, origin, axis in lying for p, z in link.points.items()}
+    return replace(scene, drivers=tuple(d.at_value(values[d.key]) for d in scene.drivers),
+                   sketch={**scene.sketch, **places}, drawn={})  # fmt: skip
 
 
 def replacement_told(structure: Structure) -> tuple[Phrase, ...]:
@@ -101,17 +111,13 @@ ROUNDED = 1e-13
 """A centre of curvature nearer to the axis than this part of the radius lies on it."""
 
 
-def cams_replaced(
-    scene: Mechanism, turns: Mapping[str, float], values: Mapping[str, float], seen: Mapping[str, complex],
-    bars: bool = True,
-) -> Mechanism:
+def cams_replaced(scene: Mechanism, poses: Lying, values: Mapping[str, float], bars: bool = True) -> Mechanism:
     """The mechanism that stands for one with cams at a position.
 
     Parameters
     ----------
-    turns : the angle of each cam's own axis (rad)
+    poses : where its links lie, all cams among them
     values : of the drivers, by key (rad, m)
-    seen : roughly where points of moving links lie there (m)
     bars : whether bars stand for rollers and edges, as far as they can, and pins for what moves faces
 
     Raises
@@ -123,20 +129,17 @@ def cams_replaced(
     made: dict[str, PlacedLink] = {}
     slots: list[CircularSlot] = []
     contacts: list[PlacedContact] = []
-    places = dict(seen)
+    places: dict[str, complex] = {}
     names, letters = _free_names(scene, "O", "Q"), _free_names(scene, "K")  # of centres of curvature, and of contacts
     for cam in scene.cams:
-        start, turn = cam.beginning, cmath.rect(1.0, turns[cam.link])
-        if start is None:
-            raise Unsolvable("not assembled", Problem(f"cams.{cam.link}",
-                                                      "the follower does not reach the base circle"))
-        lift = cam.law.at(cam.sense * turns[cam.link])
-        course = cam.course(start, lift)
+        _, turn = poses[cam.link]
+        lift = cam.law.at(cam.sense * cmath.phase(turn))
+        course = cam.course(lift)
         link, follower = links[cam.link], links[cam.follower]
         if cam.flat:
             # the normal passes the centre of curvature, base radius + lift + second derivative before the face
             centre = -course.way * (lift.bend + 1j * cam.sense * lift.slope)
-            point, radius = next(names), start + lift.lift + lift.bend
+            point, radius = next(names), cam.base + lift.lift + lift.bend
             links[cam.link] = replace(link, points={**link.points, point: centre / turn})
             touches = not bars and abs(radius) >= SHARP * cam.base
             # the turn from the guide of a sliding follower to its own axis
@@ -173,16 +176,16 @@ def cams_replaced(
         slot = _guide(link, "t", course.point / turn, unit(tangent) / turn, bends)
         links[cam.link] = replace(link, guides={**link.guides, slot.name: slot})
         pins.append(SlidingPair.of_pin(point, cam.follower, cam.link, slot.name))
-    whole = (*(links[link.name] for link in scene.links), *made.values())
+    here = _standing(scene, poses, values)
     return replace(
-        scene, links=whole, slides=(*scene.slides, *pins), slots=(*scene.slots, *slots),
-        contacts=(*scene.contacts, *contacts),
-        drivers=tuple(d.at_value(values.get(d.key, d.values[0])) for d in scene.drivers),
-        sketch={**scene.sketch, **places}, drawn={}, instead_of=scene,
+        here, links=(*(links[link.name] for link in scene.links), *made.values()), slides=(*scene.slides, *pins),
+        slots=(*scene.slots, *slots), contacts=(*scene.contacts, *contacts), sketch={**here.sketch, **places},
+        instead_of=scene,
     )  # fmt: skip
 
 
 def _guide(link: PlacedLink, name: str, through: complex, direction: complex, bends: float) -> PlacedGuide:
+    """A guide for a link, by this name where none of its own has it."""
     while name in link.guides:
         name += "1"
     return PlacedGuide(name, through, direction, bends)

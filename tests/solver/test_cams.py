@@ -156,7 +156,7 @@ def test_what_a_disc_does_to_its_follower_drawn_back_by_inversion_is_the_disc(na
         told[0] = np.mod(told[0], math.tau)
     else:
         told = [np.asarray(x).imag for x in (turned.position("B"), turned.velocity("B"), turned.acceleration("B"))]
-    lift = Lift(told[0] - cam.beginning, told[1], told[2], np.zeros(36))
+    lift = Lift(told[0] - cam.beginning(), told[1], told[2], np.zeros(36))
     profile = cam_with(cam, np.arange(36) * math.tau / 36, lift).profile
     assert np.full(36, R * 1e-3) == pytest.approx(np.abs(profile - e * 1e-3), abs=2e-9 if roller == 0 else 1e-12)
 
