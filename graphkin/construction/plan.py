@@ -289,10 +289,10 @@ class Plan(Task):
         whole = self.structure.scene.instead_of
         if whole is None:
             scene = self.structure.scene
-            if all(slot.block for slot in scene.slots):
-                return self._touching()
             size = self.exact.scales.length
             poses = {name: (pose.origin * size, pose.axis) for name, pose in self.exact.poses.items()}
+            if all(slot.block or slot.bar not in poses for slot in scene.slots):
+                return self._touching()
             other = _plan(analyse(pins_on_circles(scene, poses, self.values)), self.asked)
             return other._touching() or other
         barred = any(slot.bar not in whole.by_name for slot in self.structure.scene.slots)

@@ -274,6 +274,8 @@ def _of_turning(posed: Posed, symbol: Symbol, of: PointRef) -> Array:
     scene, to = posed.structure.scene, symbol.to
     replacing_links = [name for name in posed.structure.links if name not in scene.by_name]
     for name in (*(link.name for link in scene.links), *replacing_links):
+        if name not in posed.poses:  # solved for what leads to the asked alone
+            continue
         if not _is_on(posed, of, name) or (to is not None and not _is_on(posed, to, name)):
             continue
         if to is not None:

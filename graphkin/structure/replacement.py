@@ -59,19 +59,19 @@ def pins_on_circles(scene: Mechanism, poses: Lying, values: Mapping[str, float])
     """
     links, slides = dict(scene.by_name), list(scene.slides)
     for slot in scene.slots:
-        if slot.block or slot.bar not in links:
+        if slot.block or slot.bar not in poses:
             continue
         del links[slot.bar]
         holder = next(n for n in scene.holders[slot.point] if n != slot.bar)
         (origin, axis), on = poses[holder], links[slot.on]
         place = origin + axis * scene.by_name[holder].points[slot.point]
         at = (place - poses[slot.on][0]) / poses[slot.on][1]
-        guide = PlacedGuide(slot.name, at, 1j * unit(at - on.points[slot.centre]), 1.0 / slot.radius)
+        guide = _guide(on, slot.name, at, 1j * unit(at - on.points[slot.centre]), 1.0 / slot.radius)
         links[slot.on] = replace(on, guides={**on.guides, guide.name: guide})
         slides.append(SlidingPair.of_pin(slot.point, holder, slot.on, guide.name))
     return replace(
         _standing(scene, poses, values), frame=links.pop(scene.frame.name), links=tuple(links.values()),
-        slides=tuple(slides), slots=tuple(s for s in scene.slots if s.block),
+        slides=tuple(slides), slots=tuple(s for s in scene.slots if s.bar in links),
     )  # fmt: skip
 
 

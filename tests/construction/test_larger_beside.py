@@ -80,3 +80,30 @@ def test_their_rates_are_the_differences_of_their_places(made):
     for name, link in here.items():
         slope = (after[name]["angle"] - before[name]["angle"]) / (2 * step)
         assert slope * rate == pytest.approx(link["omega"], abs=1e-6)
+
+
+def test_a_wheel_off_the_way_to_what_is_asked_is_left_out_beside_a_cam():
+    scene = {
+        "frame": {"points": {"A": [0, 0], "C": [80, 0], "W": [-90, 0]}},
+        "links": {"1": {"points": ["A"]}, "2": {"points": ["C", "B"], "length": 70},
+                  "9": {"points": ["W"], "start": 10}},
+        "cams": {"1": {"follower": "2", "base": {"r": 35}, "roller": 8,
+                       "law": [{"to": 180, "rise": 25, "by": "345"}, {"to": 360, "fall": 25, "by": "345"}]}},
+        "gears": {"g": {"between": ["1", "9"], "teeth": [20, 30]}},
+        "driver": {"link": "1", "angle": 40, "omega": 10}, "find": ["a_B"],
+    }  # fmt: skip
+    assert check(scene).ok
+
+
+def test_beside_a_cam_links_are_followed_as_far_round_as_a_crank_drives_it():
+    law = [{"to": 120, "rise": 20, "by": "345"}, {"to": 180}, {"to": 300, "fall": 20, "by": "cycloidal"}, {"to": 360}]
+    scene = {
+        "frame": {"points": {"A": [0, 0], "D": [200, 0]}, "guides": {"g": {"through": [0, 0], "angle": 90}}},
+        "links": {"5": {"points": ["D", "G"], "length": 50}, "6": {"points": ["G", "H"], "length": 190},
+                  "1": {"points": ["A", "H"], "length": 90}, "2": {"points": ["K"], "on": "0.g"}},
+        "cams": {"1": {"follower": "2", "law": law, "base": {"r": 40}, "roller": 10}},
+        "driver": {"link": "5", "angle": 70, "omega": 5},
+    }  # fmt: skip
+    for at in (-60, 170, 430):
+        result = check(scene, at=at)
+        assert (True, True) == (result.ok, result.complete)

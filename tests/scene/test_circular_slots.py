@@ -125,3 +125,29 @@ def test_a_pin_that_is_not_there_is_said(pin: dict[str, Any], said: str) -> None
     with pytest.raises(SceneError) as refusal:
         graphkin.read({**rocker(), "pins": {"C": pin}})
     assert any(str(p).startswith(said) for p in refusal.value.problems)
+
+
+def test_a_slot_off_the_way_to_what_is_asked_is_left_alone() -> None:
+    scene = {
+        "frame": {"points": {"A": [0, 0], "D": [300, 0]}, "guides": {"h": {"centre": [300, 300], "r": 160}}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 60}, "2": {"points": ["B", "C"], "length": 260},
+            "3": {"points": ["C", "D"], "length": 150}, "4": {"points": ["C", "G"], "length": 150},
+        },
+        "pins": {"G": {"of": "4", "in": "0.h"}}, "driver": {"link": "1", "angle": 50, "omega": 3}, "find": ["v_C"],
+    }  # fmt: skip
+    result = graphkin.check(scene)
+    assert (True, True) == (result.ok, "v_G" not in [row["symbol"] for row in result.data["readings"]])
+
+
+def test_two_pins_in_one_slot_run_each_on_its_own_tangent() -> None:
+    scene = {
+        "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"centre": [200, 0], "r": 100}}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 60}, "2": {"points": ["B", "C"], "length": 150},
+            "3": {"points": ["C", "E"], "length": 60},
+        },
+        "pins": {"C": {"of": "3", "in": "0.h"}, "E": {"of": "3", "in": "0.h"}},
+        "driver": {"link": "1", "angle": 50, "omega": 3},
+    }  # fmt: skip
+    assert graphkin.check(scene).ok
