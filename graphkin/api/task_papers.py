@@ -197,11 +197,12 @@ def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str
         results.append((f"$α_{{{k}}}$", "°", f"{angle:.1f}", f"{angle:.3f}", within))
     metres = scene.units.metres
     for k, (d, off) in enumerate(zip(sheet.divisions, spread, strict=True)):
-        value, deviation = (math.degrees(x) if swings else x / metres for x in (d.lift, off["lift"]))
+        lift = cam.law.at(d.degree).lift
+        drawn, value, deviation = (math.degrees(x) if swings else x / metres for x in (d.lift, lift, off["lift"]))
         letter, unit = ("ψ", "°") if swings else ("s", scene.units.length)
         within = _accepted(value, deviation, -math.inf)
         per = 1.0 if swings else sheet.scale / metres
-        read = number(round(value / per, 2) * per)  # to 0.01 mm, as lengths on paper are told
+        read = number(round(drawn / per, 2) * per)  # to 0.01 mm, as lengths on paper are told
         results.append((f"${letter}_{{{k}}}$", unit, read, number(value, 5), within))
     spoken = {each: made.sentences(each) for each in languages(language)}
     captions = said("cam diagram", language), said("cam figure", language)

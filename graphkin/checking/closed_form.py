@@ -13,7 +13,7 @@ import numpy as np
 
 from graphkin.checking.uncertainty import COVERAGE, deviations
 from graphkin.construction import EXACT, Instrument
-from graphkin.construction.cam_sheet import CamSheet, division_by_hand
+from graphkin.construction.cam_sheet import CamSheet, division
 from graphkin.construction.synthesis import DesignSheet, construct
 from graphkin.construction.touching import CamStation
 from graphkin.errors import Unsolvable
@@ -99,10 +99,12 @@ def predict_cam(sheet: CamSheet, name: str, tools: Tools) -> Sequence[Mapping[st
     """How far the "lift" (m, rad) and "pressure" angle (rad) of each division are read off, drawn with an instrument
     ("pencil" or "cad"): standard deviations, infinite where one act alone keeps a division from being drawn."""
 
-    def read(division: CamStation, hand: Instrument) -> Mapping[str, float] | None:
-        drawn = division_by_hand(sheet.cam, division.degree, 1.0 / sheet.scale, hand)
+    def read(drawn: CamStation, hand: Instrument) -> Mapping[str, float] | None:
+        again = division(sheet.cam, drawn.degree, 1.0 / sheet.scale, hand)
+        if again is None:
+            return None
         # a normal has no sense
-        return drawn and {"lift": drawn[0], "pressure": math.remainder(drawn[1] - division.pressure, math.pi)}
+        return {"lift": again.lift, "pressure": math.remainder(again.leaning - drawn.pressure, math.pi)}
 
-    found = (deviations(partial(read, division), name, tools) for division in sheet.divisions)
+    found = (deviations(partial(read, drawn), name, tools) for drawn in sheet.divisions)
     return [one or {"lift": math.inf, "pressure": math.inf} for one in found]

@@ -1,6 +1,6 @@
 """A cam drawn on the board by inversion: the displacement diagram divided into parts, the follower's line turned back
-by each, the lifts carried on to it, the profile, the normals and the pressure angles measured; and one division as
-hands draw it, each line laid off, each point pricked, what they do wrong carried on.
+by each, the lifts carried on to it, the profile, the normals and the pressure angles measured.  Every division is drawn
+by hands: each line laid off, each point pricked, what they do wrong carried on.
 
 After Sun Huan, Mechanical Principles, ch. 9; Norton, Design of Machinery, ch. 8.
 """
@@ -12,9 +12,9 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from graphkin.construction.instruments import Instrument
+from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.touching import CamStation, outline, station
-from graphkin.plane import cross_arcs, cross_line_arc, unit
+from graphkin.plane import cross_arcs, cross_line_arc, dot, unit
 from graphkin.scene.cams import LawCam, SlidingFollower, SwingingFollower
 from graphkin.scene.laws import TURN
 from graphkin.words import Phrase
@@ -67,7 +67,8 @@ class CamSheet:
 def cam_sheet(cam: LawCam, scale: float) -> CamSheet:
     """Draw a cam at a scale (m for one mm of paper)."""
     mm = 1.0 / scale
-    divided = tuple(station(cam, degree).scaled(mm) for degree in _degrees(cam))
+    # where arcs only touch, rounding may part them
+    divided = tuple(division(cam, degree, mm) or station(cam, degree).scaled(mm) for degree in _degrees(cam))
     pitch = () if cam.flat else tuple(_pitch(cam, mm))
     offset = abs(cam.motion.offset) * mm if isinstance(cam.motion, SlidingFollower) else 0.0
     profile = tuple(z * mm for z in outline(cam))
@@ -91,71 +92,75 @@ def _pitch(cam: LawCam, mm: float) -> Iterator[complex]:
 
 
 TINY = 1e-9  # of the base radius: a line nearer to the axis passes it
+TOUCHES, ONE = 1e-14, 1e-7
+"""Of the base radius: a line so near to the base circle touches it, and crossings so near to each other are one."""
+
+ROUNDING = 1e-15  # rad: an angle that is less is none
 
 
-def division_by_hand(cam: LawCam, degree: float, mm: float, hand: Instrument) -> tuple[float, float] | None:
+def division(cam: LawCam, degree: float, mm: float, hand: Instrument = EXACT) -> CamStation | None:
     """Draw a division at a cam degree (rad), ``mm`` of paper for one m.
 
     Returns
     -------
-    the lift read off (m, rad), and the pressure angle read off (rad, with its sense; 0 of a flat face); None where the
-    hands err so far that the follower's line misses the base circle
+    the follower as it stands on paper (mm), with its lift as read (m, rad) and its normal as the protractor reads it;
+    None where the hands err so far that its line misses the base circle
     """
-    base = hand.compass(cam.base * mm)
-    if isinstance(cam.motion, SlidingFollower):
-        return _sliding(cam, cam.motion, degree, mm, base, hand)
-    return _swinging(cam, cam.motion, degree, mm, base, hand)
-
-
-def _sliding(
-    cam: LawCam, motion: SlidingFollower, degree: float, mm: float, base: float, hand: Instrument
-) -> tuple[float, float] | None:
-    laid = hand.length(cam.law.at(degree).lift * mm)
-    exact = station(cam, degree)
-    way = hand.angle(exact.way)
-    away = exact.line - exact.way * (exact.line * exact.way.conjugate()).real  # square to the line, to its foot
-    side = 1j if (away / (1j * exact.way)).real >= 0 else -1j
-    foot = side * way * hand.compass(abs(away) * mm) if abs(away) > TINY * cam.base else 0j
-    met = cross_line_arc(foot, way, 0j, base)
-    if met is None:
+    given, base = station(cam, degree).scaled(mm), hand.compass(cam.base * mm)
+    drawn = (_on_line if isinstance(cam.motion, SlidingFollower) else _on_arc)(cam, given, mm, base, hand)
+    if drawn is None:
         return None
-    start = max(met, key=lambda z: (z * way.conjugate()).real)
+    turned = unit(drawn.way / given.way)
+    centre = None if given.centre is None else given.centre * turned
+    if cam.flat:  # it touches where the perpendicular from the instant centre meets the face
+        assert centre is not None
+        return drawn._replace(centre=centre, normal=drawn.way, contact=centre + drawn.way * dot(drawn.way, drawn.point))
+    if centre is None:
+        normal = hand.direction(given.normal * turned)
+    else:
+        spot = hand.point(hand.direction(unit(centre)) * hand.length(abs(centre))) if centre else 0j
+        normal = unit(drawn.point - spot) if drawn.point != spot else drawn.way
+    normal = hand.read_direction(normal)
+    if dot(normal, given.normal * turned) < 0.0:  # the line has no sense, the normal leads out of the cam
+        normal = -normal
+    contact = drawn.point - cam.roller * mm * normal
+    return drawn._replace(centre=centre, normal=normal, contact=contact)
+
+
+def _on_line(cam: LawCam, given: CamStation, mm: float, base: float, hand: Instrument) -> CamStation | None:
+    """The line of a sliding follower turned back, and its point on it; the normal is still to be drawn."""
+    laid = hand.length(given.lift * mm)
+    way = hand.angle(given.way)
+    away = given.line - given.way * dot(given.way, given.line)  # square to the line, to its foot
+    side = 1j if dot(away, 1j * given.way) >= 0 else -1j
+    foot = side * way * hand.compass(abs(away)) if abs(away) > TINY * cam.base * mm else 0j
+    if cam.flat:  # the face touches the base circle, wherever its line runs
+        start = foot + base * way
+    elif abs(abs(foot) - base) <= TOUCHES * base:
+        start = foot
+    else:
+        crossed = cross_line_arc(foot, way, 0j, base)
+        if crossed is None:
+            return None
+        start = crossed[0]
     point = hand.point(start + way * laid)
     lift = hand.read(abs(point - start)) / mm * (1 if laid >= 0 else -1)
-    if cam.flat:
-        return lift, 0.0
-    return lift, _pressure_by_hand(exact.centre, exact.way, exact.normal, point, way, mm, hand)
+    return given._replace(lift=lift, line=foot, base=start, point=point, way=way)
 
 
-def _swinging(
-    cam: LawCam, motion: SwingingFollower, degree: float, mm: float, base: float, hand: Instrument
-) -> tuple[float, float] | None:
-    exact = station(cam, degree)
-    pivot = hand.point(hand.angle(unit(exact.line)) * hand.length(abs(exact.line) * mm))
-    arm = hand.compass(motion.arm * mm)
-    met = cross_arcs(0j, base, pivot, arm)
-    if met is None:
+def _on_arc(cam: LawCam, given: CamStation, mm: float, base: float, hand: Instrument) -> CamStation | None:
+    """The pivot of a swinging follower turned back, and the end of its bar; the normal is still to be drawn."""
+    pivot = hand.point(hand.angle(unit(given.line)) * hand.length(abs(given.line)))
+    arm = hand.compass(abs(given.point - given.line))
+    crossed = cross_arcs(0j, base, pivot, arm)
+    if crossed is None:
         return None
-    start = hand.point(min(met, key=lambda z: abs(z - exact.base * mm)))
-    turned = unit((exact.point - exact.line) / (exact.base - exact.line))
+    start = min(crossed, key=lambda z: abs(z - given.base))
+    start = hand.point((crossed[0] + crossed[1]) / 2 if abs(crossed[1] - crossed[0]) <= ONE * base else start)
+    turned = unit((given.point - given.line) / (given.base - given.line))
     bar = hand.angle(unit(start - pivot) * turned)
     point = hand.point(pivot + arm * bar)
     swing = cmath.phase(hand.read_direction(bar) / unit(start - pivot))
-    lift = swing * (1 if cmath.phase(turned) * cam.law.at(degree).lift >= 0 else -1)
-    way = hand.direction(bar * (exact.way / unit(exact.point - exact.line)))
-    return lift, _pressure_by_hand(exact.centre, exact.way, exact.normal, point, way, mm, hand)
-
-
-def _pressure_by_hand(
-    centre: complex | None, way: complex, normal: complex, point: complex, drawn: complex, mm: float, hand: Instrument
-) -> float:
-    """The angle from the path to the normal, which is drawn through the instant centre."""
-    turned = unit(drawn / way)
-    if centre is None:
-        line = hand.direction(normal * turned)
-    else:
-        far = abs(centre) * mm
-        spot = hand.point(hand.direction(unit(centre) * turned) * hand.length(far)) if far else 0j
-        line = unit(point - spot)
-    angle = cmath.phase(hand.read_direction(line) / drawn)
-    return cmath.phase(cmath.exp(2j * angle)) / 2  # between two lines
+    lift = swing * (1 if cmath.phase(turned) * given.lift >= 0 else -1) if abs(swing) > ROUNDING else 0.0
+    way = hand.direction(bar * (given.way / unit(given.point - given.line)))
+    return given._replace(lift=lift, line=pivot, base=start, point=point, way=way)

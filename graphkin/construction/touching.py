@@ -216,10 +216,14 @@ class CamStation(NamedTuple):
     way: complex
 
     @property
+    def leaning(self) -> float:
+        """The angle from path to normal (rad), with its sense."""
+        return cmath.phase(self.normal / self.way)
+
+    @property
     def pressure(self) -> float:
         """The angle between normal and path, as the protractor reads it (rad)."""
-        angle = abs(cmath.phase(self.normal / self.way))
-        return min(angle, math.pi - angle)
+        return min(abs(self.leaning), math.pi - abs(self.leaning))
 
     def scaled(self, times: float) -> CamStation:
         """The same so many times as large."""

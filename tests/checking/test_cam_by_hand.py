@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import replace
 
 import pytest
 
-from graphkin import cam, handout
-from graphkin.checking.closed_form import predict_cam
+from graphkin import cam, handout, read
+from graphkin.checking.closed_form import compare_cam, predict_cam
 from graphkin.checking.uncertainty import COVERAGE
-from graphkin.construction import EXACT, pencil
-from graphkin.construction.cam_sheet import division_by_hand
+from graphkin.construction import pencil
+from graphkin.construction.cam_sheet import cam_sheet, division
+from graphkin.construction.touching import station
+from graphkin.scene import mechanism_of
+from graphkin.scene.scene_tables import Tools
 
 SCENES = ("cam-offset-roller", "cam-swinging-roller", "cam-flat-face")
 
@@ -21,27 +25,50 @@ def drawn(name):
     return made.sheet, made.mechanism.question.sheet.tools
 
 
+def leaning_apart(one, other):
+    """How far two normals lean apart (rad): a line has no sense."""
+    return abs(math.remainder(one.leaning - other.leaning, math.pi))
+
+
 @pytest.mark.parametrize("name", SCENES)
-def test_exact_hands_read_what_the_sheet_has(name):
+def test_exact_hands_draw_each_division_as_the_law_has_it(name):
     sheet, _ = drawn(name)
     for d in sheet.divisions:
-        lift, pressure = division_by_hand(sheet.cam, d.degree, 1 / sheet.scale, EXACT)
-        assert d.lift == pytest.approx(lift, abs=1e-13)
-        assert d.pressure == pytest.approx(abs(pressure), abs=1e-13)
+        exact = station(sheet.cam, d.degree).scaled(1 / sheet.scale)
+        assert exact.lift == pytest.approx(d.lift, abs=1e-13)
+        assert exact.pressure == pytest.approx(d.pressure, abs=1e-13)
+        for place in ("line", "base", "point", "contact", "normal", "way"):
+            assert 0 == pytest.approx(abs(getattr(exact, place) - getattr(d, place)), abs=1e-12)
 
 
 @pytest.mark.parametrize("name", SCENES)
 def test_a_pencil_keeps_what_is_predicted(name):
     sheet, tools = drawn(name)
     beyond = count = 0
-    for d, off in zip(sheet.divisions, predict_cam(sheet, "pencil", tools), strict=True):
-        right = division_by_hand(sheet.cam, d.degree, 1 / sheet.scale, EXACT)
+    for right, off in zip(sheet.divisions, predict_cam(sheet, "pencil", tools), strict=True):
         for seed in range(20):
-            read = division_by_hand(sheet.cam, d.degree, 1 / sheet.scale, pencil(tools, seed))
-            beyond += abs(read[0] - right[0]) > COVERAGE * off["lift"]
-            beyond += abs(math.remainder(read[1] - right[1], math.pi)) > COVERAGE * off["pressure"] + 1e-12
+            read = division(sheet.cam, right.degree, 1 / sheet.scale, pencil(tools, seed))
+            beyond += abs(read.lift - right.lift) > COVERAGE * off["lift"]
+            beyond += leaning_apart(read, right) > COVERAGE * off["pressure"] + 1e-12
             count += 2
     assert beyond <= 0.01 * count
+
+
+@pytest.mark.parametrize("offset", [30.0, 40.0, 55.0])
+def test_a_flat_face_stands_on_the_base_circle_however_far_its_line_runs_from_the_axis(offset):
+    scene = mechanism_of(read("cam-flat-face").replace("frame.guides.g.through", [offset, 0]))
+    sheet = cam_sheet(scene.cams[0], 1e-3)
+    assert compare_cam(sheet).ok
+    assert all(math.isfinite(off["lift"]) for off in predict_cam(sheet, "pencil", Tools()))
+
+
+def test_a_line_that_only_touches_the_base_circle_is_drawn_to_where_it_touches():
+    scene = read("cam-offset-roller")
+    (cam,) = mechanism_of(scene).cams
+    touching = replace(cam, base=abs(cam.motion.offset))
+    sheet = cam_sheet(touching, 1e-3)
+    assert compare_cam(sheet).ok
+    assert sheet.base == pytest.approx(abs(sheet.divisions[0].base), abs=1e-12)
 
 
 def test_a_drafting_program_reads_a_hundredth():
@@ -59,3 +86,10 @@ def test_the_key_accepts_what_the_drawing_can_do(tmp_path):
     low, high = bounds[2]
     assert 2 * math.degrees(COVERAGE * off) == pytest.approx(high - low, abs=0.1)
     assert len({round(b - a, 1) for a, b in bounds}) > 3
+
+
+def test_a_follower_that_swings_faster_than_its_cam_has_its_normal_out_of_the_cam():
+    steep = [{"to": 20, "rise": 30, "by": "harmonic"}, {"to": 60}, {"to": 80, "fall": 30, "by": "harmonic"}, {"to": 360}]
+    (cam,) = mechanism_of(read("cam-swinging-roller").replace("cams.1.law", steep)).cams
+    assert max(abs(cam.law.at(math.radians(d)).slope) for d in range(20)) > 1.0
+    assert compare_cam(cam_sheet(cam, 1e-3)).ok
