@@ -89,7 +89,8 @@ def test_the_key_accepts_what_the_drawing_can_do(tmp_path):
 
 
 def test_a_follower_that_swings_faster_than_its_cam_has_its_normal_out_of_the_cam():
-    steep = [{"to": 20, "rise": 30, "by": "harmonic"}, {"to": 60}, {"to": 80, "fall": 30, "by": "harmonic"}, {"to": 360}]
-    (cam,) = mechanism_of(read("cam-swinging-roller").replace("cams.1.law", steep)).cams
+    rise, fall = {"to": 20, "rise": 30, "by": "harmonic"}, {"to": 80, "fall": 30, "by": "harmonic"}
+    scene = read("cam-swinging-roller").replace("cams.1.law", [rise, {"to": 60}, fall, {"to": 360}])
+    (cam,) = mechanism_of(scene).cams
     assert max(abs(cam.law.at(math.radians(d)).slope) for d in range(20)) > 1.0
     assert compare_cam(cam_sheet(cam, 1e-3)).ok
