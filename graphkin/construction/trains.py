@@ -15,13 +15,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Literal
 
 import numpy as np
 
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.proportional_division import divide
 from graphkin.construction.scales import Extent, fitting_scale
-from graphkin.construction.steps import Order, Step, Superposed
+from graphkin.construction.steps import Bar, Order, Step, Superposed
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.model import Mechanism, PlacedLink
@@ -169,28 +170,6 @@ def _line(
 # -- a plan as drawn ---------------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class PlanLine:
-    """The line of a link over the line of centres ``on`` (its number).
-
-    by : the names of the places that give it: two, or one and the rate (``rate_known``); of a link that slides along
-        ``beside`` the line is parallel to that one's
-    ends : its lowest and its highest place (mm; velocity to the right, height upwards)
-    foot : what it marks off on the rate scale, as read (mm), counter-clockwise to the right
-    rate : what that says (rad/s, rad/s2)
-    """
-
-    link: str
-    on: int
-    by: tuple[str, ...]
-    rate_known: bool
-    ends: tuple[complex, complex]
-    foot: float
-    rate: float
-    beside: str = ""
-    trial: bool = False
-
-
 @dataclass
 class TrainPlan:
     """A plan; it grows while it is drawn.
@@ -202,9 +181,12 @@ class TrainPlan:
     speeds : the known ones of sliding pairs (m/s, m/s2)
     turns : links that turn from one another at given rates
     length, speed, turning : what 1 mm of it is: m, m/s (m/s2), rad/s (rad/s2)
+    lines : the step that draws the line of a link, between its lowest and its highest place (mm; velocity to the right,
+        height upwards), and reads its rate or lays it off, by line of centres and link
     velocities : those of places (mm), by line of centres and place
-    travels : of the racks (m/s, m/s2) by sliding pair, with the length read (mm)
+    travels : the step that reads the speed of a rack (m/s, m/s2), by sliding pair
     gaps : what is left open where a place is found twice (mm)
+    trial : the rates that were assumed, and found by proportion
     """
 
     order: Order
@@ -215,9 +197,9 @@ class TrainPlan:
     length: float = 1.0
     speed: float = 1.0
     turning: float = 1.0
-    lines: list[PlanLine] = field(default_factory=list)
+    lines: dict[tuple[int, str], Step] = field(default_factory=dict)
     velocities: dict[tuple[int, str], float] = field(default_factory=dict)
-    travels: dict[str, tuple[float, float]] = field(default_factory=dict)
+    travels: dict[str, Step] = field(default_factory=dict)
     gaps: list[float] = field(default_factory=list)
     trial: Superposed | None = None
 
@@ -226,10 +208,15 @@ class TrainPlan:
         """How far the pole stands from the rate scale (mm)."""
         return self.speed / self.length / self.turning
 
-    def line(self, link: str) -> PlanLine | None:
+    @property
+    def rate(self) -> Literal["omega", "alpha"]:
+        """What the rate scale shows."""
+        return "omega" if self.order == "velocity" else "alpha"
+
+    def line(self, link: str) -> Step | None:
         """The line of a link from which its rate is read, else its first."""
-        own = [one for one in self.lines if one.link == link]
-        return next((one for one in own if not one.rate_known), own[0] if own else None)
+        own = [step for (_, name), step in self.lines.items() if name == link]
+        return next((step for step in own if step.reason == "plan"), own[0] if own else None)
 
     def leads(self, wanted: Coordinate) -> bool:
         """Whether a rate, or the speed of a sliding pair, is found."""
@@ -238,17 +225,17 @@ class TrainPlan:
     def drawn(self, hand: Instrument, assumed: Mapping[str, float]) -> TrainPlan:
         """This plan, of which nothing is drawn, with all that follows, rates being assumed one after the other."""
         still = {(i, line.still): 0.0 for i, line in enumerate(self.on)}
-        plan = replace(self, rates=dict(self.rates), lines=[], velocities=still, travels={}, gaps=[])
-        plan._go_on(hand, ())
-        for k, (link, rate) in enumerate(assumed.items(), 1):
+        plan = replace(self, rates=dict(self.rates), lines={}, velocities=still, travels={}, gaps=[])
+        plan._go_on(hand)
+        for link, rate in assumed.items():
             plan.rates[link] = rate
-            plan._go_on(hand, [*assumed][:k])
+            plan._go_on(hand)
         # what two links that slide on each other or that a driver turns leave open, on the rate scale
         plan.gaps += [(plan.rates[a] - plan.rates[b] - value) / self.turning
                       for a, b, value in self.turns if a in plan.rates and b in plan.rates]  # fmt: skip
         return plan
 
-    def _go_on(self, hand: Instrument, assumed: Sequence[str]) -> None:
+    def _go_on(self, hand: Instrument) -> None:
         """Draw every line that what stands there gives."""
         grown = True
         while grown:
@@ -261,11 +248,10 @@ class TrainPlan:
             for i, line in enumerate(self.on):
                 for mesh in line.meshes:
                     grown |= mesh.parts[1] is None and self._slides(hand, i, mesh)
-                had = {one.link for one in self.lines if one.on == i}
                 for link in line.links:
-                    grown |= link not in had and self._line(hand, i, link, link in assumed)
+                    grown |= (i, link) not in self.lines and self._line(hand, i, link)
 
-    def _line(self, hand: Instrument, i: int, link: str, trial: bool) -> bool:
+    def _line(self, hand: Instrument, i: int, link: str) -> bool:
         """The line of a link by its rate or by two places; False where neither is known."""
         mm, spots = 1.0 / self.length, self.on[i].spots_of(link)
         known = [s for s in spots if (i, s.name) in self.velocities]
@@ -294,9 +280,10 @@ class TrainPlan:
         if len(reach) == 1:
             reach += [0.0] if reach[0] else [0.25 * HIGH]
         low, high = (complex(x + slope * (h - y), h) for h in (min(reach), max(reach)))
-        beside = next((m.carrier if link == m.wheels[1] else m.wheels[1] for m in self.on[i].meshes
-                       if m.parts[1] is None and link in (m.carrier, m.wheels[1])), "")  # fmt: skip
-        self.lines.append(PlanLine(link, i, by, given, (low, high), foot, rate, beside if given else "", trial))
+        self.lines[i, link] = Step(
+            "read", "given on plan" if given else "plan", self.order, (Bar(low, high, link),), kind=self.rate,
+            link=link, points=by, mm=abs(foot), per_mm=self.turning, value=rate,
+        )  # fmt: skip
         return True
 
     def _slides(self, hand: Instrument, i: int, mesh: Mesh) -> bool:
@@ -317,7 +304,8 @@ class TrainPlan:
             return False
         run = on - at - lean
         read = hand.read_signed(run)
-        self.travels[mesh.slide] = mesh.sense * read * self.speed, read
+        self.travels[mesh.slide] = Step("read", "plan travel", self.order, pairs=(mesh.slide,), mm=abs(read),
+                                        per_mm=self.speed, value=mesh.sense * read * self.speed)  # fmt: skip
         return True
 
     def trials(self, names: Sequence[str]) -> list[dict[str, float]]:
@@ -334,8 +322,7 @@ class TrainPlan:
         gaps = [self.drawn(hand, one).gaps for one in trials]
         found = tuple(map(float, divide([[*one.values()] for one in trials], gaps)))
         apart = tuple(tuple(map(float, row)) for row in gaps)
-        kind = "omega" if self.order == "velocity" else "alpha"
-        rates = tuple((Symbol(kind, link=name), rate) for name, rate in zip(names, found, strict=True))
+        rates = tuple((Symbol(self.rate, link=name), rate) for name, rate in zip(names, found, strict=True))
         trial = Superposed(rates, (), apart)
         return replace(self.drawn(hand, dict(zip(names, found, strict=True))), trial=trial)
 
@@ -390,7 +377,7 @@ def _scaled(plan: TrainPlan, rough: TrainPlan, units: float) -> TrainPlan:
     a rate scale shows all rates."""
     high = max(max(h) - min(h) for h in ([s.height for s in line.spots] for line in rough.on))
     speeds = [[0.0, *(v for (j, _), v in rough.velocities.items() if j == i)] for i in range(len(rough.on))]
-    wide, turns = max(max(v) - min(v) for v in speeds), [0.0, *(line.rate for line in rough.lines)]
+    wide, turns = max(max(v) - min(v) for v in speeds), [0.0, *(line.value for line in rough.lines.values())]
     length = fitting_scale(Extent(0.0, high), (1.0, HIGH), 1.0 / units) * units
     speed = fitting_scale(Extent(wide, 0.0), (WIDE, 1.0), 1.0 / units) * units
     fits = fitting_scale(Extent(max(turns) - min(turns), 0.0), (FOOT, 1.0), 1.0)
@@ -442,12 +429,9 @@ def rolled(
                 continue
         steps = [] if plan is had else list(_steps(scene, plan, had))
         made = {**drawn, (order, k): plan}
-        if kind == "travel":
-            value, mm = plan.travels[inside[0]]
-            return made, value, abs(mm), steps
-        line = plan.line(inside[0])
-        assert line is not None
-        return made, line.rate, abs(line.foot), steps
+        found = plan.travels[inside[0]] if kind == "travel" else plan.line(inside[0])
+        assert found is not None
+        return made, found.value, found.mm, steps
     raise Unsolvable("not drawn", Problem(Phrase("link of name", name=name),
                                           "no velocity plan leads to what rolls here"))
 
@@ -463,17 +447,9 @@ def _alike(structure: Structure, name: str) -> set[str]:
 
 def _steps(scene: Mechanism, plan: TrainPlan, had: TrainPlan | None) -> Iterator[Step]:
     """What was drawn of a plan since another state of it."""
-    old = {(one.link, one.on) for one in had.lines} if had else set()
-    rate, per_mm = "omega" if plan.order == "velocity" else "alpha", plan.turning
     if plan.trial is not None:
-        yield Step("divide", "plans", plan.order, kind=rate, per_mm=per_mm, data=plan.trial)
-    for one in plan.lines:
-        if (one.link, one.on) not in old and one.link in scene.by_name:
-            yield Step(
-                "read", "given on plan" if one.rate_known else "plan", plan.order, kind=rate, link=one.link,
-                points=one.by, mm=abs(one.foot), per_mm=per_mm, value=one.rate,
-            )  # fmt: skip
-    for slide, (value, mm) in plan.travels.items():
-        if had is None or slide not in had.travels:
-            yield Step("read", "plan travel", plan.order, pairs=(slide,), mm=abs(mm), per_mm=plan.speed,
-                       value=value)  # fmt: skip
+        yield Step("divide", "plans", plan.order, kind=plan.rate, per_mm=plan.turning, data=plan.trial)
+    lines = (step for key, step in plan.lines.items() if had is None or key not in had.lines)
+    # drawn beside the train, not on the polygon
+    yield from (replace(step, strokes=()) for step in lines if step.link in scene.by_name)
+    yield from (step for slide, step in plan.travels.items() if had is None or slide not in had.travels)

@@ -3,13 +3,15 @@ the rate scale, on which parallels through a pole mark off the angular rates."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from itertools import pairwise
 
 from graphkin.account.headings import number, written
 from graphkin.construction.sheet import Sheet
-from graphkin.construction.trains import CentreLine, PlanLine, TrainPlan
+from graphkin.construction.steps import Bar, Step
+from graphkin.construction.trains import CentreLine, TrainPlan
 from graphkin.drawing.boxes import GAP, Block, FigurePage, column, panel, row, table
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes
@@ -50,7 +52,8 @@ def train_figure(sheet: Sheet, *, language: str | None = None, convention: str |
 
 def moving_plans(sheet: Sheet) -> list[TrainPlan]:
     """The plans in which anything moves: these have a page."""
-    return [plan for plan in sheet.trains if any(plan.velocities.values()) or any(one.rate for one in plan.lines)]
+    moving = ((*plan.velocities.values(), *(line.value for line in plan.lines.values())) for plan in sheet.trains)
+    return [plan for plan, values in zip(sheet.trains, moving, strict=True) if any(values)]
 
 
 def _page(page: FigurePage, plan: TrainPlan) -> Drawing:
@@ -59,7 +62,7 @@ def _page(page: FigurePage, plan: TrainPlan) -> Drawing:
     why = [Phrase("plan reason" if velocity else "plan reason accelerations")]
     why += [Phrase("plan relative", (line.still,)) for line in plan.on if not line.in_frame]
     rates = _rate_scale(sheet, plan)
-    least = min(0.0, *(one.foot for one in plan.lines))
+    least = min(0.0, *map(foot, plan.lines.values()))
     scale = panel(page.width - TABLE - 4.0, plan.pole + 16.0, lambda room: with_labels(
         moved_piece(rates, complex(PLAN + 4.0 - least - TABLE - 4.0, 7.0)), room))
     lines = [_train(page, plan, k) for k in range(len(plan.on))]
@@ -89,7 +92,7 @@ def _train(page: FigurePage, plan: TrainPlan, k: int) -> Block:
     heights = [spot.height * mm for spot in line.spots]
     seen = scheme(page.sheet.scene, line, mm, SCHEME)
     # the zero line stands where the slowest place still clears the train
-    reach = [z.real for one in plan.lines if one.on == k for z in one.ends]
+    reach = [z.real for _, bar in _bars(plan, k) for z in (bar.a, bar.b)]
     x = PLAN - min(0.0, *reach) if reach else PLAN
     ink = ink_box(seen.drawn)
     velocities = _velocities(page, plan, k, (ink.right if ink else 0.0) - x)
@@ -123,58 +126,69 @@ def _velocities(page: FigurePage, plan: TrainPlan, k: int, start: float) -> Piec
     for h, some in names.items():
         markup = symbol(", ".join(dict.fromkeys(some)), 3.0)
         plate.name(markup, complex(0.0, h), f"label-plan-{'-'.join(some)}{tag}", rank=1)
-    for one in plan.lines:
-        if one.on == k and one.link in scene.by_name:
-            colour, (a, b) = strokes.colour_of_link(scene, one.link), one.ends
+    for link, bar in _bars(plan, k):
+        if link in scene.by_name:
+            colour, a, b = strokes.colour_of_link(scene, link), bar.a, bar.b
             over = 3.0 * (b - a) / abs(b - a)
             line = Line(on_page(a - over), on_page(b + over), strokes.LINK.coloured(colour))
-            plate.put(plan.order, line, id=f"plan-line-{one.link}{tag}", classes=("plan-line",))
-            name = rich(one.link, 3.2, bold=True)
-            plate.name(name, (a, b), f"label-plan-line-{one.link}{tag}", colour=colour)
+            plate.put(plan.order, line, id=f"plan-line-{link}{tag}", classes=("plan-line",))
+            plate.name(rich(link, 3.2, bold=True), (a, b), f"label-plan-line-{link}{tag}", colour=colour)
     return plate.piece
+
+
+def _bars(plan: TrainPlan, k: int) -> Iterator[tuple[str, Bar]]:
+    """The lines over a line of centres, by their links."""
+    for (on, link), step in plan.lines.items():
+        yield from ((link, bar) for bar in step.strokes if on == k and isinstance(bar, Bar))
+
+
+def foot(line: Step) -> float:
+    """Where the parallel to a link's line cuts the rate scale (mm), counter-clockwise to the right."""
+    return math.copysign(line.mm, line.value)
 
 
 def _rate_scale(sheet: Sheet, plan: TrainPlan) -> Piece:
     """Parallels to the lines through the pole, which stands at 0, down to the scale."""
     plate, deep, (sign, *_) = Plate(), -1j * plan.pole, _rates(plan)
     shown = _plan_lines(sheet, plan)
-    feet = [0.0, *(one.foot for one in shown)]
+    feet = [0.0, *map(foot, shown)]
     plate.line("construction", min(feet) - 4.0 + deep, max(feet) + 4.0 + deep, strokes.OUTLINE)
     plate.line("construction", 0j, deep, strokes.DIRECTION)
     plate.circle("construction", 0j, 0.9, strokes.WHITE, strokes.OUTLINE)
     plate.name(symbol("P", 3.2), 0j, toward=(1.57,))
     marked: dict[float, list[str]] = {}
-    for one in shown:
-        foot, colour = one.foot + deep, strokes.colour_of_link(sheet.scene, one.link)
-        ray = Line(0j, on_page(foot), strokes.RELATIVE.coloured(colour))
-        plate.put(plan.order, ray, id=f"plan-rate-{one.link}", classes=("plan-rate",))
-        plate.line("construction", foot + 1.2j, foot - 1.2j, strokes.OUTLINE)
-        marked.setdefault(round(one.foot, 2), []).append(one.link)
+    for line in shown:
+        at, colour = foot(line) + deep, strokes.colour_of_link(sheet.scene, line.link)
+        ray = Line(0j, on_page(at), strokes.RELATIVE.coloured(colour))
+        plate.put(plan.order, ray, id=f"plan-rate-{line.link}", classes=("plan-rate",))
+        plate.line("construction", at + 1.2j, at - 1.2j, strokes.OUTLINE)
+        marked.setdefault(round(foot(line), 2), []).append(line.link)
     for x, links in marked.items():
         markup = symbol(", ".join(f"{sign}_{{{n}}}" for n in links), 3.0)
         plate.name(markup, x + deep - 1.2j, f"label-plan-rate-{'-'.join(links)}", toward=(-1.57,))
     return plate.piece
 
 
-def _plan_lines(sheet: Sheet, plan: TrainPlan) -> list[PlanLine]:
+def _plan_lines(sheet: Sheet, plan: TrainPlan) -> list[Step]:
     """One line for each link of the scene: that from which its rate is read."""
-    links = dict.fromkeys(one.link for one in plan.lines if one.link in sheet.scene.by_name)
-    found = (plan.line(link) for link in links if link != sheet.scene.frame.name)
-    return [one for one in found if one is not None]
+    links = dict.fromkeys(link for _, link in plan.lines if link in sheet.scene.by_name)
+    lines = (plan.line(link) for link in links if link != sheet.scene.frame.name)
+    return [line for line in lines if line is not None]
 
 
 def _table(page: FigurePage, plan: TrainPlan) -> Block:
     """What is read off the rate scale: mm, and the rate."""
     (sign, unit, tail), units, rows = _rates(plan), page.sheet.scene.units.rates, []
-    for one in _plan_lines(page.sheet, plan):
-        read = on_paper(abs(one.foot))
+    tried = {symbol.link for symbol, _ in plan.trial.found} if plan.trial else ()
+    for line in _plan_lines(page.sheet, plan):
+        read = on_paper(line.mm)
         size = written(product(read, amount(plan.turning, 12)))
-        rate = f"−{size}" if one.rate < 0.0 and size != "0" else size
-        if one.rate_known and not one.trial:
-            rate = f"{number(one.rate, 5)} {page.term('plan given')}"
-        rows.append((one.link, read, rate))
-    rows += [(key, on_paper(abs(mm)), f"{number(value / units.metres, 5)} {units.length}{tail}")
-             for key, (value, mm) in plan.travels.items()]  # fmt: skip
+        rate = f"−{size}" if line.value < 0.0 and size != "0" else size
+        if line.reason == "given on plan" and line.link not in tried:
+            rate = f"{number(line.value, 5)} {page.term('plan given')}"
+        rows.append((line.link, read, rate))
+    rows += [(key, on_paper(step.mm), f"{number(step.value / units.metres, 5)} {units.length}{tail}")
+             for key, step in plan.travels.items()]  # fmt: skip
     heads = [[word("plan link", each), "mm", f"${sign}$, {unit}"] for each in languages(page.language)]
     return table(heads, rows, (0.2 * TABLE, 0.25 * TABLE, 0.55 * TABLE))
 
