@@ -26,7 +26,6 @@ from graphkin.construction.forces.force_sheet import (
     Lever,
     MomentEquation,
     MomentTerm,
-    opposite,
 )
 from graphkin.construction.forces.position import DrawnPosition
 from graphkin.construction.scales import Extent, fitting_scale
@@ -315,8 +314,8 @@ class ForceAccount:
         """``F_R45 = 43.33 mm x 200 N/mm = 8666.4 N``, for each force that was found here."""
         force, found = self.sheet.scene.units.force, dict[Symbol, str]()
         for vector in chain(group.polygon, *group.inner.values()):
-            symbol, back = vector.symbol, opposite(vector.symbol)
-            if vector.known or symbol in found or (symbol.other and back in found):
+            symbol, back = vector.symbol, vector.symbol.opposite
+            if vector.known or symbol in found or back in found:
                 continue
             span = state.vectors.get(symbol, state.vectors.get(back))
             size = on_paper(abs(vector.span if span is None else span))

@@ -16,11 +16,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, get_args
 
 from graphkin.errors import CallError, Problem, as_list, did_you_mean, unfit
-from graphkin.scene.force_names import no_force
+from graphkin.scene.force_names import force_of, no_force
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.scene import SceneLike, mechanism_of
 from graphkin.scene.scene_tables import Convention
-from graphkin.scene.symbol import Symbol, missing_names
+from graphkin.scene.symbol import Symbol, known_symbol
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import BOTH, LANGUAGES, Phrase, from_others
 
@@ -255,8 +255,14 @@ def passed_words(scene: Mechanism, passed: Iterable[ChangePoint]) -> list[Phrase
     return said
 
 
-def asked_symbols(scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:
-    """The symbols asked for: the given ones (or one alone), or the scene's own.
+def asked_symbols(
+    scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] | None, drawn: bool = True
+) -> tuple[Symbol, ...]:
+    """The symbols asked for: the given ones (or one alone), or the scene's own; loads that are moments are told.
+
+    Parameters
+    ----------
+    drawn : whether they are asked of a drawing, which has neither places nor rates of sliding pairs by themselves
 
     Raises
     ------
@@ -264,22 +270,30 @@ def asked_symbols(scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] 
     """
     if find is None:
         return scene.question.find
-    found, problems = [], []
+    points = [*scene.holders, *(contact.name for contact in scene.contacts)]
+    positions = scene.question.positions.names if scene.question.positions else ()
+
+    def missing(key: str, known: Collection[str]) -> Callable[[str, str], Problem | None]:
+        def problem(where: str, name: str) -> Problem | None:
+            return None if name in known else Problem(where, Phrase(key, name=name), did_you_mean(name, known))
+
+        return problem
+
+    no_link, no_point = missing("there is no link", scene.by_name), missing("there is no point", points)
+    asked, problems = list[Symbol](), list[Problem]()
     for text in [find] if isinstance(find, Symbol) else as_list("find", find, Phrase("give symbols v_b omega_3")):
-        try:
-            symbol = text if isinstance(text, Symbol) else Symbol.parse(str(text))
-        except ValueError as error:
-            problems.append(Problem("find", error.args[0]))
-            continue
-        known = scene.question.positions.names if scene.question.positions else ()
-        if symbol.at and symbol.at not in known:
-            wanted = did_you_mean(symbol.at, known) if known else Phrase("name positions in positions")
-            problems.append(Problem(f"find {symbol}", "there is no position", wanted, at=symbol.at))
-        problems += _unknown_names(scene, symbol)
-        found.append(symbol)
+        where = f"find {text!s:.120}"
+        symbol = known_symbol(where, str(text), no_link, no_point, scene.by_name, positions, drawn)
+        no_such = no_force(scene, where, symbol) if isinstance(symbol, Symbol) else None
+        if no_such is not None:
+            problems.append(no_such)
+        elif isinstance(symbol, Symbol):
+            asked.append(force_of(scene, symbol) or symbol)
+        else:
+            problems += symbol
     if problems:
         raise CallError(*problems)
-    return tuple(found)
+    return tuple(asked)
 
 
 def drawn_symbols(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:
@@ -314,27 +328,13 @@ def hand_of(scene: Mechanism, name: str, seed: int) -> Instrument:
     raise CallError.of("instrument", f'"{name}"', did_you_mean(str(name), INSTRUMENTS))
 
 
-def quantity_shown(scene: Mechanism, name: str) -> Quantity:
-    """What a name shows in a table: a place ("C"), an angle, a travel or its rates, a force, or what ``find`` knows.
-    Raises CallError for a name that means nothing here."""
-    from graphkin.study.quantities import Quantity, named_quantity
+def quantities_shown(
+    scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] | None
+) -> tuple[Quantity, ...]:
+    """What names show in a table.  Raises CallError, naming everything that names nothing here."""
+    from graphkin.study.quantities import Quantity
 
-    return named_quantity(scene, name) or Quantity(asked_symbols(scene, [name])[0])
-
-
-def _unknown_names(scene: Mechanism, symbol: Symbol) -> list[Problem]:
-    def missing(key: str, known: Collection[str]) -> Callable[[str], Problem | None]:
-        def problem(name: str) -> Problem | None:
-            found = Phrase(key, name=name)
-            return None if name in known else Problem(f"find {symbol}", found, did_you_mean(name, known))
-
-        return problem
-
-    points = [*scene.holders, *(c.name for c in scene.contacts)]
-    no_link, no_point = missing("there is no link", scene.by_name), missing("there is no point", points)
-    known = missing_names(symbol, no_link, no_point, scene.by_name)
-    no_such = None if known else no_force(scene, f"find {symbol}", symbol)
-    return known if no_such is None else [no_such]
+    return tuple(map(Quantity, asked_symbols(scene, find, drawn=False)))
 
 
 def own_folder(folder: str | os.PathLike[str] | None, name: str) -> Path:

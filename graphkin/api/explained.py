@@ -16,7 +16,7 @@ from graphkin.api.results import OfScene, Result
 from graphkin.construction import EXACT, execute, plan
 from graphkin.errors import GraphkinError, Unsolvable
 from graphkin.files import Json
-from graphkin.scene.force_names import force_names
+from graphkin.scene.force_names import forces_named
 from graphkin.scene.model import Driver, Mechanism, PlacedGuide, PlacedLink
 from graphkin.scene.scene import SceneLike
 from graphkin.structure import LargerGroup, Structure, mobility_of
@@ -268,6 +268,6 @@ def _loads(scene: Mechanism) -> Iterator[Phrase]:
         rate = f"{spring.rate * units.metres / units.newtons:.6g} {units.force}/{units.length}"
         free, preload = f"{spring.free / units.metres:.6g} {units.length}", spring.preload / units.newtons
         yield Phrase("explained spring", (spring.name, *ends, rate, free, f"{preload:.6g} {units.force}"))
-    for name, kind in force_names(scene).items():
-        if name[:2] in ("F_", "M_") and "/" not in name:
-            yield Phrase(f"explained balancing {kind}", (name, name[2:]))
+    for force in forces_named(scene):
+        if force.kind in ("F", "M") and not force.other:
+            yield Phrase(f"explained balancing {force.measure}", (str(force), force.link))

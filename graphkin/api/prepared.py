@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphkin.api.arguments import as_scene, quantity_shown
+from graphkin.api.arguments import as_scene, quantities_shown
 from graphkin.api.results import OfScene, Tabled
 from graphkin.errors import CallError, as_list, as_text, did_you_mean, unfit
 from graphkin.scene.model import Mechanism
@@ -77,8 +77,9 @@ class Prepared(Tabled, OfScene):
     def units(self) -> dict[str, str]:
         """The unit of each quantity asked for, forces last: the scene's length unit, seconds, degrees for angles, but
         radians in their rates (rad/s, rad/s2)."""
-        shown = {name: quantity_shown(self.mechanism, name) for name in (*self.ready.wanted, *self.ready.loads)}
-        return {name: quantity.unit(self.mechanism).text for name, quantity in shown.items()}
+        names = (*self.ready.wanted, *self.ready.loads)
+        shown = zip(names, quantities_shown(self.mechanism, names), strict=True)
+        return {name: quantity.unit(self.mechanism).text for name, quantity in shown}
 
     def place(self, name: str) -> int:
         """Place of a quantity among those asked for.  Raises CallError for another one."""

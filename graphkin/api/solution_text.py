@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,12 +12,7 @@ import numpy as np
 from graphkin.errors import Unsolvable
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Forces, listed_points, own_slides
-from graphkin.study.quantities import (
-    Quantity,
-    link_quantities,
-    load_quantity,
-    slide_quantities,
-)
+from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
 from graphkin.table import Array
 from graphkin.words import Phrase, Wording, say, word
 
@@ -96,7 +91,7 @@ def _whole(solved: Solved, language: str) -> list[SolutionTable]:
 def _forces(found: Forces) -> Iterator[tuple[str, Sequence[Sequence[str]]]]:
     """Forces by components, size and direction."""
     for name in _names(found, found.forces):
-        x, y = (_there(found, name, part) for part in load_quantity(name, "force").parts(None, found.motion))
+        x, y = (_there(found, name, part) for part in Quantity(Symbol.parse(name)).parts(None, found.motion))
         way = ["–" if a == b == 0.0 else f"{math.degrees(math.atan2(b, a)):.6g}" for a, b in zip(x, y, strict=True)]
         yield name, (_texts(x, y), _texts(np.hypot(x, y)), way)
 
@@ -104,7 +99,7 @@ def _forces(found: Forces) -> Iterator[tuple[str, Sequence[Sequence[str]]]]:
 def _moments(found: Forces) -> Iterator[tuple[str, Sequence[Sequence[str]]]]:
     """Moments with their unit; excess work and inertia of the flywheel that the scene asks for, where it has one."""
     motion = found.motion
-    shown = [load_quantity(name, "moment") for name in _names(found, found.moments)]
+    shown = [Quantity(replace(Symbol.parse(name), turning=True)) for name in _names(found, found.moments)]
     if motion.scene.loading.flywheel is not None:
         shown += [Quantity(Symbol.parse(name)) for name in ("excess_W", "J_F")]
     for quantity in shown:

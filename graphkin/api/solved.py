@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.api.arguments import At, as_scene, known_words, placed, quantity_shown, whole_number
+from graphkin.api.arguments import At, as_scene, known_words, placed, quantities_shown, whole_number
 from graphkin.api.results import OfScene, Result
 from graphkin.errors import CallError, Problem, Unsolvable, as_list, as_text
 from graphkin.files import Json
@@ -131,7 +131,7 @@ class Solved(OfScene, Result):
         name = as_text("name", name)
         if name.startswith(("driver_", "time", "position", "status", "why")):
             return self.table[name]
-        shown = quantity_shown(self.mechanism, name)
+        (shown,) = quantities_shown(self.mechanism, [name])
         parts = shown.parts(None, self._moved)
         values = parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
         return Values.of(values, shown.unit(self.mechanism).text)
@@ -142,14 +142,14 @@ class Solved(OfScene, Result):
         from graphkin.study.quantities import all_that_moves, motion_table
 
         motion, scene = self.motion, self.mechanism
-        shown = [quantity_shown(scene, name) for name in self.find] or all_that_moves(motion.structure)
+        shown = quantities_shown(scene, self.find) or all_that_moves(motion.structure)
         parts = tuple(quantity.parts(None, self._moved) for quantity in shown)
         times = np.array(self.times) if self.times else None
         return motion_table(scene, shown, bool(self.find), 0, motion.values, parts, motion.status, motion.why, times)
 
     def columns(self, name: str) -> list[Column]:
         """What has a name, as columns of the table: a vector's size and components.  Raises CallError."""
-        shown = quantity_shown(self.mechanism, name)
+        (shown,) = quantities_shown(self.mechanism, [name])
         return shown.columns(self.mechanism, shown.parts(None, self._moved))
 
     @property

@@ -18,10 +18,10 @@ from graphkin.api.arguments import (
     CHART_FORMATS,
     At,
     as_scene,
-    asked_symbols,
     driver_values,
     known_words,
     known_workers,
+    quantities_shown,
     require_callable,
     whole_number,
     write_files,
@@ -429,24 +429,20 @@ def _elsewhere(scene: Mechanism, measured: AnswersLike) -> dict[Quantity, list[t
 
 def _asked(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Quantity, ...]:
     """What is asked, in its order.  Raises CallError, naming everything that names nothing."""
-    from graphkin.study.quantities import Quantity, named_quantity
-
     if find is None:
-        find = scene.question.find
-        shown = (s for s in find if s.scope not in ("turn", "cycle") and s.kind not in ("h", "arm") and not s.at)
-        forces = {s: named_quantity(scene, str(s)) for s in find if s.scope == "force"}
-        return tuple(forces.get(s) or Quantity(s) for s in shown)
-    found: list[Quantity] = []
+        own = scene.question.find
+        shown = (s for s in own if s.scope not in ("turn", "cycle") and s.kind not in ("h", "arm") and not s.at)
+        return quantities_shown(scene, tuple(shown))
+    asked: list[Quantity] = []
     problems: list[Problem] = []
     for name in [find] if isinstance(find, Symbol) else as_list("find", find, Phrase("give symbols v_b omega_3")):
-        named = named_quantity(scene, name) if isinstance(name, str) else None
-        if isinstance(name, str) and name.startswith(OF_TURN):
+        if str(name).startswith(OF_TURN):
             problems.append(Problem(f"find {name}", "is of the whole turn no column", "it stands in the summary"))
             continue
         try:
-            found += [named] if named is not None else map(Quantity, asked_symbols(scene, [name]))
+            asked += quantities_shown(scene, [name])
         except CallError as error:
             problems += error.problems
     if problems:
         raise CallError(*problems)
-    return tuple(found)
+    return tuple(asked)

@@ -143,7 +143,7 @@ def _position(sheet: Sheet, symbol: Symbol, instrument: Instrument, place: Place
     if symbol.kind in ("x", "y", "d"):
         return _lengths(sheet, symbol, instrument, place)
     if symbol.kind == "s":
-        slide = sliding_pair(sheet.structure, symbol)
+        slide = sliding_pair(sheet.structure.slides, symbol)
         if not {slide.a, slide.b} <= set(sheet.poses):
             return None
         return _length(sheet, instrument, travel(slide, sheet.poses, 1.0 / sheet.scales.length))
@@ -207,7 +207,7 @@ def _of_turn(sheet: Sheet, symbol: Symbol, instrument: Instrument) -> Measured |
     mm = 1.0 / sheet.scales.length
     low, high = limits.low.poses, limits.high.poses
     if symbol.kind == "stroke":
-        slide = sliding_pair(sheet.structure, symbol)
+        slide = sliding_pair(sheet.structure.slides, symbol)
         return _length(sheet, instrument, abs(travel(slide, high, mm) - travel(slide, low, mm)))
     if symbol.kind == "swing":
         turned = high[symbol.link].axis / low[symbol.link].axis

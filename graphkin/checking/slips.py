@@ -507,7 +507,7 @@ def _forces(motion: Motion, loading: Loading) -> Values:
     forces = forces_of(replace(motion, structure=replace(motion.structure, scene=scene)))
 
     def value(symbol: Symbol) -> Value | None:
-        found = forces.value(str(symbol.here))
+        found = forces.value(symbol)
         return None if found is None else _finite(symbol, found[0])
 
     return value

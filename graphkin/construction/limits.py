@@ -172,7 +172,7 @@ def limits_asked(
     for symbol in asked:
         if symbol.scope != "turn" or symbol.pair in found:
             continue
-        output = sliding_pair(structure, symbol) if symbol.other else symbol.link
+        output = sliding_pair(structure.slides, symbol) if symbol.other else symbol.link
         if not {n for e in elements for n in e.members} <= poses.keys():
             continue
         turn = turn or TurnOfCrank.of(structure, elements, values, poses, str(symbol))

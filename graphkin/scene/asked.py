@@ -12,7 +12,7 @@ from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.bodies import Reading
 from graphkin.scene.model import Driver, Mechanism, StatedValues
 from graphkin.scene.scene_tables import Positions, StrokeStart
-from graphkin.scene.symbol import Printed, Symbol, missing_names, stated
+from graphkin.scene.symbol import Printed, Symbol, known_symbol, stated
 from graphkin.scene.tables import Units, path_name
 from graphkin.words import Phrase
 
@@ -28,27 +28,9 @@ Stated = float | str | Sequence[float]
 
 
 def _symbol(where: str, text: str, reading: Reading) -> Symbol | Problem:
-    """A symbol whose points, links and position exist, or what is wrong with it."""
-    try:
-        symbol = Symbol.parse(text[:120])
-    except ValueError as error:
-        return Problem(where, error.args[0])
-    missing = missing_names(symbol, lambda link: reading.no_link(where, link),
-                            lambda point: reading.no_point(where, point), reading.points)  # fmt: skip
-    if missing:
-        return missing[0]
-    if symbol.at and symbol.at not in reading.positions:
-        unnamed = Phrase("name positions in positions")
-        wanted = did_you_mean(symbol.at, reading.positions) if reading.positions else unnamed
-        return Problem(where, "there is no position", wanted, at=symbol.at)
-    if symbol.of is None:
-        return symbol
-    if symbol.to == symbol.of:
-        return Problem(where, "is relative to itself", "name two different points", text=text)
-    if symbol.kind in ("ak", "ar") and symbol.to and symbol.to.point != symbol.of.point:
-        return Problem(where, "names two different points", "it is between coincident points of two links", text=text,
-                       kind=symbol.kind)
-    return symbol
+    """A symbol whose points, links and position exist, or what is wrong with it first."""
+    symbol = known_symbol(where, text[:120], reading.no_link, reading.no_point, reading.points, reading.positions)
+    return symbol if isinstance(symbol, Symbol) else symbol[0]
 
 
 def spelling_of(scene: Mechanism) -> Spelling:

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Literal
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.model import Mechanism
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import PointRef, Symbol
 
 
 @dataclass(frozen=True)
@@ -18,14 +17,18 @@ class ForceJoint:
     sliding pair (``point`` is the sliding link's first point, or empty), or a cam (``first``) with its follower, or
     what slides or rolls on each other, or meshes, in a contact or gear ``point``.  ``second`` slides, or has the pin.
 
-    name : ``5/6``, or ``5/6@C`` where the two share several joints
+    several : whether the two share further joints
     """
 
     kind: Literal["turning", "sliding", "slot", "cam", "contact", "rolling", "gear"]
     first: str
     second: str
     point: str
-    name: str = ""
+    several: bool = False
+
+    def symbol(self, kind: Literal["F", "M"]) -> Symbol:
+        """The force or the couple that goes through it, ``F_5/6``, or ``F_5/6@C`` where the two share several."""
+        return Symbol(kind, PointRef(self.point) if self.several else None, link=self.first, other=self.second)
 
 
 def joints(mechanism: Mechanism) -> tuple[ForceJoint, ...]:
@@ -47,55 +50,37 @@ def joints(mechanism: Mechanism) -> tuple[ForceJoint, ...]:
             found.append(ForceJoint(kind, *contact.links, contact.name))  # type: ignore[arg-type]
     found += [ForceJoint("gear", *g.wheels, g.name) for g in mechanism.gears if {*g.wheels, g.carrier} <= here]
     shared = Counter(frozenset((joint.first, joint.second)) for joint in found)
-    several = [shared[frozenset((joint.first, joint.second))] > 1 and joint.point != "" for joint in found]
-    return tuple(
-        replace(joint, name=f"{joint.first}/{joint.second}" + (f"@{joint.point}" if more else ""))
-        for joint, more in zip(found, several, strict=True)
-    )
+    several = (shared[frozenset((joint.first, joint.second))] > 1 and joint.point != "" for joint in found)
+    return tuple(replace(joint, several=more) for joint, more in zip(found, several, strict=True))
 
 
-def force_names(mechanism: Mechanism) -> Mapping[str, Literal["force", "moment"]]:
+def forces_named(mechanism: Mechanism) -> tuple[Symbol, ...]:
     """Every force and moment of a mechanism that has masses, loads or springs, in the order in which they are told."""
-    loading, made = mechanism.loading, dict[str, Literal["force", "moment"]]()
+    loading = mechanism.loading
     if not loading:
-        return made
+        return ()
+    made: list[Symbol] = []
     for mass in loading.masses:
-        made |= {f"Fi_{mass.link}": "force", f"Mi_{mass.link}": "moment"}
-        if loading.gravity:
-            made[f"G_{mass.link}"] = "force"
-    for load in loading.loads:
-        made[f"P_{load.name}"] = "force" if load.is_force else "moment"
-    made |= {f"P_{spring.name}": "force" for spring in loading.springs}
+        made += [Symbol(kind, link=mass.link) for kind in ("Fi", "Mi", *(("G",) if loading.gravity else ()))]
+    made += [Symbol("P", name=load.name, turning=not load.is_force) for load in loading.loads]
+    made += [Symbol("P", name=spring.name) for spring in loading.springs]
     for joint in joints(mechanism):
-        made[f"F_{joint.name}"] = "force"
-        if joint.kind == "sliding":
-            made[f"M_{joint.name}"] = "moment"
+        made += [joint.symbol("F"), *([joint.symbol("M")] if joint.kind == "sliding" else [])]
     if loading.balance is not None:
-        said = loading.balance
-        return made | {_balance(not said.is_force, said.link): "force" if said.is_force else "moment"}
-    for driver in mechanism.drivers:
-        if driver.turns:
-            made[_balance(True, driver.link)] = "moment"
-        else:
-            pin = next((s.of for s in mechanism.pins if s.key == driver.key), driver.link)
-            made[_balance(False, pin)] = "force"
-    return made
+        balances = [(loading.balance.is_force, loading.balance.link)]
+    else:
+        pins = {pin.key: pin.of for pin in mechanism.pins}
+        balances = [(not d.turns, d.link if d.turns else pins.get(d.key, d.link)) for d in mechanism.drivers]
+    made += [Symbol("F" if is_force else "M", link=link) for is_force, link in balances]
+    return tuple(dict.fromkeys(made))
 
 
-def _balance(moment: bool, link: str) -> str:
-    return f"{'M' if moment else 'F'}_{link}"
-
-
-def opposite(name: str) -> str:
-    """The name of the force or couple of the second link on the first, ``F_6/5@C`` for ``F_5/6@C``; others as they are.
-
-    >>> opposite("F_6/5@C"), opposite("M_2")
-    ('F_5/6@C', 'M_2')
-    """
-    letter, _, rest = name.partition("_")
-    pair, at, point = rest.partition("@")
-    first, between, second = pair.partition("/")
-    return f"{letter}_{second}/{first}{at}{point}" if between else name
+def force_of(mechanism: Mechanism, symbol: Symbol) -> Symbol | None:
+    """A force or moment as the mechanism has it, or its opposite, which tells whether a load is a moment; None for one
+    that it does not have."""
+    plain = replace(symbol, at="", plus=False)
+    known = next((force for force in forces_named(mechanism) if force in (plain, plain.opposite)), None)
+    return known and replace(symbol, turning=known.turning)
 
 
 def no_force(mechanism: Mechanism, where: str, symbol: Symbol) -> Problem | None:
@@ -103,13 +88,13 @@ def no_force(mechanism: Mechanism, where: str, symbol: Symbol) -> Problem | None
     has."""
     if symbol.scope == "cycle" and mechanism.loading.flywheel is None:
         return Problem(where, "belongs to a flywheel but there is none", "give flywheel", symbol=symbol)
-    if symbol.scope != "force" or symbol.kind in ("h", "arm"):
+    if not symbol.is_load:
         return None
-    known = force_names(mechanism)
+    known = forces_named(mechanism)
     if not known:
         return Problem(where, "is a force but nothing makes any", "give masses.link or loads.name or springs.name",
                        symbol=symbol)
-    name = str(replace(symbol, at="", plus=False))
-    if name in known or opposite(name) in known:
+    if force_of(mechanism, symbol) is not None:
         return None
-    return Problem(where, "there is no here", did_you_mean(name, known), symbol=symbol)
+    name = str(replace(symbol, at="", plus=False))
+    return Problem(where, "there is no here", did_you_mean(name, map(str, known)), symbol=symbol)

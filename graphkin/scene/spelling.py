@@ -97,7 +97,7 @@ class Spelling:
         head, _, place = text.partition(" at ")
         try:
             symbol = Symbol.parse(text)
-            if self._exists(symbol):
+            if self._exists(symbol) and not symbol.is_of_tables:
                 yield symbol
         except ValueError:
             pass

@@ -1,7 +1,9 @@
 """Names of quantities: ``v_B``, ``v_B@3/B@2``, ``omega_3``, ``theta_3/2``, ``d_B/C``, ``stroke_5/6``, ``F_5/6`` ...;
 and values that somebody states of them.
 
-A kind of quantity is one entry of `KINDS`: what its name is followed by, and what it measures.
+A kind of quantity is one entry of `KINDS`: what its name is followed by, and what it measures.  A name means the same
+wherever it stands: ``v_C/B`` is the velocity of point C relative to point B, ``v_3/4``, where the names are no points,
+that of link 3 along the guide of link 4 on which it slides, with its sign; ``C`` and ``B@3`` are places of points.
 """
 
 from __future__ import annotations
@@ -13,7 +15,7 @@ from dataclasses import dataclass, field, replace
 from decimal import Decimal, InvalidOperation
 from typing import Literal, NamedTuple
 
-from graphkin.errors import Problem
+from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.tables import Measure, Unit, Units
 from graphkin.words import Phrase, say
 
@@ -52,6 +54,7 @@ def forms_of_names(point: str, link: str, lax: bool = False) -> dict[str, str]:
         "link of link": rf"{one}(?:{between('/')}{other})?",
         "pair": rf"{one}{between('/-')}{other}",
         "links": rf"{one}{between('-/')}{other}",
+        "place": part("of"),
         "link or joint": rf"{one}(?:{between('/')}{other}(?:@{of})?)?{plus}",
         "of link": rf"{one}{plus}",
     }
@@ -73,6 +76,8 @@ class Kind:
 
     ``form`` says what it is of (a key of the forms above), ``scope`` whether it is a motion drawn in a polygon, a
     position measured on the mechanism, belongs to the whole turn, stands in a force polygon, or is of a flywheel.
+    ``order`` is how often a place, an angle or a travel is derived by the time in it; None of what is none of these.
+    Sliding pairs have it too, along the guide and with a sign, where it is ``of_pairs``.
     """
 
     name: str
@@ -81,6 +86,8 @@ class Kind:
     scope: Scope
     example: str
     is_vector: bool = False
+    order: int | None = None
+    of_pairs: bool = False
 
     @property
     def sign(self) -> str:
@@ -91,19 +98,19 @@ class Kind:
 KINDS = {
     kind.name: kind
     for kind in (
-        Kind("v", "velocity", "points", "motion", "v_B, v_B@3 or v_C/B", True),
-        Kind("a", "acceleration", "points", "motion", "a_B, a_B@3 or a_C/B", True),
+        Kind("v", "velocity", "points", "motion", "v_B, v_B@3 or v_C/B", True, 1, of_pairs=True),
+        Kind("a", "acceleration", "points", "motion", "a_B, a_B@3 or a_C/B", True, 2, of_pairs=True),
         Kind("an", "acceleration", "points", "motion", "an_B or an_C/B", True),
         Kind("at", "acceleration", "points", "motion", "at_B or at_C/B", True),
         Kind("ak", "acceleration", "coincident", "motion", "ak_B@3/B@2", True),
         Kind("ar", "acceleration", "coincident", "motion", "ar_B@3/B@2", True),
-        Kind("omega", "angular velocity", "link", "motion", "omega_3"),
-        Kind("alpha", "angular acceleration", "link", "motion", "alpha_3"),
+        Kind("omega", "angular velocity", "link", "motion", "omega_3", order=1),
+        Kind("alpha", "angular acceleration", "link", "motion", "alpha_3", order=2),
         Kind("x", "length", "point", "position", "x_D"),
         Kind("y", "length", "point", "position", "y_D"),
-        Kind("theta", "angle", "link of link", "position", "theta_3 or theta_3/2"),
+        Kind("theta", "angle", "link of link", "position", "theta_3 or theta_3/2", order=0),
         Kind("d", "length", "two points", "position", "d_B/C or d_P12/A"),
-        Kind("s", "length", "pair", "position", "s_2/3"),
+        Kind("s", "length", "pair", "position", "s_2/3", order=0),
         Kind("gamma", "angle", "links", "position", "gamma_2-3"),
         Kind("pressure", "angle", "link", "position", "pressure_5"),
         Kind("stroke", "length", "pair", "turn", "stroke_5/6"),
@@ -127,7 +134,7 @@ KINDS = {
 VECTORS = tuple(name for name, kind in KINDS.items() if kind.is_vector)
 _OF_ALL = {
     **KINDS,
-    "place": Kind("place", "length", "points", "motion", "C or B@3"),
+    "place": Kind("place", "length", "points", "motion", "C or B@3", order=0),
     "transmission": Kind("transmission", "angle", "links", "position", "4-5"),
 }
 """With the place of a point, which has no letter of its own, and what only a group as a whole has."""
@@ -166,6 +173,8 @@ class Symbol:
     'v_B3-B2'
     >>> str(Symbol.parse("omega_3")), str(Symbol.parse("gamma_2-3 at 7"))
     ('omega_3', 'gamma_2-3 at 7')
+    >>> Symbol.parse("v_C/B").is_vector, Symbol.parse("v_3/4").is_vector, Symbol.parse("B@3").kind
+    (True, False, 'place')
     """
 
     kind: str
@@ -185,42 +194,55 @@ class Symbol:
         elsewhere = _ELSEWHERE.fullmatch(text)
         if elsewhere:
             return replace(cls.parse(elsewhere[1]), at=elsewhere[2])
+        place = re.fullmatch(_FORMS["place"], text)
+        if place is not None:
+            return cls.of_names("place", place.groupdict(""))
         name = next((kind for kind in _LONGEST_FIRST if text.startswith(f"{kind}_")), None)
         if name is None:
             known = ", ".join(re.sub(" or .*|,.*", "", kind.example) for kind in KINDS.values())
             raise ValueError(Phrase("is no quantity known are", text=text, names=known))
         kind = KINDS[name]
-        match = re.fullmatch(_FORMS[kind.form], text[len(name) + 1 :])
+        names = text[len(name) + 1 :]
+        match = re.fullmatch(_FORMS[kind.form], names)
+        if match is None and kind.of_pairs:
+            match = re.fullmatch(_FORMS["pair"], names)
         if match is None:
             missing = Phrase(_MISSING.get(kind.form, "names no link"))
             raise ValueError(Phrase("write for example", text=text, missing=missing, example=kind.example))
-        return cls.of_names(name, {part: given for part, given in match.groupdict().items() if given})
+        return cls.of_names(name, match.groupdict(""))
 
     @classmethod
-    def of_column(cls, text: str) -> Symbol:
-        """Read the name of a column: a symbol, the place of a point ("C", "B@3") or a rate of a sliding pair ("v_3/4",
-        "a_3/4").  Raises ValueError as `parse` does."""
-        kind, mark, rest = text.partition("_")
-        if not mark:
-            point, _, link = text.partition("@")
-            return cls("place", PointRef(point, link))
-        pair = re.fullmatch(_FORMS["pair"], rest) if kind in ("v", "a") else None
-        if pair is None or re.fullmatch(_FORMS["points"], rest):
-            return cls.parse(text)
-        return cls(kind, link=pair["link"], other=pair["other"])
-
-    @classmethod
-    def of_names(cls, kind: str, found: Mapping[str, str]) -> Symbol:
-        """The quantity of a kind by the names behind it, as `forms_of_names` calls them."""
-        of, to = (PointRef(found[part], found.get(f"{part}_link", "")) if part in found else None
+    def of_names(cls, kind: str, names: Mapping[str, str]) -> Symbol:
+        """The quantity of a kind by the names behind it, as `forms_of_names` calls them; "" stands for none."""
+        of, to = (PointRef(names[part], names.get(f"{part}_link", "")) if names.get(part) else None
                   for part in ("of", "to"))  # fmt: skip
-        link, other, name = (found.get(part, "") for part in ("link", "other", "name"))
-        return cls(kind, of, to, link, other, name=name, plus="plus" in found)
+        link, other, name = (names.get(part, "") for part in ("link", "other", "name"))
+        return cls(kind, of, to, link, other, name=name, plus=bool(names.get("plus")))
 
     @property
     def is_vector(self) -> bool:
-        of_slide = self.of is None and self.kind in ("v", "a")
-        return self.kind in VECTORS and not self.turning and not of_slide
+        return self.kind in VECTORS and not self.turning and not self.is_rate_of_pair
+
+    @property
+    def is_rate_of_pair(self) -> bool:
+        """Whether it is a rate of a sliding pair along its guide."""
+        return self.of is None and _OF_ALL[self.kind].of_pairs
+
+    @property
+    def is_of_tables(self) -> bool:
+        """Whether tables alone give it: the place of a point, a rate of a sliding pair, which no drawing has by
+        itself."""
+        return self.kind == "place" or self.is_rate_of_pair
+
+    @property
+    def is_load(self) -> bool:
+        """Whether it is a force or a moment of the mechanism."""
+        return self.scope == "force" and self.kind not in ("h", "arm")
+
+    @property
+    def order(self) -> int | None:
+        """How often a place, an angle or a travel is derived by the time in it; None of what else it is."""
+        return _OF_ALL[self.kind].order
 
     @property
     def scope(self) -> Scope:
@@ -239,6 +261,12 @@ class Symbol:
     def here(self) -> Symbol:
         """The same quantity without the position that is meant."""
         return replace(self, at="") if self.at else self
+
+    @property
+    def opposite(self) -> Symbol:
+        """The force or couple of the second link on the first, ``F_6/5@C`` of ``F_5/6@C``; what is of one link as it
+        is."""
+        return replace(self, link=self.other, other=self.link) if self.other else self
 
     def links(self) -> Iterator[str]:
         """The names of links in it; the first may be a pin's (see ``link``)."""
@@ -288,27 +316,55 @@ def centre_links(name: str, links: Container[str]) -> tuple[str, str] | None:
     return next(((a, b) for a, b in cuts if a != b and a in links and b in links), None)
 
 
-def missing_names(
-    symbol: Symbol,
-    no_link: Callable[[str], Problem | None],
-    no_point: Callable[[str], Problem | None],
+def known_symbol(
+    where: str,
+    text: str,
+    no_link: Callable[[str, str], Problem | None],
+    no_point: Callable[[str, str], Problem | None],
     links: Container[str],
-) -> list[Problem]:
-    """What is wrong with the names in a symbol.
+    positions: Sequence[str],
+    drawn: bool = True,
+) -> Symbol | list[Problem]:
+    """The quantity that a name means, or what is wrong with it.
 
     Parameters
     ----------
-    no_link, no_point : the problem of a name that is no link, or no point; None if it is one
+    where : where the name stands, as problems tell it
+    no_link, no_point : the problem there of a name that is no link, or no point; None if it is one
     links : the names of all links, by which instant centres are named
+    positions : the names of the positions
+    drawn : whether it is asked of a drawing, which has neither places nor rates of sliding pairs by themselves
     """
-    pins = symbol.other != "" and symbol.kind in ("s", "stroke", "K", "theta_lag") and symbol.link[:1].isupper()
-    found = [no_point(symbol.link) if pins and no_link(symbol.link) else no_link(symbol.link)] if symbol.link else []
-    found += [no_link(name) for name in symbol.links() if name != symbol.link]
+    try:
+        symbol = Symbol.parse(text)
+    except ValueError as error:
+        return [Problem(where, error.args[0])]
+    of, to, of_pairs = symbol.of, symbol.to, _OF_ALL[symbol.kind].of_pairs
+    if of_pairs and of and to and no_point(where, to.point) and not (of.link or to.link or no_link(where, to.point)):
+        symbol = Symbol(symbol.kind, link=of.point, other=to.point, at=symbol.at)
+    pin = symbol.link[:1].isupper() and symbol.other and (of_pairs or symbol.kind in ("s", "stroke", "K", "theta_lag"))
+    found = [no_link(where, name) for name in symbol.links()]
+    if pin and found[0]:
+        found[0] = no_point(where, symbol.link)
     for ref in (symbol.of, symbol.to):
-        if ref is not None:
-            missing = no_point(ref.point)
-            found.append(None if symbol.kind == "d" and centre_links(ref.point, links) else missing)
-    return [problem for problem in found if problem is not None]
+        if ref is not None and not (symbol.kind == "d" and centre_links(ref.point, links)):
+            found.append(no_point(where, ref.point))
+    problems = [problem for problem in found if problem is not None]
+    if problems:
+        return problems
+    if symbol.at and symbol.at not in positions:
+        wanted = did_you_mean(symbol.at, positions) if positions else Phrase("name positions in positions")
+        return [Problem(where, "there is no position", wanted, at=symbol.at)]
+    if symbol.of and symbol.to == symbol.of:
+        return [Problem(where, "is relative to itself", "name two different points", text=text)]
+    if symbol.kind in ("ak", "ar") and symbol.of and symbol.to and symbol.to.point != symbol.of.point:
+        return [Problem(where, "names two different points", "it is between coincident points of two links", text=text,
+                        kind=symbol.kind)]
+    if drawn and symbol.is_of_tables:
+        vector = f"{symbol.kind}_B@{symbol.link}/B@{symbol.other}"
+        instead = f"x_{symbol.of.point}, y_{symbol.of.point}" if symbol.of else vector
+        return [Problem(where, "is given by tables alone", "ask a drawing for", text=text, instead=instead)]
+    return symbol
 
 
 # -- values that somebody states, with the digits they are stated to ---------------------------------------------------

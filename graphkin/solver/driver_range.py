@@ -603,7 +603,7 @@ def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
         why = reach.limit_why or Phrase("the motion does not repeat after one turn")
         raise _without(symbol, Phrase("belongs to a whole turn which the driver", why=why), WHERE_ELSE)
     if symbol.other:
-        sliding_pair(reach.structure, symbol)
+        sliding_pair(reach.structure.slides, symbol)
     pair = symbol.pair
     offsets, values, turned = _turns(reach, symbol)
     if not symbol.other and abs(turned) > 1.0:

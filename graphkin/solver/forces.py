@@ -12,15 +12,16 @@ where over the range of the driver the forces jump, as loads begin and end, and 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from graphkin.plane import cross
-from graphkin.scene.force_names import ForceJoint, joints, opposite
+from graphkin.scene.force_names import ForceJoint, joints
 from graphkin.scene.model import LoadOn, SpringOn
 from graphkin.scene.scene_tables import LoadPhase
+from graphkin.scene.symbol import Symbol
 from graphkin.solver.cams import cam_angle, cam_at
 from graphkin.solver.constraints import solve_all
 from graphkin.solver.motion import SLIGHT, Motion, contact_motion, pitch_point
@@ -52,9 +53,9 @@ def pair_forces(motion: Motion) -> list[PairForce]:
     found: list[PairForce] = []
     for joint in joints(motion.scene):
         ways, at = _lines(motion, joint)
-        found += [PairForce(f"F_{joint.name}", joint.first, joint.second, way, at) for way in ways]
+        found += [PairForce(str(joint.symbol("F")), joint.first, joint.second, way, at) for way in ways]
         if joint.kind == "sliding":
-            found.append(PairForce(f"M_{joint.name}", joint.first, joint.second, None, at))
+            found.append(PairForce(str(joint.symbol("M")), joint.first, joint.second, None, at))
     return found
 
 
@@ -180,14 +181,14 @@ class Forces:
             found += [Action("", one.second, place, value[one.key]), Action("", one.first, place, -value[one.key])]
         return found
 
-    def value(self, key: str) -> Array | None:
-        """A force or a moment by its symbol, ``F_6/5`` being the opposite of ``F_5/6``, ``F_5/6+`` with the loads that
-        begin or end exactly at a position; None for one that there is not."""
-        name, plus = key.removesuffix("+"), key.endswith("+")
-        for known, sign in ((name, 1.0), (opposite(name), -1.0)):
+    def value(self, symbol: Symbol) -> Array | None:
+        """A force or a moment, ``F_6/5`` being the opposite of ``F_5/6``, ``F_5/6+`` with the loads that begin or end
+        exactly at a position; None for one that there is not."""
+        plain = replace(symbol, at="", plus=False)
+        for known, sign in ((str(plain), 1.0), (str(plain.opposite), -1.0)):
             own = self.moments.get(known, self.forces.get(known))
             if own is not None:
-                jumped = self.beside.get(known) if plus else None
+                jumped = self.beside.get(known) if symbol.plus else None
                 return np.asarray(sign * (own if jumped is None else np.where(np.isnan(jumped), own, jumped)))
         return None
 

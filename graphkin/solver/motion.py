@@ -213,8 +213,7 @@ class Motion:
         if pair is None:
             raise CallError.of(Phrase("slide", key=key), "there is no such sliding pair",
                                did_you_mean(key, [s.key for s in self.slides]))
-        guide = self.posed.guide(pair)
-        seen = guide.inverse().of(self.poses[pair.a])
+        guide, seen = self.posed.guide(pair), self.posed.sliding(pair)
         return Sliding(seen.z.real, seen.v.real, seen.a.real, 2j * guide.omega * guide.u * seen.v.real)
 
     @cached_property

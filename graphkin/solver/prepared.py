@@ -10,7 +10,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from graphkin.errors import CallError
-from graphkin.scene.force_names import force_names, opposite
+from graphkin.scene.force_names import force_of
 from graphkin.scene.model import Dimension, Mechanism, dimensions
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Measure
@@ -26,7 +26,7 @@ from graphkin.solver.kernel import LONG, Kernel
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.pose import FIELDS, GIVEN, UNIT, Array, Drive, turned
 from graphkin.solver.program import DimensionedProgram, Program, program_of
-from graphkin.solver.quantities import ORDERS, VALUES, Posed, bound_of_symbol
+from graphkin.solver.quantities import VALUES, Posed, bound_of_symbol
 from graphkin.structure import Structure
 
 CHUNK = 16384  # positions in a piece, so that all columns of one stay in the cache
@@ -88,7 +88,7 @@ class PreparedMechanism:
         def left(name: str) -> float:
             if name in self.loads:
                 return 0.0
-            symbol = Symbol.of_column(name if name in self.wanted else name.removesuffix(".x").removesuffix(".y"))
+            symbol = Symbol.parse(name if name in self.wanted else name.removesuffix(".x").removesuffix(".y"))
             return RESIDUE * whole.get(symbol.measure, 0.0)
 
         return np.array([left(name) for name in self.names])
@@ -451,10 +451,10 @@ def column_symbol(name: str) -> Symbol:
     """What a column is of: "B", "B@3" (place of a point), "v_B", "a_B@3", "v_C/B", "theta_3", "omega_3", "alpha_3",
     "s_2/3" (travel of a sliding pair).  Raises CallError for what is none of these."""
     try:
-        symbol = Symbol.of_column(name)
+        symbol = Symbol.parse(name)
     except ValueError as error:
         raise CallError.of(f'"{name}"', error.args[0]) from None
-    if symbol.kind not in ORDERS or (symbol.other and symbol.kind != "s"):
+    if symbol.order is None or (symbol.other and symbol.kind != "s"):
         raise CallError.of(f'"{name}"', "is no column", "ask for places v_ a_ theta_ omega_ alpha_")
     return symbol
 
@@ -494,9 +494,11 @@ def formulas(
 
 def force_heads(scene: Mechanism, name: str) -> tuple[str, ...]:
     """The heads of the columns of a force (two, ``F_5/6.x`` and ``F_5/6.y``) or a moment; none for what is neither."""
-    known, plain = force_names(scene), name.removesuffix("+")
-    kind = known.get(plain) or known.get(opposite(plain))
-    return (f"{name}.x", f"{name}.y") if kind == "force" else (name,) if kind else ()
+    try:
+        force = force_of(scene, Symbol.parse(name))
+    except ValueError:
+        force = None
+    return () if force is None else (f"{name}.x", f"{name}.y") if force.is_vector else (name,)
 
 
 def force_rows(
@@ -513,7 +515,7 @@ def force_rows(
     forces, per = forces_of(reach.motion(reach.offsets(values))), reach.scene.units.newtons
     rows, bounds = [], []
     for name in names:
-        value = forces.value(name)
+        value = forces.value(Symbol.parse(name))
         assert value is not None
         vector = np.iscomplexobj(value)
         rows += [part / per for part in ((value.real, value.imag) if vector else (value,))]

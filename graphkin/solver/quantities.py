@@ -104,6 +104,10 @@ class Posed(Generic[V, R]):
             return self.poses[slide.b].fixed(self.number("through", slide.key), self.number("direction", slide.key))
         return self.poses[slide.b].fixed(slide.guide.through, slide.guide.direction)
 
+    def sliding(self, slide: Pair) -> Pose[V, R]:
+        """What slides, as seen from its guide: the x axis is along the guide's sense."""
+        return self.guide(slide).inverse().of(self.poses[slide.a])
+
     def travel(self, slide: Pair) -> R:
         """Of a sliding pair, along the guide's sense (m)."""
         guide = self.guide(slide)
@@ -131,11 +135,13 @@ def value_of_symbol(posed: Posed, symbol: Symbol) -> Array:
     raise CallError.of(str(symbol), "belongs to the whole turn not to one", "ask check audit or sweep")
 
 
-def _rate(field: str) -> Callable[[Posed[V, R], Symbol], V]:
-    """A velocity or an acceleration: of a point, or of one against another."""
+def _rate(field: str) -> Callable[[Posed[V, R], Symbol], V | R]:
+    """A velocity or an acceleration: of a point, of one against another, or of a sliding pair along its guide."""
 
-    def value(posed: Posed[V, R], symbol: Symbol) -> V:
-        assert symbol.of is not None
+    def value(posed: Posed[V, R], symbol: Symbol) -> V | R:
+        if symbol.of is None:
+            along: R = getattr(posed.sliding(sliding_pair(posed.slides, symbol)), field).real
+            return along
         of: V = getattr(posed.point(symbol.of), field)
         return of - getattr(posed.point(symbol.to), field) if symbol.to else of
 
@@ -336,7 +342,7 @@ VALUES: Mapping[str, Callable[[Posed[Any, Any], Symbol], Any]] = {
     "omega": lambda posed, symbol: posed.pose(symbol.link).omega,
     "alpha": lambda posed, symbol: posed.pose(symbol.link).alpha,
     "theta": _theta,
-    "s": lambda posed, symbol: posed.travel(sliding_pair(posed.structure, symbol)),
+    "s": lambda posed, symbol: posed.travel(sliding_pair(posed.slides, symbol)),
     "x": _coordinate,
     "y": _coordinate,
     "d": _apart,
@@ -347,13 +353,10 @@ VALUES: Mapping[str, Callable[[Posed[Any, Any], Symbol], Any]] = {
 """How a quantity of each kind is found from the poses."""
 
 
-ORDERS = {"place": 0, "s": 0, "theta": 0, "v": 1, "omega": 1, "a": 2, "alpha": 2}
-"""How often a quantity that a prepared mechanism gives is derived by the time."""
-
-
 def bound_of_symbol(posed: Posed, symbol: Symbol, bounds: Mapping[str, ErrorBound[Array]]) -> Array:
     """How far a place, an angle, a travel or a rate of them may be off (SI), shape (n,), by the bounds of the links."""
-    order, frame = ORDERS[symbol.kind], posed.structure.scene.frame.name
+    order, frame = symbol.order, posed.structure.scene.frame.name
+    assert order is not None
     known = {frame: ErrorBound(*(np.zeros(1),) * 6), **bounds}
 
     def of_point(ref: PointRef) -> Array:
@@ -373,7 +376,7 @@ def bound_of_symbol(posed: Posed, symbol: Symbol, bounds: Mapping[str, ErrorBoun
         return found
 
     if symbol.kind == "s":
-        pair = sliding_pair(posed.structure, symbol)
+        pair = sliding_pair(posed.slides, symbol)
         block, guide = known[pair.a], known[pair.b]
         return np.asarray(block.position + guide.position + np.abs(posed.travel(pair)) * (guide.angle + 4 * UNIT))
     if symbol.of is None:

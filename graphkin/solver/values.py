@@ -54,7 +54,7 @@ def value_of(motion: Motion, symbol: Symbol) -> Array:
     if symbol.scope == "cycle":
         wheel = flywheel_of(range_of(structure_of(motion.structure)))
         return np.full(len(motion), wheel.excess if symbol.kind == "excess" else wheel.inertia)
-    found = forces_of(motion).value(str(symbol.here))
+    found = forces_of(motion).value(symbol)
     if found is None:
         raise CallError.of(str(symbol), "is read off the drawing alone", "ask check for it")
     return found
@@ -147,7 +147,7 @@ def force_values(motion: Motion) -> tuple[Callable[[Symbol], Value], float]:
             return float(moment[0]) / force if force else 0.0
         if symbol.kind == "arm":
             return _arm(moving, forces, symbol.name)
-        known = forces.value(str(symbol.here))
+        known = forces.value(symbol)
         return float("nan") if known is None else _number(known)
 
     return value, float(forces.bound[0][0])

@@ -17,7 +17,7 @@ degrees.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from graphkin.errors import CallError
@@ -148,11 +148,11 @@ def _pushed(structure: Structure, name: str, line: Way, at: Spot) -> Transmissio
     return None if pivot is None else TransmissionAngle(line, (pivot, at))
 
 
-def sliding_pair(structure: Structure, symbol: Symbol) -> Pair:
-    """The sliding pair or pin in slot that a symbol names.  Raises CallError where there is none."""
-    found = next((s for s in structure.slides if s.key == symbol.pair), None)
-    if found is None:
-        known = ", ".join(s.key for s in structure.slides)
+def sliding_pair(slides: Sequence[Pair], symbol: Symbol) -> Pair:
+    """The sliding pair or pin in slot, of several, that a symbol names.  Raises CallError where there is none."""
+    named = next((pair for pair in slides if pair.key == symbol.pair), None)
+    if named is None:
+        known = ", ".join(pair.key for pair in slides)
         wanted = Phrase("known here", names=known) if known else Phrase("nothing slides here")
         raise CallError.of(str(symbol), "there is no such sliding pair", wanted)
-    return found
+    return named

@@ -24,7 +24,7 @@ from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece
 from graphkin.drawing.text import rich
 from graphkin.errors import GraphkinError, Unsolvable
-from graphkin.scene.force_names import force_names
+from graphkin.scene.force_names import forces_named
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Unit
@@ -33,7 +33,7 @@ from graphkin.solver.values import FlywheelStudy
 from graphkin.study import charts
 from graphkin.study.force_diagrams import flywheel_page, force_page, polar_page
 from graphkin.study.graphical import ordinate_chains
-from graphkin.study.quantities import Quantity, load_quantity, rates_of
+from graphkin.study.quantities import Quantity, rates_of
 from graphkin.study.turn import Output, TurnStudy
 from graphkin.words import Phrase, say, word
 from graphkin.words.written import in_markup
@@ -97,9 +97,9 @@ def _force_pages(turn: TurnStudy, quantity: Quantity, language: str) -> dict[str
 def _balance_pages(turn: TurnStudy, language: str) -> dict[str, ChartPage | Drawing]:
     """What balances a mechanism that carries loads, and the flywheel that it asks for."""
     pages: dict[str, ChartPage | Drawing] = {}
-    for name, kind in force_names(turn.scene).items():
-        if name[:2] in ("F_", "M_") and "/" not in name:
-            pages[f"diagram-{name}"] = force_page(turn.reach, load_quantity(name, kind), language)
+    for force in forces_named(turn.scene):
+        if force.kind in ("F", "M") and not force.other:
+            pages[f"diagram-{force}"] = force_page(turn.reach, Quantity(force), language)
     if isinstance(turn.flywheel, FlywheelStudy):
         pages["flywheel"] = flywheel_page(turn.reach, turn.flywheel, language)
     return pages

@@ -13,12 +13,13 @@ import numpy as np
 
 from graphkin.drawing import Box, chart
 from graphkin.drawing.ink.primitives import Stroke
-from graphkin.scene.force_names import force_names
+from graphkin.scene.force_names import forces_named
+from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, forces_of
 from graphkin.solver.values import FlywheelStudy, MomentArea, load_edges, needed_moment
 from graphkin.study import charts
 from graphkin.study.extremes import Extreme
-from graphkin.study.quantities import Quantity, load_quantity, named_quantity
+from graphkin.study.quantities import Quantity
 from graphkin.words import Phrase, say, word
 
 JUMP = 1e-8
@@ -76,8 +77,8 @@ def force_extremes(reach: DriverRange) -> dict[str, tuple[Quantity, tuple[Extrem
     ------
     Unsolvable : a load acts on a part of a stroke, and the driver makes no whole turn
     """
-    names = [n for n in force_names(reach.scene) if n.startswith(("F_", "M_"))]
-    if not names:
+    quantities = [Quantity(force) for force in forces_named(reach.scene) if force.kind in ("F", "M")]
+    if not quantities:
         return {}
     axis = charts.driver_axis(reach, "en")
     offsets = whole_turn(axis)
@@ -85,10 +86,10 @@ def force_extremes(reach: DriverRange) -> dict[str, tuple[Quantity, tuple[Extrem
     forces = forces_of(motion)
     most = max(float(np.nanmax(np.abs(v), initial=0.0)) for v in (*forces.forces.values(), *forces.moments.values()))
     found = dict[str, tuple[Quantity, tuple[Extreme, ...]]]()
-    for name in names:
-        value, quantity = forces.value(name), named_quantity(reach.scene, name)
-        if value is not None and quantity is not None and np.nanmax(np.abs(value), initial=0.0) > NOUGHT * most:
-            found[name] = quantity, _extremes(axis, quantity, offsets, quantity.values(reach, motion))
+    for quantity in quantities:
+        value = forces.value(quantity.symbol)
+        if value is not None and np.nanmax(np.abs(value), initial=0.0) > NOUGHT * most:
+            found[quantity.name] = quantity, _extremes(axis, quantity, offsets, quantity.values(reach, motion))
     return found
 
 
@@ -176,7 +177,7 @@ def flywheel_page(reach: DriverRange, found: FlywheelStudy, language: str) -> ch
     scene, axis = reach.scene, charts.driver_axis(reach, language)
     per, force = scene.units.newtons, scene.units.force
     moment, inertia = f"{force}·m", f"{scene.units.mass}·{'ft' if scene.units.mass == 'lb' else 'm'}²"
-    offsets, moments = whole_turn(axis), load_quantity(f"M_{found.link}", "moment")
+    offsets, moments = whole_turn(axis), Quantity(Symbol("M", link=found.link))
     curve = axis.curve(moments, offsets, needed_moment(reach, offsets))
     (x, needed), driving = curve.T, found.driving / per
     # gained since the axis begins, by the trapezoidal rule: for the eye

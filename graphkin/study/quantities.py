@@ -5,11 +5,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from graphkin.scene.force_names import force_names, opposite
+from graphkin.scene.force_names import forces_named
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Measure, Unit
@@ -26,9 +26,6 @@ Parts = tuple[tuple[Array, ...], ...]
 Words = Sequence[Wording] | Array
 IN_LINE = 1e-12
 """Two bars are in line where the square of the sine of their angle is no more: rounding tells no less."""
-
-LOADS = ("F", "Fi", "G", "P", "M", "Mi")
-"""Kinds of forces and moments."""
 
 
 def _transmission(motion: Motion, links: str) -> Array:
@@ -60,7 +57,7 @@ class Quantity:
     @property
     def of(self) -> str:
         """The link or the sliding pair that it is of; the place of a point, a force or a moment itself."""
-        return self.name if self.kind == "place" or self.is_load else self.symbol.pair
+        return self.name if self.kind == "place" or self.symbol.is_load else self.symbol.pair
 
     @property
     def measure(self) -> Measure:
@@ -71,8 +68,8 @@ class Quantity:
     def order(self) -> int | None:
         """How often the angle of a link or the travel of a sliding pair is derived by the time in it; None of what else
         it is."""
-        kinds = ("s", "v", "a") if self.symbol.other else ("theta", "omega", "alpha")
-        return kinds.index(self.kind) if self.kind in kinds else None
+        relative = self.kind == "theta" and not self.is_angle
+        return None if self.symbol.of or relative else self.symbol.order
 
     @property
     def is_angle(self) -> bool:
@@ -92,7 +89,7 @@ class Quantity:
     @property
     def is_load(self) -> bool:
         """Whether it is a force or a moment."""
-        return self.kind in LOADS
+        return self.symbol.is_load
 
     @property
     def is_size(self) -> bool:
@@ -107,8 +104,7 @@ class Quantity:
     @property
     def can_be_prepared(self) -> bool:
         """Whether a prepared mechanism gives it, as it stands in tables."""
-        rate_of_slide = self.kind in ("v", "a") and self.symbol.of is None
-        return self.kind in ("place", "omega", "alpha", "s", "v", "a") and not rate_of_slide
+        return self.symbol.order is not None and self.kind != "theta" and not self.symbol.is_rate_of_pair
 
     def unit(self, scene: Mechanism, radians: bool = False) -> Unit:
         """Its unit in tables; with ``radians`` that in JSON."""
@@ -118,14 +114,8 @@ class Quantity:
         """Its values in a motion (SI), complex for vectors, shape (n,)."""
         if self.is_angle:
             return motion.angle(self.symbol.link)
-        if self.is_load:
-            found = forces_of(motion).value(self.name)
-            assert found is not None
-            return found
         if self.kind == "transmission":
             return _transmission(motion, self.symbol.name)
-        if self.symbol.other and self.order is not None:
-            return motion.slide(self.symbol.pair)[self.order]
         return value_of(motion, self.symbol)
 
     def values(self, reach: DriverRange | None, motion: Motion) -> Array:
@@ -250,31 +240,6 @@ def rates_of(quantity: Quantity) -> tuple[Quantity, Quantity, Quantity]:
     return slide_quantities(symbol.pair) if symbol.other else link_quantities(symbol.link)
 
 
-def load_quantity(name: str, kind: str) -> Quantity:
-    """A "force" or a "moment" by its name, as `force_names` tells them."""
-    return Quantity(replace(Symbol.parse(name), turning=kind == "moment"))
-
-
-def named_quantity(scene: Mechanism, name: str) -> Quantity | None:
-    """What a name shows that is no symbol of ``find``: the place of a point ("C", "B@3"), travel, velocity and
-    acceleration of a sliding pair ("s_3/4", "v_3/4", "a_3/4"), a force or a moment ("F_5/6", "F_6/5", "F_5/6+", "M_2");
-    None for others."""
-    kind, mark, rest = name.partition("_")
-    forces, plain = force_names(scene), name.removesuffix("+")
-    load = forces.get(plain) or forces.get(opposite(plain))
-    if load is not None:
-        return load_quantity(name, load)
-    if not mark:
-        place = Symbol.of_column(name)
-        assert place.of is not None
-        point, link = place.of
-        here = point in scene.holders or any(c.name == point for c in scene.contacts)
-        return Quantity(place) if here and (not link or link in scene.by_name) else None
-    if kind in ("s", "v", "a") and any(s.key == rest for s in scene.slidings):
-        return slide_quantities(rest)["sva".index(kind)]
-    return None
-
-
 def all_that_moves(structure: Structure) -> tuple[Quantity, ...]:
     """Everything that moves: each pin once, and each point under a sliding pin."""
     scene, slides = structure.scene, own_slides(structure.scene, all_slides(structure))
@@ -288,8 +253,7 @@ def all_that_moves(structure: Structure) -> tuple[Quantity, ...]:
         found += [Quantity(Symbol("place", ref))] if not ref.link else []
         found += [Quantity(Symbol(kind, ref)) for kind in ("v", "a")]
     found += [q for slide in slides for q in slide_quantities(slide.key)]
-    found += [load_quantity(name, kind) for name, kind in force_names(scene).items()]
-    return tuple(found)
+    return (*found, *map(Quantity, forces_named(scene)))
 
 
 def motion_table(

@@ -64,3 +64,34 @@ def test_a_name_that_is_not_there_is_told_in_the_reader_s_language() -> None:
 
 def test_what_leads_over_no_contact_tells_of_none() -> None:
     assert "at contact" not in run("check", "cam-swinging-roller", "--find", "d_A/C").stdout
+
+
+WRONG = ["v_B/B", "ak_B@1/C@2", "v_Q", "omega_9", "v_B at 9", "v_2/3", "C", "B@3", "v_9/3", "speed"]
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_a_name_that_cannot_be_drawn_is_refused_alike_in_a_file_and_in_a_call(name: str) -> None:
+    with pytest.raises(graphkin.CallError) as called:
+        graphkin.check(SIXBAR, find=[name])
+    with pytest.raises(graphkin.SceneError) as filed:
+        graphkin.check(graphkin.read(SIXBAR).replace("find", [name]))
+    assert [str(p.wanted) for p in called.value.problems] == [str(p.wanted) for p in filed.value.problems]
+
+
+@pytest.mark.parametrize(("name", "instead"), [("v_2/3", "v_B@2/B@3"), ("a_2/3", "a_B@2/B@3"), ("D", "x_D, y_D")])
+def test_what_stands_in_tables_alone_is_refused_with_what_a_drawing_has(name: str, instead: str) -> None:
+    assert graphkin.solve(SIXBAR, find=name).table[name if "_" in name else f"x_{name}"].size
+    told = run("check", SIXBAR, "--find", name).stderr
+    assert f"is given by tables alone: solve and sweep have it; of a drawing ask for {instead}" in told
+
+
+def test_a_name_of_two_points_is_of_a_sliding_pair_where_they_are_links() -> None:
+    scene = {
+        "frame": {"name": "F", "points": {"A": [0, 0]}, "guides": {"h": {"through": [0, 0], "angle": 0}}},
+        "links": {"1": {"points": ["A", "B"], "length": 20}, "2": {"points": ["B", "C"], "length": 60},
+                  "G": {"points": ["C"], "on": "F.h"}},
+        "driver": {"link": "1", "angle": 60, "omega": 10},
+    }  # fmt: skip
+    solved = graphkin.solve(scene)
+    assert solved["v_C"][0].real == pytest.approx(solved["v_G/F"][0], rel=1e-12)
+    assert solved["v_C/B"][0] == pytest.approx(solved["v_C"][0] - solved["v_B"][0], rel=1e-12)

@@ -13,6 +13,7 @@ import pytest
 
 import graphkin
 from graphkin.scene import library, mechanism_of
+from graphkin.scene.symbol import Symbol
 from graphkin.solver.cams import cam_angle, cam_at
 from graphkin.solver.motion import pitch_point
 from tests import with_tables
@@ -32,13 +33,6 @@ def number(value):
     return complex(*value) if isinstance(value, list) else value
 
 
-def opposite(key):
-    letter, _, rest = key.partition("_")
-    plus = "+" if rest.endswith("+") else ""
-    pair, at, point = rest.removesuffix("+").partition("@")
-    return f"{letter}_{'/'.join(reversed(pair.split('/')))}{at}{point}{plus}"
-
-
 @pytest.mark.parametrize(("name", "at"), PLACES)
 def test_forces_are_those_of_the_reference(name, at):
     true = CASES[name]["positions"][at]
@@ -46,7 +40,7 @@ def test_forces_are_those_of_the_reference(name, at):
     found = {**here["forces"], **here["moments"]}
     most = max(abs(number(v)) for v in true["forces"].values())
     for key, exact in {**true["forces"], **true["moments"]}.items():
-        mine = number(found[key]) if key in found else -number(found[opposite(key)])
+        mine = number(found[key]) if key in found else -number(found[str(Symbol.parse(key).opposite)])
         assert abs(number(exact) - mine) <= 1e-11 * most, key
 
 
@@ -157,7 +151,7 @@ def residues(scene):
         act(link, forces.forces[f"F_{link}"], at)
         act(on, -forces.forces[f"F_{link}"], at)
     for key in (*forces.forces, *forces.moments):
-        value = forces.value(key)
+        value = forces.value(Symbol.parse(key))
         if not key.startswith(("F_", "M_")) or "/" not in key:
             continue
         second, first, at = shares(mechanism, solved, key)
@@ -214,15 +208,15 @@ SHAPER = scene_of("shaper-scheme-2")
 def test_the_power_balance_holds_over_a_turn():
     solved = graphkin.solve(SHAPER, sweep=72)
     motion, forces = solved.motion, solved.forces
-    power = forces.value("M_2") * motion.omega("2")
+    power = forces.value(Symbol.parse("M_2")) * motion.omega("2")
     for link in ("4", "6"):
         mass = next(m for m in motion.scene.loading.masses if m.link == link)
         velocity = motion.poses[link].fixed(mass.at).v
         for key in (f"Fi_{link}", f"G_{link}"):
-            power = power + (np.conj(velocity) * forces.value(key)).real
-        power = power + motion.omega(link) * forces.value(f"Mi_{link}")
-    power = power + (np.conj(motion.point("C").v) * forces.value("P_P")).real
-    most = np.abs(forces.value("M_2") * motion.omega("2")).max()
+            power = power + (np.conj(velocity) * forces.value(Symbol.parse(key))).real
+        power = power + motion.omega(link) * forces.value(Symbol.parse(f"Mi_{link}"))
+    power = power + (np.conj(motion.point("C").v) * forces.value(Symbol.parse("P_P"))).real
+    most = np.abs(forces.value(Symbol.parse("M_2")) * motion.omega("2")).max()
     assert 0 == pytest.approx(np.abs(power).max(), abs=1e-10 * most)
     left, greatest = forces.power
     assert 0 == pytest.approx(np.abs(left).max(), abs=1e-10 * most)

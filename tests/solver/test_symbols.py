@@ -105,6 +105,13 @@ def test_a_symbol_that_names_nothing_is_refused(fourbar: Motion, symbol: str) ->
         value(fourbar, symbol)
 
 
+def test_the_rates_of_a_sliding_pair_are_along_its_guide_with_their_sign(sixbar: Motion) -> None:
+    along = sixbar.poses["3"].u
+    relative = value(sixbar, "v_B@2/B@3"), value(sixbar, "ar_B@2/B@3")
+    assert [value(sixbar, "v_2/3"), value(sixbar, "a_2/3")] == pytest.approx(
+        [(vector * along.conjugate())[0].real for vector in relative], rel=1e-12)
+
+
 RELATIVE = """
 frame.points = { A = [0, 0], D = [200, 0] }
 links.1 = { points = ["A", "B"], length = 100 }

@@ -19,11 +19,6 @@ Way = Literal["polygon", "driver", "drawn system"]
 """How the forces of a group are found: by moments and one polygon, at last at a driver, by one drawn system."""
 
 
-def opposite(symbol: Symbol) -> Symbol:
-    """The force or couple of the second link on the first."""
-    return Symbol(symbol.kind, symbol.of, link=symbol.other, other=symbol.link)
-
-
 @dataclass(frozen=True)
 class ForceVector:
     """A force, or a couple, that acts on a link; in a polygon it stands from ``tail`` to ``tip``.
@@ -75,10 +70,9 @@ class ForceVector:
     @property
     def back(self) -> ForceVector:
         """What acts for it on the other link."""
-        named = opposite(self.symbol) if self.symbol.other else self.symbol
         turned = self.turned if self.symbol.other else not self.turned
-        return replace(self, symbol=named, link=self.off, off=self.link, force=-self.force, moment=-self.moment,
-                       turned=turned)  # fmt: skip
+        return replace(self, symbol=self.symbol.opposite, link=self.off, off=self.link, force=-self.force,
+                       moment=-self.moment, turned=turned)  # fmt: skip
 
     def on(self, link: str) -> ForceVector:
         """What acts on one of its two links."""

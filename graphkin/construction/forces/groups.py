@@ -20,7 +20,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from graphkin.construction.forces.force_sheet import ForceGroup, ForceVector, MomentEquation, MomentTerm, opposite
+from graphkin.construction.forces.force_sheet import ForceGroup, ForceVector, MomentEquation, MomentTerm
 from graphkin.construction.forces.position import DrawnPosition
 from graphkin.construction.instruments import Instrument
 from graphkin.construction.steps import Direction, Part
@@ -91,7 +91,7 @@ class CutFree:
             if not mine or not others or any(n not in self.done for n in others):
                 continue
             carrier, at = mine[0], self.drawn.point(mine[0], point)
-            hung = {opposite(self.drawn.of_pin(point, other)): -self.pins[point, other] for other in others}
+            hung = {self.drawn.of_pin(point, other).opposite: -self.pins[point, other] for other in others}
             if len(holders) > 2 and carrier != self.drawn.holders[point][0]:
                 hung = {Symbol("F", link=point, other=carrier): added_up(hung.values(), 0j)}
             for symbol, force in hung.items():
@@ -105,7 +105,7 @@ class CutFree:
             symbol, at = self.drawn.of_pin(pair.point, pair.a), self.drawn.point(pair.a, pair.point)
         else:
             symbol, at = self.drawn.of_slide(pair), self.drawn.foot(pair)
-            symbol = symbol if link == pair.a else opposite(symbol)
+            symbol = symbol if link == pair.a else symbol.opposite
         return ForceVector(symbol, link, at=at, by="closing", off=off)
 
     def set_slide(self, slide: Pair, force: ForceVector, couple: float, inside: Iterable[str]) -> None:
@@ -370,7 +370,7 @@ def _inner_forces(
     if slide.turns:
         names, point, known = cut.drawn, slide.point, cut.drawn.structure.links
         first, second = (next(n for n in body.links if point in known[n].points) for body in dyad.bodies)
-        symbol = opposite(names.of_pin(point, second))
+        symbol = names.of_pin(point, second).opposite
         if second == names.holders[point][0] and len(names.structure.hinges[point]) > 2:
             # the first link at a pin bears the sum of several: the force inside is called as the other link's is
             symbol = names.of_pin(point, first)
