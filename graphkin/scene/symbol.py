@@ -199,8 +199,7 @@ class Symbol:
             return cls.of_names("place", place.groupdict(""))
         name = next((kind for kind in _LONGEST_FIRST if text.startswith(f"{kind}_")), None)
         if name is None:
-            known = ", ".join(re.sub(" or .*|,.*", "", kind.example) for kind in KINDS.values())
-            raise ValueError(Phrase("is no quantity known are", text=text, names=known))
+            raise ValueError(_no_quantity(text))
         kind = KINDS[name]
         names = text[len(name) + 1 :]
         match = re.fullmatch(_FORMS[kind.form], names)
@@ -306,6 +305,12 @@ _MISSING = {
 """What a name lacks that has not the form of its kind; of the other forms it names no link."""
 
 
+def _no_quantity(text: str) -> Phrase:
+    """What is said of a name of no quantity."""
+    known = ", ".join(re.sub(" or .*|,.*", "", kind.example) for kind in KINDS.values())
+    return Phrase("is no quantity known are", text=text, names=known)
+
+
 def centre_links(name: str, links: Container[str]) -> tuple[str, str] | None:
     """The two links whose instant centre a name means, as books print it; None where it means none.
 
@@ -339,6 +344,8 @@ def known_symbol(
         symbol = Symbol.parse(text)
     except ValueError as error:
         return [Problem(where, error.args[0])]
+    if drawn and symbol.kind == "place" and symbol.of and no_point(where, symbol.of.point):
+        return [Problem(where, _no_quantity(text))]
     of, to, of_pairs = symbol.of, symbol.to, _OF_ALL[symbol.kind].of_pairs
     if of_pairs and of and to and no_point(where, to.point) and not (of.link or to.link or no_link(where, to.point)):
         symbol = Symbol(symbol.kind, link=of.point, other=to.point, at=symbol.at)

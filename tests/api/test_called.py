@@ -34,7 +34,7 @@ def test_one_symbol_may_stand_without_a_list():
         (lambda: graphkin.handout(SIXBAR, positions="6"), "positions: found '6'; give a whole number from 1 to 72"),
         (lambda: graphkin.check(SIXBAR, instrument="pencil", seed="x"), "seed: found 'x'; give a whole number"),
         (lambda: graphkin.check(SIXBAR, find=3), 'find: found 3; give symbols: ["v_B", "omega_3"]'),
-        (lambda: graphkin.check(SIXBAR, find=[None]), 'find: "None" is no quantity'),
+        (lambda: graphkin.check(SIXBAR, find=[None]), 'find None: "None" is no quantity'),
         (lambda: graphkin.check(SIXBAR, instrument=3), "instrument: found 3"),
         (lambda: graphkin.draw(SIXBAR, language=3), 'lang: "3"'),
         (lambda: graphkin.draw(SIXBAR, formats=3), "format: found 3; give a list: svg, pdf, png"),
