@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from importlib.util import find_spec
 from numbers import Integral, Real
 from typing import TYPE_CHECKING
 
@@ -19,6 +18,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike, written
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Unit
+from graphkin.solver.kernel import pays
 from graphkin.study.quantities import settled
 from graphkin.table import Column, Table, Values
 from graphkin.words import Phrase
@@ -30,11 +30,7 @@ if TYPE_CHECKING:
 
 Reals = NDArray[np.float64]
 
-MANY = 500_000
-"""From so many positions in one call on the formulas are compiled where that can be done; it takes a second or two."""
 MOST = 1_000_000_000
-
-
 MOST_VALUE = 1e9
 
 
@@ -43,10 +39,6 @@ def driver_value(value: object) -> float:
     if isinstance(value, Real) and not isinstance(value, bool) and abs(number := float(value)) <= MOST_VALUE:
         return number
     raise CallError.of("at", "is no driver value of value", "give a finite number below 1e9", value=f"{value!r:.60}")
-
-
-def _have_numba() -> bool:
-    return find_spec("numba") is not None
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -160,10 +152,7 @@ class Prepared(Tabled, OfScene):
             self.allowed(n)
         if out is not None:
             self._fitting(n, out)
-        columns, ok = self.ready.sweep(n, out, n >= MANY and _have_numba() if self.fast is None else self.fast)
-        if self._plain:
-            return Samples(self, columns, ok, None, None)
-        return self.samples(columns, ok, None)
+        return self.samples(*self.ready.sweep(n, out, self.compiled(n)), None)
 
     def _fitting(self, n: int, out: Reals) -> None:
         shape = self.ready.rows, n
@@ -172,11 +161,6 @@ class Prepared(Tabled, OfScene):
         if out.shape != shape or out.dtype != float or not out.flags.c_contiguous:
             wanted = Phrase("give an array of floats of the shape in", shape=shape)
             raise CallError.of("out", Phrase("of the shape", dtype=out.dtype, shape=out.shape), wanted)
-
-    @cached_property
-    def _plain(self) -> bool:
-        """Whether nothing is left to do with what the code gives."""
-        return self.ready.clear and not self.ready.bounded
 
     @staticmethod
     def allowed(n: int) -> None:
@@ -225,16 +209,14 @@ class Prepared(Tabled, OfScene):
 
     def compiled(self, n: int) -> bool:
         """Whether n positions are computed by compiled code."""
-        return n >= MANY and _have_numba() if self.fast is None else self.fast
+        return pays(n) if self.fast is None else self.fast
 
     def samples(self, columns: Reals, ok: NDArray[np.bool_], driver: Reals | None) -> Samples:
-        if not ok.all():
-            columns[:, ~ok] = np.nan
+        """What the code gives: the columns, and below them their bounds, where these were asked for."""
         if not self.ready.bounded:
             return Samples(self, columns, ok, driver, None)
         count = len(self.names)
-        bounds = np.where(ok, np.nan_to_num(columns[count:], nan=np.inf, posinf=np.inf), np.nan)
-        return Samples(self, columns[:count], ok, driver, bounds)
+        return Samples(self, columns[:count], ok, driver, columns[count:])
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Prepared) and self._said == other._said

@@ -6,7 +6,7 @@ it was made from, and all such designs are computed together.  The others are fo
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
 
@@ -167,31 +167,33 @@ class PreparedMechanisms:
         steps = np.abs(seen - np.roll(seen, 1, axis=2))
         return np.asarray(((seen > CLEAR) & (steps < seen / 2)).all(axis=(0, 2)))
 
-    def _alone(self, k: int) -> PreparedMechanism | None:
-        """A design followed by itself; None where it cannot be assembled."""
-        scene = with_dimensions(self.ready.structure.scene, {name: complex(x[k]) for name, x in self.given.items()})
-        ready, own = self.ready, self.ready.range.forms(np.zeros(1))
-        try:
-            structure = analyse(scene)
-            forms = choose_forms(structure)
-        except (Unsolvable, SceneError):
-            return None
-        for i, dyad in structure.dyads.items():
-            if not dyad.is_two_lines:
-                forms[i] = own[i][0]
-        along = range_from(structure, forms, own_values(scene))
-        return prepare(structure, ready.wanted, ready.units, ready.bounded, along)
+    def _alone(self) -> Iterator[tuple[int, PreparedMechanism]]:
+        """The other designs by their numbers, each followed by itself; without those that cannot be assembled."""
+        ready, own_forms = self.ready, self.ready.range.forms(np.zeros(1))
+        for k in np.flatnonzero(~self.together).tolist():
+            changed = {name: complex(numbers[k]) for name, numbers in self.given.items()}
+            scene = with_dimensions(ready.structure.scene, changed)
+            try:
+                structure = analyse(scene)
+                forms = choose_forms(structure)
+            except (Unsolvable, SceneError):
+                continue
+            for i, dyad in structure.dyads.items():
+                if not dyad.is_two_lines:
+                    forms[i] = own_forms[i][0]
+            along = range_from(structure, forms, own_values(scene))
+            yield k, prepare(structure, ready.wanted, ready.units, ready.bounded, along)
 
     def sweep(self, n: int, fast: bool = False) -> tuple[Array, Array, Array]:
         """As for one mechanism.
 
         Returns
         -------
-        columns : shape (columns, designs, n), in the units of the mechanism; 0 where not ok
+        columns : shape (columns, designs, n), in the units of the mechanism; NaN where not ok
         ok : bool, shape (designs, n)
         values : of the first driver (rad, m), shape (n,), or (designs, n) where they differ
         """
-        out = np.zeros((self.ready.rows, self.count, n))
+        out = np.full((self.ready.rows, self.count, n), np.nan)
         ok = np.repeat(self.together[:, None], n, axis=1)
         which = np.flatnonzero(self.together)
         if fast and n >= LOOP:
@@ -201,11 +203,9 @@ class PreparedMechanisms:
         values = self._values(n) if self.ready.turns else np.full((self.count, n), np.nan)
         if not self.together.all():
             values = np.array(np.broadcast_to(values, (self.count, n)))
-        for k in np.flatnonzero(~self.together).tolist():
-            one = self._alone(k)
-            if one is not None:
-                out[:, k], ok[k] = one.sweep(n)
-                values[k] = one.range.grid(n).values
+        for k, design in self._alone():
+            out[:, k], ok[k] = design.sweep(n)
+            values[k] = design.range.grid(n).values
         return out, ok, values
 
     def _values(self, n: int) -> Array:
@@ -241,14 +241,11 @@ class PreparedMechanisms:
         ok, shape (designs,), and the values, shape () or (designs,)."""
         values = np.array(value) if value is not None else self._start if ("value", 0) in self.given else self._start[0]
         each = np.broadcast_to(values, (self.count,))
-        out, ok = np.zeros((self.ready.rows, self.count)), self.together.copy()
+        out, ok = np.full((self.ready.rows, self.count), np.nan), self.together.copy()
         which = np.flatnonzero(ok)
         if len(which):
             c, s = (x[:, None] for x in GivenValues(each[which]).turn)
             out[:, which] = self._compute(self._code.columns, which, c, s)[:, :, 0]
-        for k in np.flatnonzero(~self.together).tolist():
-            one = self._alone(k)
-            if one is not None:
-                columns, ok[k : k + 1] = one.columns(each[k : k + 1])
-                out[:, k] = columns[:, 0]
+        for k, design in self._alone():
+            _, ok[k : k + 1] = design.columns(each[k : k + 1], out[:, k : k + 1])
         return out, ok, np.asarray(values)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import cache
+from importlib.util import find_spec
 from itertools import pairwise
 from threading import Thread
 from typing import Any, TypeVar
@@ -29,6 +30,8 @@ CHECKS = 128
 """A loop with more checks of its columns against each other is not compiled for several positions at once (LLVM)."""
 LONG = 100_000
 """From so many positions on the threads pay."""
+MANY = 500_000
+"""From so many positions on compiled code is worth the second or two that compiling takes."""
 HALF_PI = math.pi / 2
 
 
@@ -40,7 +43,7 @@ class Kernel:
     turning : whether the first driver is an angle
     even : whether its values are at even steps, or come as an array
     columns : how many of the formulas are asked for; those after them are the sines of groups: where one is smaller
-        than ``singular`` the position is marked, and its columns are 0
+        than ``singular`` the position is marked
 
     Raises
     ------
@@ -74,6 +77,11 @@ class Kernel:
         self.run(bounds[0], bounds[1], *given)
         for other in others:
             other.join()
+
+
+def pays(count: int) -> bool:
+    """Whether so many positions are worth compiling for, where that can be done."""
+    return count >= MANY and find_spec("numba") is not None
 
 
 def kernel_text(code: Code, turning: bool, even: bool, columns: int, singular: float) -> str:
@@ -114,8 +122,7 @@ def kernel_text(code: Code, turning: bool, even: bool, columns: int, singular: f
         if checked:
             here = " and ".join(["good[k]", *(f"abs({made[at]}) >= {singular}" for at in sines)])
             lines += [f"        here = {here}", *(["        good[k] = here"] if sines else [])]
-        kept = " if here else 0.0" if checked else ""
-        lines += [f"        o{k}[k] = {made[at]}{kept}" for k, at in enumerate(some, start=first)]
+        lines += [f"        o{k}[k] = {made[at]}" for k, at in enumerate(some, start=first)]
     return "\n    ".join(lines)
 
 

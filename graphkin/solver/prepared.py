@@ -319,7 +319,7 @@ class PreparedMechanism:
 
         Returns
         -------
-        columns : shape (len(names), n), in SI; 0 where not ok
+        columns : shape (len(names), n), in SI; NaN where not ok
         ok : bool, shape (n,): False where the motion does not come, and at dead points
 
         Raises
@@ -331,10 +331,11 @@ class PreparedMechanism:
         return out, self._all(GivenValues(values), out, fast)
 
     def _all(self, way: GivenValues | UniformGrid, out: Array, fast: bool) -> Array:
-        """All columns: those of formulas, below them forces and moments, at last the bounds of both."""
+        """All columns: those of formulas, below them forces and moments, at last the bounds of both, infinite where
+        they are not known; NaN where there is no such position."""
         count, n = len(self.asked), len(way)
         ok = self._formulas(way, out[:count], fast) if count or not self.loads else self._reached(way.values)
-        if not self.loads and not self.bounded:
+        if self.clear:
             return ok
         bounds = out[len(self.names) :]
         if self.loads:
@@ -346,18 +347,19 @@ class PreparedMechanism:
         for k in range(0, n if self.bounded and self.wanted else 0, CHUNK):
             some = slice(k, k + CHUNK)
             self._bounds(way.values[some], ok[some], bounds[: len(self.wanted), some])
-        out[:, ~ok] = 0.0
+        bounds[np.isnan(bounds)] = np.inf
+        if not ok.all():
+            out[:, ~ok] = np.nan
         return ok
 
     def _formulas(self, way: GivenValues | UniformGrid, out: Array, fast: bool) -> Array:
-        """The columns of formulas, 0 where there is no such position, and where there is one."""
+        """The columns of formulas, and where there is such a position; where there is none they mean nothing."""
         n, count, compiled = len(way), len(self.asked), fast and not self.by_newton
         if n > CHUNK and not compiled:
             parts = [slice(k, min(k + CHUNK, n)) for k in range(0, n, CHUNK)]
             return np.concatenate([self._formulas(way[p], out[:, p], fast) for p in parts])
         ok = _every(n) if self._regular else np.ones(n, dtype=bool) if self.whole else self._reached(way.values)
         if not ok.any():
-            out[...] = 0.0
             return ok
         given: dict[Name, Array] = {} if self.signs is not None else self.signs_at(way.values)
         if compiled:
@@ -374,8 +376,6 @@ class PreparedMechanism:
             self._code.arrays(self._same, [given[name] for name in self._code.inputs], [*out, *sines])
             for sine in sines:
                 ok &= np.abs(sine) >= SINGULAR
-        if not self._regular and not ok.all():
-            out[:, ~ok] = 0.0
         return ok
 
     def _bounds(self, value: Array, ok: Array, out: Array) -> None:

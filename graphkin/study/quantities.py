@@ -15,7 +15,6 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Measure, Unit
 from graphkin.solver import DriverRange, Motion, forces_of, listed_points, own_slides, senses_along, value_of
 from graphkin.solver.pose import Array
-from graphkin.solver.prepared import PreparedMechanism
 from graphkin.solver.quantities import all_slides, transmission
 from graphkin.structure import Structure, links_for
 from graphkin.table import Column, Table
@@ -147,10 +146,6 @@ class Quantity:
         made = [Column(head, part, unit, self.name) for head, part in zip(heads, parts, strict=True)]
         sized = sizes and self.is_vector and self.kind != "place"
         return [Column(self.name, np.abs(parts[0] + 1j * parts[1]), unit, self.name), *made] if sized else made
-
-    def residues(self, engine: PreparedMechanism) -> Array:
-        """What rounding leaves of nothing in what a prepared mechanism gives of it, in the table's unit."""
-        return np.asarray(engine.residues[engine.names.index(self.name + ".x" * self.is_vector)])
 
     def smooth(self, reach: DriverRange, motion: Motion) -> tuple[Array, Array]:
         """What is smooth where the quantity may not be, and grows with it: the square of a vector's size or of a

@@ -23,19 +23,18 @@ from graphkin.scene.drivers import moments, moves_by_law
 from graphkin.scene.model import Dimension, Mechanism, dimensions, same_but_for_dimensions
 from graphkin.solver import DriverRange, driver_range, over_time, prepare, structure_of
 from graphkin.solver.designs import PreparedMechanisms
+from graphkin.solver.kernel import pays
 from graphkin.solver.named_positions import named_positions
 from graphkin.solver.pose import Array
 from graphkin.solver.prepared import PreparedMechanism
 from graphkin.structure import Structure
 from graphkin.study.designs import Designs, Value, applied
 from graphkin.study.quantities import Parts, Quantity, Words, all_that_moves, motion_table, settled, word_column
-from graphkin.table import Column, Table, have, parquet_of_csv
+from graphkin.table import Column, Table, parquet_of_csv
 from graphkin.words import from_others
 
 BLOCK = 16384
 """Positions that are computed and written together, about."""
-MANY = 500_000
-"""From so many positions on compiled code is worth the second or two that compiling takes."""
 MOST_DESIGNS = 64
 """Designs in a piece, so that all workers have some."""
 LONG = 5.0
@@ -100,20 +99,22 @@ class FollowedDesign:
         """All of n positions at once, where the mechanism can be prepared; very many by compiled code."""
         if self.engine is None:
             return None
-        return _known(self.engine, *self.engine.sweep(n, fast=n >= MANY and have("numba")))
+        return self.engine.sweep(n, fast=pays(n))
 
     def parts(self, columns: Array) -> Parts:
-        """What is watched among the columns of the prepared mechanism."""
-        assert self.engine is not None
-        by_name = dict(zip(self.engine.names, columns, strict=True))
+        """What is watched among the columns of the prepared mechanism, as people read it: 0 where it is nothing but
+        what rounding leaves."""
+        engine = self.engine
+        assert engine is not None
+        settled_columns = map(settled, columns, engine.residues)
+        by_name = dict(zip(engine.names, settled_columns, strict=True))
         ends = {True: (".x", ".y"), False: ("",)}
         return tuple(tuple(by_name[w.name + e] for e in ends[w.is_vector]) for w in self.watched)
 
     def table(self, n: int, first: int, last: int) -> Table:
         """Positions ``first`` to ``last`` (not included) of n: driver values, what is watched, status and reason."""
         if self.engine is not None:
-            arrays = _known(self.engine, *self.engine.columns(self.reach.grid(n, first, last).values))
-            return self.table_of(arrays, n, first, last)
+            return self.table_of(self.engine.columns(self.reach.grid(n, first, last).values), n, first, last)
         times = np.array(moments(self.scene, n)[first:last]) if moves_by_law(self.scene) else None
         if times is not None:
             motion = over_time(self.structure, times)
@@ -124,21 +125,19 @@ class FollowedDesign:
 
     def table_of(self, arrays: Arrays, n: int, first: int, last: int) -> Table:
         """The table of what a prepared mechanism gave at positions ``first`` to ``last`` of n."""
-        (columns, ok), rows, engine = arrays, last - first, self.engine
-        assert engine is not None
+        (columns, ok), rows = arrays, last - first
         values = np.repeat(self.reach.start[None], rows, axis=0)
         values[:, 0] = self.reach.grid(n, first, last).values
+        parts, without = self.parts(columns), np.flatnonzero(~ok)
+        if not len(without):
+            return self._rows(first, values, parts, ["ok"], [""])
         status, why = np.full(rows, "ok", object), np.full(rows, "", object)
-        both = zip(self.watched, self.parts(columns), strict=True)
-        # as people read them: 0 where they are nothing but what rounding leaves
-        parts = tuple(tuple(settled(part, w.residues(engine)) for part in own) for w, own in both)
-        bad = np.flatnonzero(~ok)
-        for some in (bad[k : k + BLOCK] for k in range(0, len(bad), BLOCK)):
+        for some in (without[k : k + BLOCK] for k in range(0, len(without), BLOCK)):
             # why there is nothing there the solver says, and it has the last word on whether there is
             motion = self.reach.motion(self.reach.table_offsets(n, first, last)[some])
-            for own, watched in zip(parts, self.watched, strict=True):
-                for part, found in zip(own, watched.parts(self.reach, motion), strict=True):
-                    part[some] = found
+            for watched, components in zip(self.watched, parts, strict=True):
+                for component, solved in zip(components, watched.parts(self.reach, motion), strict=True):
+                    component[some] = solved
             status[some], why[some] = motion.status.tolist(), motion.why
         return self._rows(first, values, parts, status, why)
 
@@ -157,13 +156,6 @@ class FollowedDesign:
         return motion_table(
             self.scene, self.watched, bool(self.asked), first, values, parts, status, why, times
         )
-
-
-def _known(engine: PreparedMechanism, columns: Array, ok: Array) -> Arrays:
-    """What an engine gave, NaN where there is no such position."""
-    if not engine.clear and not ok.all():
-        columns[:, ~ok] = np.nan
-    return columns, ok
 
 
 @dataclass(frozen=True)
@@ -341,7 +333,7 @@ def _together(sweep: Sweep, designs: Sequence[FollowedDesign | tuple[str, str]])
     if not len(numbers):
         return {}
     columns, ok, _ = PreparedMechanisms(ready, {name: x[together] for name, x in given.items()}).sweep(sweep.positions)
-    return {n: _known(ready, columns[:, k], ok[k]) for k, n in enumerate(numbers.tolist())}
+    return {number: (columns[:, k], ok[k]) for k, number in enumerate(numbers.tolist())}
 
 
 def _rows(

@@ -111,10 +111,11 @@ def test_a_parallelogram_stays_one_through_its_change_points() -> None:
     assert np.abs(columns[0, ok]).max() < 1e-9
 
 
-def test_no_column_holds_what_is_not_a_number() -> None:
+def test_columns_hold_no_number_where_there_is_no_such_position_and_everywhere_else_one() -> None:
     prepared = prepare(mechanism_of_text(scenes.PARALLELOGRAM, "p"), ("a_C", "alpha_2"))
-    columns, _ = prepared.columns(np.radians([0, 90, 180]))
-    assert np.isfinite(columns).all()
+    columns, ok = prepared.columns(np.radians([0, 90, 180]))
+    assert [False, True, False] == ok.tolist()
+    assert [[False, True, False]] * 3 == np.isfinite(columns).tolist()
 
 
 def test_a_travel_is_that_of_solve() -> None:
