@@ -16,7 +16,7 @@ from graphkin import solver
 from graphkin.checking.readings import read_off
 from graphkin.construction import EXACT, Instrument, Plan, Scales, cad, execute, pencil, plan
 from graphkin.construction.centres import by_centres, find_centres, speeds
-from graphkin.races.work import Entry, Work, best_time
+from graphkin.races.work import Entry, Work, best_time, point_rates
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import PreparedMechanism
 from graphkin.solver.expressions import Code
@@ -178,19 +178,7 @@ class Numeric:
 
     def points(self, solution: Solution) -> tuple[Array, Array]:
         """Velocities and accelerations of the outputs."""
-        structure, rows_v, rows_a = self.work.structure, [], []
-        for output in self.work.outputs:
-            local: complex | Array = structure.links[output.link].points.get(output.point, 0j)
-            if not output.own:
-                holder = next(n for n in self.equations.names if output.point in structure.links[n].points)
-                x, y = self.equations.point(solution, holder, structure.links[holder].points[output.point])[:2]
-                k = self.equations.column[output.link]
-                own_x, own_y, angle = solution.place[k : k + 3]
-                local = (x - own_x + 1j * (y - own_y)) * np.exp(-1j * angle)
-            _, _, vx, vy, ax, ay = self.equations.point(solution, output.link, local)
-            rows_v.append(vx + 1j * vy)
-            rows_a.append(ax + 1j * ay)
-        return np.array(rows_v), np.array(rows_a)
+        return point_rates(self.equations, solution, self.work.outputs)
 
     def cost(self, run: Callable[[Array, list[Array]], object], repeats: int) -> float:
         """The time of a position (s), of a function of unknowns to start from and driver values."""

@@ -22,11 +22,11 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion
 from graphkin.solver.pose import Array
 from graphkin.structure import Dyad, Structure
-from graphkin.study.equations import Equations, Solution, Split, reference, refined, split
+from graphkin.study.equations import Equations, Solution, reference, refined
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
-    from mpmath import MPContext, mpc
+    from mpmath import MPContext
 
 PLACES = 24
 FINE = 720
@@ -62,6 +62,18 @@ def compared_points(structure: Structure) -> tuple[ComparedPoint, ...]:
     return (*dict.fromkeys(firsts[o.point] for o in found), *unders)
 
 
+def point_rates(equations: Equations, solution: Solution, outputs: Sequence[ComparedPoint]) -> tuple[Array, Array]:
+    """Velocities and accelerations of points, as complex numbers of the kind in which the equations are solved, shape
+    (outputs,) or (outputs, positions)."""
+    velocities, accelerations = [], []
+    for output in outputs:
+        own = equations.structure.links[output.link].points
+        local = own[output.point] if output.own else equations.under(solution, output.point, output.link)
+        _, _, vx, vy, ax, ay = equations.point(solution, output.link, local)
+        velocities.append(vx + 1j * vy)
+        accelerations.append(ax + 1j * ay)
+    return np.array(velocities), np.array(accelerations)
+
 
 @dataclass(frozen=True)
 class Work:
@@ -70,7 +82,7 @@ class Work:
     values : driver values, shape (places, drivers)
     count : how many positions the time is taken of, for methods that compute many at once
     full : whether the driver turns fully
-    velocity, acceleration : 50 digits, of shape (outputs, places)
+    velocity, acceleration : numbers of mpmath of 50 digits, of shape (outputs, places)
     motion : the solver's, at the places
     """
 
@@ -79,8 +91,8 @@ class Work:
     values: Array
     count: int
     full: bool
-    velocity: Split
-    acceleration: Split
+    velocity: Array
+    acceleration: Array
     motion: Motion
 
     @property
@@ -132,10 +144,11 @@ class Work:
         return tuple(found or self.outputs)
 
 
-def _error(right: Split, found: Array | None) -> float | None:
-    if found is None:
+def _error(right: Array, measured: Array | None) -> float | None:
+    if measured is None:
         return None
-    return float(np.max(right.off(found)) / np.max(np.abs(right.high)))
+    # of numbers of mpmath NumPy does not carry NaN into the greatest
+    return float(np.max(np.abs(measured - right).astype(float)) / np.max(np.abs(right).astype(float)))
 
 
 def work_of(scene: Mechanism, mp: MPContext, count: int) -> Work:
@@ -171,32 +184,15 @@ def work_of(scene: Mechanism, mp: MPContext, count: int) -> Work:
 
 def _truth(
     structure: Structure, outputs: Sequence[ComparedPoint], motion: Motion, picked: Array, mp: MPContext
-) -> tuple[Split, Split]:
+) -> tuple[Array, Array]:
     equations = reference(structure, mp)
     start = equations.start(motion)
     rates = [d.values[1] for d in structure.scene.drivers], [d.values[2] for d in structure.scene.drivers]
-    rows_v, rows_a = [], []
-    for k in picked:
-        found = refined(equations, mp, list(start[:, k]), [mp.mpf(float(v)) for v in motion.values[k]], *rates)
-        own_v, own_a = [], []
-        for output in outputs:
-            own = structure.links[output.link].points
-            local = own[output.point] if output.own else _under(equations, found, structure, output, mp)
-            _, _, vx, vy, ax, ay = equations.point(found, output.link, local)
-            own_v.append(mp.mpc(vx, vy))
-            own_a.append(mp.mpc(ax, ay))
-        rows_v.append(own_v)
-        rows_a.append(own_a)
-    return split(np.array(rows_v, dtype=object).T, mp), split(np.array(rows_a, dtype=object).T, mp)
-
-
-def _under(equations: Equations, found: Solution, structure: Structure, output: ComparedPoint, mp: MPContext) -> mpc:
-    """The place of a link that lies under a pin, in its own axes."""
-    holder = next(n for n in equations.names if output.point in structure.links[n].points)
-    x, y = equations.point(found, holder, structure.links[holder].points[output.point])[:2]
-    k = equations.column[output.link]
-    own_x, own_y, angle = found.place[k : k + 3]
-    return mp.mpc(x - own_x, y - own_y) * mp.expj(-angle)
+    solutions = (
+        refined(equations, mp, list(start[:, k]), [mp.mpf(float(v)) for v in motion.values[k]], *rates) for k in picked
+    )
+    both = np.array([point_rates(equations, solution, outputs) for solution in solutions], dtype=object)
+    return both[:, 0].T, both[:, 1].T
 
 
 # -- a measurement: what a method costs and how far it is off, and the machine it was made on --------------------------

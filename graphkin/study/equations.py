@@ -164,6 +164,14 @@ class Equations:
             at.second[k] - push * ry - w * w * rx, at.second[k + 1] + push * rx - w * w * ry,
         )  # fmt: skip
 
+    def under(self, at: Solution, point: str, link: str) -> Values:
+        """The place of a link that lies under a pin, in its own axes."""
+        holder = next(name for name in self.names if point in self.structure.links[name].points)
+        x, y = self.point(at, holder, self.structure.links[holder].points[point])[:2]
+        origin_x, origin_y, angle = at.place[self.column[link] : self.column[link] + 3]
+        away = x - origin_x + 1j * (y - origin_y)
+        return away * (self.numbers.cos(angle) - 1j * self.numbers.sin(angle))
+
     # the equations
 
     def _of(self, x: Array, link: str) -> Any:
@@ -283,25 +291,3 @@ def refined(
         if moved < CLOSED:
             return equations.rates(at, values, first, second)
     raise ArithmeticError(Phrase("the reference does not converge"))
-
-
-class Split:
-    """Numbers of 50 digits as sums of two doubles, so that the error of doubles can be told to 1e-32."""
-
-    def __init__(self, high: Array, low: Array) -> None:
-        self.high, self.low = high, low
-
-    def off(self, values: Array) -> Array:
-        """How far values lie off."""
-        return np.asarray(np.abs((values - self.high) - self.low))
-
-    def __getitem__(self, which: tuple[Array, ...]) -> Split:
-        return Split(self.high[which], self.low[which])
-
-
-def split(numbers: Array, mp: MPContext) -> Split:
-    """Real or complex mpmath numbers, any shape, in two parts."""
-    given = np.asarray(numbers, dtype=object)
-    high = np.array([complex(z) for z in given.ravel()]).reshape(given.shape)
-    low = np.array([complex(mp.mpc(z) - mp.mpc(complex(z))) for z in given.ravel()]).reshape(given.shape)
-    return Split(high, low)
