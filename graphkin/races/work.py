@@ -5,6 +5,7 @@ A measurement: what a method costs and how far it is off, and the machine it was
 
 from __future__ import annotations
 
+import math
 import os
 import platform
 import time
@@ -147,8 +148,9 @@ class Work:
 def _error(right: Array, measured: Array | None) -> float | None:
     if measured is None:
         return None
-    # of numbers of mpmath NumPy does not carry NaN into the greatest
-    return float(np.max(np.abs(measured - right).astype(float)) / np.max(np.abs(right).astype(float)))
+    if not np.isfinite(measured).all():
+        return math.nan
+    return float(np.max(np.abs(measured - right)) / np.max(np.abs(right)))
 
 
 def work_of(scene: Mechanism, mp: MPContext, count: int) -> Work:
