@@ -18,7 +18,7 @@ from graphkin.construction.sheet import Equation, Sheet
 from graphkin.construction.steps import Arrow, Reason, Step, Term
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Pair
-from graphkin.words import Phrase, languages, word
+from graphkin.words import Phrase, languages, sense_of, word
 from graphkin.words.written import pointing
 
 
@@ -80,7 +80,7 @@ def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[Written
             if step.diagram not in {one.diagram for one in lines if isinstance(one, Equation)}:
                 lines += _shared_with_drivers(sheet, equation)
             if step.reason == "seen from":  # what the mark of vectors means that are seen from a held link
-                lines.append(account.say(Phrase("written seen", (step.held,)), languages(language)[0]))
+                lines.append(account.say(Phrase("written seen", link=step.held), languages(language)[0]))
             lines.append(equation)
             lines += _products(sheet, equation, letters)
         for line in account.lines(step, language):
@@ -150,10 +150,10 @@ def _why(sheet: Sheet, equation: Equation, term: Term) -> Iterator[Phrase]:
     rolling |= {s.point: (s.links[0], s.links[1]) for s in sheet.steps if s.reason == "pitch point"}
     for ref in (of, to):
         if ref is not None and (links := rolling.get(ref.point)):
-            yield Phrase(f"why rolling {equation.diagram}", (ref.point, *links))
+            yield Phrase(f"why rolling {equation.diagram}", point=ref.point, first=links[0], second=links[1])
     step = _found_before(sheet, equation, term)
     if step:
-        yield Phrase("why known", (symbol, step))
+        yield Phrase("why known", vector=symbol, step=step)
     elif to is None:
         yield from _of_a_point(sheet, symbol)
     elif to.point == of.point:
@@ -161,14 +161,17 @@ def _why(sheet: Sheet, equation: Equation, term: Term) -> Iterator[Phrase]:
         if guide is not None and symbol.kind in ("v", "ar"):
             yield _coincident(of, to, guide)
         elif symbol.kind == "an":
-            yield Phrase("why curved", (of, to))
+            yield Phrase("why curved", point=of, path=to)
     elif symbol.kind in ("v", "an"):
         fixed = symbol.kind == "an" and to.point in sheet.scene.frame.points
         alone = not any(t.symbol == Symbol("at", of, to) for side in equation.sides for t in side)
-        turning = "why turning evenly" if alone else "why turning parts"
-        key = turning if fixed else "why rigid" if symbol.kind == "v" else "why rigid parts"
-        real = term.link in sheet.scene.by_name  # no bar that stands for a contact
-        yield Phrase(key, (of, to, term.link)) if real else Phrase("why centres", (of, to))
+        if term.link not in sheet.scene.by_name:  # a bar that stands for a contact
+            yield Phrase("why centres", point=of, other=to)
+        elif fixed:
+            turning = "why turning evenly" if alone else "why turning parts"
+            yield Phrase(turning, point=of, pivot=to, link=term.link)
+        else:
+            yield Phrase("why rigid" if symbol.kind == "v" else "why rigid parts", point=of, other=to, link=term.link)
 
 
 def _found_before(sheet: Sheet, equation: Equation, term: Term) -> int:
@@ -192,8 +195,8 @@ def _found_before(sheet: Sheet, equation: Equation, term: Term) -> int:
 def _coincident(of: PointRef, to: PointRef, slide: Pair) -> Phrase:
     """Two points that coincide under a sliding pair, or under a pin in a slot, of which no link slides."""
     if slide.slot and slide.pin is not None:
-        return Phrase("why in slot", (of, to, PointRef(slide.pin), slide.b))
-    return Phrase("why coincident", (of, to, slide.a, slide.b))
+        return Phrase("why in slot", point=of, other=to, pin=PointRef(slide.pin), link=slide.b)
+    return Phrase("why coincident", point=of, other=to, block=slide.a, guide=slide.b)
 
 
 def _of_a_point(sheet: Sheet, symbol: Symbol) -> Iterator[Phrase]:
@@ -206,13 +209,13 @@ def _of_a_point(sheet: Sheet, symbol: Symbol) -> Iterator[Phrase]:
         held = not of.link or of.link == slide.a or (body is not None and of.point in body.points)
         own = of.link == slide.a or (holder is not None and of.point in (slide.pin, *holder.points))
         if slide.b == frame.name and holder is not None and held and own:
-            yield Phrase("why runs", (of,)) if slide.slot else Phrase("why guided", (of, slide.a))
+            yield Phrase("why runs", point=of) if slide.slot else Phrase("why guided", point=of, link=slide.a)
             return
     for link in sheet.scene.links:
         pivot = next((p for p in link.points if p in frame.points), None)
         own = of.link == link.name or (not of.link and of.point in link.points)
         if own and pivot is not None and pivot != of.point and symbol.kind == "v":
-            yield Phrase("why turning", (of, pivot, link.name))
+            yield Phrase("why turning", point=of, pivot=pivot, link=link.name)
             return
     under = next((s for s in sheet.structure.slides if s.pin == of.point and of.link in (s.a, s.b)), None)
     if under is not None and of.point in frame.points:
@@ -234,8 +237,9 @@ def _coriolis(sheet: Sheet, term: Term) -> Iterator[Phrase]:
     rate = sheet.omega.get(guide.b)
     if rate is None or not rate.value:
         return
-    way = "counter-clockwise" if rate.value > 0 else "clockwise"
     angles = [pointing(v.span) for v in (slip, drawn)]
     first = next(s for s in sheet.vectors("acceleration") if s.kind == "ak")
-    key = f"coriolis {'rule' if first == symbol else 'sense'} {way}"
-    yield Phrase(key, (slip.symbol, guide.b, angles[0], angles[1], symbol))
+    yield Phrase(
+        "coriolis rule" if first == symbol else "coriolis sense", vector=symbol, angle=angles[1],
+        slip=slip.symbol, slip_angle=angles[0], link=guide.b, sense=sense_of(rate.value),
+    )  # fmt: skip

@@ -99,7 +99,7 @@ def dimensions_in(sheet: Sheet, language: str) -> str:
         return ""
     *others, last = languages(language)
     own = word(f"unit {unit}", last)  # once, where both languages write it alike
-    said = [say(Phrase("dimensions in", (word(f"unit {unit}", each),)), each) for each in (*others, last)]
+    said = [say(Phrase("dimensions in", unit=word(f"unit {unit}", each)), each) for each in (*others, last)]
     return " / ".join((*(one.removesuffix(f" {own}") for one in said[:-1]), said[-1]))
 
 
@@ -204,9 +204,9 @@ def spoken_vector(symbol: Symbol, language: str) -> str:
     said = []
     for each in languages(language):
         assert symbol.of is not None
-        text = say(Phrase(f"{symbol.kind} of", (_ref(symbol.of, each),)), each)
+        text = say(Phrase(f"{symbol.kind} of", point=_ref(symbol.of, each)), each)
         if symbol.to is not None:
-            text += say(Phrase("relative to", (_ref(symbol.to, each),)), each)
+            text += say(Phrase("relative to", reference=_ref(symbol.to, each)), each)
         said.append(text)
     return " / ".join(said)
 
@@ -243,8 +243,8 @@ def _sentences(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -
         said += structure_words(sheet.scene, language)
         unit, per_mm = sheet.scene.units.length, sheet.scales.length / sheet.scene.units.metres
         for ref, z in sheet.points.items():
-            place = number(z.real * per_mm, 5), number(z.imag * per_mm, 5)
-            said.append(say(Phrase("point lies", (ref.point, *place, unit)), language))
+            x, y = (number(part * per_mm, 5) for part in (z.real, z.imag))
+            said.append(say(Phrase("point lies", point=ref.point, x=x, y=y, unit=unit), language))
     for diagram in diagrams:
         for step in sheet.steps:
             if step.diagram == diagram:
@@ -262,22 +262,22 @@ def remarks(sheet: Sheet) -> list[Phrase]:
 
 def structure_words(scene: Mechanism, language: str) -> list[str]:
     """Sentences on what is joined to what: the links with their points, and the pairs that are no turning pairs."""
-    said = [say(Phrase("fixed link", (scene.frame.name, listed([*scene.frame.points] or ["-"]))), language)]
+    said = [say(Phrase("fixed link", link=scene.frame.name, points=listed([*scene.frame.points] or ["-"])), language)]
     for link in scene.links:
         if link.points:
-            said.append(say(Phrase("link joins", (link.name, listed([*link.points]))), language))
+            said.append(say(Phrase("link joins", link=link.name, points=listed([*link.points])), language))
     for pair in scene.slidings:
-        said.append(say(Phrase("link slides", (pair.link, pair.on)), language))
+        said.append(say(Phrase("link slides", link=pair.link, guide=pair.on), language))
     for pin in scene.pins:
-        said.append(say(Phrase("pin runs", (pin.point, pin.of, pin.on)), language))
+        said.append(say(Phrase("pin runs", point=pin.point, link=pin.of, guide=pin.on), language))
     for contact in scene.contacts:
         key = "rolls on" if contact.rolling else "touches"
-        said.append(say(Phrase(key, (*contact.links, contact.name)), language))
+        said.append(say(Phrase(key, first=contact.links[0], second=contact.links[1], contact=contact.name), language))
     for gear in scene.gears:
-        said.append(say(Phrase("meshes", (*gear.wheels, gear.carrier)), language))
+        said.append(say(Phrase("meshes", first=gear.wheels[0], second=gear.wheels[1], carrier=gear.carrier), language))
     for cam in scene.cams:
         kind = "flat" if cam.flat else "roller" if cam.roller else "edge"
-        said.append(say(Phrase("cam moves", (cam.link, cam.follower, Phrase(f"cam {kind}"))), language))
+        said.append(say(Phrase("cam moves", cam=cam.link, follower=cam.follower, kind=Phrase(f"cam {kind}")), language))
     return said
 
 
@@ -288,17 +288,20 @@ def _vectors(sheet: Sheet, diagram: DiagramName, language: str) -> list[str]:
     for symbol, vector in sheet.vectors(diagram).items():
         words = _capital(spoken_vector(symbol, language))
         if vector.span == 0.0:
-            said.append(say(Phrase("vector is zero", (words,)), language))
+            said.append(say(Phrase("vector is zero", vector=words), language))
             continue
         angle = math.degrees(math.atan2(vector.span.imag, vector.span.real))
         size = on_paper(abs(vector.span))
-        values = (words, product(size, amount(per_mm, 12)), unit, size, true_minus(f"{angle:.1f}"))
-        said.append(say(Phrase("vector is", values), language))
+        phrase = Phrase(
+            "vector is", vector=words, size=product(size, amount(per_mm, 12)), unit=unit, length=size,
+            angle=true_minus(f"{angle:.1f}"),
+        )  # fmt: skip
+        said.append(say(phrase, language))
     return said
 
 
 def _ref(ref: PointRef, language: str) -> str:
-    return say(Phrase("point of link", (ref.point, ref.link)), language) if ref.link else ref.point
+    return say(Phrase("point of link", point=ref.point, link=ref.link), language) if ref.link else ref.point
 
 
 def _sentence(said: Phrase, language: str) -> str:

@@ -25,7 +25,7 @@ from graphkin.construction.steps import (
 )
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Markup, Neutral, Phrase, in_turn, listed
+from graphkin.words import Markup, Neutral, Phrase, in_turn, listed, sense_of
 from graphkin.words.written import in_markup, on_paper, true_minus
 
 SAME = 1e-6  # mm
@@ -50,12 +50,12 @@ class InMechanism(Telling):
     def places(self) -> object:
         """Fixed points and guides by their places on paper."""
         found = ((p, self.at(p)) for p in self.step.points)
-        told = [Phrase("place of a point", (p, *_coordinates(z))) for p, z in found if z is not None]
+        told = [Phrase("place of a point", point=p, **_coordinates(z)) for p, z in found if z is not None]
         for guide in self.sheet.scene.frame.guides.values():
             if guide.name:
                 through = guide.through / self.sheet.scales.length
                 angle = _degrees(math.degrees(cmath.phase(guide.direction)))
-                told.append(Phrase("place of a guide", (guide.name, *_coordinates(through), angle)))
+                told.append(Phrase("place of a guide", guide=guide.name, angle=angle, **_coordinates(through)))
         return listed(told) if told else None
 
     @property
@@ -83,7 +83,8 @@ class InMechanism(Telling):
             if name not in found:
                 said = self._marked(known, name)
             else:
-                said = Phrase("place joined", (known[0], name, link)) if known else Phrase("place alone", (name, link))
+                alone = Phrase("place alone", point=name, link=link)
+                said = Phrase("place joined", other=known[0], point=name, link=link) if known else alone
             if said is None:
                 return None
             told.append(said)
@@ -98,8 +99,8 @@ class InMechanism(Telling):
             return None
         if not places:
             if link not in self.sheet.scene.by_name:  # what only stands for a pin in a slot
-                return Phrase("pin by coordinates", (name, *_coordinates(at)))
-            return Phrase("place by coordinates", (link, name, *_coordinates(at)))
+                return Phrase("pin by coordinates", point=name, **_coordinates(at))
+            return Phrase("place by coordinates", link=link, point=name, **_coordinates(at))
         bars = [(p, q) for p in places for q in places if abs(places[p] - places[q]) > SAME]
         if bars:
             p, q = max(bars, key=lambda b: abs(places[b[0]] - places[b[1]]))
@@ -123,9 +124,9 @@ class InMechanism(Telling):
             return None
         own = self.sheet.structure.links[link].points
         if laid and abs(cmath.phase(own[name] - own[pivot])) < STRAIGHT:
-            return Phrase("points at", (link, name, pivot + name, on_paper(abs(span))))
+            return Phrase("points at", link=link, point=name, bar=pivot + name, length=on_paper(abs(span)))
         angle = _degrees(math.degrees(cmath.phase(span)))
-        return Phrase("place polar", (pivot, angle, pivot + name, on_paper(abs(span)), name))
+        return Phrase("place polar", pivot=pivot, angle=angle, bar=pivot + name, length=on_paper(abs(span)), point=name)
 
     # -- points that are found -----------------------------------------------------------------------------------------
 
@@ -177,7 +178,7 @@ class InMechanism(Telling):
         values, misses = zip(*(_told_in(table, row) for row in table.trials), strict=True)
         if len(table.moved) > 1:
             told = Phrase("trial table several", (moved, _numbered(values), missed, _numbered(misses)))
-            return Phrase("in turn", (self.plain, _divided_by_parts(table, told)))
+            return Phrase("in turn", first=self.plain, second=_divided_by_parts(table, told))
         unit = "°" if table.missed[0].angle else " mm"
         told = Phrase("trial table", (moved, ", ".join(values), missed, "; ".join(misses).replace(unit, "") + unit))
         if table.divided:
@@ -187,7 +188,7 @@ class InMechanism(Telling):
             told = Phrase("trial division", (told, before, before + 1, *between, *first))
             if rest:
                 told = Phrase("trial division again", (told, rest[-1][0]))
-        return Phrase("in turn", (self.plain, told))
+        return Phrase("in turn", first=self.plain, second=told)
 
     def _positions_lines(self, language: str) -> Iterator[Phrase]:
         """Trial positions: what is moved, how each point is found with it, what is missed, and where nothing is."""
@@ -300,22 +301,23 @@ def _along(p: tuple[str, complex], q: tuple[str, complex], name: str, at: comple
     if abs(at - a) < SAME or abs(cross(b - a, at - a)) < STRAIGHT * abs(b - a) * abs(at - a):
         return _on_line(p, q, name, at)
     turn = math.degrees(cmath.phase((at - a) / (b - a)))
-    told = (one, number(abs(turn), 4), one + q[0], one + name, on_paper(abs(at - a)), name)
-    return Phrase(f"place turned {'ccw' if turn > 0 else 'cw'}", told)
+    return Phrase(
+        "place turned", pivot=one, angle=number(abs(turn), 4), sense=sense_of(turn), base=one + q[0],
+        bar=one + name, length=on_paper(abs(at - a)), point=name,
+    )  # fmt: skip
 
 
 def _on_line(p: tuple[str, complex], q: tuple[str, complex], name: str, at: complex) -> Phrase:
     (one, a), (two, b) = p, q
     along = dot(at - a, b - a) / abs(b - a) ** 2
-    told = (one + two, name, one + name, on_paper(abs(at - a)))
+    gaps = {"bar": one + two, "point": name, "part": one + name, "length": on_paper(abs(at - a))}
     if 0.0 <= along <= 1.0:
-        return Phrase("place within", told)
-    return Phrase("place beyond", (*told, one if along < 0.0 else two))
+        return Phrase("place within", **gaps)
+    return Phrase("place beyond", **gaps, end=one if along < 0.0 else two)
 
 
-def _coordinates(z: complex) -> tuple[str, str]:
-    x, y = (true_minus(on_paper(mm if abs(mm) >= SAME else 0.0)) for mm in (z.real, z.imag))
-    return x, y
+def _coordinates(z: complex) -> dict[str, str]:
+    return {k: true_minus(on_paper(mm if abs(mm) >= SAME else 0.0)) for k, mm in (("x", z.real), ("y", z.imag))}
 
 
 def _degrees(angle: float) -> str:
@@ -330,10 +332,12 @@ def _divided_by_parts(table: TrialPositions, told: Phrase) -> Phrase:
     for i, row in enumerate(table.divided):
         values, misses = _told_in(table, row)
         if i:
-            told = Phrase("trial parts again", (told, numeral(table.replaced[i - 1]), values, misses))
+            replaced = numeral(table.replaced[i - 1])
+            told = Phrase("trial parts again", division=told, trial=replaced, values=values, misses=misses)
         else:
             steps = ", ".join(numeral(k) for k in range(2, len(table.trials) + 1))
-            told = Phrase("trial parts", (told, ", ".join(map(_two_digits, table.parts)), steps, values, misses))
+            parts = ", ".join(map(_two_digits, table.parts))
+            told = Phrase("trial parts", division=told, parts=parts, trials=steps, values=values, misses=misses)
     return told
 
 

@@ -40,7 +40,7 @@ from graphkin.construction.steps import (
 )
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Markup, Neutral, Phrase, in_turn, languages, listed
+from graphkin.words import Markup, Neutral, Phrase, in_turn, languages, listed, sense_of
 from graphkin.words.written import MOST, amount, on_paper, pointing, quotient, true_minus
 
 SEEN = 0.005  # mm on paper: less than that is not taken off
@@ -105,9 +105,9 @@ class InPolygon(Telling):
         if self.places is None:
             return None
         if self.begin is not None:
-            return Phrase("the pole" if abs(self.places[0]) < SAME else "the point", (self.begin,))
+            return Phrase("the pole" if abs(self.places[0]) < SAME else "the point", point=self.begin)
         before = self._before(None)
-        return Phrase("the end of", (before,)) if before else None
+        return Phrase("the end of", vector=before) if before else None
 
     @property
     def sides(self) -> tuple[tuple[Term, ...], ...]:
@@ -148,7 +148,7 @@ class InPolygon(Telling):
     def rule(self) -> Phrase:
         """A vector with the rule of its size, where that is not just given."""
         key = {"normal": "as normal", "coriolis": "as Coriolis"}.get(self.step.reason, "as vector")
-        return Phrase(key, (_ruled(self.step.symbol, self.step.size),))
+        return Phrase(key, vector=_ruled(self.step.symbol, self.step.size))
 
     @property
     def way(self) -> object:
@@ -157,7 +157,9 @@ class InPolygon(Telling):
         if direction.relation == "towards" or self.places is None:
             return direction
         angle = pointing(self.places[1] - self.places[0])
-        return Phrase("pointing", (direction, angle)) if direction.names else Phrase("pointing only", (angle,))
+        if direction.names:
+            return Phrase("pointing", direction=direction, angle=angle)
+        return Phrase("pointing only", angle=angle)
 
     @property
     def nought(self) -> str | None:
@@ -171,7 +173,7 @@ class InPolygon(Telling):
         side = next((side for side in self.sides if any(t.symbol == own for t in side)), ())
         along = next((t.direction for t in side if t.symbol == own), None)
         unknown: list[object] = [t.symbol for t in side if not t.size_known and t.direction == along]
-        return reduce(lambda one, other: Phrase("sum", (one, other)), unknown or [own])
+        return reduce(lambda one, other: Phrase("sum", first=one, second=other), unknown or [own])
 
     @property
     def pole(self) -> str | None:
@@ -180,7 +182,7 @@ class InPolygon(Telling):
 
     def _laid_off(self) -> Phrase | None:
         told, why = self.first("lay off lettered", "lay off from"), self._carried_over()
-        return told if why is None else Phrase("in turn", (told or self.step.phrase, why))
+        return told if why is None else Phrase("in turn", first=told or self.step.phrase, second=why)
 
     def _carried_over(self) -> Phrase | None:
         """From what seen from a held link a vector between points of two links follows, which is laid off as it was
@@ -202,13 +204,15 @@ class InPolygon(Telling):
         against = of.link == seen.to.link
         told = Phrase("against", (seen,)) if against else seen
         if kind == "v" or to is None or not against:
-            return Phrase("written carried over", (step.symbol, told))
+            return Phrase("written carried over", symbol=step.symbol, vector=told)
         slip = next(s.symbol for s in before if s.verb == "lay off" and s.symbol.of == of and s.symbol.kind == "v")
         size = Size("rate", (seen.to.link, to.link), slip, twice=True)
         turning = self.sheet.omega[seen.to.link].value - self.sheet.omega[to.link].value
-        key = "written carried over coriolis cw" if turning < 0.0 else "written carried over coriolis ccw"
-        rule = Phrase("rule of size", (size, bound(rule_sum(self.sheet, size, "acceleration"))))
-        return Phrase(key, (step.symbol, told, rule, slip))
+        rule = Phrase("rule of size", symbol=size, rule=bound(rule_sum(self.sheet, size, "acceleration")))
+        return Phrase(
+                "written carried over coriolis",
+                symbol=step.symbol, vector=told, rule=rule, slip=slip, sense=sense_of(turning),
+            )  # fmt: skip
 
     def _carried_over_lines(self, language: str) -> Iterable[Phrase]:
         return filter(None, [self._carried_over()])
@@ -288,16 +292,16 @@ class InPolygon(Telling):
     @property
     def laid(self) -> object:
         """To an end point from another of its link: what the rates give, laid off one behind the other."""
-        start = end_of(self.step.begins[0]) if self.step.held else Phrase("the point", (self.gap("a"),))
+        start = end_of(self.step.begins[0]) if self.step.held else Phrase("the point", point=self.gap("a"))
         if not self.step.held and self.gap("a") is None:
             return None
         told = list[Phrase]()
         for part, span in self.parts:
             normal = part.symbol.kind == "an"
-            rule = Phrase("as normal" if normal else "as vector", (_ruled(part.symbol, part.size),))
-            way = part.direction if normal else Phrase("pointing", (part.direction, pointing(span)))
+            rule = Phrase("as normal" if normal else "as vector", vector=_ruled(part.symbol, part.size))
+            way = part.direction if normal else Phrase("pointing", direction=part.direction, angle=pointing(span))
             told.append(Phrase("lay off from", start=start, rule=rule, length=on_paper(abs(span)), way=way))
-            start = Phrase("the end of", (part.symbol,))
+            start = Phrase("the end of", vector=part.symbol)
         return in_turn(told) if told else None
 
     def _by_rates(self) -> Phrase | None:
@@ -433,7 +437,7 @@ class InPolygon(Telling):
                 said = Phrase(f"open {across} guide", (*ends, "".join(way.names)))
             for one, mm in less:
                 if abs(mm) >= SEEN:
-                    rule = one.symbol if one.size is None else Phrase("rule of size", (one.symbol, one.size))
+                    rule = one.symbol if one.size is None else Phrase("rule of size", symbol=one.symbol, rule=one.size)
                     said = Phrase("open less", (said, rule, true_minus(on_paper(mm))))
             told.append(said)
         return listed(told)
@@ -485,4 +489,4 @@ def _turning(value: float, language: str) -> str:
 
 def _ruled(symbol: Symbol, size: Size | None) -> Symbol | Phrase:
     """A vector with the rule of its size, where that is not just given."""
-    return symbol if size is None or size == GIVEN else Phrase("rule of size", (symbol, size))
+    return symbol if size is None or size == GIVEN else Phrase("rule of size", symbol=symbol, rule=size)

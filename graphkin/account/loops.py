@@ -101,12 +101,14 @@ def root(found: Root, loop: Loop, scene: Mechanism, language: str) -> str:
 
     if found.key == "loop root angle":
         a, b, c = (shown(x, 2) for x in found.numbers)
-        return say(Phrase(found.key, (name, a, b, c, sign, number(math.degrees(found.value), 7))), language)
+        angle = number(math.degrees(found.value), 7)
+        return say(Phrase(found.key, unknown=name, A=a, B=b, C=c, sign=sign, value=angle), language)
     value = number(found.value / metres if abs(found.value) > ROUNDING * scene.size else 0.0, 7)
     if found.key == "loop root lines":
-        return say(Phrase(found.key, (name, value, scene.units.length)), language)
+        return say(Phrase(found.key, unknown=name, value=value, unit=scene.units.length), language)
     middle, rest = (shown(x, power) for power, x in enumerate(found.numbers[:2], 1))
-    return say(Phrase(found.key, (name, middle, sign, rest, value, scene.units.length)), language)
+    numbers = {"middle": middle, "sign": sign, "rest": rest, "value": value}
+    return say(Phrase(found.key, unknown=name, **numbers, unit=scene.units.length), language)
 
 
 def _plain_name(unknown: Coordinate) -> str:
@@ -250,11 +252,12 @@ class LoopText:
     def plain(self) -> str:
         """The loops as lines of text."""
         units, letters = self.scene.units, self.scene.question.sheet.convention
-        told = Phrase("explained unit", (units.length, units.of("velocity").text))
+        told = Phrase("explained unit", length=units.length, velocity=units.of("velocity").text)
         lines = [say(told, self.language), ""] if self.blocks else []
         for block in self.blocks:
             for one in block.loops:
-                head = Phrase("loop heading", (one.name, ", ".join(one.links), equation(one, letters)))
+                links, sum_ = ", ".join(one.links), equation(one, letters)
+                head = Phrase("loop heading", loop=one.name, links=links, equation=sum_)
                 x, y = projections(one, block, self.scene)
                 lines += [as_plain(say(head, self.language)), f"  x: {as_plain(x)}", f"  y: {as_plain(y)}"]
                 if one.root is not None:
@@ -264,7 +267,7 @@ class LoopText:
                     lines.append(f"  {word('loop closes', self.language)}")
                 else:
                     gap = f"{abs(one.gap) / self.scene.units.metres:.1e}"
-                    lines.append(f"  {say(Phrase('loop gap', (gap, self.scene.units.length)), self.language)}")
+                    lines.append(f"  {say(Phrase('loop gap', gap=gap, unit=self.scene.units.length), self.language)}")
             for matrix in matrices(block, self.scene):
                 lines += [f"  {word(matrix.key, self.language)}", *matrix_lines(matrix)]
                 lines.append("  " + ", ".join(map(as_plain, matrix.solution)))

@@ -251,7 +251,7 @@ def passed_words(scene: Mechanism, passed: Iterable[ChangePoint]) -> list[Phrase
     for links in dict.fromkeys(one.links for one in passed):
         at = [zip(scene.drivers, one.values, strict=True) for one in passed if one.links == links]
         places = (", ".join(f"{d.key} = {scene.unit_of(d).said(v)}" for d, v in values) for values in at)
-        said.append(Phrase("passed change point", (", ".join(links), "; ".join(dict.fromkeys(places)))))
+        said.append(Phrase("passed change point", links=", ".join(links), places="; ".join(dict.fromkeys(places))))
     return said
 
 

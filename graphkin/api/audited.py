@@ -140,7 +140,7 @@ class Audited(OfScene, Result):
             said.append(f"{word(f'scan of {judged.diagram}', self.language)}{word('colon', self.language)}")
             said += [f"  {line.name}: {say(line.said, self.language)}" for line in judged.lines]
             off = judged.off
-            end = Phrase("scan right") if off is None else Phrase("scan off", (off.name, off.said))
+            end = Phrase("scan right") if off is None else Phrase("scan off", line=off.name, slip=off.said)
             said.append("  " + say(end, self.language))
         return said
 
@@ -177,7 +177,7 @@ class Audited(OfScene, Result):
                 verdict = word(str(row["verdict"] or "not judged"), self.language)
                 said = str(row.get("looks_like", row.get("why", "") if row["verdict"] == "not readable" else ""))
                 if isinstance(gap, dict):
-                    open_ = Phrase("loop open", (gap["loop"], f"{gap['gap']:.4g} {self.mechanism.units.length}"))
+                    open_ = Phrase("loop open", loop=gap["loop"], gap=f"{gap['gap']:.4g} {self.mechanism.units.length}")
                     said = "; ".join(filter(None, (said, say(open_, self.language))))
                 values = str(row["written"]), _shown(row["exact"]), str(row["unit"])
                 rows.append([*lead, str(row["symbol"]), *values, off, verdict, said])

@@ -78,7 +78,7 @@ def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str,
     off += [str(v.symbol) for v in centred.velocities if v.ok is False]
     near = [v.too_near(language) for v in centred.velocities if v.ok is None]
     count = sum(e is not None for e in centred.errors.values())
-    verdict = Phrase("check failed", (", ".join(off),)) if off else Phrase("centres checked", (count,))
+    verdict = Phrase("check failed", readings=", ".join(off)) if off else Phrase("centres checked", (count,))
     heads = ["", *(word(key, language) for key in ("centre", "place", "how found"))]
     head = [*why, *[""] * bool(why), word("velocities by centres", language)]
     return heads, rows, [*head, *told, *near, say(verdict, language)]

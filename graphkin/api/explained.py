@@ -21,7 +21,7 @@ from graphkin.scene.model import Driver, Mechanism, PlacedGuide, PlacedLink
 from graphkin.scene.scene import SceneLike
 from graphkin.structure import LargerGroup, Structure, mobility_of
 from graphkin.table import Table
-from graphkin.words import Phrase, Wording, class_of, word
+from graphkin.words import Phrase, Wording, class_of, sense_of, word
 
 Sentence = tuple[str, Phrase]
 """What a sentence is about (a heading of the words' area ``explanation``), and the sentence."""
@@ -115,19 +115,19 @@ def explain(scene: SceneLike, *, language: str | None = None) -> Explained:
     told: dict[str, Iterable[Phrase]] = {
         "units": _units(given), "links": _links(given), "joints": _joints(given), "mobility": [_mobility(given)],
         "drivers": [_driver(given, driver) for driver in given.drivers], "groups": groups, "loads": _loads(given),
-        "asked": [Phrase("explained asked for", (find,)) if find else Phrase("explained asked all")],
+        "asked": [Phrase("explained asked for", quantities=find) if find else Phrase("explained asked all")],
     }  # fmt: skip
     sentences = tuple((f"explained {about}", phrase) for about, phrases in told.items() for phrase in phrases)
     return Explained(given, sentences, why, language or given.question.sheet.language, exit_code)
 
 
 def _units(scene: Mechanism) -> Iterator[Phrase]:
-    yield Phrase("explained unit", (scene.units.length, scene.units.of("velocity").text))
+    yield Phrase("explained unit", length=scene.units.length, velocity=scene.units.of("velocity").text)
     background = scene.question.background
     if background is not None:
         turned = _degrees(background.step)
         step = _number(abs(background.step) / scene.units.metres)
-        yield Phrase("explained background", (background.name, step, scene.units.length, turned))
+        yield Phrase("explained background", picture=background.name, step=step, unit=scene.units.length, angle=turned)
 
 
 def _number(value: float) -> str:
@@ -145,38 +145,38 @@ def _place(z: complex, scene: Mechanism) -> str:
 
 def _links(scene: Mechanism) -> Iterator[Phrase]:
     fixed = ", ".join(f"{p} {_place(z, scene)}" for p, z in scene.frame.points.items()) or "-"
-    yield Phrase("explained frame", (scene.frame.name, fixed))
+    yield Phrase("explained frame", link=scene.frame.name, points=fixed)
     yield from _outlines(scene.frame, scene)
     for link in scene.links:
         own = link.bar
         if len(own) == 2:
             length = _number((link.length or 0.0) / scene.units.metres)
-            yield Phrase("explained bar", (link.name, "".join(own), length, scene.units.length))
+            yield Phrase("explained bar", link=link.name, bar="".join(own), length=length, unit=scene.units.length)
         elif any(s.link == link.name for s in scene.slidings):
-            yield Phrase("explained block", (link.name, own[0] if own else "-"))
+            yield Phrase("explained block", link=link.name, point=own[0] if own else "-")
         elif own and any(cam.link == link.name for cam in scene.cams):
-            yield Phrase("explained cam link", (link.name, own[0]))
+            yield Phrase("explained cam link", link=link.name, point=own[0])
         elif own and any(link.name in gear.wheels for gear in scene.gears):
-            yield Phrase("explained wheel", (link.name, own[0]))
+            yield Phrase("explained wheel", link=link.name, point=own[0])
         else:
-            yield Phrase("explained ray", (link.name, own[0] if own else "-"))
+            yield Phrase("explained ray", link=link.name, point=own[0] if own else "-")
         further = [f"{p} {_place(z, scene)}" for p, z in link.points.items() if p not in own]
         if further:
-            yield Phrase("explained further", (link.name, ", ".join(further)))
+            yield Phrase("explained further", link=link.name, points=", ".join(further))
         yield from _outlines(link, scene)
         if link.redundant:
-            yield Phrase("explained redundant", (link.name,))
+            yield Phrase("explained redundant", link=link.name)
 
 
 def _outlines(link: PlacedLink, scene: Mechanism) -> Iterator[Phrase]:
     """The discs and the guides of a link."""
     for disc in link.discs:
         radius = _number(disc.radius / scene.units.metres)
-        yield Phrase("explained disc", (disc.name, disc.centre, radius, scene.units.length))
+        yield Phrase("explained disc", disc=disc.name, centre=disc.centre, radius=radius, unit=scene.units.length)
     for name, guide in link.guides.items():
         if name:
-            place = f"{link.name}.{name}", _place(guide.through, scene), _degrees(guide.direction)
-            yield Phrase("explained guide", place)
+            place, angle = _place(guide.through, scene), _degrees(guide.direction)
+            yield Phrase("explained guide", guide=f"{link.name}.{name}", place=place, angle=angle)
 
 
 def _joints(scene: Mechanism) -> Iterator[Phrase]:
@@ -184,25 +184,32 @@ def _joints(scene: Mechanism) -> Iterator[Phrase]:
     for point, holders in scene.holders.items():
         own = [name for name in holders if name in counted]
         if len(own) > 1:
-            many = (len(own) - 1,) if len(own) > 2 else ()
-            yield Phrase("explained turnings" if many else "explained turning", (point, ", ".join(own), *many))
+            if len(own) == 2:
+                yield Phrase("explained turning", point=point, links=", ".join(own))
+            else:
+                yield Phrase("explained turnings", point=point, links=", ".join(own), number=len(own) - 1)
     for pair in scene.slidings:
         guide = _guide_name(scene, pair.on, pair.guide)
-        yield Phrase("explained sliding", (pair.link, guide, pair.pin or "-", _degrees(pair.turn)))
+        yield Phrase("explained sliding", link=pair.link, guide=guide, point=pair.pin or "-", angle=_degrees(pair.turn))
     for pin in scene.pins:
-        yield Phrase("explained slot", (pin.point, pin.of, _guide_name(scene, pin.on, pin.guide)))
+        yield Phrase("explained slot", point=pin.point, link=pin.of, guide=_guide_name(scene, pin.on, pin.guide))
     for contact in scene.contacts:
         sides = [f"{d.link}.{d.name}" if d else _guide_name(scene, contact.face, contact.guide) for d in contact.discs]
-        held = (contact.carrier,) if contact.carrier else ()
-        key = "explained contact" if not contact.rolling else "explained held rolling" if held else "explained rolling"
-        yield Phrase(key, (contact.name, *sides, *held))
+        rolling = "explained held rolling" if contact.carrier else "explained rolling"
+        key = rolling if contact.rolling else "explained contact"
+        yield Phrase(key, contact=contact.name, first=sides[0], second=sides[1], carrier=contact.carrier)
     for cam in scene.cams:
         kind = "flat" if cam.flat else "roller" if cam.roller else "edge"
-        yield Phrase("explained cam", (cam.link, cam.follower, Phrase(f"cam {kind}"), str(len(cam.law.pieces))))
+        pieces = str(len(cam.law.pieces))
+        yield Phrase("explained cam", cam=cam.link, follower=cam.follower, kind=Phrase(f"cam {kind}"), pieces=pieces)
     for gear in scene.gears:
         teeth = [_number(z) for z in gear.teeth if z is not None]
-        key = "explained rack" if gear.is_rack else "explained gear"
-        yield Phrase(key, (gear.name, *gear.wheels, *teeth, gear.carrier))
+        (first, second), name, carrier = gear.wheels, gear.name, gear.carrier
+        if gear.is_rack:
+            yield Phrase("explained rack", gear=name, wheel=first, rack=second, teeth=teeth[0], carrier=carrier)
+        else:
+            names = {"gear": name, "first": first, "second": second, "carrier": carrier}
+            yield Phrase("explained gear", **names, teeth_first=teeth[0], teeth_second=teeth[1])
 
 
 def _guide_name(scene: Mechanism, link: str, guide: str) -> str:
@@ -214,7 +221,8 @@ def _mobility(scene: Mechanism) -> Phrase:
     count = mobility_of(scene)
     left = count.value - len(scene.drivers)
     key = "explained count" if left == 0 else "explained undetermined" if left > 0 else "explained miscount"
-    return Phrase(key, (count.links, count.lower, count.higher, count.value, len(scene.drivers)))
+    numbers = {"links": count.links, "lower": count.lower, "higher": count.higher, "mobility": count.value}
+    return Phrase(key, **numbers, drivers=len(scene.drivers))
 
 
 def _driver(scene: Mechanism, driver: Driver) -> Phrase:
@@ -223,13 +231,14 @@ def _driver(scene: Mechanism, driver: Driver) -> Phrase:
     if driver.law is not None:
         at = f"{at} ({_number(driver.law.time)} / {_number(driver.law.duration)} s)"
     if driver.turns:
-        sense = "at rest" if not rate else "counter-clockwise" if rate > 0 else "clockwise"
-        said = Phrase(f"explained {sense}", (_number(abs(rate)), _number(abs(rate) * 30 / math.pi)))
-        return Phrase("explained turns", (driver.link, driver.relative_to, at, said))
+        rpm = _number(abs(rate) * 30 / math.pi)
+        turning = Phrase("explained turning rate", sense=sense_of(rate), rate=_number(abs(rate)), rpm=rpm)
+        said = turning if rate else Phrase("explained at rest")
+        return Phrase("explained turns", link=driver.link, base=driver.relative_to, value=at, motion=said)
     sense = "at rest" if not rate else "forward" if rate > 0 else "back"
     speed = scene.units.of("velocity")
-    said = Phrase(f"explained {sense}", (_number(speed.of(abs(rate))), speed.text))
-    return Phrase("explained slides", (driver.key, at, said))
+    said = Phrase(f"explained {sense}", speed=_number(speed.of(abs(rate))), unit=speed.text)
+    return Phrase("explained slides", slide=driver.key, value=at, motion=said)
 
 
 def _groups(structure: Structure, scene: Mechanism) -> Iterator[Phrase]:
@@ -242,12 +251,12 @@ def _groups(structure: Structure, scene: Mechanism) -> Iterator[Phrase]:
         links = ", ".join(group.links)
         larger = Phrase("explained group kind" if group.order > 2 else "explained rolling kind")
         kind = larger if isinstance(group, LargerGroup) else group.kind
-        yield Phrase("explained group", (links, kind, class_of(group.order)))
+        yield Phrase("explained group", links=links, kind=kind, order=class_of(group.order))
         if links in assembly:
-            yield Phrase("explained assembly", (assembly[links],))
+            yield Phrase("explained assembly", assembly=assembly[links])
     pointed = [p for p in structure.scene.sketch if p not in scene.sketch]
     if pointed:
-        yield Phrase("explained pointed", (", ".join(pointed),))
+        yield Phrase("explained pointed", points=", ".join(pointed))
 
 
 def _loads(scene: Mechanism) -> Iterator[Phrase]:
@@ -256,18 +265,23 @@ def _loads(scene: Mechanism) -> Iterator[Phrase]:
     for mass in loading.masses:
         heavy, inertia = f"{mass.mass / units.kilograms:.6g} {units.mass}", units.of("inertia")
         x, y = (f"{part / units.metres:.6g}" for part in (mass.at.real, mass.at.imag))
-        yield Phrase("explained mass", (mass.link, heavy, f"{inertia.of(mass.inertia):.6g} {inertia.text}", x, y))
+        about = f"{inertia.of(mass.inertia):.6g} {inertia.text}"
+        yield Phrase("explained mass", link=mass.link, mass=heavy, inertia=about, x=x, y=y)
     if loading.gravity:
         angle = math.degrees(cmath.phase(loading.gravity))
-        yield Phrase("explained gravity", (f"{abs(loading.gravity):.6g}", f"{angle:.6g}"))
+        yield Phrase("explained gravity", gravity=f"{abs(loading.gravity):.6g}", angle=f"{angle:.6g}")
     for load in loading.loads:
         size = f"{load.size / units.newtons:.6g} {units.force}" + ("" if load.is_force else " m")
-        yield Phrase("explained force" if load.is_force else "explained moment", (load.name, size, load.link))
+        key = "explained force" if load.is_force else "explained moment"
+        yield Phrase(key, load=load.name, size=size, link=load.link)
     for spring in loading.springs:
-        ends = [text for pair in zip(spring.points, spring.links, strict=True) for text in pair]
+        (point, other_point), (link, other_link) = spring.points, spring.links
         rate = f"{spring.rate * units.metres / units.newtons:.6g} {units.force}/{units.length}"
         free, preload = f"{spring.free / units.metres:.6g} {units.length}", spring.preload / units.newtons
-        yield Phrase("explained spring", (spring.name, *ends, rate, free, f"{preload:.6g} {units.force}"))
+        yield Phrase(
+            "explained spring", spring=spring.name, point=point, link=link, other_point=other_point,
+            other_link=other_link, rate=rate, free=free, preload=f"{preload:.6g} {units.force}",
+        )  # fmt: skip
     for force in forces_named(scene):
         if force.kind in ("F", "M") and not force.other:
-            yield Phrase(f"explained balancing {force.measure}", (str(force), force.link))
+            yield Phrase(f"explained balancing {force.measure}", **{force.measure: str(force)}, link=force.link)

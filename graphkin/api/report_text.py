@@ -126,19 +126,19 @@ def verdict(checked: Checked, language: str) -> str:
     report = checked.report
     said = []
     if missing := [str(s) for s in report.missing if s not in checked.over_turn]:
-        said.append(Phrase("not drawn", (", ".join(missing),)))
+        said.append(Phrase("not drawn", quantities=", ".join(missing)))
     for symbol, value in checked.over_turn.items():
         unit = symbol.unit(checked.mechanism.units)
         shown = f"{amount(unit.of(value), MOST)} {unit.text}"
-        said.append(Phrase("over the turn", (str(symbol), shown)))
+        said.append(Phrase("over the turn", symbol=str(symbol), value=shown))
     off = [str(r.symbol) for r in report.rows if r.ok is False]
     if report.undetermined:
-        said.append(Phrase("not determined", (", ".join(map(str, report.undetermined)),)))
+        said.append(Phrase("not determined", readings=", ".join(map(str, report.undetermined))))
     if off:
-        said.append(Phrase("check failed", (", ".join(off),)))
+        said.append(Phrase("check failed", readings=", ".join(off)))
     elif agree := [r for r in report.rows if r.ok is True]:
         whole = not said
-        said.append(Phrase(about("check passed" if whole else "rest agrees", agree), (len(agree),)))
+        said.append(Phrase(about("check passed" if whole else "rest agrees", agree), readings=len(agree)))
     elif not report.rows and not checked.over_turn:
         said.append(Phrase("nothing checked"))
     return word("between sentences", language).join(say(phrase, language) for phrase in said)
@@ -150,7 +150,7 @@ def contact_lines(checked: Checked, language: str) -> list[str]:
     other = checked.at_contacts
     if other is None:
         pins = dict.fromkeys(p.point for p in checked.mechanism.pins)
-        return [say(Phrase("at pins", (", ".join(pins),)), language)] if pins else []
+        return [say(Phrase("at pins", points=", ".join(pins)), language)] if pins else []
     said = ("at contact", "at pitch curve")
     ways = dict.fromkeys((str(n.of[0]), n.key) for n in other.sheet.remarks if n.key in said)
     if not ways:  # nothing asked leads over a contact
@@ -164,9 +164,10 @@ def contact_lines(checked: Checked, language: str) -> list[str]:
         for symbol, length, said, _, unit, _ in reading_words(other)
         if any(f"_{n}@" in symbol for n in names)
     ]
+    where = {"point" if curve else "contact": ", ".join(names)}
     key = "at pitch curve" if curve else "at contact"
     key += " agrees" if other.ok and alike == len(both) else " differs"
-    lines = [say(Phrase(key, (", ".join(names), alike, len(both))), language)]
+    lines = [say(Phrase(key, **where, agreeing=alike, readings=len(both)), language)]
     return [*lines, *(f"  {line}" for line in found)]
 
 
@@ -214,18 +215,18 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
     if own.whole:
         said = word("full turn", language)
         if turn.reach.turns > 1:
-            said += "; " + say(Phrase("turns to close", (turn.reach.turns,)), language)
+            said += "; " + say(Phrase("turns to close", turns=turn.reach.turns), language)
     else:
         said = _between(scene, own.low, own.high, own.open_low, own.open_high)
     lines.append(f"{word('range', language)} {driver.key}{colon}{said}")
     lines += ["  " + say(one, language) for one in passed_words(scene, turn.reach.change_points)]
     for other in turn.ranges[1:]:
         between = _between(scene, other.low, other.high, other.open_low, other.open_high)
-        lines.append("  " + say(Phrase("also assembles", (between,)), language))
+        lines.append("  " + say(Phrase("also assembles", assembly=between), language))
     if turn.not_searched:
-        lines.append("  " + say(Phrase("not looked for", (", ".join(turn.not_searched),)), language))
+        lines.append("  " + say(Phrase("not looked for", links=", ".join(turn.not_searched)), language))
     for loop in turn.loops:
-        turning = say(Phrase("turns fully", (", ".join(loop.turns) or "–",)), language)
+        turning = say(Phrase("turns fully", links=", ".join(loop.turns) or "–"), language)
         names = ", ".join(loop.links)
         lines.append(f"{word('basic mechanism', language)} {names}{colon}{word(loop.name, language)}; {turning}")
     for output in turn.outputs:
@@ -234,7 +235,7 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
         where = word("same everywhere", language)
         if least.driver is not None:
             where = f"{driver.key} = {scene.unit_of(driver).said(least.driver)}"
-        pressure = say(Phrase("greatest pressure", (f"{math.degrees(least.pressure):.6g}°",)), language)
+        pressure = say(Phrase("greatest pressure", angle=f"{math.degrees(least.pressure):.6g}°"), language)
         names = f"{least.group.kind} {', '.join(least.group.links)}"
         angle = f"{math.degrees(least.angle):.6g}°"
         lines.append(f"{word('least transmission', language)} {names}{colon}{angle} ({where}); {pressure}")
@@ -275,8 +276,8 @@ def _flywheel(turn: TurnStudy, language: str) -> list[str]:
         return [head + found.why]
     moment, inertia = units.of("moment"), units.of("inertia")
     said = [
-        say(Phrase("driving moment is", (f"{moment.of(found.driving):.8g} {moment.text}",)), language),
-        say(Phrase("excess work is", (f"{moment.of(found.excess):.8g} {moment.text}",)), language),
+        say(Phrase("driving moment is", moment=f"{moment.of(found.driving):.8g} {moment.text}"), language),
+        say(Phrase("excess work is", work=f"{moment.of(found.excess):.8g} {moment.text}"), language),
         f"J_F = {inertia.of(found.inertia):.8g} {inertia.text} (δ = {found.delta:g})",
     ]
     return [head + "; ".join(said)]
@@ -304,8 +305,8 @@ def _output(turn: TurnStudy, output: Output, language: str) -> list[str]:
     head = f"{word('output', language)} {quantity.of}{colon}"
     if output.stroke is None:
         return [head + word(output.without, language)]
-    what = "swing is" if quantity.kind == "theta" else "stroke is"
-    said = say(Phrase(what, (amount(output.stroke),)), language)
+    kind = "swing" if quantity.kind == "theta" else "stroke"
+    said = say(Phrase(f"{kind} is", **{kind: amount(output.stroke)}), language)
     back = turn.quick_return(output)
     if back is not None:
         said += f", K = {back[0]:.10g} (θ = {math.degrees(back[1]):.8g}°)"

@@ -249,10 +249,11 @@ class Swept(OfScene, Result):
             outcomes = ", ".join(
                 f"{n} {word('status ' + status, self.language)}" for status, n in self.outcomes.items()
             )
-            lines.append(say(Phrase("designs solved", (len(self.over.designs), outcomes)), self.language))
+            solved = Phrase("designs solved", designs=len(self.over.designs), outcomes=outcomes)
+            lines.append(say(solved, self.language))
         if self.found.damaged:
-            lines.append(say(Phrase("pieces damaged", (self.found.damaged,)), self.language))
-        lines.append(say(Phrase("positions solved", (self.good, self.rows)), self.language))
+            lines.append(say(Phrase("pieces damaged", pieces=self.found.damaged), self.language))
+        lines.append(say(Phrase("positions solved", solved=self.good, positions=self.rows), self.language))
         return "\n".join(lines)
 
     def __repr__(self) -> str:

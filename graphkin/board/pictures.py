@@ -87,12 +87,9 @@ def with_own_files(made: OwnTables, folder: Path | None) -> OwnTables:
 def mobility_text(scene: Mechanism, language: str, drivers: int | None = None) -> str:
     """The mobility with its numbers, as it is told everywhere; ``drivers`` where the scene's own are only a trial."""
     found, count = mobility_of(scene), len(scene.drivers) if drivers is None else drivers
-    numbers = (str(found.links), str(found.lower), str(found.higher), str(found.value))
-    if not count:
-        return plain_said(Phrase("page freedom", numbers), language)
-    if found.value == count:
-        return plain_said(Phrase("explained count", numbers), language)
-    return plain_said(Phrase("explained miscount", (*numbers, str(count))), language)
+    numbers = {"links": found.links, "lower": found.lower, "higher": found.higher, "mobility": found.value}
+    key = "page freedom" if not count else "explained count" if found.value == count else "explained miscount"
+    return plain_said(Phrase(key, **numbers, drivers=count), language)
 
 
 @lru_cache(maxsize=16)

@@ -516,7 +516,7 @@ def reading_row(scene: Mechanism, row: Compared, degrees: bool = False) -> dict[
         "tolerance": finite(unit.of(row.tolerance)),
         "direction_error_rad": row.direction_error,
         "ok": row.ok,
-        **({"why": say(Phrase("not determined", (str(row.symbol),)))} if row.ok is None else {}),
+        **({"why": say(Phrase("not determined", readings=str(row.symbol)))} if row.ok is None else {}),
         **(_predicted(finite(unit.of(row.uncertainty.deviation)), row.uncertainty) if row.uncertainty else {}),
     }
 

@@ -77,8 +77,8 @@ class ReadLine:
         length = abs(self.longer) > self.room / 2
         direction = abs(self.exact) * abs(math.sin(self.turned)) > self.room / 2
         if length and direction:
-            return Phrase("line both", (percent, angle))
-        return Phrase("line turned", (angle,)) if direction else Phrase("line long", (percent,))
+            return Phrase("line both", length=percent, angle=angle)
+        return Phrase("line turned", angle=angle) if direction else Phrase("line long", length=percent)
 
 
 @dataclass(frozen=True)

@@ -190,7 +190,7 @@ def _easiest(row: NDArray[np.complex128]) -> NDArray[np.float64]:
 
 def _reading(symbol: Symbol) -> Phrase:
     """The reading itself, as a cause of what is uncertain."""
-    return Phrase("reading", (symbol,))
+    return Phrase("reading", symbol=symbol)
 
 
 def _spread(value: complex | float, values: Sequence[complex | float]) -> float:
@@ -247,14 +247,12 @@ class Advice:
     def phrase(self) -> Phrase:
         return Phrase(
             "advice",
-            (
-                self.symbol,
-                f"{100 * self.relative:.2g}",
-                phrase_of(self.cause),
-                f"{100 * self.share:.0f}",
-                Phrase(f"figure {self.figure}"),
-                f"{100 * self.relative * self.gain:.2g}",
-            ),
+            symbol=self.symbol,
+            percent=f"{100 * self.relative:.2g}",
+            cause=phrase_of(self.cause),
+            share=f"{100 * self.share:.0f}",
+            figure=Phrase(f"figure {self.figure}"),
+            better=f"{100 * self.relative * self.gain:.2g}",
         )
 
 

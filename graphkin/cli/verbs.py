@@ -260,15 +260,15 @@ def _print_solution(solved: Solved, lang: str | None) -> None:
     tell(f"{scene.question.title_in(language)}   F = {head['mobility']}")
     for group, assembly in zip(head["groups"], first.motion.assembly, strict=True):
         links, order = listed(group["links"]), class_of(group["class"])
-        larger = Phrase("solved larger group", (links, order, assembly))
-        dyad = Phrase("solved group", (links, group["kind"], order, assembly))
+        larger = Phrase("solved larger group", links=links, order=order, assembly=assembly)
+        dyad = Phrase("solved group", links=links, kind=group["kind"], order=order, assembly=assembly)
         tell(say(dyad if group["class"] == 2 else larger, language))
     for said in passed_words(scene, first.motion.passed):
         tell(say(said, language))
     for some in (first, *blocks):
         for k, (values, why, tables) in enumerate(solution_tables(some, language)):
             tell("")
-            tell(say(Phrase("solved driver", (values,)), language))
+            tell(say(Phrase("solved driver", drivers=values), language))
             if why:
                 tell(say(why, language))
                 continue

@@ -137,14 +137,14 @@ def place(
         _record(board, paper, element, story, named)
         so_far.poses.update({name: paper.poses[name] for name in element.members})
     if board is not None:
-        board.causes[done:] = [(acts, Phrase("placing", (links,))) for acts, links in placed]
+        board.causes[done:] = [(acts, Phrase("placing", links=links)) for acts, links in placed]
     return paper
 
 
 def _dyad_steps(board: Board, paper: PlacedLinks, dyad: Dyad, meeting: Meeting, index: int) -> Story:
     """How the loci of a dyad were drawn; on the board the words for its assembly, and what makes it uncertain."""
     links, one, two = ", ".join(dyad.links), dyad.outer_first, dyad.outer_second
-    of = dyad.inner.point if dyad.inner.turns else Phrase("these links", (links,))
+    of = dyad.inner.point if dyad.inner.turns else Phrase("these links", links=links)
     board.notice("mechanism", "sharp crossing", of, size=meeting.sharpness)
     if not dyad.inner.turns and one.turns and two.turns:
         apart = abs(paper.point(one.b, one.point) - paper.point(two.b, two.point))

@@ -484,7 +484,7 @@ def _crossing(remark: Remark) -> Symbol:
     """What a crossing finds, as a quantity: its own, or the velocity of a point or of links."""
     (of,) = remark.of
     if isinstance(of, Phrase):
-        return Symbol("omega", link=str(of.args[0]).split(", ")[0])
+        return Symbol("omega", link=str(of.gaps["links"]).split(", ")[0])
     return of if isinstance(of, Symbol) else Symbol("v", PointRef(of))
 
 

@@ -15,7 +15,7 @@ from operator import mul
 from typing import Any, Literal, Self, TypeAlias, TypeVar
 
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase, gaps_of, listed, word
+from graphkin.words import Phrase, gaps_of, listed, sense_of, word
 from graphkin.words.written import MOST, amount, computed, figures, increase, on_paper, product, true_minus
 
 Order = Literal["velocity", "acceleration"]
@@ -303,7 +303,7 @@ class Step:
                 if data.rolling:
                     return f"trial positions rolling{' and others' * bool(data.left_out)}"
                 return "trial positions" if data.point else "trial positions without curve"
-        turning = "cw" if self.value < 0.0 else "ccw" if self.value > 0.0 else "zero"
+        turning = "turning" if self.value else "zero"
         key = SENTENCES.get(self.reason, self.reason)
         return key.format(kind=self.kind, turning=turning, diagram=self.diagram)
 
@@ -315,6 +315,8 @@ class Step:
                 return f"{math.degrees(self.value):.6g}"
             case "amount":
                 return f"{math.degrees(self.value) if self.kind == 'angle' else self.value:.6g}"
+            case "sense":
+                return sense_of(self.value)
             case "linked":
                 return listed(self.links)
             case "bar":
@@ -600,7 +602,7 @@ key."""
 
 def end_of(vector: Symbol | None) -> Phrase:
     """Where a vector from the pole ends; None: it has no length."""
-    return Phrase("the pole itself") if vector is None else Phrase("the end of", (vector,))
+    return Phrase("the pole itself") if vector is None else Phrase("the end of", vector=vector)
 
 
 def _assumed(rates: Sequence[tuple[Symbol, float]]) -> dict[str, object]:

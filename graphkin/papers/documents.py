@@ -51,7 +51,7 @@ from graphkin.plane import added_up
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
-from graphkin.words import Phrase, about, languages, say, word
+from graphkin.words import Phrase, about, languages, say, sense_of, word
 from graphkin.words.written import LEAST, amount, in_markup, true_minus
 
 BOUND = "\u00a0"  # between a number and its unit no line ends
@@ -256,11 +256,11 @@ def _senses(scene: Mechanism) -> Iterator[Phrase]:
     """Which way drivers turn, and whether that is ever faster."""
     for driver in scene.drivers:
         if driver.turns and driver.rate:
-            sense = "clockwise" if driver.rate < 0 else "counter-clockwise"
             on = "" if driver.relative_to == scene.frame.name else Phrase("seen from link", (driver.relative_to,))
             even = "" if driver.law is not None else Phrase("at constant speed")
             faster = Phrase("ever faster" if driver.second * driver.rate > 0 else "ever slower")
-            yield Phrase(f"driver turns {sense}", (driver.link, on, faster if driver.second else even))
+            law = faster if driver.second else even
+            yield Phrase("driver turns", link=driver.link, sense=sense_of(driver.rate), base=on, law=law)
 
 
 def _formulas(lesson: Lesson, key: str, items: Sequence[str], between: str = "list comma") -> Iterator[Paragraph]:
@@ -536,8 +536,8 @@ def results_blocks(lesson: Lesson) -> Iterator[Block]:
         yield Paragraph(lesson.sentence(note))
     rows = [row for row in lesson.results if row.ok is not None]
     wrong = [row for row in rows if row.ok is False]
-    agree = Phrase(about("all agree", rows), (len(rows),))
-    verdict = lesson.sentence(Phrase("not all agree", (len(wrong), len(rows))) if wrong else agree)
+    agree = Phrase(about("all agree", rows), readings=len(rows))
+    verdict = lesson.sentence(Phrase("not all agree", wrong=len(wrong), readings=len(rows)) if wrong else agree)
     how = sentences(*(said(key, language) for key in ("check words", "sense words")))
     yield Together((
         Heading(said("results", language)),

@@ -177,9 +177,10 @@ def race_page(race: Race, language: str = "en") -> ChartPage:
     title = word("speed title", language)
     name = race.scene.question.title_in(language)
     versions = ", ".join(f"{n} {v}" for n, v in race.machine.versions)
+    machine, counts = race.machine, {"runs": race.repeats, "positions": race.count, "places": race.places}
     facts = say(
-        Phrase("speed facts", (race.machine.cores, race.machine.processor, versions, race.repeats, race.count,
-                               race.places)), language)  # fmt: skip
+        Phrase("speed facts", cores=machine.cores, processor=machine.processor, versions=versions, **counts), language
+    )
     wide = WIDTH - LEFT - RIGHT
     half = (wide - GAP) / 2
 
@@ -218,30 +219,32 @@ def lessons(race: Race) -> tuple[Phrase, ...]:
     told = []
     if hands:
         usual, large = next((e for e in hands if e.tag == "1"), hands[0]), hands[-1]
-        told.append(Phrase("speed lesson draw", (
-            f"{usual.acceleration_cost / 60:.2g}", percent(usual), usual.tag, percent(large), large.tag,
-            f"{1e3 * drawn.acceleration_cost:.2g}", error(drawn),
-        )))  # fmt: skip
-    told.append(Phrase("speed lesson compute", (times(closed, drawn), error(closed))))
+        told.append(Phrase(
+            "speed lesson draw", minutes=f"{usual.acceleration_cost / 60:.2g}", error=percent(usual), size=usual.tag,
+            large_error=percent(large), large_size=large.tag, exact_time=f"{1e3 * drawn.acceleration_cost:.2g}",
+            exact_error=error(drawn),
+        ))  # fmt: skip
+    told.append(Phrase("speed lesson compute", times=times(closed, drawn), error=error(closed)))
     steps = [e for e in race.entries if e.key == "differences"]
     newton = min((e for e in race.entries if e.key == "Newton"), key=lambda e: float(error(e)), default=None)
     if steps and newton is not None:
         single = race.of("closed single")
         best = [min(getattr(e, kind) for e in steps if getattr(e, kind) is not None)
                 for kind in ("velocity_error", "acceleration_error")]  # fmt: skip
-        told.append(Phrase("speed lesson lose", (
-            times(steps[0], closed), *(f"{off:.1g}" for off in best), times(single, closed), error(single),
-            times(newton, closed), error(newton),
-        )))  # fmt: skip
+        told.append(Phrase(
+            "speed lesson lose", times=times(steps[0], closed),
+            velocity=f"{best[0]:.1g}", acceleration=f"{best[1]:.1g}", single_times=times(single, closed),
+            single_error=error(single), newton_times=times(newton, closed), newton_error=error(newton),
+        ))  # fmt: skip
     return tuple(told)
 
 
 def _lessons(race: Race, language: str) -> list[str]:
     lines = [say(lesson, language) for lesson in lessons(race)]
-    lines.append(say(Phrase("speed hand", (race.acts,)), language))
+    lines.append(say(Phrase("speed hand", acts=race.acts), language))
     if race.skipped:
         told = "; ".join(f"{peer} {say(why, language)}" for peer, why in race.skipped)
-        lines.append(say(Phrase("skipped", (told,)), language))
+        lines.append(say(Phrase("skipped", methods=told), language))
     return lines
 
 
@@ -291,7 +294,7 @@ def _draw(figure: Figure, race: Race, kind: str, box: Box, language: str) -> Non
 def _words(race: Race, entry: Entry, points: Sequence[tuple[Entry, float, float]], language: str) -> str:
     """The name of a method at its point; of a curve's points the first bears the name, some their numbers."""
     if entry.tag == "asked":
-        return say(Phrase("only asked", (word(entry.key, language), _written(race.asked[0]))), language)
+        return say(Phrase("only asked", method=word(entry.key, language), quantity=_written(race.asked[0])), language)
     if not entry.tag:
         return word(entry.key, language)
     name = word("differences of" if entry.key == "differences" else entry.key, language)

@@ -228,9 +228,9 @@ class Entry:
 class Skipped(Exception):
     """A peer that is left out, and why: a key of the table of words with what stands in its gaps."""
 
-    def __init__(self, key: str, *args: str) -> None:
-        super().__init__(key, *args)
-        self.why = Phrase(f"skip {key}", args)
+    def __init__(self, key: str, **gaps: str) -> None:
+        super().__init__(key, *gaps.values())
+        self.why = Phrase(f"skip {key}", **gaps)
 
 
 def best_time(run: Callable[[], object], repeats: int, least: float = 2e-3) -> float:

@@ -99,22 +99,23 @@ def _place_words(structure: Structure, group: LargerGroup, place: Array) -> Phra
             along = (at[pair.a][0] - origin) / turned - pair.guide.through
             positive = (along / pair.guide.direction).real > 0
             side_key = "assembled with it positive" if positive else "assembled with it negative"
-            said.append(Phrase(side_key, (pair.a, _guide(pair))))
+            said.append(Phrase(side_key, point=pair.a, guide=_guide(pair)))
             continue
         first, second = other(pair.a, pair.point), other(pair.b, pair.point)
         if first is None or second is None:
             continue
         inner, one, two = world(pair.a, pair.point), world(pair.a, first), world(pair.b, second)
         z = inner / structure.scene.units.metres
-        where = where or Phrase("assembled at", (pair.point, f"{z.real:.5g}", f"{z.imag:.5g}"))
+        where = where or Phrase("assembled at", point=pair.point, x=f"{z.real:.5g}", y=f"{z.imag:.5g}")
         side = ((two - one).conjugate() * (inner - one)).imag
         said.append(_beside(side > 0, pair.point, first, second))
     said += [where] if where else []
-    return reduce(lambda one, other: Phrase("listed", (one, other)), said or [Phrase("assembled as in the scene")])
+    said = said or [Phrase("assembled as in the scene")]
+    return reduce(lambda one, other: Phrase("listed", first=one, second=other), said)
 
 
 def _beside(left: bool, inner: str, first: str, second: str) -> Phrase:
-    return Phrase("assembled left" if left else "assembled right", (inner, first, second))
+    return Phrase("assembled left" if left else "assembled right", point=inner, first=first, second=second)
 
 
 def dyad_words(dyad: Dyad) -> tuple[Phrase, Phrase, Phrase]:
@@ -126,11 +127,11 @@ def dyad_words(dyad: Dyad) -> tuple[Phrase, Phrase, Phrase]:
         return _beside(True, inner, first, second), _beside(False, inner, first, second), in_line
     if dyad.kind == "RRP":
         square = Phrase("have square to the guide", bar=f"{first}{inner}")
-        return Phrase("assembled further along", (guide,)), Phrase("assembled less far along", (guide,)), square
+        return Phrase("assembled further along", guide=guide), Phrase("assembled less far along", guide=guide), square
     if dyad.kind == "RPR":
         square = Phrase("have square to the guide", bar=f"{second}{first}")
-        positive = Phrase("assembled on the positive side", (guide,))
-        negative = Phrase("assembled on the negative side", (guide,))
+        positive = Phrase("assembled on the positive side", guide=guide)
+        negative = Phrase("assembled on the negative side", guide=guide)
         return positive, negative, square
     only = Phrase("assembled only so")
     return only, only, Phrase("have parallel guides")

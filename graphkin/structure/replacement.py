@@ -88,18 +88,19 @@ def replacement_told(structure: Structure) -> tuple[Phrase, ...]:
     scene, m, said = structure.scene, structure.mobility, list[Phrase]()
     sliding = [c for c in scene.contacts if not c.rolling]
     for contact in scene.contacts:
-        names = (contact.name, *contact.links)
+        names = {"contact": contact.name, "first": contact.links[0], "second": contact.links[1]}
         if contact.rolling:
-            said.append(Phrase("structure rolling in gear" if contact.carrier else "structure rolling", names))
+            said.append(Phrase("structure rolling in gear" if contact.carrier else "structure rolling", **names))
         elif contact.flat:
-            said.append(Phrase("structure flat contact", (*names, contact.round[0].centre)))
+            said.append(Phrase("structure flat contact", **names, centre=contact.round[0].centre))
         else:
-            said.append(Phrase("structure contact", (*names, contact.block)))
-    said += [Phrase("structure gear", (*g.wheels, g.name)) for g in scene.gears]
+            said.append(Phrase("structure contact", **names, bar=contact.block))
+    said += [Phrase("structure gear", first=g.wheels[0], second=g.wheels[1], gear=g.name) for g in scene.gears]
     if scene.cams or sliding:
         more = len(sliding) + len(scene.whole.pins) + len(scene.cams)  # links, each with two lower pairs
         after = Mobility(m.links + more, m.lower + 2 * more, m.higher - more)
-        said.append(Phrase("structure replaced", (after.links, after.lower, after.higher, after.value)))
+        numbers = {"links": after.links, "lower": after.lower, "higher": after.higher, "mobility": after.value}
+        said.append(Phrase("structure replaced", **numbers))
     return tuple(said)
 
 

@@ -222,7 +222,7 @@ def driver_axis(reach: DriverRange, language: str) -> DriverAxis:
     step = chart.degree_step(high - low) if driver.turns else next_of_series(wide / 12)
     first = float((-reach.start[0] * reach.sense) % reach.ends[1]) if reach.full else reach.ends[0]
     left, right = (low, high) if reach.sense > 0 else (high, low)
-    return DriverAxis(left, right, step, say(Phrase("of the driver", (symbol,)), language), reach, first)
+    return DriverAxis(left, right, step, say(Phrase("of the driver", driver=symbol), language), reach, first)
 
 
 # a panel
@@ -448,10 +448,10 @@ def legend_of(panels: Sequence[Panel], language: str) -> list[tuple[chart.Look, 
             low, high = panel.allowed
             told = f"≥ {low:g}°" if high == 90.0 else f"≤ {high:g}°"
             if panel.falling:
-                told = say(Phrase("rising and falling", (f"{high:g}°", f"{panel.falling:g}°")), language)
+                told = say(Phrase("rising and falling", rising=f"{high:g}°", falling=f"{panel.falling:g}°"), language)
             own = panel.allowed != _usual(panel.quantity)
             key = "allowed by scene" if own else "allowed band"
-            entries.append((chart.look(LIMIT), say(Phrase(key, (told,)), language)))
+            entries.append((chart.look(LIMIT), say(Phrase(key, angle=told), language)))
     if any(panel.jumps for panel in panels):
         entries.append((chart.look(LEAP), word("load jumps", language)))
     return entries

@@ -118,8 +118,8 @@ def _motion_page(
     limits = sorted(
         {float(axis.at(np.array(e.offset))) for e in (output.low, output.high) if e is not None and e.kind != "end"}
     )  # those at the ends of the axis are its frame
-    key = "motion of link" if quantity.kind == "theta" else "motion of slide"
-    title = say(Phrase(key, (quantity.of.split("/")[0],)), language)
+    kind = "link" if quantity.kind == "theta" else "slide"
+    title = say(Phrase(f"motion of {kind}", **{kind: quantity.of.split("/")[0]}), language)
     heads = in_markup(title), _facts(turn, output, language)
     return charts.chart_page(turn.scene, heads, panels, axis, language, title, {"output": quantity.of}, limits)
 
@@ -131,7 +131,7 @@ def _asked_page(
     others = over.get(quantity, ())
     panel = charts.motion_panel(turn, axis, quantity, (), others)
     apart = _apart(turn, quantity, others, language)
-    heads = say(Phrase("diagram of", (panel.title,)), language), [apart] if apart else []
+    heads = say(Phrase("diagram of", quantity=panel.title), language), [apart] if apart else []
     return charts.chart_page(turn.scene, heads, [panel], axis, language, quantity.name, {"quantity": quantity.name})
 
 
@@ -148,8 +148,8 @@ def _apart(turn: TurnStudy, quantity: Quantity, over: Sequence[tuple[float, floa
         return ""
     unit = quantity.unit(turn.scene)
     sizes = np.sqrt(np.mean(off**2)), off.max()
-    told = (_said(float(v), unit, 3) for v in sizes)
-    return say(Phrase("laid over apart", (len(off), *told)), language)
+    mean, greatest = (_said(float(size), unit, 3) for size in sizes)
+    return say(Phrase("laid over apart", values=len(off), mean=mean, greatest=greatest), language)
 
 
 def _facts(turn: TurnStudy, output: Output, language: str) -> list[str]:
@@ -158,16 +158,16 @@ def _facts(turn: TurnStudy, output: Output, language: str) -> list[str]:
     if stroke is None:
         return [word(output.without, language)]
     unit = quantity.unit(scene)
-    key = "swing is" if quantity.kind == "theta" else "stroke is"
-    facts = [say(Phrase(key, (_said(stroke, unit),)), language)]
+    kind = "swing" if quantity.kind == "theta" else "stroke"
+    facts = [say(Phrase(f"{kind} is", **{kind: _said(stroke, unit)}), language)]
     back = turn.quick_return(output)
     if back is not None:
-        facts.append(say(Phrase("K is", (charts.number(back[0]),)), language).replace("K", "$K$", 1))
+        facts.append(say(Phrase("K is", ratio=charts.number(back[0])), language).replace("K", "$K$", 1))
     low, high = output.low, output.high
     assert low is not None
     assert high is not None
     places = [_said(value, scene.unit_of(scene.drivers[0])) for value in sorted((low.driver, high.driver))]
-    facts.append(say(Phrase("limits at", (", ".join(places),)), language))
+    facts.append(say(Phrase("limits at", places=", ".join(places)), language))
     return facts
 
 
@@ -256,7 +256,7 @@ def curve_page(sheet: Sheet, axis: charts.DriverAxis, point: str, link: str, lan
     unit = "°" if reach.driver.turns else ""
     labels = tuple(Label.of(rich(f"{charts.number(n, 4)}{unit}", 2.5), z) for z, n in marks)
     line = Polyline(tuple(on_page(complex(z) * mm) for z in path), Stroke(0.5))
-    title = say(Phrase("curve of point", (f"${point}$",)), language)
+    title = say(Phrase("curve of point", point=f"${point}$"), language)
     group = Group((line, *(Circle(z, DOT, strokes.BLACK, Stroke(0.25)) for z, _ in marks)), id=f"curve-{point}",
                   classes=("curve",), title=title.replace("$", ""))  # fmt: skip
     whole = joined((background(bare_mechanism(sheet, page.letters)), Piece({"answers": (group,)}, labels)))
@@ -270,7 +270,7 @@ def curve_page(sheet: Sheet, axis: charts.DriverAxis, point: str, link: str, lan
     facts = []
     if reach.driver.turns and reach.full:
         begin = 0 if reach.sense > 0 else 360
-        facts.append(say(Phrase("ticks at", (str(360 // TICKS), str(begin))), language))
+        facts.append(say(Phrase("ticks at", step=str(360 // TICKS), begin=str(begin)), language))
     body = column(page.panel(content.height, drawn), prose(facts, page.width, 3.0))
     made = page.drawing(title, body, page.scale("mechanism"), title="mechanism", said="; ".join(facts))
     return replace(made, title=f"{group.title}: {charts.title_of(scene, language)}")

@@ -56,7 +56,7 @@ def force_page(reach: DriverRange, quantity: Quantity, language: str) -> chart.C
     """The diagram of a moment, or of the size of a force, over the driver."""
     axis = charts.driver_axis(reach, language)
     panel = force_panel(axis, quantity, whole_turn(axis))
-    heads = say(Phrase("diagram of", (charts.force_symbol(reach.scene, quantity.of),)), language), ()
+    heads = say(Phrase("diagram of", quantity=charts.force_symbol(reach.scene, quantity.of)), language), ()
     facts = {"units": quantity.unit(reach.scene).written, "quantity": quantity.name}
     return charts.chart_page(reach.scene, heads, [panel], axis, language, quantity.name, facts)
 
@@ -125,13 +125,13 @@ def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> chart.C
     vector = np.asarray(unit.of(quantity.whole(reach.motion(offsets))), dtype=complex)
     jumps = sorted({j for part in (vector.real, vector.imag) for j in jumps_of(np.stack([x, part], axis=1))})
     name = charts.force_symbol(scene, quantity.of)
-    title = say(Phrase("polar diagram of", (name,)), language)
+    title = say(Phrase("polar diagram of", force=name), language)
     mark = "°" if scene.drivers[0].turns else f" {scene.units.length}"
     facts = [f"{name}{word('colon', language)}{word('unbounded', language)}"]
     if not panel.unbounded:
         k = int(np.nanargmax(sizes))
-        greatest = f"{charts.number(float(sizes[k]))} {unit.text}", f"{charts.number(float(x[k]), 4)}{mark}"
-        facts = [say(Phrase("greatest force at", greatest), language)]
+        size, place = f"{charts.number(float(sizes[k]))} {unit.text}", f"{charts.number(float(x[k]), 4)}{mark}"
+        facts = [say(Phrase("greatest force at", force=size, place=place), language)]
     most = charts.span_of(panel.curve, bounded=not panel.unbounded)[1]
     whole = np.concatenate([vector[sizes <= most], [0j]])
     span = 1.12 * max(float(np.ptp(whole.real)), float(np.ptp(whole.imag))) or 1.0
@@ -186,8 +186,8 @@ def flywheel_page(reach: DriverRange, found: FlywheelStudy, language: str) -> ch
     panel = charts.panel_of(axis, moments, curve, (), jumps=jumps_of(curve))
     title = word("moments and flywheel", language)
     facts = [
-        say(Phrase("driving moment is", (f"{charts.number(driving)} {moment}",)), language),
-        say(Phrase("excess work is", (f"{charts.number(found.excess / per)} {moment}",)), language),
+        say(Phrase("driving moment is", moment=f"{charts.number(driving)} {moment}"), language),
+        say(Phrase("excess work is", work=f"{charts.number(found.excess / per)} {moment}"), language),
         f"$δ$ = {charts.number(found.delta)}",
         f"$J_{{F}}$ = {charts.number(found.inertia / scene.units.inertias)} {inertia}",
     ]

@@ -261,14 +261,14 @@ def chords_page(chords: Chords, reach: DriverRange, language: str) -> ChartPage:
     scene = reach.scene
     of_given, of_result = scene.units.of(chords.given.symbol.measure), scene.units.of(chords.result.symbol.measure)
     given, result = markup_of(chords.given), markup_of(chords.result)
-    title = say(Phrase(f"graphical {chords.way}", (f"${result}$", f"${given}$")), language)
+    title = say(Phrase(f"graphical {chords.way}", result=f"${result}$", curve=f"${given}$"), language)
     per_y, per_found = of_given.of(chords.per_y), of_result.of(chords.per_found)
     scales = (
         f"$μ_{{{given[0]}}}$ = {number(per_y)} {_per_mm(of_given.written)}",
         f"$μ_{{t}}$ = {number(chords.per_x)} s/mm", f"$H$ = {number(chords.pole)} mm",
         f"$μ_{{{result[0]}}}$ = {number(per_found)} {_per_mm(of_result.written)}",
     )  # fmt: skip
-    facts = [",  ".join(scales), say(Phrase(f"graphical {chords.way} off", (f"{100 * chords.off:.2g}",)), language)]
+    facts = [",  ".join(scales), say(Phrase(f"graphical {chords.way} off", error=f"{100 * chords.off:.2g}"), language)]
     lines = [runs for fact in facts for runs in wrapped(fact, 3.0, WIDTH - 2 * MARGIN)]
     exact = chords.exact / chords.per_found
     upper, lower = (

@@ -102,9 +102,9 @@ class TimeStudy:
     def _page(self, quantities: Sequence[Quantity], language: str) -> ChartPage:
         axis, subject = replace(self.axis, title=word("time axis", language)), quantities[0]
         times = self.axis.times
-        key = {"theta": "motion of link", "s": "motion of slide"}.get(subject.kind, "diagram of")
-        shown = quantity_title(self.scene, subject) if key == "diagram of" else subject.of.split("/")[0]
-        title = say(Phrase(key, (shown,)), language)
+        mover = {"theta": "link", "s": "slide"}.get(subject.kind)
+        moving = mover and Phrase(f"motion of {mover}", **{mover: subject.of.split("/")[0]})
+        title = say(moving or Phrase("diagram of", quantity=quantity_title(self.scene, subject)), language)
         panels = []
         for quantity in quantities:
             curve = np.stack([times, axis.shown(quantity, times, self.axis.course(quantity))], axis=1)
@@ -114,7 +114,8 @@ class TimeStudy:
     def _fact(self, language: str) -> str:
         """What drives, and how long."""
         drives = ", ".join(d.key for d in self.scene.drivers if d.law is not None)
-        return say(Phrase("over the time", (drives, *map(number, time_span(self.scene)))), language)
+        begin, end = map(number, time_span(self.scene))
+        return say(Phrase("over the time", drivers=drives, begin=begin, end=end), language)
 
     def lines(self, language: str) -> list[str]:
         """Of each quantity the least and the greatest value, with the moment of it, as lines of text."""
@@ -125,7 +126,7 @@ class TimeStudy:
             for e in extremes:
                 key = "least at time" if e.kind == "min" else "greatest at time"
                 value = unit.said(e.value)
-                told.append(say(Phrase(key, (value, number(e.offset))), language))
+                told.append(say(Phrase(key, quantity=value, time=number(e.offset)), language))
             if extremes:
                 lines.append(f"  {quantity.name}{word('colon', language)}{word('list comma', language).join(told)}")
         return lines

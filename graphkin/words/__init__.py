@@ -22,7 +22,7 @@ from typing import TypeAlias
 __all__ = [
     "BOTH", "LANGUAGES", "Markup", "Neutral", "Phrase", "RichText", "Wording", "about", "alternatives", "area",
     "as_markup", "as_plain", "class_of", "clause_of", "clauses", "filled", "from_others", "gaps_of", "in_all",
-    "in_turn", "languages", "listed", "parts", "rich_text", "say", "word",
+    "in_turn", "languages", "listed", "parts", "rich_text", "say", "sense_of", "word",
 ]  # fmt: skip
 
 _TABLES = {path.stem: path for path in Path(__file__).parent.glob("*.toml")}
@@ -226,7 +226,7 @@ def about(key: str, names: Sequence[object]) -> str:
 
 def in_turn(sentences: Sequence[Phrase]) -> Phrase:
     """What is done one after the other, one thing at least, as one sentence."""
-    return reduce(lambda one, other: Phrase("in turn", (one, other)), sentences)
+    return reduce(lambda one, other: Phrase("in turn", first=one, second=other), sentences)
 
 
 def listed(names: Sequence[object]) -> object:
@@ -235,7 +235,7 @@ def listed(names: Sequence[object]) -> object:
     >>> say(Phrase("points", link="2", points=listed(["B", "C", "D"])))
     'mark B, C, D on link 2'
     """
-    return reduce(lambda one, other: Phrase("listed", (one, other)), names)
+    return reduce(lambda one, other: Phrase("listed", first=one, second=other), names)
 
 
 def clauses(parts: Sequence[Wording]) -> Wording:
@@ -280,6 +280,15 @@ def _sentences_of_others() -> tuple[tuple[str, re.Pattern[str]], ...]:
         return re.compile("".join(written), re.DOTALL)
 
     return tuple((key, pattern(text)) for key, text in area("others").items())
+
+
+def sense_of(turn: float) -> Phrase:
+    """The sense of a turn, or of an angular rate, by its sign.
+
+    >>> str(sense_of(-2.0))
+    'clockwise'
+    """
+    return Phrase("clockwise" if turn < 0.0 else "counter-clockwise")
 
 
 def class_of(order: int) -> Phrase | str:

@@ -18,6 +18,7 @@ from graphkin.construction.steps import Reason
 from graphkin.papers.lesson import plain_words, stages
 from graphkin.papers.screen import motion_data
 from graphkin.scene import library, mechanism_of
+from graphkin.words import Phrase
 
 pytestmark = pytest.mark.quick
 
@@ -39,7 +40,8 @@ def test_every_equation_is_one_stage_and_the_position_another():
 
 def test_an_angular_velocity_is_computed_from_what_was_measured():
     sheet, speaker = _six_bar()
-    step = next(s for s in sheet.steps if s.phrase.key == "omega cw")
+    step = next(s for s in sheet.steps if s.phrase.key == "omega turning")
+    assert Phrase("clockwise") == step.phrase.gaps["sense"]
     assert ("$ω_{3}$ = 1075.8 mm/s / 381.6 mm = 2.819 rad/s",) == speaker.work(step)
 
 

@@ -167,7 +167,7 @@ class _Model:
         elif dyad.kind == "RPR":
             self._rpr(dyad)
         else:
-            raise Skipped("group", dyad.kind)
+            raise Skipped("group", kind=dyad.kind)
         for name in dyad.links:
             if len([p for p in self.structure.links[name].points if p in self.at]) >= 2:
                 self._rest(name)
@@ -195,7 +195,7 @@ class _Model:
 
         slide, frame = dyad.outer_second, self.work.scene.frame
         if slide.b != frame.name:
-            raise Skipped("group", "RRP")
+            raise Skipped("group", kind="RRP")
         inner = dyad.inner.point
         here = self._here(inner)
         link = dyad.second.links[0]
@@ -217,7 +217,7 @@ class _Model:
         sliding, guiding = self.structure.links[slide.a], self.structure.links[slide.b]
         inner = guiding.points[two.point] - slide.guide.through
         if abs((inner * slide.guide.direction.conjugate()).imag) > 1e-12 or abs(sliding.points[one.point]) > 1e-12:
-            raise Skipped("group", "RPR")
+            raise Skipped("group", kind="RPR")
         base, way = self._here(two.point), self._here(one.point) - self._here(two.point)
         for link in (guiding, sliding):
             for point in link.points:

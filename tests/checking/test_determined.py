@@ -68,7 +68,7 @@ def test_a_reading_of_a_pencil_of_which_nothing_is_predicted_is_not_determined()
     sheet = draft(mechanism_of("slider-crank-offset"))
     readings = read_off(sheet)
     exact = {r.symbol: r.value for r in readings}
-    known = {Symbol.parse("v_B"): Uncertainty(1e-6, Phrase("reading", (Symbol.parse("v_B"),)), 1.0)}
+    known = {Symbol.parse("v_B"): Uncertainty(1e-6, Phrase("reading", symbol=Symbol.parse("v_B")), 1.0)}
     rows = compare(sheet, readings, exact.__getitem__, predicted=known).rows
     assert ["v_B"] == [str(row.symbol) for row in rows if row.ok]
 

@@ -216,7 +216,7 @@ def _position(
         drawn, _ = polygon_with_insets(sheet, diagram, letters, page.language, room.grown(-0.8), origin)
         return renamed(drawn, f"-at-{_plain(name)}")
 
-    said = once(say(Phrase("position named", (name,)), each) for each in languages(page.language))
+    said = once(say(Phrase("position named", position=name), each) for each in languages(page.language))
     named = sheet.scene.question.positions is not None and name in sheet.scene.question.positions.names
     head = (said + punctuation("colon", page.language)) * named + drivers(sheet, letters)
     found = [

@@ -91,7 +91,7 @@ def forces_figure(
     first, *further = (
         page.drawing(
             below, body, page.scale("force"), title="forces", said=page.said("force described")[0], height=height,
-            note=say(Phrase("sheet number", (number,)), languages(page.language)[0]) if number > 1 else "",
+            note=say(Phrase("sheet number", number=number), languages(page.language)[0]) if number > 1 else "",
             metadata={"scales": {name: float(f"{per:.12g}") for name, per in scales.items()}},
         ) for number, body in enumerate(pages(blocks, room, APART), 1)
     )  # fmt: skip

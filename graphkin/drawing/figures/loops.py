@@ -172,14 +172,14 @@ def _lines(page: FigurePage, loop: Loop, block: LoopBlock) -> Iterator[tuple[str
     """What is written of a loop, and whether it is bold."""
     scene = page.sheet.scene
     sum_ = Neutral(equation(loop, page.convention))
-    head = Phrase("loop heading", (loop.name, ", ".join(loop.links), sum_))
+    head = Phrase("loop heading", loop=loop.name, links=", ".join(loop.links), equation=sum_)
     yield from ((text, True) for text in in_all(head, page.language))
     x, y = projections(loop, block, scene)
     yield from ((f"x:  {x}", False), (f"y:  {y}", False))
     gap = _gap(page.sheet, loop)
     if gap is not None:
         size = Neutral(f"{number(gap / scene.units.metres, 4)} {scene.units.length}")
-        told = Phrase("loop open", (loop.name, size))
+        told = Phrase("loop open", loop=loop.name, gap=size)
         yield from ((text, False) for text in in_all(told, page.language))
     if loop.root is not None:
         yield root(loop.root, loop, scene, languages(page.language)[0]), False
@@ -233,7 +233,7 @@ def _described(page: FigurePage, blocks: Sequence[LoopBlock]) -> str:
     for each in languages(page.language):
         for loop in (one for block in blocks for one in block.loops):
             points = ", ".join(loop.points)
-            said.append(say(Phrase("loop heading", (loop.name, ", ".join(loop.links), points)), each))
+            said.append(say(Phrase("loop heading", loop=loop.name, links=", ".join(loop.links), equation=points), each))
     return ". ".join(said)
 
 

@@ -288,8 +288,9 @@ def _measured_lines(shown: Shown, page: FigurePage) -> list[str]:
             f"${letter}$ = {number(value * per, 7)}{after}" for kind, (letter, per, after) in kinds.items()
             if (value := shown.measured.get((kind, pair))) is not None and (kind != "K" or "K" in shown.marks)
         )  # fmt: skip
-        said += page.said("positions of", Neutral(pair), Neutral(values))
-    return said + [line for output, why in shown.without.items() for line in page.said("no limits", output, why)]
+        said += page.said("positions of", pair=Neutral(pair), values=Neutral(values))
+    without = shown.without.items()
+    return said + [line for output, why in without for line in page.said("no limits", output=output, reason=why)]
 
 
 FIGURES = (

@@ -311,7 +311,7 @@ def overleaf(page: FigurePage, rest: Remainder, frame: Box) -> tuple[Drawing, ..
     made: list[Drawing] = []
     while rest:
         number, before = len(made) + 2, rest.count
-        corner = _in_corner(say(Phrase("sheet number", (number,)), languages(page.language)[0]), frame)
+        corner = _in_corner(say(Phrase("sheet number", number=number), languages(page.language)[0]), frame)
         pieces, rest = _into(page, rest, Box(frame.left, frame.top + HEAD, frame.right, frame.bottom), False)
         size = frame.left + frame.right, frame.top + frame.bottom
         made.append(_drawn_page(page, *size, (heading(page, frame), corner, *pieces), f" ({number})"))
@@ -435,7 +435,8 @@ def title_block(page: FigurePage, shown: Sequence[Compared], box: Box) -> Piece:
     if shown:
         judged = [row.ok for row in shown if row.ok is not None]
         wrong, whole = judged.count(False), len(judged)
-        phrase = Phrase("not all agree", (wrong, whole)) if wrong else Phrase(about("all agree", judged), (whole,))
+        agree = Phrase(about("all agree", judged), readings=whole)
+        phrase = Phrase("not all agree", wrong=wrong, readings=whole) if wrong else agree
         answers = tuple(
             Text(complex(two + 2.0, box.top + 4.2 + 3.6 * i), fitted(say(phrase, each), 2.6, box.right - two - 4.0))
             for i, each in enumerate(languages(language))

@@ -110,23 +110,24 @@ def _counted(structure: Structure, spoken: str) -> list[tuple[str, bool]]:
     compound = {p: len([n for n in names if n in structure.scene.by_name]) for p, names in structure.hinges.items()}
     idle = [link.name for link in structure.scene.links if link.redundant]
     for each in languages(spoken):
-        lines.append((say(Phrase("structure counts", (m.links, m.lower, m.higher)), each), False))
-        lines.append((say(Phrase("structure definite", (m.value, drivers)), each), False))
+        lines.append((say(Phrase("structure counts", links=m.links, lower=m.lower, higher=m.higher), each), False))
+        lines.append((say(Phrase("structure definite", mobility=m.value, drivers=drivers), each), False))
         for point, count in compound.items():
             if count > 2:
-                lines.append((say(Phrase("structure compound", (point, count, count - 1)), each), False))
+                hinge = Phrase("structure compound", point=point, links=count, pairs=count - 1)
+                lines.append((say(hinge, each), False))
         for pin in structure.scene.whole.pins:
-            lines.append((say(Phrase("structure high pair", (pin.point, pin.on)), each), False))
+            lines.append((say(Phrase("structure high pair", point=pin.point, link=pin.on), each), False))
         for cam in structure.scene.cams:
-            lines.append((say(Phrase("structure cam", (cam.link, cam.follower)), each), False))
+            lines.append((say(Phrase("structure cam", cam=cam.link, follower=cam.follower), each), False))
             if cam.roller:
-                lines.append((say(Phrase("structure roller", (cam.follower,)), each), False))
+                lines.append((say(Phrase("structure roller", link=cam.follower), each), False))
         lines += [(say(phrase, each), False) for phrase in replacement_told(structure)]
         if idle:
-            lines.append((say(Phrase("structure redundant", (", ".join(idle),)), each), False))
+            lines.append((say(Phrase("structure redundant", links=", ".join(idle)), each), False))
         order = _class(structure)
         if order is not None:
-            lines.append((say(Phrase("structure class", (class_of(order),)), each), True))
+            lines.append((say(Phrase("structure class", order=class_of(order)), each), True))
     return lines
 
 
@@ -140,8 +141,8 @@ def _taken_apart(page_: FigurePage, structure: Structure) -> Block:
     """The groups in the reverse order of solution, the drivers last, each in a panel of its own."""
     names = ", ".join(d.key for d in structure.scene.drivers)
     order = _class(structure) if structure.groups else None
-    drivers = page_.said("structure ungrouped", names) if order is None else (
-        page_.said("structure driven by", names, class_of(order)))
+    drivers = page_.said("structure ungrouped", links=names) if order is None else (
+        page_.said("structure driven by", links=names, order=class_of(order)))
     shown: list[Sequence[Element]] = [(group,) for group in reversed(structure.groups)]
     if structure.driven:  # a driver inside a group has no part of its own
         shown.append(structure.driven)
@@ -164,23 +165,26 @@ def _told(sheet: Sheet, element: Element, language: str) -> str:
     """A driver with what it moves against, a link that follows from the drivers, or a group with its joints."""
     if not isinstance(element, Driven):
         inner, outer = _joints(element)
+        blocks = {name: Phrase("structure block", points=points) for name, points in _blocks(sheet).items()}
         links = [
-            name if name not in _blocks(sheet) else say(Phrase("structure block", (_blocks(sheet)[name],)), language)
+            say(blocks.get(name, name), language)
             for name in (*element.links, *(n for n in element.members if n not in element.links))
         ]
-        return say(Phrase("structure group", (
-            ", ".join(links), "" if isinstance(element, LargerGroup) else f" {element.kind}", class_of(element.order),
-            ", ".join(p.key for p in inner), ", ".join(p.key for p in outer),
-        )), language)  # fmt: skip
+        group = Phrase(
+            "structure group", links=", ".join(links), order=class_of(element.order),
+            kind="" if isinstance(element, LargerGroup) else f" {element.kind}",
+            inner=", ".join(p.key for p in inner), outer=", ".join(p.key for p in outer),
+        )  # fmt: skip
+        return say(group, language)
     driver = element.driver
     if isinstance(driver, LawCam):
-        return say(Phrase("structure follower", (element.link, driver.link)), language)
+        return say(Phrase("structure follower", follower=element.link, cam=driver.link), language)
     if not driver.given:
-        return say(Phrase("structure led", (element.link,)), language)
+        return say(Phrase("structure led", link=element.link), language)
     other = next(name for name in reversed(driver.links) if name != element.link)
     if other == sheet.scene.frame.name:
-        return say(Phrase("structure driver", (element.link,)), language)
-    return say(Phrase("structure driver on link", (element.link, other)), language)
+        return say(Phrase("structure driver", link=element.link), language)
+    return say(Phrase("structure driver on link", link=element.link, base=other), language)
 
 
 def _blocks(sheet: Sheet) -> dict[str, str]:

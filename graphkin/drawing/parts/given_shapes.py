@@ -35,11 +35,13 @@ def _shape(scene: Mechanism, link: PlacedLink, letters: Letters) -> Iterator[Phr
     axis = _axis(scene, link, pairs, letters)
     turn = pairs[0].turn if pairs and len(link.bar) < 2 else 1.0 + 0j
     if len(pairs) == 2:
-        names = [_guide_name(scene, pair, letters) for pair in pairs]
-        yield Phrase("guides at angle", (*names, number(as_line(pairs[0].turn / pairs[1].turn))))
+        first, second = (_guide_name(scene, pair, letters) for pair in pairs)
+        angle = number(as_line(pairs[0].turn / pairs[1].turn))
+        yield Phrase("guides at angle", first=first, second=second, angle=angle)
     elif pairs and (len(link.bar) == 2 or _carries_its_axis(scene, link)) and abs(pairs[0].turn.imag) > LEVEL:
-        own = axis if len(link.bar) == 2 else Phrase("axis of", (link.name,))
-        yield Phrase("held at angle", (own, number(as_line(pairs[0].turn)), _guide_name(scene, pairs[0], letters)))
+        own = axis if len(link.bar) == 2 else Phrase("axis of", link=link.name)
+        held_to = _guide_name(scene, pairs[0], letters)
+        yield Phrase("held at angle", bar=own, angle=number(as_line(pairs[0].turn)), axis=held_to)
     beside = off_its_guide(scene, link) if len(link.bar) < 2 else []
     if not pairs and len(link.points) <= 2 and not _axis_counts(scene, link):
         beside = []
@@ -47,10 +49,11 @@ def _shape(scene: Mechanism, link: PlacedLink, letters: Letters) -> Iterator[Phr
         z = link.points[point]
         name = f"${letters.point(point)}$"
         if pairs:
-            yield Phrase("point along", (name, _pair(z * turn, scene), _origin(link, letters), axis))
+            place, origin = _pair(z * turn, scene), _origin(link, letters)
+            yield Phrase("point along", point=name, place=place, origin=origin, axis=axis)
         else:
             bar = f"${letters.point(link.bar[0])}{letters.point(point)}$" if link.bar else name
-            yield Phrase("held at angle", (bar, number(math.degrees(phase(z))), axis))
+            yield Phrase("held at angle", bar=bar, angle=number(math.degrees(phase(z))), axis=axis)
     guides = used_guides(scene, link)
     alone = not pairs and len(link.bar) < 2 and len(guides) == 1 and not beside and not _carries_its_axis(scene, link)
     for guide in guides:
@@ -58,14 +61,16 @@ def _shape(scene: Mechanism, link: PlacedLink, letters: Letters) -> Iterator[Phr
         angle = number(as_line(guide.direction * turn))
         on = next((p for p, z in link.points.items() if abs(z - guide.through) < LEVEL * scene.size), None)
         if alone and on is not None:  # what its angle counts from is nothing else's
-            yield Phrase("guide on link only through", (name, link.name, f"${letters.point(on)}$"))
+            yield Phrase("guide on link only through", guide=name, link=link.name, point=f"${letters.point(on)}$")
         elif on is None and abs(guide.through) < LEVEL * scene.size:
-            yield Phrase("guide on link", (name, link.name, angle, axis))
+            yield Phrase("guide on link", guide=name, link=link.name, angle=angle, axis=axis)
         elif on is not None:
-            yield Phrase("guide on link through", (name, link.name, f"${letters.point(on)}$", angle, axis))
+            point = f"${letters.point(on)}$"
+            yield Phrase("guide on link through", guide=name, link=link.name, point=point, angle=angle, axis=axis)
         else:
             place = _pair(guide.through * turn, scene)
-            yield Phrase("guide on link at", (name, link.name, place, _origin(link, letters), axis, angle))
+            at = {"place": place, "origin": _origin(link, letters), "axis": axis}
+            yield Phrase("guide on link at", guide=name, link=link.name, **at, angle=angle)
 
 
 def along_its_guide(scene: Mechanism, link: PlacedLink) -> list[SlidingPair]:
@@ -126,7 +131,7 @@ def _axis(scene: Mechanism, link: PlacedLink, pairs: list[SlidingPair], letters:
     """From what angles on a link count: its bar, the guide on which it slides, else its own axis."""
     if len(link.bar) == 2:
         return _own(link, letters)
-    return _guide_name(scene, pairs[0], letters) if pairs else Phrase("axis of", (link.name,))
+    return _guide_name(scene, pairs[0], letters) if pairs else Phrase("axis of", link=link.name)
 
 
 def _origin(link: PlacedLink, letters: Letters) -> str:
