@@ -228,6 +228,7 @@ def test_every_number_of_what_is_concluded_is_one_of_the_chart(seed: int) -> Non
     assert worst == pytest.approx([float(draw.gaps["error"]), float(draw.gaps["large_error"])], rel=0.06)
     assert drawn.acceleration_cost * 1e3 == pytest.approx(float(draw.gaps["exact_time"]), rel=0.06)
     assert closed.acceleration_cost / drawn.acceleration_cost == pytest.approx(float(compute.gaps["times"]), rel=0.01)
-    assert single.acceleration_cost / closed.acceleration_cost == pytest.approx(float(lose.gaps["single_times"]), rel=0.01)
+    slower = single.acceleration_cost / closed.acceleration_cost
+    assert slower == pytest.approx(float(lose.gaps["single_times"]), rel=0.01)
     best = min(e.velocity_error for e in found.entries if e.key == "differences")
     assert best == pytest.approx(float(lose.gaps["velocity"]), rel=0.6)
