@@ -230,23 +230,19 @@ def checked(what: Plan, motion: Motion, hand: Instrument, at_contacts: bool = Tr
     """Draw a plan and hold everything on it against the solver at the same position; sliding contacts at the contact
     itself too, by the same hands on another sheet."""
     from graphkin.solver.solve import as_drawn
-    from graphkin.solver.values import exact_values, force_values
+    from graphkin.solver.values import exact_values, forces_here
 
     other, again = what.at_contacts() if at_contacts else None, hand if hand is EXACT else deepcopy(hand)
     exact = as_drawn(motion, what.structure)
-    value = of_motion = exact_values(exact, what.asked)
+    value = exact_values(exact, what.asked)
     sheet = execute(what, hand)
     scale, lost, forces = 0.0, 0.0, None
     if sheet.has_forces:
         from graphkin.construction.forces import forces_on
 
-        of_force, lost = force_values(exact)
+        lost = float(forces_here(exact).bound[0][0])
         forces = forces_on(sheet, hand)
         scale = forces.per_mm
-
-        def value(symbol: Symbol) -> complex | float:
-            return of_force(symbol) if symbol.scope == "force" else of_motion(symbol)
-
     turning = {s: float(value(s).real) for s in what.asked if s.scope == "cycle"}
     readings = read_off(sheet, (), hand, forces)
     predicted = advice = None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -90,16 +90,16 @@ def _whole(solved: Solved, language: str) -> list[SolutionTable]:
 
 def _forces(found: Forces) -> Iterator[tuple[str, Sequence[Sequence[str]]]]:
     """Forces by components, size and direction."""
-    for name in _names(found, found.forces):
-        x, y = (_there(found, name, part) for part in Quantity(Symbol.parse(name)).parts(None, found.motion))
+    for quantity in _loads(found, True):
+        x, y = (_there(found, quantity, part) for part in quantity.parts(None, found.motion))
         way = ["–" if a == b == 0.0 else f"{math.degrees(math.atan2(b, a)):.6g}" for a, b in zip(x, y, strict=True)]
-        yield name, (_texts(x, y), _texts(np.hypot(x, y)), way)
+        yield quantity.name, (_texts(x, y), _texts(np.hypot(x, y)), way)
 
 
 def _moments(found: Forces) -> Iterator[tuple[str, Sequence[Sequence[str]]]]:
     """Moments with their unit; excess work and inertia of the flywheel that the scene asks for, where it has one."""
     motion = found.motion
-    shown = [Quantity(replace(Symbol.parse(name), turning=True)) for name in _names(found, found.moments)]
+    shown = [*_loads(found, False)]
     if motion.scene.loading.flywheel is not None:
         shown += [Quantity(Symbol.parse(name)) for name in ("excess_W", "J_F")]
     for quantity in shown:
@@ -107,19 +107,21 @@ def _moments(found: Forces) -> Iterator[tuple[str, Sequence[Sequence[str]]]]:
             (values,) = quantity.parts(None, motion)
         except Unsolvable:  # no whole turn
             continue
-        texts = _texts(_there(found, quantity.name, values))
+        texts = _texts(_there(found, quantity, values))
         yield quantity.name, (texts, [quantity.unit(motion.scene).text] * len(texts))
 
 
-def _names(found: Forces, keys: Iterable[str]) -> Iterator[str]:
-    """Forces, each followed by its value with the loads that begin or end exactly here, where there is one."""
-    for key in keys:
-        yield key
-        if key in found.beside:
-            yield f"{key}+"
+def _loads(found: Forces, vectors: bool) -> Iterator[Quantity]:
+    """Forces, or moments, each followed by its value with the loads that begin or end exactly here, where there is
+    one."""
+    for symbol in (symbol for symbol in found.values if symbol.is_vector is vectors):
+        yield Quantity(symbol)
+        if symbol in found.beside:
+            yield Quantity(replace(symbol, plus=True))
 
 
-def _there(found: Forces, name: str, values: Array) -> Array:
+def _there(found: Forces, quantity: Quantity, values: Array) -> Array:
     """Values of a force, NaN where one with the loads that begin or end here says nothing more."""
-    beside = found.beside.get(name[:-1]) if name.endswith("+") else None
+    symbol = quantity.symbol
+    beside = found.beside.get(replace(symbol, plus=False)) if symbol.plus else None
     return values if beside is None else np.where(np.isnan(beside), np.nan, values)

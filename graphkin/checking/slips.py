@@ -532,15 +532,13 @@ def _standing(motion: Motion) -> tuple[tuple[LoadOn, ...], tuple[LoadOn, ...]]:
     acting: list[LoadOn] = []
     idle: list[LoadOn] = []
     for load in scene.loading.loads:
-        key = f"P_{load.name}"
-        table, whole = (here.forces, there.forces) if load.is_force else (here.moments, there.moments)
-        acts, value = bool(table[key][0]), whole[key][0]
+        acting_now, value = (forces.values[Symbol("P", name=load.name)][0] for forces in (here, there))
         if not value:
             continue
         bare = replace(load, phase=None)
         if load.is_force:
             bare = replace(bare, size=abs(value), turn=complex(value / abs(value)), follows="", against="")
-        (acting if acts else idle).append(bare)
+        (acting if acting_now else idle).append(bare)
     return tuple(acting), tuple(idle)
 
 

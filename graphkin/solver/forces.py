@@ -38,7 +38,7 @@ class PairForce:
     at : where the force acts, shape (n,) (m)
     """
 
-    key: str
+    symbol: Symbol
     first: str
     second: str
     along: complex | Array | None
@@ -53,9 +53,9 @@ def pair_forces(motion: Motion) -> list[PairForce]:
     found: list[PairForce] = []
     for joint in joints(motion.scene):
         ways, at = _lines(motion, joint)
-        found += [PairForce(str(joint.symbol("F")), joint.first, joint.second, way, at) for way in ways]
+        found += [PairForce(joint.symbol("F"), joint.first, joint.second, way, at) for way in ways]
         if joint.kind == "sliding":
-            found.append(PairForce(str(joint.symbol("M")), joint.first, joint.second, None, at))
+            found.append(PairForce(joint.symbol("M"), joint.first, joint.second, None, at))
     return found
 
 
@@ -95,18 +95,18 @@ def balances(motion: Motion) -> list[PairForce]:
     if said is not None:
         pose = motion.poses[said.link]
         along = None if not said.is_force else said.turn * np.asarray(pose.u) if said.follows else said.turn
-        name = f"{'F' if said.is_force else 'M'}_{said.link}"
-        return [PairForce(name, scene.frame.name, said.link, along, np.asarray(pose.fixed(said.at).z))]
+        symbol = Symbol("F" if said.is_force else "M", link=said.link)
+        return [PairForce(symbol, scene.frame.name, said.link, along, np.asarray(pose.fixed(said.at).z))]
     for driver in scene.drivers:
         if driver.turns:
             at = np.asarray(motion.poses[driver.link].z)
-            found.append(PairForce(f"M_{driver.link}", driver.relative_to, driver.link, None, at))
+            found.append(PairForce(Symbol("M", link=driver.link), driver.relative_to, driver.link, None, at))
             continue
         slide = motion.structure.slide(driver.key)
         pin = next((p for p in scene.pins if p.key == driver.key), None)
         link, at = (pin.of, motion.position(pin.point, pin.of)) if pin else (slide.a, _foot(motion, slide))
         along = -1j * _square(motion, slide)
-        found.append(PairForce(f"F_{link}", slide.b or scene.frame.name, link, along, at))
+        found.append(PairForce(Symbol("F", link=link), slide.b or scene.frame.name, link, along, at))
     return found
 
 
@@ -130,22 +130,20 @@ DEAD = 1e-10
 
 @dataclass(frozen=True)
 class Forces:
-    """Forces and moments at n positions, by their symbols.
+    """Forces and moments at n positions.
 
-    forces : complex, shape (n,), N: pair forces ``F_5/6`` (of link 5 on link 6), inertia forces ``Fi_6``, weights
-        ``G_6``, loads ``P_name``, balancing forces ``F_2``
-    moments : real, shape (n,), N m: couples of sliding pairs ``M_5/6``, inertia couples ``Mi_6``, loads, balancing
-        moments ``M_2``
+    values : by their symbols.  Complex, shape (n,), N: pair forces ``F_5/6`` (of link 5 on link 6), inertia forces
+        ``Fi_6``, weights ``G_6``, loads ``P_name``, balancing forces ``F_2``; real, shape (n,), N m: couples of sliding
+        pairs ``M_5/6``, inertia couples ``Mi_6``, loads, balancing moments ``M_2``
     beside : the same with the loads that begin or end exactly at a position; NaN elsewhere, and where it changes
-        nothing.  The keys are those of ``forces`` and ``moments``
+        nothing
     ok : bool, shape (n,): where there is an answer; numbers elsewhere are NaN
     """
 
     motion: Motion
 
-    forces: Mapping[str, Array]
-    moments: Mapping[str, Array]
-    beside: Mapping[str, Array]
+    values: Mapping[Symbol, Array]
+    beside: Mapping[Symbol, Array]
     ok: Array
 
     @cached_property
@@ -157,8 +155,10 @@ class Forces:
     def floors(self) -> tuple[Array, Array]:
         """What is not above it is nothing but rounding, of a force (N) and a moment (N m), shape (n,) each: the bounds,
         as far as they are slight beside the largest of all."""
-        force = np.max([np.abs(f) for f in self.forces.values()], axis=0, initial=0.0)
-        moment = np.max([np.abs(m) for m in self.moments.values()], axis=0, initial=0.0)
+        force, moment = (
+            np.max([np.abs(v) for symbol, v in self.values.items() if symbol.is_vector is vectors], axis=0, initial=0.0)
+            for vectors in (True, False)
+        )
         largest = force, np.maximum(moment, force * self.motion.scene.size)
         pairs = zip(self.bound, largest, strict=True)
         one, two = (np.where(bound <= SLIGHT * whole, bound, 0.0) for bound, whole in pairs)
@@ -177,16 +177,16 @@ class Forces:
         """What balances, as it acts on both links of each balance."""
         found = []
         for one in balances(self.motion):
-            value, place = (self.moments, None) if one.along is None else (self.forces, one.at)
-            found += [Action("", one.second, place, value[one.key]), Action("", one.first, place, -value[one.key])]
+            value, place = self.values[one.symbol], None if one.along is None else one.at
+            found += [Action(None, one.second, place, value), Action(None, one.first, place, -value)]
         return found
 
     def value(self, symbol: Symbol) -> Array | None:
         """A force or a moment, ``F_6/5`` being the opposite of ``F_5/6``, ``F_5/6+`` with the loads that begin or end
         exactly at a position; None for one that there is not."""
         plain = replace(symbol, at="", plus=False)
-        for known, sign in ((str(plain), 1.0), (str(plain.opposite), -1.0)):
-            own = self.moments.get(known, self.forces.get(known))
+        for known, sign in ((plain, 1.0), (plain.opposite, -1.0)):
+            own = self.values.get(known)
             if own is not None:
                 jumped = self.beside.get(known) if symbol.plus else None
                 return np.asarray(sign * (own if jumped is None else np.where(np.isnan(jumped), own, jumped)))
@@ -288,47 +288,36 @@ class _Statics:
         return made
 
     def solved(self) -> Forces:
-        forces: dict[str, Array] = {}
-        moments: dict[str, Array] = {}
-        for one in self.acting:
-            if one.key:
-                (moments if one.at is None else forces)[one.key] = one.value
+        values = {one.symbol: one.value for one in self.acting if one.symbol}
         found, ok = self.answer(self.right((one, one.value) for one in self.acting))
         ok = ok & ~np.any([np.zeros(len(ok), dtype=bool), *without_line(self.motion).values()], axis=0)
-        self._by_symbol(found, forces, moments)
+        values |= self._by_symbol(found)
         if not ok.all():
-            for table in (forces, moments):
-                for key, value in table.items():
-                    table[key] = np.where(ok, value, np.nan)
-        return Forces(self.motion, forces, moments, self._beside({**forces, **moments}, ok), ok)
+            values = {symbol: np.where(ok, value, np.nan) for symbol, value in values.items()}
+        return Forces(self.motion, values, self._beside(values, ok), ok)
 
-    def _beside(self, here: Mapping[str, Array], ok: Array) -> dict[str, Array]:
+    def _beside(self, here: Mapping[Symbol, Array], ok: Array) -> dict[Symbol, Array]:
         """The values with the loads that begin or end exactly at a position, where that changes them."""
         jumping = [one for one in self.acting if one.beside is not None]
         if not jumping:
             return {}
         values = [(one, one.value if one.beside is None else one.beside) for one in self.acting]
         changed = ok & np.any([one.beside != one.value for one in jumping], axis=0)
-        made = {one.key: one.beside for one in jumping if one.key and one.beside is not None}
+        made = {one.symbol: one.beside for one in jumping if one.symbol and one.beside is not None}
         if changed.any():
-            self._by_symbol(np.where(changed, self.answer(self.right(values))[0], np.nan), made, made)
+            made |= self._by_symbol(np.where(changed, self.answer(self.right(values))[0], np.nan))
         least = 1e-6 * EDGE * np.max(np.abs(np.nan_to_num(list(here.values()))), axis=0)
-        for key, value in list(made.items()):
-            made[key] = np.where(ok & (np.abs(value - here[key]) > least), value, np.nan)
-            if np.isnan(made[key]).all():
-                del made[key]
-        return made
+        made = {s: np.where(ok & (np.abs(value - here[s]) > least), value, np.nan) for s, value in made.items()}
+        return {symbol: value for symbol, value in made.items() if not np.isnan(value).all()}
 
-    def _by_symbol(self, found: Array, forces: dict[str, Array], moments: dict[str, Array]) -> None:
-        """The columns of the answer by their symbols."""
-        told: set[str] = set()
-        for one, value in zip(self.unknowns, found, strict=True):
-            if one.along is None:
-                moments[one.key] = value * self.size
-                continue
-            vector = value * one.along
-            forces[one.key] = forces[one.key] + vector if one.key in told else vector
-            told.add(one.key)
+    def _by_symbol(self, found: Array) -> dict[Symbol, Array]:
+        """The columns of the answer by their symbols, both components of a force together."""
+        made: dict[Symbol, Array] = {}
+        for one, size in zip(self.unknowns, found, strict=True):
+            value = size * (self.size if one.along is None else one.along)
+            component = one.along is not None and one.symbol in made
+            made[one.symbol] = made[one.symbol] + value if component else value
+        return made
 
     def bounds(self, forces: Forces) -> tuple[Array, Array]:
         """First-order bound of what rounding and the bounds of the motion do to the answer (N, N m)."""
@@ -347,14 +336,13 @@ class _Statics:
             i = self.row[load.link]
             right[i : i + 3] += abs(load.size) * (turn[0] + place / size + 8 * EPS if load.is_force else EPS / size)
         for spring in loading.springs:
-            force = np.abs(forces.forces[f"P_{spring.name}"])
+            force = np.abs(forces.values[Symbol("P", name=spring.name)])
             length = np.abs(np.subtract(*spring_ends(motion, spring)))
             off = spring.rate * (2 * place + 8 * EPS * length) + force * (2 * place / length + turn[0] + 8 * EPS)
             for link in spring.links:
                 if link in self.row:
                     right[self.row[link] : self.row[link] + 3] += np.nan_to_num(off)
-        moments = {key: moment / size for key, moment in forces.moments.items()}
-        values = ((moments if one.along is None else forces.forces)[one.key] for one in self.unknowns)
+        values = (forces.values[one.symbol] / (size if one.along is None else 1.0) for one in self.unknowns)
         found = np.nan_to_num([np.abs(value) for value in values])
         matrix = np.nan_to_num(self.matrix)
         off = np.abs(matrix) * 16 * EPS + (matrix != 0.0) * np.nan_to_num(place / size + turn[0])[:, None, None]
@@ -375,13 +363,13 @@ EDGE = 1e-9
 class Action:
     """A force or a couple on a link.
 
-    key : its symbol, ``Fi_6``, ``G_6``, ``P_name``; empty where another tells it
+    symbol : ``Fi_6``, ``G_6``, ``P_name``; None where another tells it
     at : where a force acts, complex, shape (n,) (m); None for a couple
     value : force, complex, shape (n,) (N), or couple, real (N m)
     beside : the same with the loads that begin or end exactly at a position; None where that changes nothing
     """
 
-    key: str
+    symbol: Symbol | None
     link: str
     at: Array | None
     value: Array
@@ -407,10 +395,10 @@ def actions(motion: Motion) -> Iterator[Action]:
     for mass in loading.masses:
         centre = motion.poses[mass.link].fixed(mass.at)
         at = np.asarray(centre.z)
-        yield Action(f"Fi_{mass.link}", mass.link, at, np.asarray(-mass.mass * centre.a))
-        yield Action(f"Mi_{mass.link}", mass.link, None, np.asarray(-mass.inertia * centre.alpha))
+        yield Action(Symbol("Fi", link=mass.link), mass.link, at, np.asarray(-mass.mass * centre.a))
+        yield Action(Symbol("Mi", link=mass.link), mass.link, None, np.asarray(-mass.inertia * centre.alpha))
         if loading.gravity:
-            yield Action(f"G_{mass.link}", mass.link, at, np.full(len(motion), mass.mass * loading.gravity))
+            yield Action(Symbol("G", link=mass.link), mass.link, at, np.full(len(motion), mass.mass * loading.gravity))
     yield from (_load(motion, load) for load in loading.loads)
     for spring in loading.springs:
         yield from _spring(motion, spring)
@@ -423,8 +411,8 @@ def _spring(motion: Motion, spring: SpringOn) -> Iterator[Action]:
     length = np.abs(way)
     along = np.divide(way, length, out=np.full(len(motion), np.nan + 0j), where=_has_line(motion, length))
     force = np.asarray((spring.preload + spring.rate * (length - spring.free)) * along)
-    yield Action(f"P_{spring.name}", spring.links[0], one, force)
-    yield Action("", spring.links[1], two, -force)
+    yield Action(Symbol("P", name=spring.name), spring.links[0], one, force)
+    yield Action(None, spring.links[1], two, -force)
 
 
 def spring_ends(motion: Motion, spring: SpringOn) -> tuple[Array, Array]:
@@ -450,7 +438,8 @@ def _load(motion: Motion, load: LoadOn) -> Action:
     value = _force(motion, load) if load.is_force else np.full(len(motion), load.size)
     beside = np.where(acts | edge, value, 0.0) if edge.any() else None
     surely = acts & ~edge
-    return Action(f"P_{load.name}", load.link, at, value if surely.all() else np.where(surely, value, 0.0), beside)
+    symbol = Symbol("P", name=load.name, turning=not load.is_force)
+    return Action(symbol, load.link, at, value if surely.all() else np.where(surely, value, 0.0), beside)
 
 
 def _force(motion: Motion, load: LoadOn) -> Array:

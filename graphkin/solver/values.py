@@ -12,7 +12,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
 from itertools import islice, pairwise
 from typing import Any
 
@@ -83,26 +82,17 @@ def senses_along(motion: Motion, symbol: Symbol) -> Array | None:
 def exact_values(motion: Motion, asked: Sequence[Symbol] = ()) -> Callable[[Symbol], Value]:
     """What gives the exact value of a symbol at the one position of a motion (SI), those of the whole turn among the
     asked too.  Raises Unsolvable where there is no whole turn."""
-    scene = motion.scene
-    values = {d.key: float(v) for d, v in zip(scene.drivers, motion.values[0], strict=True)}
-    of_turn: Mapping[Symbol, float] = {}
-    if any(s.scope == "turn" for s in asked):
-        reach = range_of(structure_of(motion.structure), values)
-        of_turn = {s: _of_turn(reach, s) for s in asked if s.scope == "turn"}
-
-    @cache
-    def of_forces() -> Callable[[Symbol], Value]:
-        return force_values(motion)[0]
+    of_turn = {symbol: _of_turn(_range_here(motion), symbol) for symbol in asked if symbol.scope == "turn"}
 
     def value(symbol: Symbol) -> Value:
         if symbol in of_turn:
             return of_turn[symbol]
-        if symbol.scope == "force" and no_force(scene.whole, str(symbol), symbol) is None:
-            return of_forces()(symbol)
-        found = value_of(motion, symbol)[0]
-        if symbol.kind == "d" and math.isnan(found):  # the centre of links at rest: that of any motion
-            found = _growing(motion).value(symbol)[0]
-        return complex(found) if np.iscomplexobj(found) else float(found)
+        if symbol.scope == "force" and no_force(motion.scene.whole, str(symbol), symbol) is None:
+            return _of_forces_here(motion, symbol)
+        exact = value_of(motion, symbol)[0]
+        if symbol.kind == "d" and math.isnan(exact):  # the centre of links at rest: that of any motion
+            exact = _growing(motion).value(symbol)[0]
+        return complex(exact) if np.iscomplexobj(exact) else float(exact)
 
     return value
 
@@ -112,26 +102,29 @@ def _of_turn(reach: DriverRange, symbol: Symbol) -> float:
     return {"K": found.ratio, "theta_lag": found.lag}.get(symbol.kind, found.stroke)
 
 
+def _range_here(motion: Motion) -> DriverRange:
+    """The range of the first driver, the others at the one position of a motion."""
+    values = {d.key: float(v) for d, v in zip(motion.scene.drivers, motion.values[0], strict=True)}
+    return range_of(structure_of(motion.structure), values)
+
+
 def _growing(motion: Motion) -> Motion:
     """The same one position with the first driver's value growing at a unit rate, the others held."""
-    values = {d.key: float(v) for d, v in zip(motion.scene.drivers, motion.values[0], strict=True)}
-    return range_of(structure_of(motion.structure), values).motion(np.zeros(1), unit=True)
+    return _range_here(motion).motion(np.zeros(1), unit=True)
 
 
-def force_values(motion: Motion) -> tuple[Callable[[Symbol], Value], float]:
-    """What gives the exact force (N), moment (N m), shift of an inertia force (m) or arm on Zhukovsky's lever (m/s: the
-    power of a force over its size) of a symbol at the one position of a motion; and how far rounding may have moved any
-    force (N).
-
-    At rest an arm is that of the driver's value growing at a unit rate.
+def forces_here(motion: Motion) -> Forces:
+    """The forces at the one position of a motion.
 
     Raises
     ------
     Unsolvable : "dead point": the balance does no work
     """
-    motion = _of_cams(motion)
-    forces = forces_of(motion)
-    for name, where in without_line(motion).items():
+    if "forces here" in motion.kept:
+        known: Forces = motion.kept["forces here"]
+        return known
+    forces = forces_of(_of_cams(motion))
+    for name, where in without_line(forces.motion).items():
         if where[0]:
             raise Unsolvable("dead point", Problem(f"springs.{name}", "its two points coincide in this position so",
                                                    "move the driver off this position"))
@@ -139,18 +132,27 @@ def force_values(motion: Motion) -> tuple[Callable[[Symbol], Value], float]:
         drivers = ", ".join(d.key for d in motion.scene.drivers)
         raise Unsolvable("dead point", Problem(Phrase("driver of driver", driver=drivers),
                                                "the balance does no work in this position of nothing"))
-    moving = motion if any(d.values[1] for d in motion.scene.drivers) else _growing(motion)
+    motion.kept["forces here"] = forces
+    return forces
 
-    def value(symbol: Symbol) -> Value:
-        if symbol.kind == "h":
-            force, moment = abs(_number(forces.forces[f"Fi_{symbol.link}"])), forces.moments[f"Mi_{symbol.link}"]
-            return float(moment[0]) / force if force else 0.0
-        if symbol.kind == "arm":
-            return _arm(moving, forces, symbol.name)
-        known = forces.value(symbol)
-        return float("nan") if known is None else _number(known)
 
-    return value, float(forces.bound[0][0])
+def _of_forces_here(motion: Motion, symbol: Symbol) -> Value:
+    """A force (N), moment (N m), shift of an inertia force (m) or arm on Zhukovsky's lever (m/s: the power of a force
+    over its size) at the one position of a motion; at rest an arm is that of the driver's value growing at a unit rate.
+
+    Raises
+    ------
+    Unsolvable : "dead point": the balance does no work
+    """
+    forces = forces_here(motion)
+    if symbol.kind == "h":
+        force, moment = (forces.values[Symbol(kind, link=symbol.link)][0] for kind in ("Fi", "Mi"))
+        return float(moment / abs(force)) if force else 0.0
+    if symbol.kind == "arm":
+        moves = any(driver.values[1] for driver in motion.scene.drivers)
+        return _arm(forces.motion if moves else _growing(forces.motion), forces, Symbol.parse(symbol.name))
+    known = forces.value(symbol)
+    return math.nan if known is None else complex(known[0]) if symbol.is_vector else float(known[0])
 
 
 def _of_cams(motion: Motion) -> Motion:
@@ -162,19 +164,15 @@ def _of_cams(motion: Motion) -> Motion:
     return replace(motion, structure=structure)
 
 
-def _number(value: np.ndarray) -> Value:
-    return complex(value[0]) if np.iscomplexobj(value) else float(value[0])
-
-
-def _arm(moving: Motion, forces: Forces, name: str) -> float:
+def _arm(moving: Motion, forces: Forces, of: Symbol) -> float:
     """Of a force the part of its point's velocity along it; of a balancing force along its line, positive in the line's
     own sense."""
     for one in balances(moving):
-        if one.key == name:
-            on, back = (Action("", link, one.at, np.asarray(one.along)) for link in (one.second, one.first))
+        if one.symbol == of:
+            on, back = (Action(None, link, one.at, np.asarray(one.along)) for link in (one.second, one.first))
             return float((on.power(moving) - back.power(moving))[0])
-    force = forces.forces[name] if forces.forces[name][0] else forces.beside.get(name, forces.forces[name])
-    acting = next(one for one in actions(moving) if one.key == name)
+    force = forces.values[of] if forces.values[of][0] else forces.beside.get(of, forces.values[of])
+    acting = next(one for one in actions(moving) if one.symbol == of)
     return float(replace(acting, value=force).power(moving)[0] / abs(force[0])) if force[0] else 0.0
 
 
@@ -480,14 +478,14 @@ def _of_motion(motion: Motion, angles: Mapping[str, Array]) -> Columns:
 def _of_forces(scene: Mechanism, forces: Forces, some: slice) -> Columns:
     """Forces and moments; a key with + is the value with the loads that begin or end exactly at a position."""
     found: Columns = {"forces": {}, "moments": {}}
-    for part, table in (("forces", forces.forces), ("moments", forces.moments)):
-        for key, values in table.items():
-            beside = forces.beside.get(key)
-            for name, value in ((key, values), (f"{key}+", beside)):
-                if value is not None:
-                    shown = value[some] / scene.units.newtons
-                    present = None if value is values else ~np.isnan(shown)
-                    found[part][name] = _plain(shown.astype(complex) if part == "forces" else shown.real, present)
+    for symbol, values in forces.values.items():
+        part = found["forces" if symbol.is_vector else "moments"]
+        shown = values[some] / scene.units.newtons
+        part[str(symbol)] = _plain(shown.astype(complex) if symbol.is_vector else shown.real)
+        if symbol in forces.beside:
+            shown = forces.beside[symbol][some] / scene.units.newtons
+            there = ~np.isnan(shown)
+            part[f"{symbol}+"] = _plain(shown.astype(complex) if symbol.is_vector else shown.real, there)
     bounds = (bound[some] / scene.units.newtons for bound in forces.bound)
     return {**found, "force_bound": {part: bound.tolist() for part, bound in zip(found, bounds, strict=True)}}
 

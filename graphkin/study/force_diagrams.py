@@ -84,7 +84,7 @@ def force_extremes(reach: DriverRange) -> dict[str, tuple[Quantity, tuple[Extrem
     offsets = whole_turn(axis)
     motion = reach.motion(offsets)
     forces = forces_of(motion)
-    most = max(float(np.nanmax(np.abs(v), initial=0.0)) for v in (*forces.forces.values(), *forces.moments.values()))
+    most = max(float(np.nanmax(np.abs(value), initial=0.0)) for value in forces.values.values())
     found = dict[str, tuple[Quantity, tuple[Extreme, ...]]]()
     for quantity in quantities:
         value = forces.value(quantity.symbol)

@@ -14,6 +14,7 @@ import pytest
 import graphkin
 from graphkin.errors import SceneError, Unsolvable
 from graphkin.scene.reading import as_mapping
+from graphkin.scene.symbol import Symbol
 from tests.construction.test_forces import judged
 from tests.mechanisms import KINDS, random_scene
 from tests.solver.test_forces import loaded, residues
@@ -61,7 +62,7 @@ def test_work_of_the_driver_is_the_growth_of_the_springs_energy():
     scene = rocker(preload=3.0)
     del scene["masses"], scene["gravity"]
     solved = graphkin.solve(scene, sweep=720)
-    moment = solved.forces.moments["M_1"][:241]
+    moment = solved.forces.value(Symbol.parse("M_1"))[:241]
     weights = np.array([1, *[4, 2] * 119, 4, 1]) / 3
     work = float(moment @ weights) * math.tau / 720
     stretch = abs(solved.motion.position("E") - solved.motion.position("G")) - 0.06
@@ -78,7 +79,7 @@ def test_a_spring_of_no_free_length_balances_a_weight_in_every_position():
         "gravity": {"g": 10}, "masses": {"1": {"at": "B", "mass": 4}},
         "springs": {"W": {"between": ["K", "H"], "rate": 40 * 300 / (100 * 200), "free": 0}},
     }  # fmt: skip
-    moments = graphkin.solve(scene, sweep=36).forces.moments["M_1"]
+    moments = graphkin.solve(scene, sweep=36).forces.value(Symbol.parse("M_1"))
     assert abs(moments).max() <= 1e-13 * 40 * 0.3
 
 
@@ -87,10 +88,11 @@ def test_the_force_named_pulls_the_first_links_point_to_the_other():
     solved = graphkin.solve(scene)
     way = complex((solved.motion.position("G") - solved.motion.position("E"))[0])
     expected = (12 + 1600 * (abs(way) - 0.06)) * way / abs(way)
-    assert expected == pytest.approx(complex(solved.forces.forces["P_R"][0]), rel=1e-13)
+    assert expected == pytest.approx(complex(solved.forces.value(Symbol.parse("P_R"))[0]), rel=1e-13)
     turned = graphkin.solve(rocker(between=["G", "E"], links=["4", "3"]))
-    assert -expected == pytest.approx(complex(turned.forces.forces["P_R"][0]), rel=1e-13)
-    assert float(solved.forces.moments["M_1"][0]) == pytest.approx(float(turned.forces.moments["M_1"][0]), rel=1e-12)
+    assert -expected == pytest.approx(complex(turned.forces.value(Symbol.parse("P_R"))[0]), rel=1e-13)
+    balance, beside = (float(one.forces.value(Symbol.parse("M_1"))[0]) for one in (solved, turned))
+    assert balance == pytest.approx(beside, rel=1e-12)
 
 
 def test_a_spring_is_the_same_in_other_units():
@@ -111,7 +113,7 @@ def test_a_spring_is_the_same_in_other_units():
     at = text["masses"]["3"]["at"]
     inches["masses"]["3"]["at"] = at if isinstance(at, str) else [x * per for x in at]
     inches["springs"]["R"] |= {"rate": 1.6, "free": 0.06, "preload": 0.012}
-    one, other = (graphkin.solve(s).forces.forces["P_R"][0] for s in (rocker(), inches))
+    one, other = (graphkin.solve(s).forces.value(Symbol.parse("P_R"))[0] for s in (rocker(), inches))
     assert complex(one) == pytest.approx(complex(other), rel=1e-12)
 
 
@@ -179,7 +181,7 @@ def test_the_figure_shows_the_spring_between_its_points():
 
 
 def test_a_value_with_the_whole_length_for_the_stretch_is_called_by_its_slip():
-    slipped = graphkin.solve(rocker(free=0.0)).forces.forces["P_R"][0]
+    slipped = graphkin.solve(rocker(free=0.0)).forces.value(Symbol.parse("P_R"))[0]
     scene = rocker() | {"printed": {"P_R": f"{abs(slipped):.4f}", "by": "computation"}}
     (value,) = graphkin.audit(scene).data["values"]
     assert ("wrong", "free length of spring R not taken off") == (value["verdict"], value["looks_like"])

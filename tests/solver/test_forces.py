@@ -63,14 +63,10 @@ def loaded(scene, seed):
     return made
 
 
-def shares(mechanism, solved, key):
-    """The link on which a force or couple of this symbol acts, the one that it comes from, and where it acts."""
-    motion = solved.motion
-    letter, _, rest = key.partition("_")
-    pair, _, point = rest.partition("@")
-    if "/" not in pair:
-        return pair, None, None
-    first, second = pair.split("/")
+def shares(mechanism, solved, symbol):
+    """The link on which a force or couple of a pair acts, the one that it comes from, and where it acts."""
+    motion, letter, first, second = solved.motion, symbol.kind, symbol.link, symbol.other
+    point = symbol.of.point if symbol.of else ""
     sliding = next((s for s in mechanism.slidings if (s.link, s.on) == (second, first) and point in ("", s.pin)), None)
     pin = next((p for p in mechanism.pins if (p.of, p.on) == (second, first) and point in ("", p.point)), None)
     cam = next((c for c in mechanism.cams if (c.link, c.follower) == (first, second)), None)
@@ -121,23 +117,23 @@ def residues(scene):
     for mass in mechanism.loading.masses:
         centre = motion.poses[mass.link].fixed(mass.at)
         for key in (f"Fi_{mass.link}", f"G_{mass.link}"):
-            act(mass.link, forces.forces[key], centre.z)
-        act(mass.link, 0j, None, forces.moments[f"Mi_{mass.link}"])
+            act(mass.link, forces.value(Symbol.parse(key)), centre.z)
+        act(mass.link, 0j, None, forces.value(Symbol.parse(f"Mi_{mass.link}")))
     for load in mechanism.loading.loads:
         pose = motion.poses[load.link]
         if load.is_force:
-            act(load.link, forces.forces[f"P_{load.name}"], pose.z + pose.u * load.at)
+            act(load.link, forces.value(Symbol.parse(f"P_{load.name}")), pose.z + pose.u * load.at)
         else:
-            act(load.link, 0j, None, forces.moments[f"P_{load.name}"])
+            act(load.link, 0j, None, forces.value(Symbol.parse(f"P_{load.name}")))
     for spring in mechanism.loading.springs:
         for (link, own), sign in zip(spring.ends, (1, -1), strict=True):
             pose = motion.poses[link]
-            act(link, sign * forces.forces[f"P_{spring.name}"], pose.z + pose.u * own)
+            act(link, sign * forces.value(Symbol.parse(f"P_{spring.name}")), pose.z + pose.u * own)
     for driver in mechanism.drivers:
         angle = driver.turns
         link = driver.key.split("/")[0]
         if angle:
-            moment = forces.moments[f"M_{link}"]
+            moment = forces.value(Symbol.parse(f"M_{link}"))
             act(link, 0j, None, moment)
             act(driver.relative_to, 0j, None, -moment)
             continue
@@ -148,15 +144,14 @@ def residues(scene):
         own = mechanism.by_name[link].points
         foot = own[pin.point] if pin else own[slide.pin] if slide.pin else 0
         at = motion.poses[link].z + motion.poses[link].u * foot
-        act(link, forces.forces[f"F_{link}"], at)
-        act(on, -forces.forces[f"F_{link}"], at)
-    for key in (*forces.forces, *forces.moments):
-        value = forces.value(Symbol.parse(key))
-        if not key.startswith(("F_", "M_")) or "/" not in key:
+        act(link, forces.value(Symbol.parse(f"F_{link}")), at)
+        act(on, -forces.value(Symbol.parse(f"F_{link}")), at)
+    for symbol, value in forces.values.items():
+        if not symbol.other:
             continue
-        second, first, at = shares(mechanism, solved, key)
+        second, first, at = shares(mechanism, solved, symbol)
         for link, sign in ((second, 1), (first, -1)):
-            if key.startswith("F_"):
+            if symbol.kind == "F":
                 act(link, sign * value, at, external=False)
             else:
                 act(link, 0j, None, sign * value, external=False)
@@ -228,8 +223,9 @@ def test_what_a_load_forgotten_leaves_of_the_powers_is_seen(name):
     solved = graphkin.solve(scene_of(name))
     left, greatest = solved.forces.power
     assert 0 == pytest.approx(left[0], abs=1e-12 * greatest[0])
-    key = next(key for key in solved.forces.moments if key.startswith("M_") and "/" not in key)
-    wrong = replace(solved.forces, moments={**solved.forces.moments, key: 1.001 * solved.forces.moments[key]})
+    values = solved.forces.values
+    balance = next(symbol for symbol in values if symbol.kind == "M" and not symbol.other)
+    wrong = replace(solved.forces, values={**values, balance: 1.001 * values[balance]})
     assert abs(wrong.power[0][0]) > 1e-4 * greatest[0]
 
 
