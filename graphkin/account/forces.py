@@ -259,7 +259,7 @@ class ForceAccount:
             said = Phrase("force reason along", (held.link.split("/")[0], self.name(held.symbol, "n")))
             yield ForceStep("moments", said, (), (held.symbol,), "n")
         for one in group.moments:
-            symbol, part = one.unknown.symbol, one.unknown.part
+            symbol, part = one.unknown.symbol, one.unknown.acting.part
             links, point = _links(one.links), f"${self.letters.point(one.about)}$"
             if not one.terms and group.way == "polygon" and group.kind != "RPR":
                 said = Phrase("force two-force member", (links, self.name(symbol), point))
@@ -331,7 +331,8 @@ class ForceAccount:
         per = per_mm / self.sheet.scene.units.newtons
         for v in laid_off(group):
             value, length = to_lay_off(abs(v.span) * per, per, abs(v.span))
-            of = (m for m in group.moments if m.unknown.symbol == v.symbol and (m.unknown.part == v.part or not v.part))
+            of = (m for m in group.moments
+                  if m.unknown.symbol == v.symbol and v.part in (m.unknown.acting.part, ""))  # fmt: skip
             by_moments = next((m for m in of if abs(abs(m.value) / per_mm - abs(v.span)) < SAME), None)
             if by_moments is not None:
                 # as their sum gave it
@@ -470,7 +471,8 @@ def lever_on_page(sheet: Sheet, lever: Lever) -> tuple[Lever, float]:
     def larger(row: MomentTerm) -> MomentTerm:
         pair = None if row.pair is None else (row.pair[0] * times, row.pair[1] * times)
         arm = None if row.arm is None else row.arm * times
-        return replace(row, at=row.at * times, arm=arm, moment=row.moment * times, pair=pair)
+        return replace(row, acting=replace(row.acting, at=row.acting.at * times), arm=arm, moment=row.moment * times,
+                       pair=pair)  # fmt: skip
 
     ends, rows = {name: z * times for name, z in lever.ends.items()}, tuple(map(larger, lever.rows))
     return replace(lever, per_mm=per_mm, ends=ends, rows=rows, unknown=larger(lever.unknown)), per_mm
@@ -478,7 +480,7 @@ def lever_on_page(sheet: Sheet, lever: Lever) -> tuple[Lever, float]:
 
 def spots_of(lever: Lever) -> list[complex]:
     """The pole, the end points and the places of the forces of a lever (mm)."""
-    spots = [0j, *(row.at for row in lever.rows), *(z for row in lever.rows for z in row.pair or ())]
+    spots = [0j, *(row.acting.at for row in lever.rows), *(z for row in lever.rows for z in row.pair or ())]
     return [*spots, *(z for z in lever.ends.values() if abs(z) > SHORT)]
 
 

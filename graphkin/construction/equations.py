@@ -278,11 +278,7 @@ def _draw_parallel_legs(plot: Polygons, order: Order, group: LargerGroup, legs: 
 def _lay_off(plot: Polygons, order: Order, part: Term, at: complex, equation: int | None) -> complex:
     """Lay off a known vector."""
     assert part.span is not None
-    size = abs(part.span)
-    tip = at
-    if size > 0.0:
-        hand = plot.board.instrument
-        tip = hand.point(at + hand.direction(part.span / size) * hand.length(size))
+    size, tip = abs(part.span), plot.board.instrument.laid_off(at, part.span)
     vector = Vector(part.symbol, at, tip, part.role)
     plot.board.notice(order, "zero vector", part.symbol, size=size)
     plot.record(vector, Step("lay off", part.role, order, (), equation, symbol=part.symbol, size=part.size, mm=size,

@@ -56,6 +56,11 @@ class Instrument:
         """Lay off a length with the ruler."""
         return mm if self.faultless else mm + self._error(self.reading_error)
 
+    def laid_off(self, start: complex, span: complex) -> complex:
+        """Lay off a vector from a place (mm); where it ends."""
+        size = abs(span)
+        return self.point(start + self.direction(span / size) * self.length(size)) if size > 0.0 else start
+
     def compass(self, mm: float) -> float:
         """Take a radius between the points of the compass."""
         return mm if self.faultless else mm + self._error(self.tools.compass)

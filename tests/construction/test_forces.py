@@ -57,7 +57,7 @@ def test_arms_on_the_lever_are_those_of_the_reference(at):
     (lever,) = forces_on(drawn(SHAPER, case["positions"][at]["driver_deg"])).states[0].levers
     for row in lever.rows:
         expected = true["rows"].get(str(row.symbol), {}).get("arm_mm")
-        if expected is not None and row.force:
+        if expected is not None and row.acting.force:
             assert expected == pytest.approx(abs(row.arm) * lever.per_mm / 10e-3, abs=1e-9), row.symbol
 
 

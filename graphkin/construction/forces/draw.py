@@ -188,25 +188,26 @@ def _lever(sheet: Sheet, drawn: Sheet, state: ForceState, driver: Driver, hand: 
     return Lever(drawn.scales.velocity, drawn is not sheet, ends, rows, unknown, value, value * balance.force)
 
 
-def _on_lever(images: DrawnPosition, one: ForceVector, hand: Instrument) -> MomentTerm:
+def _on_lever(images: DrawnPosition, acting: ForceVector, hand: Instrument) -> MomentTerm:
     """The moment of a force about the pole, at the end point of its point's velocity; of a couple as a pair of forces
     at two points of its link, square to the line between them."""
-    if one.symbol.is_vector:
-        end = TURN * images.end("velocity", one.link, one.at)
-        mm = cross(end, unit(one.force)) if one.force else 0.0
+    link = acting.link
+    if acting.symbol.is_vector:
+        end = TURN * images.end("velocity", link, acting.at)
+        mm = cross(end, unit(acting.force)) if acting.force else 0.0
         arm = hand.read_signed(mm) if abs(mm) > 1e-13 * abs(end) else 0.0
-        return MomentTerm(one.symbol, one.force, arm, abs(one.force) * arm, end, turned=one.turned)
-    far = images.image("velocity", one.link) if one.link != images.sheet.scene.frame.name else None
-    omega = images.sheet.omega[one.link].value if one.link in images.sheet.omega else 0.0
+        return MomentTerm(replace(acting, at=end), arm, abs(acting.force) * arm)
+    far = images.image("velocity", link) if link != images.sheet.scene.frame.name else None
+    omega = images.sheet.omega[link].value if link in images.sheet.omega else 0.0
     if far is None or omega == 0.0:
         # a link without two points on the figure: its rate is that of another link
         arm = omega / images.sheet.scales.velocity
-        return MomentTerm(one.symbol, complex(one.moment), arm, one.moment * arm)
+        return MomentTerm(replace(acting, force=complex(acting.moment), at=0j), arm, acting.moment * arm)
     (a, a_end), (b, b_end) = far
-    square, size = 1j * unit(b - a), one.moment / (abs(b - a) / images.mm)
+    square, size = 1j * unit(b - a), acting.moment / (abs(b - a) / images.mm)
     tail, tip = TURN * a_end, TURN * b_end
     arm = hand.read_signed(math.copysign(abs(tip - tail), cross(tip - tail, square)))
-    return MomentTerm(one.symbol, square * size, arm, size * arm, tip, pair=(tail, tip))
+    return MomentTerm(replace(acting, force=square * size, at=tip), arm, size * arm, pair=(tail, tip))
 
 
 # -- what is read off --------------------------------------------------------------------------------------------------

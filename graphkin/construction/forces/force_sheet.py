@@ -104,42 +104,42 @@ class Inertia:
 
 @dataclass(frozen=True)
 class MomentTerm:
-    """The moment of a force (N) that stands ``at`` a place about another, ``about`` (mm on the mechanism; on a lever mm
-    from its pole); or a couple.
+    """The moment of what acts on a link: of a force at its place ``about`` another (mm on the mechanism; on a lever mm
+    from its pole), or of a couple.
 
     ``arm`` is the distance of its line, as measured (mm; positive where the force turns counter-clockwise; None of a
     couple), ``moment`` what it comes to (N m; N mm on a lever).  On a lever a couple is a ``pair`` of forces at two end
     points of an image; its arm is their distance, its force the couple over the length of the bar.
     """
 
-    symbol: Symbol
-    force: complex
+    acting: ForceVector
     arm: float | None
     moment: float
-    at: complex = 0j
     about: complex = 0j
-    part: Part = ""
-    turned: bool = False
     pair: tuple[complex, complex] | None = None
+
+    @property
+    def symbol(self) -> Symbol:
+        return self.acting.symbol
 
     @property
     def size(self) -> float:
         """Of the force, or the couple with its sense (N, N m)."""
-        return self.moment if self.arm is None else abs(self.force)
+        return self.moment if self.arm is None else abs(self.acting.force)
 
     @property
     def foot(self) -> complex:
         """Of the arm, on the line of the force (mm)."""
-        along = unit(self.force)
-        return self.about - 1j * along * cross(self.at - self.about, along)
+        along = unit(self.acting.force)
+        return self.about - 1j * along * cross(self.acting.at - self.about, along)
 
 
 @dataclass(frozen=True)
 class MomentEquation:
     """The moments of all that acts on some links about a point are in balance, which gives one unknown.
 
-    ``about`` is the letter of the point, or the name of the link at whose origin it lies; ``unknown`` is a force of
-    size 1, or a couple, ``value`` (N, N m) how large it is.
+    ``about`` is the letter of the point, or the name of the link at whose origin it lies; ``unknown`` is a force or a
+    couple of size 1, ``value`` (N, N m) how large it is.
     """
 
     links: tuple[str, ...]
@@ -147,6 +147,12 @@ class MomentEquation:
     terms: tuple[MomentTerm, ...]
     unknown: MomentTerm
     value: float
+
+    @property
+    def found(self) -> ForceVector:
+        """The unknown as large as it is."""
+        sought = self.unknown.acting
+        return replace(sought, force=sought.force * self.value, moment=sought.moment * self.value, by="moments")
 
 
 @dataclass

@@ -15,7 +15,7 @@ Forces are complex numbers in N while they are found; each is taken off the poly
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -73,10 +73,14 @@ class CutFree:
     # -- what acts -----------------------------------------------------------------------------------------------------
 
     def push(self, *acting: ForceVector) -> None:
-        """Forces and couples act on links; the frame bears what comes."""
-        for one in acting:
-            if one.link != self.drawn.structure.scene.frame.name:
-                self.acting[one.link].append(one)
+        """Forces and couples act on links, as known ones; the frame bears what comes."""
+        for force in acting:
+            if force.link != self.drawn.structure.scene.frame.name:
+                self.acting[force.link].append(replace(force, by="given", direction=None, part=""))
+
+    def hand_on(self, force: ForceVector, inside: Collection[str]) -> None:
+        """Load with a force or a couple that of its two links which is not inside a group: it is still to come."""
+        self.push(*(acting for acting in (force, force.back) if acting.link not in inside))
 
     def on(self, links: Iterable[str]) -> list[ForceVector]:
         """What is known to act on some links, of no size left out."""
@@ -108,14 +112,16 @@ class CutFree:
             symbol = symbol if link == pair.a else symbol.opposite
         return ForceVector(symbol, link, at=at, by="closing", off=off)
 
-    def set_slide(self, slide: Pair, force: ForceVector, couple: float, inside: Iterable[str]) -> None:
-        """The force of a sliding pair on one of its links, with its couple; both load the other link, if that comes
-        later."""
-        forward, moment = force.on(slide.a), couple if force.link == slide.a else -couple
-        self.slides[slide.key] = forward.force, moment
-        turned = ForceVector(self.drawn.of_slide(slide, "M"), slide.a, moment=moment, off=slide.b)
-        for one in (replace(forward, by="given", direction=None, part=""), turned):
-            self.push(*(acting for acting in (one, one.back) if acting.link not in inside))
+    def set_balance(self, balance: ForceVector, found: ForceVector) -> None:
+        """What balances, as it was found on one of its two links."""
+        whole = found.on(balance.link)
+        self.balances[balance.symbol] = whole.force or whole.moment
+
+    def set_slide(self, slide: Pair, force: ForceVector, couple: ForceVector, inside: Collection[str]) -> None:
+        """The force and the couple of a sliding pair on one of its links; both load the other, if that comes later."""
+        self.slides[slide.key] = force.on(slide.a).force, couple.on(slide.a).moment
+        for acting in (force, couple):
+            self.hand_on(acting.on(slide.a), inside)
 
     # -- moments -------------------------------------------------------------------------------------------------------
 
@@ -124,86 +130,73 @@ class CutFree:
         """The mechanism, in mm on paper."""
         return self.drawn.sheet.scene.size * self.drawn.mm
 
-    def term(self, one: ForceVector, about: complex) -> MomentTerm:
+    def term(self, acting: ForceVector, about: complex) -> MomentTerm:
         """The moment of a force about a place, its arm measured on the mechanism; a couple is its own."""
-        if not one.force:
-            return MomentTerm(one.symbol, 0j, None, one.moment, turned=one.turned)
-        mm = cross(one.at - about, unit(one.force))
+        if not acting.force:
+            return MomentTerm(acting, None, acting.moment)
+        mm = cross(acting.at - about, unit(acting.force))
         arm = self.hand.read_signed(mm) if abs(mm) >= 1e-12 * self.size else 0.0
-        moment = abs(one.force) * arm / self.drawn.mm
-        return MomentTerm(one.symbol, one.force, arm, moment, one.at, about, turned=one.turned)
+        return MomentTerm(acting, arm, abs(acting.force) * arm / self.drawn.mm, about)
 
-    def terms(self, acting: Iterable[ForceVector], about: complex) -> tuple[MomentTerm, ...]:
-        """The moments of forces, then couples."""
-        return tuple(self.term(one, about) for one in sorted(acting, key=lambda one: not one.force))
-
-    def by_moments(
-        self, links: Sequence[str], about: complex, letter: str, unknown: ForceVector, more: Sequence[ForceVector] = ()
+    def moments(
+        self, links: Sequence[str], about: complex, letter: str, unknown: ForceVector, more: Iterable[ForceVector] = ()
     ) -> MomentEquation:
-        """The size of a force of known line from the moments of all that acts on some links.
+        """How large a force of known line, or a couple, is by the moments of all that acts on some links.
 
         Parameters
         ----------
-        about, letter : the place of the moments, and its name
-        unknown : the force, of size 1
-        more : forces found already that are not yet among the known
+        about, letter : the place of the moments (mm), and its name
+        unknown : the force or couple, of size 1
+        more : forces and couples found already that are not yet among the known
+
+        Raises
+        ------
+        Unsolvable : "dead point": the line goes through the place
         """
         sought = self.term(unknown, about)
-        assert sought.arm is not None
-        if abs(sought.arm) <= PARALLEL * self.size:
+        if sought.arm is not None and abs(sought.arm) <= PARALLEL * self.size:
             raise _dead_point(links)
-        terms = self.terms([*self.on(links), *(m for m in more if m.force)], about)
-        value = -added_up(t.moment for t in terms) / (sought.arm / self.drawn.mm)
-        return MomentEquation(tuple(links), letter, terms, replace(sought, part=unknown.part), value)
-
-    def couple(
-        self, links: Sequence[str], about: complex, letter: str, symbol: Symbol, more: Sequence[ForceVector] = ()
-    ) -> MomentEquation:
-        """The couple that is left of the moments of all that acts on some links."""
-        terms = self.terms([*self.on(links), *(m for m in more if m.force or m.moment)], about)
-        value = -added_up(t.moment for t in terms)
+        acting = [*self.on(links), *(one for one in more if one.force or one.moment)]
+        terms = tuple(self.term(one, about) for one in sorted(acting, key=lambda one: not one.force))
+        total = added_up(term.moment for term in terms)
         # what is left of terms that cancel is rounding
-        if abs(value) <= 1e-13 * added_up(abs(t.moment) for t in terms):
-            value = 0.0
-        return MomentEquation(tuple(links), letter, terms, MomentTerm(symbol, 0j, None, 1.0), value)
+        rounding = abs(total) <= 1e-13 * added_up(abs(term.moment) for term in terms)
+        return MomentEquation(tuple(links), letter, terms, sought, 0.0 if rounding else -total / sought.moment)
 
     # -- polygons ------------------------------------------------------------------------------------------------------
 
-    def lay(self, chain: Chain, *forces: ForceVector) -> complex:
-        """Lay off forces head to tail; what they come to then in N."""
-        begin = _end_of(chain)
-        for one in forces:
-            tail = tip = _end_of(chain)
-            mm = abs(one.force) / self.per_mm
-            if mm > 0.0:
-                tip = self.hand.point(tail + self.hand.direction(unit(one.force)) * self.hand.length(mm))
-            chain.append(one.between(tail, tip))
-        return (_end_of(chain) - begin) * self.per_mm
+    def lay(self, chain: Chain, *forces: ForceVector) -> None:
+        """Lay off forces head to tail."""
+        for force in forces:
+            tail = _end_of(chain)
+            chain.append(force.between(tail, self.hand.laid_off(tail, force.force / self.per_mm)))
 
     def lay_known(self, chain: Chain, links: Iterable[str]) -> None:
         """Lay off the known forces on some links."""
         self.lay(chain, *(one for one in self.on(links) if one.force))
 
-    def closed(
-        self, links: Sequence[str], chain: Chain, last: ForceVector, first: ForceVector | None = None
-    ) -> complex:
+    def close(self, links: Sequence[str], chain: Chain, last: ForceVector, first: ForceVector | None = None) -> None:
         """Close a polygon: by one force, or by two of known directions, the one before its first vector and the other
-        behind its last; returns where they meet (mm).
+        behind its last.
 
         Raises
         ------
         Unsolvable : "dead point": the two directions are parallel
         """
-        end, corner = _end_of(chain), 0j
+        end, corner = _end_of(chain), chain[0].tail if chain else 0j
         if first is not None:
             d, e = self.hand.direction(last.force), self.hand.direction(first.force)
-            met = cross_lines(end, d, 0j, e) if abs(cross(d, e)) >= PARALLEL else None
+            met = cross_lines(end, d, corner, e) if abs(cross(d, e)) >= PARALLEL else None
             if met is None:
                 raise _dead_point(links)
             corner = self.hand.point(met)
-            chain.insert(0, first.between(corner, 0j))
+            chain.insert(0, first.between(corner, chain[0].tail if chain else 0j))
         chain.append(last.between(end, corner))
-        return corner
+
+    def drawn_in(self, chain: Chain, force: ForceVector) -> ForceVector:
+        """A force as it stands in a polygon, all its parts together (N)."""
+        parts = (vector.span for vector in chain if vector.symbol == force.symbol)
+        return replace(force, force=added_up(parts, 0j) * self.per_mm)
 
 
 def _across(pair: Pair) -> Direction:
@@ -225,8 +218,8 @@ def _foot_name(slide: Pair) -> str:
 
 def _slide_found(
     cut: CutFree, group: ForceGroup, links: Sequence[str], slide: Pair, force: ForceVector, about: complex, letter: str,
-    acting: Sequence[ForceVector], inside: Sequence[str],
-) -> MomentEquation:  # fmt: skip
+    acting: Iterable[ForceVector], inside: Collection[str],
+) -> ForceVector:  # fmt: skip
     """The couple of a sliding pair on links, from the moments about a place (mm), and where it puts the line of action
     of the pair's force.
 
@@ -235,11 +228,12 @@ def _slide_found(
     acting : forces and couples found already that are not yet among the known, the pair's own among them
     inside : links that do not come later
     """
-    found = cut.couple(links, about, letter, replace(force.symbol, kind="M"), acting)
-    group.couples.append(found)
-    _shift_line(cut, group, force, found.value)
-    cut.set_slide(slide, force, found.value, inside)
-    return found
+    unknown = ForceVector(replace(force.symbol, kind="M"), force.link, moment=1.0, off=force.off)
+    equation = cut.moments(links, about, letter, unknown, acting)
+    group.couples.append(equation)
+    _shift_line(cut, group, force, equation.value)
+    cut.set_slide(slide, force, equation.found, inside)
+    return equation.found
 
 
 def _shift_line(cut: CutFree, group: ForceGroup, force: ForceVector, couple: float) -> None:
@@ -269,37 +263,26 @@ def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, ForceVector]) -> Fo
     one, two = (cut.at_pair(pair, body.links) for pair, body in zip(pairs, dyad.bodies, strict=True))
     (first, head), (second, tail) = _outer_parts(cut, dyad, one, two, group)
     chain = group.polygon
-    laid = cut.lay(chain, *first)
+    cut.lay(chain, *first)
     cut.lay_known(chain, dyad.first.links)
-    own = list(chain)  # the polygon of the first body, but for the force inside
     cut.lay_known(chain, dyad.second.links)
-    before = _end_of(chain)
     cut.lay(chain, *second)
-    corner = cut.closed(dyad.links, chain, tail, head)
-    if head is not None:
-        own.insert(0, chain[0])
-    outer = replace(one, force=laid - corner * cut.per_mm), replace(two, force=(corner - before) * cut.per_mm)
+    cut.close(dyad.links, chain, tail, head)
+    outer = cut.drawn_in(chain, one), cut.drawn_in(chain, two)
     for pair, force in zip(pairs, outer, strict=True):
         if pair.turns:
             cut.pins[pair.point, pair.a] += force.force
-    inner = _inner_forces(cut, dyad, group, own, corner, outer[0])
-    for pair, body, force, opposed in zip(pairs, dyad.bodies, outer, inner, strict=True):
+    inner, couples = _inner_force(cut, dyad, group, outer[0])
+    for pair, body, force, opposed in zip(pairs, dyad.bodies, outer, (inner, inner.back), strict=True):
         if pair.turns:
             continue
-        at, letter, acting = force.at, _foot_name(pair), [force, opposed]
+        at, letter, acting = force.at, _foot_name(pair), [force, opposed, *(couple.back for couple in couples)]
         if dyad.inner.turns:
             at, letter, acting = opposed.at, dyad.inner.point, [force]
-        else:
-            known = group.couples[-1]
-            couple = ForceVector(known.unknown.symbol, inner[0].link, moment=known.value, off=opposed.link)
-            acting.append(couple.back)
-        _slide_found(cut, group, body.links, pair, force, at, letter, acting, dyad.members)
-    for body, force, opposed in zip(dyad.bodies, outer, inner, strict=True):
-        acting = [opposed, force]
-        for slide in (pair for pair in dyad.pairs if not pair.turns):
-            turned = cut.slides[slide.key][1]
-            couple = ForceVector(cut.drawn.of_slide(slide, "M"), slide.a, moment=turned, off=slide.b)
-            acting += [one for one in (couple, couple.back) if one.link in body.links]
+        couples.append(_slide_found(cut, group, body.links, pair, force, at, letter, acting, dyad.members))
+    for body, force, opposed in zip(dyad.bodies, outer, (inner, inner.back), strict=True):
+        turning = (one for couple in couples for one in (couple, couple.back) if one.link in body.links)
+        acting = [opposed, force, *turning]
         # links that drivers hold together, from the outermost on
         for joint in reversed(body.joints):
             on_leaf = [one for one in acting if one.link == joint.b]
@@ -330,11 +313,11 @@ def _outer_parts(
     square = replace(one, force=1j * along, part=mark, direction=_across(slide))
     if not outer.turns:
         return (known, square), ([], replace(two, force=1j * cut.drawn.along(outer), direction=_across(outer)))
-    found = cut.by_moments(
+    equation = cut.moments(
         (*dyad.first.links, *dyad.second.links), two.at, outer.point, replace(square, part="t"), known
     )  # fmt: skip
-    group.moments.append(found)
-    return ([*known, replace(square, force=square.force * found.value, by="moments")], None), ([], two)
+    group.moments.append(equation)
+    return ([*known, replace(equation.found, part=mark)], None), ([], two)
 
 
 def _by_inner_pin(
@@ -346,29 +329,28 @@ def _by_inner_pin(
     hinge = cut.drawn.point(inner.a, inner.point)
     bar, along = (outer.point, inner.point), force.at - hinge
     square = replace(force, force=1j * unit(along), part="t", direction=Direction("square", bar))
-    found = cut.by_moments(links, hinge, inner.point, square)
-    group.moments.append(found)
+    equation = cut.moments(links, hinge, inner.point, square)
+    group.moments.append(equation)
     closing = replace(force, force=along, direction=Direction("along", bar))
-    if not found.value:  # nothing acts on the bar between its ends
-        return [], closing
-    return [replace(square, force=square.force * found.value, by="moments")], replace(closing, part="n")
+    # where it is nought nothing acts on the bar between its ends
+    return ([equation.found], replace(closing, part="n")) if equation.value else ([], closing)
 
 
-def _inner_forces(
-    cut: CutFree, dyad: Dyad, group: ForceGroup, own: Chain, corner: complex, outer: ForceVector
-) -> tuple[ForceVector, ForceVector]:
-    """The force inside closes the polygon of the first body: on it, and on the second; of a sliding pair its couple
-    the moments there, too.
+def _inner_force(
+    cut: CutFree, dyad: Dyad, group: ForceGroup, outer: ForceVector
+) -> tuple[ForceVector, list[ForceVector]]:
+    """The force inside on the first body closes the polygon of that; of a sliding pair its couple the moments there,
+    too.
 
     Parameters
     ----------
-    own : the polygon of the first body, from ``corner`` on (mm)
     outer : the outer force on the first body
     """
-    end, slide, links = own[-1].tip if own else corner, dyad.inner, dyad.first.links
-    force = (corner - end) * cut.per_mm
-    if slide.turns:
-        names, point, known = cut.drawn, slide.point, cut.drawn.structure.links
+    pair, links = dyad.inner, dyad.first.links
+    own = [vector for vector in group.polygon if vector.link in links]
+    force = (own[0].tail - _end_of(own)) * cut.per_mm
+    if pair.turns:
+        names, point, known = cut.drawn, pair.point, cut.drawn.structure.links
         first, second = (next(n for n in body.links if point in known[n].points) for body in dyad.bodies)
         symbol = names.of_pin(point, second).opposite
         if second == names.holders[point][0] and len(names.structure.hinges[point]) > 2:
@@ -377,24 +359,55 @@ def _inner_forces(
         cut.pins[point, first] += force
         cut.pins[point, second] -= force
         on_first = ForceVector(symbol, first, force, cut.drawn.point(first, point), by="closing", off=second)
-        group.inner[first] = [*own, on_first.between(end, corner)]
-        return on_first, on_first.back
-    square = 1j * cut.drawn.along(slide)
-    on_first = cut.at_pair(slide, links)
-    on_first = replace(on_first, force=square * dot(force, square))
-    group.inner[on_first.link] = [*own, on_first.between(end, corner)]
-    _slide_found(
-        cut, group, links, slide, on_first, outer.at, dyad.outer_first.point, (on_first, outer), dyad.members
-    )  # fmt: skip
-    return on_first, on_first.back
+    else:
+        square = 1j * cut.drawn.along(pair)
+        on_first = replace(cut.at_pair(pair, links), force=square * dot(force, square))
+    cut.close(links, own, on_first)
+    group.inner[on_first.link] = own
+    if pair.turns:
+        return on_first, []
+    about, letter = outer.at, dyad.outer_first.point
+    return on_first, [
+        _slide_found(cut, group, links, pair, on_first, about, letter, (on_first, outer), dyad.members)
+    ]  # fmt: skip
 
 
 # -- where drivers act -------------------------------------------------------------------------------------------------
 
 
+def _close_driven(
+    cut: CutFree, group: ForceGroup, chain: Chain, pair: Pair, on: ForceVector, push: ForceVector,
+    more: Iterable[ForceVector] = (), inside: Collection[str] = (),
+) -> list[ForceVector]:  # fmt: skip
+    """Close the polygon of a link at a driven pair: the force of the pair on it, then the moment or the force that
+    drives it there, then the couple of a sliding pair.
+
+    Parameters
+    ----------
+    chain : its polygon, as far as it is known
+    on, push : the force and what drives, of size 1 or of unknown direction
+    more : forces and couples on it found already that are not yet among the known
+    inside : links that do not come later
+    """
+    links = (on.link,)
+    if pair.turns:
+        cut.close(links, chain, on)
+        on = cut.drawn_in(chain, on)
+        if not push.moment:
+            return [on, push]
+        equation = cut.moments(links, on.at, pair.point, replace(push, moment=1.0), more)
+        group.couples.append(equation)
+        return [on, equation.found]
+    on = replace(on, force=1j * cut.drawn.along(pair), direction=_across(pair))
+    push = replace(push, by="closing", direction=_along(pair))
+    cut.close(links, chain, on, push)
+    on, push = cut.drawn_in(chain, on), cut.drawn_in(chain, push)
+    return [on, push, _slide_found(cut, group, links, pair, on, on.at, _foot_name(pair), (*more, on, push), inside)]
+
+
 def _at_driven_joint(
     cut: CutFree, group: ForceGroup, joint: DrivenJoint, balance: ForceVector, extra: Sequence[ForceVector],
-    inside: tuple[str, ...],
+    inside: Collection[str],
 ) -> list[ForceVector]:  # fmt: skip
     """The force and the moment of a driven pair on the link that hangs on it; returns what acts on the other link.
 
@@ -406,32 +419,19 @@ def _at_driven_joint(
     chain: Chain = []
     cut.lay_known(chain, (leaf,))
     cut.lay(chain, *(replace(one, by="given") for one in extra if one.symbol.is_vector))
-    end, push = _end_of(chain), balance.on(leaf)
-    force, sign = -end * cut.per_mm, 1.0 if push is balance else -1.0
+    on = cut.at_pair(pair, (leaf,))
     if pair.turns:
         symbol = cut.drawn.of_pin(pair.point, leaf)
         if leaf == cut.drawn.holders.get(pair.point, ("",))[0]:
             symbol = cut.drawn.between(other, leaf, pair.point)
-        on = ForceVector(symbol, leaf, force, cut.drawn.point(leaf, pair.point), by="closing", off=other)
-        equation = cut.couple((leaf,), on.at, pair.point, balance.symbol, extra)
-        group.couples.append(equation)
-        cut.balances[balance.symbol] = sign * equation.value
-        cut.pins[pair.point, leaf] += force
-        cut.pins[pair.point, other] -= force
-        group.inner[leaf] = [*chain, on.between(end, 0j)]
-        return [on.back, replace(push, moment=equation.value).back]
-    along = cut.drawn.along(pair)
-    on = cut.at_pair(pair, (leaf,))
-    on = replace(on, force=1j * along * dot(force, 1j * along))
-    push = replace(push, at=on.at, force=along * dot(force, along), by="closing")
-    corner = end + push.force / cut.per_mm
-    group.inner[leaf] = [*chain, push.between(end, corner), on.between(corner, 0j)]
-    cut.balances[balance.symbol] = sign * push.force
-    couple = _slide_found(
-        cut, group, (leaf,), pair, on, on.at, _foot_name(pair), (*extra, on, push), inside
-    )  # fmt: skip
-    turned = ForceVector(couple.unknown.symbol, leaf, moment=couple.value, off=other)
-    return [on.back, push.back, turned.back]
+        on = ForceVector(symbol, leaf, at=cut.drawn.point(leaf, pair.point), by="closing", off=other)
+    found = on, push, *_ = _close_driven(cut, group, chain, pair, on, balance.on(leaf), extra, inside)
+    group.inner[leaf] = chain
+    cut.set_balance(balance, push)
+    if pair.turns:
+        cut.pins[pair.point, leaf] += on.force
+        cut.pins[pair.point, other] -= on.force
+    return [acting.back for acting in found]
 
 
 def at_driver(cut: CutFree, element: Driven, balance: ForceVector) -> ForceGroup:
@@ -444,33 +444,18 @@ def at_driver(cut: CutFree, element: Driven, balance: ForceVector) -> ForceGroup
     link, pair = element.link, element.pair
     cut.load_pins((link,))
     group = ForceGroup((link,) if link not in cut.drawn.blocks else (), "driver", "driver")
-    chain, on = group.polygon, cut.at_pair(pair, (link,))
-    push = replace(balance.on(link), by="closing")
+    chain, on, push = group.polygon, cut.at_pair(pair, (link,)), balance.on(link)
+    if pair.turns and push.force:
+        equation = cut.moments((link,), on.at, pair.point, push)
+        group.moments.append(equation)
+        cut.lay(chain, equation.found)
+        push = cut.drawn_in(chain, equation.found)
+    cut.lay_known(chain, (link,))
+    on, push, *_ = _close_driven(cut, group, chain, pair, on, push, (), (link,))
     if pair.turns:
-        if balance.moment:
-            equation = cut.couple((link,), on.at, pair.point, balance.symbol)
-            group.couples.append(equation)
-            push = replace(push, moment=equation.value)
-        else:
-            equation = cut.by_moments((link,), on.at, pair.point, push)
-            group.moments.append(equation)
-            push = replace(push, by="moments", force=push.force * equation.value)
-            push = replace(push, force=cut.lay(chain, push))
-        cut.lay_known(chain, (link,))
-        cut.pins[pair.point, pair.a] -= _end_of(chain) * cut.per_mm
-        cut.closed((link,), chain, on)
-    else:
-        on, push = (replace(on, force=1j * cut.drawn.along(pair), direction=_across(pair)),
-                    replace(push, direction=_along(pair)))  # fmt: skip
-        cut.lay_known(chain, (link,))
-        end = _end_of(chain)
-        corner = cut.closed((link,), chain, on, push)
-        on, push = replace(on, force=(corner - end) * cut.per_mm), replace(push, force=-corner * cut.per_mm)
-        _slide_found(cut, group, (link,), pair, on, on.at, _foot_name(pair), (on, push), (link,))
-    whole = push.moment if balance.moment else push.force
-    cut.balances[balance.symbol] = whole if link == balance.link else -whole
-    # what drives a link from another one loads that one
-    cut.push(replace(push.back, by="given", direction=None))
+        cut.pins[pair.point, pair.a] += on.force
+    cut.set_balance(balance, push)
+    cut.hand_on(push, (link,))  # what drives a link from another one loads that one
     cut.done.add(link)
     return group
 
@@ -550,18 +535,17 @@ def _carry_over(
 ) -> None:
     """Put what was found (N, N m) to the pairs, and draw the polygon of each link."""
     forces: dict[tuple[Symbol, str, str], Unknown] = {}
-    couples: dict[str, float] = {}
+    couples: dict[str, ForceVector] = {}
     for (one, point, slide), value in zip(unknowns, values, strict=True):
         if one.force:
             key = one.symbol, one.link, one.off
             so_far = forces[key][0].force if key in forces else 0j
             forces[key] = replace(one, force=so_far + value * one.force), point, slide
         elif slide is not None:
-            couples[slide.key] = value
+            couples[slide.key] = replace(one, moment=value)
         else:
-            cut.balances[one.symbol] = value
-            couple = replace(one, moment=value)  # what drives a link of the group from one still to come loads that
-            cut.push(*(c for c in (couple, couple.back) if c.link not in members))
+            cut.set_balance(one, couple := replace(one, moment=value))
+            cut.hand_on(couple, members)  # what drives a link of the group from one still to come loads that
     polygons: dict[str, Chain] = {name: [] for name in members}
     for name in members:
         cut.lay_known(polygons[name], (name,))
@@ -572,10 +556,10 @@ def _carry_over(
                 cut.pins[point, one.off] -= one.force
         elif slide is not None:
             cut.set_slide(slide, one, couples[slide.key], members)
-            _shift_line(cut, group, one, couples[slide.key])
+            _shift_line(cut, group, one, couples[slide.key].moment)
         else:
-            cut.balances[one.symbol] = one.force
-            cut.push(*(f for f in (one, one.back) if f.link not in members))
+            cut.set_balance(one, one)
+            cut.hand_on(one, members)
         for force in (one, one.back):
             if force.link in polygons:
                 cut.lay(polygons[force.link], replace(force, by="closing"))

@@ -372,7 +372,7 @@ def _middle(sheet: Sheet, link: str) -> complex:
 def _arms(plate: Plate, stage: ForceStage, times: float) -> None:
     """Arms of the moments by which parts were found, from the point to the line of each force."""
     for equation in (*stage.group.moments, *(c for c in stage.group.couples if not c.unknown.symbol.other)):
-        sought = equation.unknown
+        sought = equation.unknown.acting
         lines = [Line(on_page(one.about * times), on_page(one.foot * times), strokes.DIRECTION)
                  for one in equation.terms if one.arm is not None and abs(one.arm) * times >= 1.0]  # fmt: skip
         step = stage.number_of("moments", sought.symbol, sought.part) or stage.number_of("couples", sought.symbol)
@@ -529,7 +529,7 @@ def _lever(page: FigurePage, account: ForceAccount, state: ForceState, lever: Le
         [word("force heads", each), units.force, f"{word('arm', each)}, mm",
          f"{word('moment about pole', each)}, {units.force}·mm"] for each in languages(page.language)
     ]  # fmt: skip
-    yield table(heads, [_row(row, units.newtons, page.letters) for row in lever.rows if row.force], COLUMNS)
+    yield table(heads, [_row(row, units.newtons, page.letters) for row in lever.rows if row.acting.force], COLUMNS)
     total, balance = account.lever(state, lever)
     yield column(page.prose((total,)), page.prose((balance,), bold=True))
 
@@ -549,26 +549,28 @@ def _drawn_lever(page: FigurePage, lever: Lever, tag: str) -> Piece:
         plate.name(symbol(", ".join(names[:3])), end, rank=1)
     plate.name(symbol(pole(convention, "velocity")), 0j)
     taken: list[tuple[complex, complex]] = []
-    balance = replace(lever.unknown, force=lever.unknown.force * (lever.value or 1.0))
-    for one in (*(known for known in lever.rows if known.force), balance):
+    sought = lever.unknown.acting
+    balance = replace(lever.unknown, acting=replace(sought, force=sought.force * (lever.value or 1.0)))
+    for one in (*(known for known in lever.rows if known.acting.force), balance):
         found = one is balance
         acting = _forces_at(one)
         letter = force_letters(convention, one.symbol)
-        named = ("−" * one.turned) + (as_vector(convention, letter) if one.pair is None else f"{letter}/l")
+        turned = one.acting.turned
+        named = ("−" * turned) + (as_vector(convention, letter) if one.pair is None else f"{letter}/l")
         for n, (at, along) in enumerate(acting, 1):
             again = sum(abs(at - z) < NEAR and abs(along - e) < 0.1 for z, e in taken)
             taken.append((at, along))
-            own = f"{one.symbol.id}{'-opposite' * one.turned}{f'-{n}' if len(acting) > 1 else ''}"
+            own = f"{one.symbol.id}{'-opposite' * turned}{f'-{n}' if len(acting) > 1 else ''}"
             plate.arrow("forces", f"lever-{own}{tag}", at, at + along * (LEVER_ARROW + NEXT * again), named,
                         kind=RESULTANT if found else COMPONENT, classes=("acting",),
                         colour=strokes.LINK_COLOURS[1] if found else strokes.BLACK)  # fmt: skip
         if one.pair is None and one.arm and abs(one.arm) > SEEN and acting:
             foot = -1j * acting[0][1] * one.arm
             lines = [Line(0j, on_page(foot), strokes.DIMENSION)]
-            if abs(foot - one.at) > SEEN:
-                lines.append(Line(on_page(foot), on_page(one.at), strokes.DIRECTION))
+            if abs(foot - one.acting.at) > SEEN:
+                lines.append(Line(on_page(foot), on_page(one.acting.at), strokes.DIRECTION))
             plate.put("velocity", *lines, classes=("arm",))
-            arm = force_letters(convention, Symbol("arm", name=str(one.symbol))) + "'" * one.turned
+            arm = force_letters(convention, Symbol("arm", name=str(one.symbol))) + "'" * turned
             plate.name(symbol(arm, 2.8), (0j, foot), colour=strokes.GREY, rank=2)
     plate.circle("velocity", 0j, 0.9, strokes.WHITE, strokes.OUTLINE)
     return plate.piece
@@ -576,19 +578,22 @@ def _drawn_lever(page: FigurePage, lever: Lever, tag: str) -> Piece:
 
 def _forces_at(row: MomentTerm) -> list[tuple[complex, complex]]:
     """Where a row's force or pair of forces stands, and its direction."""
-    if not row.force:
+    force = row.acting.force
+    if not force:
         return []
     if row.pair is None:
-        return [(row.at, unit(row.force))] if row.symbol.is_vector else []
+        return [(row.acting.at, unit(force))] if row.symbol.is_vector else []
     tail, tip = row.pair
-    return [(tip, unit(row.force)), (tail, -unit(row.force))]
+    return [(tip, unit(force)), (tail, -unit(force))]
 
 
 def _row(row: MomentTerm, newtons: float, letters: Letters) -> tuple[str, str, str, str]:
     """A force with its arm and moment."""
-    size, arm = amount(abs(row.force) / newtons, DIGITS), on_paper(abs(row.arm or 0.0))
+    acting, arm = row.acting, on_paper(abs(row.arm or 0.0))
+    size = amount(abs(acting.force) / newtons, DIGITS)
     moment = f"{'−' * (row.moment < 0)}{written(product(size, arm, carried=DIGITS))}" if row.arm else "0"
-    name = f"{'−' * row.turned}${force_letters(letters.convention, row.symbol)}$" + " / $l$" * (row.pair is not None)
+    name = f"{'−' * acting.turned}${force_letters(letters.convention, acting.symbol)}$"
+    name += " / $l$" * (row.pair is not None)
     return name, written(size), written(arm), moment
 
 
