@@ -225,10 +225,9 @@ class ForceAccount:
 
     def of_group(self, state: ForceState, group: ForceGroup) -> Iterator[ForceStep]:
         """The steps by which the forces of a group are found."""
-        links, drawn = listed(group.links), [*chain(group.polygon, *group.inner.values())]
-        acting = [v.symbol for v in drawn if v.known and v.span]
-        acting += [t.symbol for t in state.known if t.moment and t.link in group.links]
-        names = [self.name(symbol) for symbol in dict.fromkeys(acting)]
+        links, drawn = listed(group.links), group.polygon or chain(*group.inner.values())
+        acting = [*(v for v in drawn if v.known and v.span), *group.couples_before]
+        names = [self.name(symbol) for symbol in dict.fromkeys(one.symbol for one in acting)]
         cut = Phrase("force step cut", (links, listed(names))) if names else Phrase("force step cut bare", (links,))
         yield ForceStep("cut", cut)
         yield from self._moments(group)
@@ -304,9 +303,10 @@ class ForceAccount:
         point = f"({one.about})" if one.about in scene.by_name and one.about not in scene.holders else one.about
         terms, arm, total = balance(self.sheet, one)
         whole = " ".join(f"{'−' if sign == '-' else '+'} {'·'.join(map(written, factors))}" for sign, factors in terms)
-        # its sense is that in which it comes out positive
-        whole += f" {'−' if arm and total < 0 else '+'} {name}" + (f"·{written(arm)}" if arm else "")
-        value = number(float(abs(total) if arm else total), MOST) if total else "0"
+        # the sense of a force is that in which it comes out positive; of a moment what acts may be the opposite
+        turned = not arm and one.unknown.acting.turned
+        whole += f" {'−' if turned or (arm and total < 0) else '+'} {name}" + (f"·{written(arm)}" if arm else "")
+        value = number(float(abs(total) if arm else -total if turned else total), MOST) if total else "0"
         unit = scene.units.force + ("" if arm else "·m")
         return f"$ΣM_{{{point}}}$ = {whole.strip().removeprefix('+ ')} = 0;  {name} = {value} {unit}"
 

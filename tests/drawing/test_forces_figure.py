@@ -18,6 +18,7 @@ from graphkin.account.notation import force_letters, letters_of
 from graphkin.drawing import svg_bytes
 from graphkin.scene.symbol import Symbol
 from graphkin.words.written import amount, is_quotient
+from tests.construction.test_forces import DRIVEN_AGAINST_A_BLOCK
 from tests.solver.test_forces import loaded, scene_of
 
 SHAPER, ENGINE = scene_of("shaper-scheme-2"), scene_of("engine")
@@ -30,6 +31,17 @@ LABELLED = [
         ("wheel-on-rail", 30, "british"),
     )),
 ]  # fmt: skip
+BLOCK_ON_THE_CRANK = {
+    "frame": {"points": {"A": [0, 0], "D": [0, -150]}},
+    "links": {
+        "2": {"points": ["A"], "guides": {"s": {"through": [0, 0], "angle": 0}}},
+        "3": {"points": ["C"], "on": "2.s"},
+        "4": {"points": ["C", "D"], "length": 200},
+    },
+    "driver": {"link": "2", "angle": 20, "omega": 2},
+    "sketch": {"C": [120, 40]},
+    "loads": {"M": {"on": "3", "moment": 7}},
+}
 SVG = "{http://www.w3.org/2000/svg}"
 
 
@@ -165,6 +177,35 @@ def test_a_sum_of_moments_comes_to_nought_as_it_is_written(name: str) -> None:
         moments = [(-1.0 if sign == "−" else 1.0) * math.prod(float(x.replace("−", "-")) for x in factors.split("·"))
                    for sign, factors in products]  # fmt: skip
         assert sum(moments) == pytest.approx(0.0, abs=2e-4 * max(map(abs, moments)))
+
+
+def test_a_driving_moment_is_told_with_its_own_sense_on_the_link_from_which_it_is_measured() -> None:
+    # link 3 is cut free: the moment of the driver on it is the opposite of that on link 2
+    lines = [line for stage in stages_of(DRIVEN_AGAINST_A_BLOCK) for step in stage.steps for line in step.lines("en")]
+    (told,) = (line for line in lines if "$M_{2}$" in line and "ΣM" in line)
+    assert told.endswith("− $M_{2}$ = 0;  $M_{2}$ = −10.069 N·m")
+
+
+def text_of(page: Any, own: str) -> str:
+    """The text of a figure that bears an id."""
+    return next("".join(e.itertext()) for e in ET.fromstring(svg_bytes(page)).iter() if e.get("id") == own)
+
+
+def test_the_opposite_of_a_driving_moment_is_drawn_with_its_sign() -> None:
+    page = graphkin.draw(DRIVEN_AGAINST_A_BLOCK, figures=["forces"]).figures["forces"]
+    assert "−M2" == text_of(page, "label-acts-1-2-3-M_2")
+
+
+def test_a_force_inside_a_group_is_not_told_to_be_known_on_it() -> None:
+    step = stages_of(DRIVEN_AGAINST_A_BLOCK)[0].steps[0]
+    assert "Cut links 1, 2, 3 free; known on them: $P$." == step.words("en")[0][1]
+
+
+def test_a_couple_that_is_known_of_a_sliding_pair_is_told_and_drawn_where_it_loads_the_next_link() -> None:
+    words = [step.words("en")[0][1] for stage in stages_of(BLOCK_ON_THE_CRANK) for step in stage.steps]
+    assert "Cut links 2 free; known on them: $M_{32}$." in words
+    page = graphkin.draw(BLOCK_ON_THE_CRANK, figures=["forces"]).figures["forces"]
+    assert "M32" == text_of(page, "label-acts-2-M_3-2")
 
 
 def test_a_part_of_a_force_that_is_nought_is_not_told_as_the_force() -> None:

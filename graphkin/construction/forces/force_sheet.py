@@ -7,7 +7,7 @@ are in N and N m, counter-clockwise positive.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
@@ -162,6 +162,7 @@ class ForceGroup:
     Parameters
     ----------
     links, kind, way : of the group, and how its forces are found
+    couples_before : couples on it that are known before it is looked at
     moments : equations that give parts of forces
     polygon : what acts on it head to tail, closed; of a group drawn link by link nothing
     inner : the polygons of single links that give the forces inside, by link
@@ -173,6 +174,7 @@ class ForceGroup:
     links: tuple[str, ...]
     kind: str
     way: Way = "polygon"
+    couples_before: Sequence[ForceVector] = ()
     moments: list[MomentEquation] = field(default_factory=list)
     polygon: list[ForceVector] = field(default_factory=list)
     inner: dict[str, list[ForceVector]] = field(default_factory=dict)

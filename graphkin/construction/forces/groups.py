@@ -86,6 +86,10 @@ class CutFree:
         """What is known to act on some links, of no size left out."""
         return [one for link in links for one in self.acting[link] if one.force or one.moment]
 
+    def couples_on(self, links: Iterable[str]) -> list[ForceVector]:
+        """The known couples on some links, of no size left out."""
+        return [one for one in self.on(links) if not one.force]
+
     def load_pins(self, members: Iterable[str]) -> None:
         """Links found before hang on pins of these: what they do there acts on the first that has the pin."""
         inside = set(members)
@@ -259,7 +263,8 @@ def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, ForceVector]) -> Fo
     Unsolvable : "dead point": the lines that close the polygon are parallel
     """
     cut.load_pins(dyad.members)
-    group, pairs = ForceGroup(dyad.links, dyad.kind), (dyad.outer_first, dyad.outer_second)
+    group = ForceGroup(dyad.links, dyad.kind, "polygon", cut.couples_on(dyad.members))
+    pairs = dyad.outer_first, dyad.outer_second
     one, two = (cut.at_pair(pair, body.links) for pair, body in zip(pairs, dyad.bodies, strict=True))
     (first, head), (second, tail) = _outer_parts(cut, dyad, one, two, group)
     chain = group.polygon
@@ -443,7 +448,8 @@ def at_driver(cut: CutFree, element: Driven, balance: ForceVector) -> ForceGroup
     """
     link, pair = element.link, element.pair
     cut.load_pins((link,))
-    group = ForceGroup((link,) if link not in cut.drawn.blocks else (), "driver", "driver")
+    links = (link,) if link not in cut.drawn.blocks else ()
+    group = ForceGroup(links, "driver", "driver", cut.couples_on((link,)))
     chain, on, push = group.polygon, cut.at_pair(pair, (link,)), balance.on(link)
     if pair.turns and push.force:
         equation = cut.moments((link,), on.at, pair.point, push)
@@ -476,9 +482,9 @@ def of_larger_group(cut: CutFree, group: LargerGroup, balances: Sequence[ForceVe
     Unsolvable : "dead point": the drawn system tells nothing
     """
     cut.load_pins(group.members)
+    made = ForceGroup(group.links, group.kind, "drawn system", cut.couples_on(group.members))
     unknowns = _unknown_forces(cut, group.members, balances)
     values = _solved(cut, group.members, unknowns)
-    made = ForceGroup(group.links, group.kind, "drawn system")
     _carry_over(cut, made, group.members, unknowns, values)
     cut.done |= set(group.members)
     return made

@@ -323,22 +323,20 @@ def _acting(plate: Plate, page: FigurePage, stage: ForceStage, times: float, tag
         plate.arrow("forces", f"acts-{tag}-{n}", at, at + along * (ARROW + NEXT * again), _letters_of(letters, vector),
                     kind=_kind(vector), colour=_colour(sheet, vector), classes=("acting",),
                     step=stage.on_links(vector))  # fmt: skip
-    turning = [(t.symbol, t.link, t.moment) for t in stage.state.known if t.moment]
-    for one in group.couples:
-        sought = one.unknown.symbol
-        if (sought.other in outside and sought.link not in outside) or not sought.other:
-            turning.append((sought, sought.other or one.links[0], one.value))
+    found = (one.found for one in group.couples)
+    turning = [*group.couples_before, *(one for one in found if not one.off or one.off not in outside
+                                        or not one.symbol.other)]  # fmt: skip
     places: list[complex] = []
-    for named, link, moment in turning:
-        if link not in outside or not moment:
+    for couple in turning:
+        if couple.link not in outside or not couple.moment:
             continue
-        at = _middle(sheet, link) * times
+        named, at = couple.symbol, _middle(sheet, couple.link) * times
         radius = 4.2 + 2.0 * sum(abs(at - z) < NEAR for z in places)
         places.append(at)
-        arc = symbols.sense_arc(on_page(at), radius, 0.9, 1 if moment > 0 else -1)
+        arc = symbols.sense_arc(on_page(at), radius, 0.9, 1 if couple.moment > 0 else -1)
         own, step = f"acts-{tag}-{named.id}", stage.number_of("couples", named) or stage.known
         plate.put("forces", *arc, id=own, classes=("acting",), step=step)
-        letter = symbol(force_letters(letters.convention, named), 3.0)
+        letter = symbol("−" * couple.turned + force_letters(letters.convention, named), 3.0)
         plate.name(letter, at + radius * 0.7 * (1 + 1j), f"label-{own}", step=step)
 
 
