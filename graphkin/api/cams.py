@@ -17,8 +17,8 @@ from graphkin.checking.closed_form import CamPoints, compare_cam
 from graphkin.construction.cam_sheet import CamSheet
 from graphkin.errors import CallError, unfit
 from graphkin.files import Json
-from graphkin.scene.cams import LawCam, SwingingFollower
 from graphkin.scene.model import Mechanism
+from graphkin.scene.pairs import LawCam, SwingingFollower
 from graphkin.scene.scene import SceneLike
 from graphkin.words import Neutral, Phrase, say
 from graphkin.words.written import true_minus

@@ -43,7 +43,7 @@ from graphkin.papers.lesson import plain_words
 from graphkin.papers.paper import Paper
 from graphkin.papers.pdf import papers_as
 from graphkin.papers.pictures import bare_picture
-from graphkin.scene.cams import SwingingFollower
+from graphkin.scene.pairs import SwingingFollower
 from graphkin.words import languages, say, word
 from graphkin.words.written import in_markup
 

@@ -16,7 +16,7 @@ from itertools import combinations
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName
 from graphkin.errors import CallError, Problem, did_you_mean
-from graphkin.scene.pictures import PlacedScan
+from graphkin.scene.model import PlacedScan
 from graphkin.words import Phrase
 
 POLE = "pole"

@@ -25,7 +25,8 @@ from graphkin.construction import NO_SLIP, GoneOn, Plan, Sheet, Slip, execute
 from graphkin.construction.steps import Order, Term
 from graphkin.errors import GraphkinError
 from graphkin.plane import added_up, unit
-from graphkin.scene.model import LinkMass, Loading, LoadOn, Mechanism, PlacedGear, PlacedLink
+from graphkin.scene.model import LinkMass, Loading, LoadOn, Mechanism, PlacedLink
+from graphkin.scene.pairs import PlacedGear
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.solver import Motion, as_drawn, forces_of, senses_along, solve, value_of
 from graphkin.words import Phrase

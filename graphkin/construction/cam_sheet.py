@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.touching import CamStation, outline, station
 from graphkin.plane import cross_arcs, cross_line_arc, dot, unit
-from graphkin.scene.cams import LawCam, SlidingFollower, SwingingFollower
 from graphkin.scene.laws import TURN
+from graphkin.scene.pairs import LawCam, SlidingFollower, SwingingFollower
 from graphkin.words import Phrase
 from graphkin.words.written import amount
 

@@ -51,8 +51,8 @@ from graphkin.construction.steps import (
 from graphkin.construction.trains import rolled
 from graphkin.errors import Unsolvable
 from graphkin.plane import added_up, dot, unit
-from graphkin.scene.cams import LawCam
 from graphkin.scene.model import Driver
+from graphkin.scene.pairs import LawCam
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Pair, Rolled, driver_pair
 from graphkin.words.written import MOST, figures, on_paper

@@ -21,8 +21,8 @@ from graphkin.construction.position import Assembly, assembly_at, place, poses_a
 from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import LimitPosition, Limits
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.cams import SwingingFollower
 from graphkin.scene.model import Mechanism
+from graphkin.scene.pairs import SwingingFollower
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Element, Pair, Structure, analyse
 from graphkin.structure.transmission import sliding_pair

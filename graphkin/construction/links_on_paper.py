@@ -15,8 +15,8 @@ from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.steps import Bar, CompassArc, OnPaper, Step
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
-from graphkin.scene.cams import LawCam
 from graphkin.scene.model import Driver, PlacedLink
+from graphkin.scene.pairs import LawCam
 from graphkin.structure import (
     Body,
     Driven,

@@ -22,7 +22,8 @@ from itertools import chain, pairwise
 from typing import Literal, NamedTuple
 
 from graphkin.construction.steps import Direction
-from graphkin.scene.model import PlacedContact, PlacedLink
+from graphkin.scene.model import PlacedLink
+from graphkin.scene.pairs import PlacedContact
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import DrivenJoint, Dyad, LargerGroup, Pair, Structure
 

@@ -17,9 +17,9 @@ from typing import Literal, NamedTuple
 
 from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, travel
 from graphkin.plane import dot, unit
-from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.laws import TURN, Lift
-from graphkin.scene.model import Mechanism, PlacedContact, PlacedGear
+from graphkin.scene.model import Mechanism
+from graphkin.scene.pairs import LawCam, PlacedContact, PlacedGear, SlidingFollower
 from graphkin.structure import Rolled, Structure
 from graphkin.structure.model import Coordinate
 

@@ -22,7 +22,8 @@ from graphkin.errors import CallError, Problem
 from graphkin.files import OwnTables, Tables
 from graphkin.plane import added_up
 from graphkin.scene import mechanism_of
-from graphkin.scene.model import Mechanism, PlacedContact, PlacedGear
+from graphkin.scene.model import Mechanism
+from graphkin.scene.pairs import PlacedContact, PlacedGear
 from graphkin.scene.tables import KeyPath, path_of_key, put_at, value_at
 from graphkin.words import Phrase
 

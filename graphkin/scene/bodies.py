@@ -17,61 +17,12 @@ from typing import TypeVar
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.plane import direction
+from graphkin.scene.pairs import CircularSlot, SlidingPair
 from graphkin.scene.scene_tables import Compass, DrivenSlide, Driver, Frame, Guide, Link, Pin, Polar, SceneTables
 from graphkin.scene.tables import KeyPath, Units
 from graphkin.words import Phrase, Wording
 
 AnyBody = TypeVar("AnyBody", Frame, Link)
-
-
-@dataclass(frozen=True)
-class SlidingPair:
-    """``link`` slides by its own origin on a guide of link ``on``, at a fixed angle; or a pin runs in the guide, and
-    ``link`` is the block without mass, POINT/GUIDING, that stands for it between the guide and the link ``of``.
-
-    ``turn`` is the unit complex number by which the link's own x axis is turned from the guide's
-    sense (``angle_on``).  ``pin`` names the link's first point if it has one, or the pin that runs in the guide.
-    """
-
-    link: str
-    on: str
-    guide: str
-    turn: complex = 1 + 0j
-    pin: str | None = None
-    of: str = ""
-
-    @classmethod
-    def of_pin(cls, point: str, of: str, on: str, guide: str) -> SlidingPair:
-        """A pin in a slot: point ``point`` of link ``of`` runs in a guide of link ``on``, one constraint."""
-        return cls(f"{point}/{on}", on, guide, pin=point, of=of)
-
-    @property
-    def key(self) -> str:
-        """The name of the pair: SLIDING/GUIDING, or POINT/GUIDING of a pin in a slot."""
-        return self.link if self.of else f"{self.link}/{self.on}"
-
-    @property
-    def point(self) -> str:
-        """The point that runs in the guide, "" where it has no name."""
-        return self.pin or ""
-
-
-@dataclass(frozen=True)
-class CircularSlot:
-    """A slot of link ``on`` along a circle about its point ``centre`` (``radius`` in m), in which ``point`` runs.
-
-    ``bar`` is the link that moves it so: one that replaces a pin in the slot, or the block itself (``block``).
-    ``ends`` are the angles (rad, from the own x axis of ``on``) between which it is drawn, if the file has them.
-    """
-
-    name: str
-    on: str
-    centre: str
-    radius: float
-    bar: str
-    point: str
-    block: bool = False
-    ends: tuple[float, float] | None = None
 
 
 def driver_tables(file: SceneTables) -> dict[str, Driver | DrivenSlide]:

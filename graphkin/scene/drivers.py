@@ -10,15 +10,16 @@ travel) tells which one is meant where there are several.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene import model
 from graphkin.scene.bodies import Reading
-from graphkin.scene.laws import MotionLaw, motion_law
+from graphkin.scene.laws import LiftPiece, MotionLaw, form_of
 from graphkin.scene.model import FromDeadPoint, Mechanism
-from graphkin.scene.scene_tables import SMALLEST, DrivenSlide, Driver, Positions
+from graphkin.scene.scene_tables import SMALLEST, DrivenSlide, Driver, DriverLaw, Positions
 from graphkin.scene.tables import Units, in_si, in_units
 from graphkin.words import Phrase, alternatives
 
@@ -270,6 +271,93 @@ def stated_driver(table: Driver | DrivenSlide, driver: model.Driver, units: Unit
     else:
         made = replace(table, travel=value, velocity=rate, acceleration=second, origin=None, near=None, time=time)
     return in_units(made, units)
+
+
+def motion_law(where: str, law: DriverLaw, unit: float, reading: Reading) -> MotionLaw | None:
+    """The law that a driver's table says, in rad or m and s; what is wrong with it is noted."""
+    ways = {
+        "table": bool(law.table),
+        "pieces": bool(law.pieces),
+        "by": any(x is not None for x in (law.to, law.rise, law.duration, law.by)),
+    }
+    given = [name for name, there in ways.items() if there]
+    if len(given) != 1:
+        found = Phrase("says its motion by", ways=", ".join(given)) if given else Phrase("says nothing")
+        reading.say(where, found, "write from and to or pieces or a table")
+        return None
+    if given == ["table"]:
+        return _by_table(where, law, unit, reading)
+    before = len(reading.problems)
+    if law.origin is None:
+        reading.say(f"{where}.from", "is missing", "write the driver's value at 0 s")
+    pieces = _single_piece(where, law, unit, reading) if given == ["by"] else _pieces_in_turn(where, law, unit, reading)
+    return None if len(reading.problems) > before else MotionLaw(tuple(pieces))
+
+
+def _single_piece(where: str, law: DriverLaw, unit: float, reading: Reading) -> list[LiftPiece]:
+    """The piece of a law that goes from one value to another."""
+    if (law.to is None) == (law.rise is None):
+        both = Phrase("stands beside rise") if law.to is not None else Phrase("is missing")
+        reading.say(f"{where}.to", both, "write to the value at the end or")
+    if law.duration is None:
+        reading.say(f"{where}.duration", "is missing", "write the seconds that it takes")
+    if law.by is None:
+        reading.say(f"{where}.by", "is missing", "write by cycloidal harmonic 345 or another law")
+    start = law.origin or 0.0
+    end = law.to if law.to is not None else start + (law.rise or 0.0)
+    return [LiftPiece(0.0, law.duration or 1.0, start * unit, end * unit, form_of(law.by))]
+
+
+def _pieces_in_turn(where: str, law: DriverLaw, unit: float, reading: Reading) -> list[LiftPiece]:
+    """The pieces of a law, one after the other."""
+    pieces: list[LiftPiece] = []
+    time, low = 0.0, (law.origin or 0.0) * unit
+    for i, piece in enumerate(law.pieces, 1):
+        here = f"{where}.pieces.{i}"
+        reading.wrong(*piece.problems(here))
+        high = low + piece.height * unit
+        if not piece.to > time:
+            reading.say(here, "ends at s where it begins at", "seconds grow", to=f"{piece.to:g}", time=f"{time:g}")
+        pieces.append(LiftPiece(time, piece.to, low, high, form_of(piece.by)))
+        time, low = piece.to, high
+    return pieces
+
+
+def _by_table(where: str, law: DriverLaw, unit: float, reading: Reading) -> MotionLaw | None:
+    """A law through the values of a table."""
+    here = f"{where}.table"
+    if law.origin is not None:
+        reading.say(f"{where}.from", "stands beside a table", "the table says where it begins")
+        return None
+    times, values = [t for t, _ in law.table], [v * unit for _, v in law.table]
+    if len(times) < 2:
+        reading.say(here, "has one row", "write time value two rows or more")
+        return None
+    for i, (a, b) in enumerate(pairwise(times), 2):
+        if not b > a:
+            reading.say(f"{here}.{i}", "is at s after one at s", "seconds grow", other=f"{b:g}", name=f"{a:g}")
+            return None
+    rates = _spline(times, values)
+    rows = zip(pairwise(times), pairwise(values), pairwise(rates), strict=True)
+    return MotionLaw(tuple(LiftPiece(*ends, *between, "", rates=slopes) for ends, between, slopes in rows), times[0])
+
+
+def _spline(times: Sequence[float], values: Sequence[float]) -> list[float]:
+    """The rates at its knots of the cubic spline without acceleration at both ends (de Boor, A Practical Guide to
+    Splines, ch. 4), by elimination."""
+    n = len(times)
+    wide = [b - a for a, b in pairwise(times)]
+    mean = [(b - a) / w for a, b, w in zip(values, values[1:], wide, strict=False)]
+    before, right = [0.5], [1.5 * mean[0]]
+    for k in range(1, n - 1):
+        # wide[k] s[k-1] + 2 (wide[k-1] + wide[k]) s[k] + wide[k-1] s[k+1] = 3 (wide[k] mean[k-1] + wide[k-1] mean[k])
+        main = 2 * (wide[k - 1] + wide[k]) - wide[k] * before[-1]
+        right.append((3 * (wide[k] * mean[k - 1] + wide[k - 1] * mean[k]) - wide[k] * right[-1]) / main)
+        before.append(wide[k - 1] / main)
+    rates = [(3 * mean[-1] - right[-1]) / (2 - before[-1])]
+    for k in range(n - 2, -1, -1):
+        rates.insert(0, right[k] - before[k] * rates[0])
+    return rates
 
 
 # -- over the time -----------------------------------------------------------------------------------------------------

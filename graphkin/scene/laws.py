@@ -1,12 +1,12 @@
 """Laws of motion, piece by piece, with their derivatives: the lift of a cam's follower over the angle of the cam, and
-the value of a driver over the time; as functions in SI units, and as they are read from a file.
+the value of a driver over the time; in SI units.
 """
 
 from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -14,9 +14,6 @@ from types import ModuleType
 from typing import NamedTuple
 
 from graphkin.plane import Values
-from graphkin.scene.bodies import Reading
-from graphkin.scene.scene_tables import DriverLaw, LawPiece
-from graphkin.words import Phrase
 
 ROUNDING = 1e-12
 """Of the way: so much nearer a value is reached."""
@@ -274,141 +271,3 @@ class MotionLaw:
             if abs(last) <= near:
                 return high
         return None
-
-
-# -- reading ---------------------------------------------------------------------------------------------------------
-
-
-def _rise(reading: Reading, where: str, piece: LawPiece) -> float:
-    """By how much a piece rises, in the unit of the file; what is wrong with it is noted."""
-    moves = piece.rise is not None or piece.fall is not None
-    if piece.rise is not None and piece.fall is not None:
-        reading.say(where, "has both rise and fall", "give one of them or none for a")
-    elif moves and piece.by is None:
-        *names, last = (f'"{name}"' for name in LAWS)
-        reading.say(where, "does not say its law", f"by = {', '.join(names)} or {last}")
-    elif piece.by is not None and not moves:
-        reading.say(where, "has by without rise or fall", "a dwell has no law", by=piece.by)
-    return (piece.rise or 0.0) - (piece.fall or 0.0)
-
-
-def follower_law(where: str, pieces: Sequence[LawPiece], unit: float, reading: Reading) -> FollowerLaw | None:
-    """The law of a cam's follower, over rad, in SI; what is wrong with it is noted.
-
-    Parameters
-    ----------
-    where : its place in the file
-    unit : one unit of the lifts in the file in SI (m, or rad of a follower that swings)
-    """
-    found: list[LiftPiece] = []
-    start = low = most = 0.0
-    before = len(reading.problems)
-    for i, piece in enumerate(pieces, 1):
-        here = f"{where}.{i}"
-        high = low + _rise(reading, here, piece)
-        sense, size = ("rise", piece.rise) if piece.rise is not None else ("fall", piece.fall)
-        if size is not None and not size > 0.0:
-            reading.say(here, f"{sense} = {size:g}", "it must be positive a dwell has neither")
-        if not piece.to > start:
-            reading.say(here, "ends at deg where it begins at", "degrees grow from 0 to 360", to=f"{piece.to:g}",
-                        start=f"{start:g}")
-        elif piece.to > 360.0:
-            reading.say(here, "ends at deg", "the law ends at 360", start=f"{piece.to:g}")
-        most = max(most, abs(high), abs(low))
-        high = 0.0 if abs(high) < 1e-9 * most else high
-        found.append(LiftPiece(math.radians(start), math.radians(piece.to), low * unit, high * unit, form_of(piece.by)))
-        start, low = piece.to, high
-    if not pieces:
-        reading.say(where, "is empty", "write to 60 rise 28 by harmonic")
-    elif len(reading.problems) == before and start != 360.0:
-        reading.say(f"{where}.{len(pieces)}", "ends at deg", "the last piece ends at 360", start=f"{start:g}")
-    if len(reading.problems) == before and low != 0.0:
-        reading.say(where, "does not come back a turn leaves the", "all that rises falls again",
-                    least=f"{abs(low):.9g}", way="up" if low > 0 else "down")
-    return FollowerLaw(tuple(found)) if len(reading.problems) == before else None
-
-
-def motion_law(where: str, law: DriverLaw, unit: float, reading: Reading) -> MotionLaw | None:
-    """The law that a driver's table says, in rad or m and s; what is wrong with it is noted."""
-    ways = {
-        "table": bool(law.table),
-        "pieces": bool(law.pieces),
-        "by": any(x is not None for x in (law.to, law.rise, law.duration, law.by)),
-    }
-    given = [name for name, there in ways.items() if there]
-    if len(given) != 1:
-        found = Phrase("says its motion by", ways=", ".join(given)) if given else Phrase("says nothing")
-        reading.say(where, found, "write from and to or pieces or a table")
-        return None
-    if given == ["table"]:
-        return _by_table(where, law, unit, reading)
-    before = len(reading.problems)
-    if law.origin is None:
-        reading.say(f"{where}.from", "is missing", "write the driver's value at 0 s")
-    pieces = _one(where, law, unit, reading) if given == ["by"] else _several(where, law, unit, reading)
-    return None if len(reading.problems) > before else MotionLaw(tuple(pieces))
-
-
-def _one(where: str, law: DriverLaw, unit: float, reading: Reading) -> list[LiftPiece]:
-    """The piece of a law that goes from one value to another."""
-    if (law.to is None) == (law.rise is None):
-        both = Phrase("stands beside rise") if law.to is not None else Phrase("is missing")
-        reading.say(f"{where}.to", both, "write to the value at the end or")
-    if law.duration is None:
-        reading.say(f"{where}.duration", "is missing", "write the seconds that it takes")
-    if law.by is None:
-        reading.say(f"{where}.by", "is missing", "write by cycloidal harmonic 345 or another law")
-    start = law.origin or 0.0
-    end = law.to if law.to is not None else start + (law.rise or 0.0)
-    return [LiftPiece(0.0, law.duration or 1.0, start * unit, end * unit, form_of(law.by))]
-
-
-def _several(where: str, law: DriverLaw, unit: float, reading: Reading) -> list[LiftPiece]:
-    """The pieces of a law, one after the other."""
-    pieces: list[LiftPiece] = []
-    time, low = 0.0, (law.origin or 0.0) * unit
-    for i, piece in enumerate(law.pieces, 1):
-        here = f"{where}.pieces.{i}"
-        high = low + _rise(reading, here, piece) * unit
-        if not piece.to > time:
-            reading.say(here, "ends at s where it begins at", "seconds grow", to=f"{piece.to:g}", time=f"{time:g}")
-        pieces.append(LiftPiece(time, piece.to, low, high, form_of(piece.by)))
-        time, low = piece.to, high
-    return pieces
-
-
-def _by_table(where: str, law: DriverLaw, unit: float, reading: Reading) -> MotionLaw | None:
-    """A law through the values of a table."""
-    here = f"{where}.table"
-    if law.origin is not None:
-        reading.say(f"{where}.from", "stands beside a table", "the table says where it begins")
-        return None
-    times, values = [t for t, _ in law.table], [v * unit for _, v in law.table]
-    if len(times) < 2:
-        reading.say(here, "has one row", "write time value two rows or more")
-        return None
-    for i, (a, b) in enumerate(pairwise(times), 2):
-        if not b > a:
-            reading.say(f"{here}.{i}", "is at s after one at s", "seconds grow", other=f"{b:g}", name=f"{a:g}")
-            return None
-    rates = _spline(times, values)
-    rows = zip(pairwise(times), pairwise(values), pairwise(rates), strict=True)
-    return MotionLaw(tuple(LiftPiece(*ends, *between, "", rates=own) for ends, between, own in rows), times[0])
-
-
-def _spline(times: Sequence[float], values: Sequence[float]) -> list[float]:
-    """The rates at its knots of the cubic spline without acceleration at both ends (de Boor, A Practical Guide to
-    Splines, ch. 4), by elimination."""
-    n = len(times)
-    wide = [b - a for a, b in pairwise(times)]
-    mean = [(b - a) / w for a, b, w in zip(values, values[1:], wide, strict=False)]
-    before, right = [0.5], [1.5 * mean[0]]
-    for k in range(1, n - 1):
-        # wide[k] s[k-1] + 2 (wide[k-1] + wide[k]) s[k] + wide[k-1] s[k+1] = 3 (wide[k] mean[k-1] + wide[k-1] mean[k])
-        main = 2 * (wide[k - 1] + wide[k]) - wide[k] * before[-1]
-        right.append((3 * (wide[k] * mean[k - 1] + wide[k - 1] * mean[k]) - wide[k] * right[-1]) / main)
-        before.append(wide[k - 1] / main)
-    rates = [(3 * mean[-1] - right[-1]) / (2 - before[-1])]
-    for k in range(n - 2, -1, -1):
-        rates.insert(0, right[k] - before[k] * rates[0])
-    return rates

@@ -1,11 +1,8 @@
-"""The one model of a mechanism: links, pairs, what touches, drivers, sizes; its question; and the numbers in which
-designs of one mechanism differ.
+"""The one model of a mechanism: links, pairs, drivers, sizes; its question; and the numbers in which designs of one
+mechanism differ.
 
 Plane quantities are complex numbers (x + iy), lengths in m, angles in rad, times in s.
 A scene is a value: nothing stores results in it.
-
-A hollow outline (a ring) has a negative radius.  With the signs of the radii two discs touch, inside or outside, where
-their centres are r1 + r2 apart, and the point of contact parts the line of centres as r1 : r2.
 """
 
 from __future__ import annotations
@@ -15,13 +12,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
-from graphkin.scene.bodies import CircularSlot, SlidingPair
-from graphkin.scene.cams import LawCam
 from graphkin.scene.laws import MotionLaw
-from graphkin.scene.pictures import PlacedBackground, PlacedScan
-from graphkin.scene.scene_tables import Flywheel, LoadPhase, Positions, SheetWishes, Vary
+from graphkin.scene.pairs import (
+    CircularSlot,
+    LawCam,
+    PlacedContact,
+    PlacedDisc,
+    PlacedGear,
+    PlacedGuide,
+    SlidingPair,
+)
+from graphkin.scene.scene_tables import Flywheel, LoadPhase, Positions, SceneTables, SheetWishes, Vary
 from graphkin.scene.symbol import Printed, Symbol
-from graphkin.scene.tables import FileTable, Measure, Unit, Units
+from graphkin.scene.tables import Measure, Unit, Units
 
 
 @dataclass(frozen=True)
@@ -93,21 +96,6 @@ class Loading:
 
 
 @dataclass(frozen=True)
-class PlacedGuide:
-    """A straight guide of a link, in that link's own axes.
-
-    ``name`` is "" for the link's own x axis.  ``through`` (m) is the guide's origin, from which travel
-    counts; ``direction`` is a unit complex number, its sense.  With a ``curvature`` (1/m, positive where it bends to
-    the left of its sense) it is the tangent of a curved one at what slides there now.
-    """
-
-    name: str
-    through: complex
-    direction: complex
-    curvature: float = 0.0
-
-
-@dataclass(frozen=True)
 class PlacedLink:
     """A rigid link with everything placed in its own axes (for the frame: world axes).
 
@@ -127,91 +115,6 @@ class PlacedLink:
     def length(self) -> float | None:
         """Length of a bar between its two own points (m), None for other links."""
         return abs(self.points[self.bar[1]]) if len(self.bar) == 2 else None
-
-
-@dataclass(frozen=True)
-class PlacedDisc:
-    """A round outline of link ``link`` about its point ``centre``; ``radius`` (m) is negative for a hollow one."""
-
-    link: str
-    name: str
-    centre: str
-    radius: float
-
-
-@dataclass(frozen=True)
-class PlacedContact:
-    """Two outlines that touch in ``name``.
-
-    ``one`` and ``two`` are the links in the order of the file.  ``discs`` are their outlines, None for the side that
-    has the flat face, whose ``guide`` it is; radii bear the signs with which they meet (inside: the larger is hollow).
-    ``left`` tells on which side of the guide the disc lies.  ``carrier`` is the link that holds both centres of a
-    rolling pair, "" where no link does.  ``again`` marks a further contact of the same centre with the same link.
-    """
-
-    name: str
-    one: str
-    two: str
-    discs: tuple[PlacedDisc | None, PlacedDisc | None]
-    guide: str
-    left: bool
-    rolling: bool
-    carrier: str = ""
-    again: bool = False
-
-    @property
-    def links(self) -> tuple[str, str]:
-        """Both links, in the order of the file."""
-        return self.one, self.two
-
-    @property
-    def flat(self) -> bool:
-        """Whether one side is a flat face."""
-        return None in self.discs
-
-    @property
-    def round(self) -> tuple[PlacedDisc, ...]:
-        """The discs."""
-        return tuple(d for d in self.discs if d is not None)
-
-    @property
-    def face(self) -> str:
-        """The link with the flat face, "" where there is none."""
-        return (self.one if self.discs[0] is None else self.two) if self.flat else ""
-
-    @property
-    def block(self) -> str:
-        """The name of the block (of a face) or the bar (of two discs) that replaces it."""
-        if not self.flat:
-            return "".join(d.centre for d in self.round)
-        return f"{self.name if self.again else self.round[0].centre}/{self.face}"
-
-    @property
-    def normal_to_face(self) -> complex:
-        """The direction from the face to the disc, counted from the guide's sense."""
-        return 1j if self.left else -1j
-
-
-@dataclass(frozen=True)
-class PlacedGear:
-    """Two wheels with teeth: pitch circles that roll on each other, their axes held by ``carrier``.
-
-    ``teeth`` are numbers with signs (negative: internal), None for a rack; ``axes`` the points of the wheels' axes on
-    the carrier (and on the wheels), "" for a rack, whose pitch line is ``guide`` of the second link and whose sliding
-    pair with the carrier is ``slide``.
-    """
-
-    name: str
-    wheels: tuple[str, str]
-    teeth: tuple[float, float | None]
-    carrier: str
-    axes: tuple[str, str]
-    guide: str = ""
-    slide: str = ""
-
-    @property
-    def is_rack(self) -> bool:
-        return self.teeth[1] is None
 
 
 @dataclass(frozen=True)
@@ -308,6 +211,38 @@ class Driver:
 
 
 @dataclass(frozen=True)
+class PlacedBackground:
+    """A picture under the mechanism: the pixel x to the right and y down from its left upper corner lies at
+    ``corner + step (x - iy)`` (m, world axes).  ``data`` is the file as it is, of the media type ``kind``."""
+
+    name: str
+    kind: str
+    width: int
+    height: int
+    corner: complex
+    step: complex
+    data: bytes = field(repr=False)
+
+
+@dataclass(frozen=True)
+class PlacedScan:
+    """What was read off the scan of a drawing, in pixels x - iy from its left upper corner, by the names of ends.
+
+    ``points`` are the two that set scale and direction; ``within`` is what a line may be off, as a part of the longest.
+    ``kind``, ``width``, ``height`` and ``data`` are those of the picture, "" and 0 where there is none.
+    """
+
+    diagram: str
+    points: Mapping[str, complex]
+    read: Mapping[str, complex]
+    within: float
+    kind: str = ""
+    width: int = 0
+    height: int = 0
+    data: bytes = field(default=b"", repr=False)
+
+
+@dataclass(frozen=True)
 class StatedValues:
     """Values that somebody states of one position.
 
@@ -346,7 +281,7 @@ class Question:
     grading: Mapping[str, float] = field(default_factory=dict)
     background: PlacedBackground | None = None
     scans: tuple[PlacedScan, ...] = ()
-    written: FileTable | None = field(default=None, compare=False, repr=False)
+    written: SceneTables | None = field(default=None, compare=False, repr=False)
 
     @property
     def printed(self) -> dict[Symbol, float | complex]:

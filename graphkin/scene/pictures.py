@@ -6,13 +6,13 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from io import BytesIO
 from pathlib import Path
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.files import opened
 from graphkin.scene.bodies import Reading
+from graphkin.scene.model import PlacedBackground, PlacedScan
 from graphkin.scene.scene_tables import Background
 from graphkin.words import Phrase, from_others
 
@@ -20,38 +20,6 @@ LARGEST, MOST_PIXELS = 10_000_000, 50_000_000
 KINDS = {"PNG": "image/png", "JPEG": "image/jpeg"}
 TURNED = 0x0112
 """The note in a picture that says how it is turned; 1 where it is upright."""
-
-
-@dataclass(frozen=True)
-class PlacedBackground:
-    """A picture under the mechanism: the pixel x to the right and y down from its left upper corner lies at
-    ``corner + step (x - iy)`` (m, world axes).  ``data`` is the file as it is, of the media type ``kind``."""
-
-    name: str
-    kind: str
-    width: int
-    height: int
-    corner: complex
-    step: complex
-    data: bytes = field(repr=False)
-
-
-@dataclass(frozen=True)
-class PlacedScan:
-    """What was read off the scan of a drawing, in pixels x - iy from its left upper corner, by the names of ends.
-
-    ``points`` are the two that set scale and direction; ``within`` is what a line may be off, as a part of the longest.
-    ``kind``, ``width``, ``height`` and ``data`` are those of the picture, "" and 0 where there is none.
-    """
-
-    diagram: str
-    points: Mapping[str, complex]
-    read: Mapping[str, complex]
-    within: float
-    kind: str = ""
-    width: int = 0
-    height: int = 0
-    data: bytes = field(default=b"", repr=False)
 
 
 def scans_of(reading: Reading) -> tuple[PlacedScan, ...]:

@@ -14,8 +14,9 @@ from dataclasses import dataclass, field
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.plane import cross, cross_arcs, degrees, direction, dot
-from graphkin.scene.bodies import Reading, SlidingPair, references
-from graphkin.scene.model import Driver, PlacedContact, PlacedDisc, PlacedGuide, PlacedLink
+from graphkin.scene.bodies import Reading, references
+from graphkin.scene.model import Driver, PlacedLink
+from graphkin.scene.pairs import PlacedContact, PlacedDisc, PlacedGuide, SlidingPair
 from graphkin.scene.scene_tables import Compass, Guide, Link, Polar
 from graphkin.scene.tables import in_si
 from graphkin.words import Phrase

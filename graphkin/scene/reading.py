@@ -28,15 +28,15 @@ from graphkin.scene.bodies import (
     with_bars,
     with_carriages,
 )
-from graphkin.scene.cams import LawCam, cams_of
 from graphkin.scene.drivers import drives, placed_driver, stated_driver
 from graphkin.scene.force_names import no_force
 from graphkin.scene.loads import loading_of
 from graphkin.scene.model import Loading, Mechanism, PlacedLink, Question
+from graphkin.scene.pairs import LawCam
 from graphkin.scene.pictures import background_of, scans_of
 from graphkin.scene.scene_tables import Frame, Guide, Link, SceneTables
 from graphkin.scene.tables import KeyPath, path_name, plain, tidy
-from graphkin.scene.touching import contacts_of, discs_of, gears_of, wrong_distances
+from graphkin.scene.touching import cams_of, contacts_of, discs_of, gears_of, wrong_distances
 
 MOST_LINKS = 200
 MOST_POINTS = 100
@@ -177,7 +177,7 @@ def as_mapping(scene: Mechanism) -> OwnTables:
     What was given by drawn points, arcs or polar entries stands there as lengths and places.
     """
     file = scene.question.written
-    assert isinstance(file, SceneTables)  # a mechanism is made by reading
+    assert file is not None  # a mechanism is made by reading
     held = {contact.round[0].centre for contact in scene.contacts if contact.rolling and contact.flat}
     sketch = {point: z for point, z in {**scene.drawn, **scene.sketch}.items() if point not in scene.frame.points}
     tables = driver_tables(file).values()

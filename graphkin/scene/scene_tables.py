@@ -2,7 +2,7 @@
 
 What each key means stands in the tables of words (``[keys]``), by the names of its table and its own.
 
-What a table says is read where the mechanism gets it (`graphkin.scene.reading`).  Where the format leaves something
+What a table says is read where the mechanism gets it (`graphkin.scene.scene`).  Where the format leaves something
 open, the docstring of `graphkin.scene` says how it is read.
 """
 
@@ -10,12 +10,14 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Discriminator, Strict, StringConstraints, Tag
 from pydantic import Field as Rule
 
+from graphkin.errors import Problem
+from graphkin.scene.laws import LAWS
 from graphkin.scene.tables import FileTable, Form, Units, file_table, file_table_by_name, key
 from graphkin.words import LANGUAGES
 
@@ -213,6 +215,22 @@ class LawPiece(FileTable):
     rise: Number | None = None
     fall: Number | None = None
     by: LawName | None = None
+
+    @property
+    def height(self) -> float:
+        """By how much it rises, in the unit of the file."""
+        return (self.rise or 0.0) - (self.fall or 0.0)
+
+    def problems(self, where: str) -> Iterator[Problem]:
+        """What is wrong with it by itself."""
+        moves = self.rise is not None or self.fall is not None
+        if self.rise is not None and self.fall is not None:
+            yield Problem(where, "has both rise and fall", "give one of them or none for a")
+        elif moves and self.by is None:
+            *names, last = (f'"{name}"' for name in LAWS)
+            yield Problem(where, "does not say its law", f"by = {', '.join(names)} or {last}")
+        elif self.by is not None and not moves:
+            yield Problem(where, "has by without rise or fall", "a dwell has no law", by=self.by)
 
 
 @file_table

@@ -1,20 +1,33 @@
-"""What touches in a scene, read from its file: round outlines, contacts, wheels with teeth; names are looked up, radii
-get the signs with which they meet, the carriers of wheels are found.
+"""What touches in a scene, read from its file: round outlines, contacts, wheels with teeth, cams by the law of their
+follower; names are looked up, radii get the signs with which they meet, the carriers of wheels are found.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from graphkin.errors import Problem, did_you_mean
-from graphkin.plane import cross
-from graphkin.scene.bodies import Reading, SlidingPair
-from graphkin.scene.model import PlacedContact, PlacedDisc, PlacedGear, PlacedGuide
-from graphkin.scene.scene_tables import Contact, Gear
+from graphkin.plane import cross, dot
+from graphkin.scene.bodies import Reading
+from graphkin.scene.laws import FollowerLaw, LiftPiece, form_of
+from graphkin.scene.pairs import (
+    LawCam,
+    PlacedContact,
+    PlacedDisc,
+    PlacedGear,
+    PlacedGuide,
+    SlidingFollower,
+    SlidingPair,
+    SwingingFollower,
+)
+from graphkin.scene.scene_tables import Cam, Contact, Gear, LawPiece
+from graphkin.scene.tables import in_si
 from graphkin.words import Phrase
 
 AGREE = 1e-6
+"""Of the greatest length: so far two statements of one may lie apart; of an angle its sine."""
 
 
 # -- contacts ----------------------------------------------------------------------------------------------------------
@@ -264,3 +277,183 @@ def rack_place(
     along = seen(rack, line.through + line.direction) - at
     far = abs(axis) + abs(at)
     return (at - axis).imag, cross(1 + 0j, along), far
+
+
+# -- cams --------------------------------------------------------------------------------------------------------------
+
+Line = tuple[str, complex, complex]
+"""A guide of the frame on which a link slides: the key of the pair, a point of it (m), its sense."""
+
+
+def cams_of(reading: Reading, lines: Mapping[str, Line], drawn: Mapping[str, complex]) -> tuple[LawCam, ...]:
+    """The cams of a file; what is wrong with them is noted.
+
+    Parameters
+    ----------
+    lines : of each link that slides on the frame
+    drawn : roughly where points of moving links lie (m)
+    """
+    moved: dict[str, str] = {}
+    found = []
+    for name, cam in reading.file.cams.items():
+        other = moved.setdefault(cam.follower, name)
+        if other != name:
+            reading.say(f"cams.{name}.follower", "link is moved by cam already", "a follower has one cam",
+                        follower=cam.follower, other=other)
+        placed = _cam(name, cam, reading, lines, drawn)
+        if placed is not None:
+            found.append(placed)
+    return tuple(found)
+
+
+def _cam(
+    name: str, cam: Cam, reading: Reading, lines: Mapping[str, Line], drawn: Mapping[str, complex]
+) -> LawCam | None:
+    where, before, si = f"cams.{name}", len(reading.problems), in_si(cam, reading.units)
+    point = _axis_of_cam(where, name, reading)
+    swings = _swings(where, name, cam, reading, lines)
+    law = follower_law(f"{where}.law", cam.law, math.pi / 180 if swings else reading.metres, reading)
+    roller = si.roller or 0.0
+    base = si.base.r + (roller if cam.base.of == "profile" else 0.0)
+    if cam.flat and cam.roller is not None:
+        reading.say(f"{where}.flat", "stands beside roller", "the face is flat or it has a")
+    if not cam.flat and base <= roller:
+        reading.say(f"{where}.base.r", "found with a roller of", "the base circle of the pitch curve is",
+                    r=f"{cam.base.r:g}", roller=f"{cam.roller:g}")
+    for side in ("rise", "fall"):
+        angle = getattr(cam.allow, side, None)
+        if angle is not None and not 0.0 < angle < 90.0:
+            reading.say(f"{where}.allow.{side}", "found value", "a pressure angle lies between 0 and 90",
+                        value=f"{angle:g}")
+    if not point or swings is None or len(reading.problems) > before:
+        return None
+    axis = _fixed(reading)[point]
+    motion: SlidingFollower | SwingingFollower | None
+    if swings:
+        motion = _swinging(where, cam, reading, axis, drawn)
+    else:
+        motion = _sliding(where, si, reading, axis, lines[cam.follower])
+    if motion is None or law is None or len(reading.problems) > before:
+        return None
+    allowed = (si.allow.rise, si.allow.fall) if si.allow else (None, None)
+    return LawCam(name, cam.follower, point, axis, law, cam.sense, base, roller, cam.flat, motion, allowed)
+
+
+def _fixed(reading: Reading) -> Mapping[str, complex]:
+    """The points of the frame (m)."""
+    return reading.places[reading.frame.name]
+
+
+def _axis_of_cam(where: str, name: str, reading: Reading) -> str:
+    """The point of the frame about which a cam turns; "" where there is none."""
+    if reading.wrong(reading.no_link(where, name, moving=True)):
+        return ""
+    if name == reading.frame.name:
+        reading.say(where, "link is the frame", "a cam turns", name=name)
+        return ""
+    link = reading.links.get(name)
+    if link is None or reading.lost_under("links", name):
+        return ""
+    if link.points and link.points[0] in _fixed(reading):
+        return link.points[0]
+    if not reading.lost_under("frame"):
+        no_point = Phrase("link has no point", name=name)
+        said = Phrase("is no point of the frame", points=link.points[0]) if link.points else no_point
+        reading.say(where, said, "a cam turns about its first point which")
+    return ""
+
+
+def _swings(here: str, name: str, cam: Cam, reading: Reading, lines: Mapping[str, Line]) -> bool | None:
+    """Whether the follower swings; None where it neither swings nor slides on the frame."""
+    where, follower, frame = f"{here}.follower", cam.follower, reading.frame.name
+    if reading.wrong(reading.no_link(where, follower, moving=True)):
+        return None
+    if follower in (name, frame):
+        said = Phrase("the cam itself") if follower == name else Phrase("link is the frame", name=follower)
+        reading.say(where, said, "name the link that the cam moves")
+        return None
+    if follower in lines:
+        return False
+    link = reading.links.get(follower)
+    if link is None or reading.lost_under("links", follower) or reading.lost_under("frame"):
+        return None
+    pivots = [p for p in link.points if p in _fixed(reading)]
+    if len(pivots) != 1 or link.on is not None:
+        reading.say(where, "link neither slides on a guide of the", "write on guide or points with a pivot",
+                    follower=follower, frame=frame)
+        return None
+    if len(link.points) != 2:
+        reading.say(where, "link has no point but its pivot", "it is a bar from its pivot to", follower=follower)
+        return None
+    sliding = {"offset": (cam.offset is not None, Phrase("an offset")), "flat": (cam.flat, Phrase("a flat face"))}
+    for beside, (there, kind) in sliding.items():
+        if there:
+            reading.say(f"{here}.{beside}", "link swings", "is for a sliding follower", name=follower, kind=kind)
+    return True
+
+
+def _sliding(where: str, si: Cam, reading: Reading, axis: complex, line: Line) -> SlidingFollower | None:
+    """A follower on a line; of the cam in SI."""
+    pair, through, along = line
+    offset, metres = cross(along, axis - through), reading.metres
+    if si.offset is not None and abs(si.offset - offset) > AGREE * max(abs(axis - through), si.base.r):
+        reading.say(f"{where}.offset", "found but the guide makes it", "one is wrong positive where the axis is",
+                    offset=f"{si.offset / metres:g}", other=f"{offset / metres:.9g}")
+        return None
+    travel = dot(along, axis - through)
+    return SlidingFollower(pair, through + along * travel, along, travel, offset)
+
+
+def _swinging(
+    where: str, cam: Cam, reading: Reading, axis: complex, drawn: Mapping[str, complex]
+) -> SwingingFollower | None:
+    """A follower that swings about a point of the frame."""
+    link = reading.links[cam.follower]
+    (first, second), places = link.points, _fixed(reading)
+    pivot, tip = (first, second) if first in places else (second, first)
+    centre = places[pivot]
+    if centre == axis:
+        reading.say(f"{where}.follower", "swings about the cam's own axis", "its pivot lies elsewhere", pivot=pivot)
+        return None
+    if link.length is None:
+        reading.say(f"links.{cam.follower}.length", "is missing", "the length of a swinging follower is written")
+        return None
+    left = tip not in drawn or cross(axis - centre, drawn[tip] - centre) >= 0.0
+    return SwingingFollower(pivot, tip, centre, link.length * reading.metres, 1 if left else -1, pivot == second)
+
+
+def follower_law(where: str, pieces: Sequence[LawPiece], unit: float, reading: Reading) -> FollowerLaw | None:
+    """The law of a cam's follower, over rad, in SI; what is wrong with it is noted.
+
+    Parameters
+    ----------
+    where : its place in the file
+    unit : one unit of the lifts in the file in SI (m, or rad of a follower that swings)
+    """
+    found: list[LiftPiece] = []
+    start = low = most = 0.0
+    before = len(reading.problems)
+    for i, piece in enumerate(pieces, 1):
+        here = f"{where}.{i}"
+        reading.wrong(*piece.problems(here))
+        high = low + piece.height
+        sense, size = ("rise", piece.rise) if piece.rise is not None else ("fall", piece.fall)
+        if size is not None and not size > 0.0:
+            reading.say(here, f"{sense} = {size:g}", "it must be positive a dwell has neither")
+        if not piece.to > start:
+            reading.say(here, "ends at deg where it begins at", "degrees grow from 0 to 360", to=f"{piece.to:g}",
+                        start=f"{start:g}")
+        elif piece.to > 360.0:
+            reading.say(here, "ends at deg", "the law ends at 360", start=f"{piece.to:g}")
+        most = max(most, abs(high), abs(low))
+        high = 0.0 if abs(high) < 1e-9 * most else high
+        found.append(LiftPiece(math.radians(start), math.radians(piece.to), low * unit, high * unit, form_of(piece.by)))
+        start, low = piece.to, high
+    if not pieces:
+        reading.say(where, "is empty", "write to 60 rise 28 by harmonic")
+    elif len(reading.problems) == before and start != 360.0:
+        reading.say(f"{where}.{len(pieces)}", "ends at deg", "the last piece ends at 360", start=f"{start:g}")
+    if len(reading.problems) == before and low != 0.0:
+        reading.say(where, "does not come back a turn leaves the", "all that rises falls again",
+                    least=f"{abs(low):.9g}", way="up" if low > 0 else "down")
+    return FollowerLaw(tuple(found)) if len(reading.problems) == before else None

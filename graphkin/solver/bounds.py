@@ -15,7 +15,7 @@ from functools import cached_property
 
 import numpy as np
 
-from graphkin.scene.cams import LawCam
+from graphkin.scene.pairs import LawCam
 from graphkin.solver.cams import follower_inputs, greatest_jerk
 from graphkin.solver.constraints import Constraints, Layout, Parts, led_relation, product, solve_all
 from graphkin.solver.drivers import conversion_error, meant, meant_angle

@@ -22,8 +22,8 @@ import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot
-from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.laws import SEAM, TURN, FollowerLaw, Lift, LiftPiece
+from graphkin.scene.pairs import LawCam, SlidingFollower
 from graphkin.search import intervals, last_true, resolve
 from graphkin.solver.pose import Array, turned
 from graphkin.structure import Structure

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphkin.plane import cross
-from graphkin.scene.model import Mechanism, PlacedContact
+from graphkin.scene.model import Mechanism
+from graphkin.scene.pairs import PlacedContact
 from graphkin.scene.symbol import Symbol
 from graphkin.search import resolve
 from graphkin.solver.driver_range import DriverRange, range_of

@@ -14,8 +14,8 @@ from decimal import Decimal
 
 import numpy as np
 
-from graphkin.scene.cams import LawCam
 from graphkin.scene.model import Driver
+from graphkin.scene.pairs import LawCam
 from graphkin.solver.bounds import LOOKED_UP, error_bounds, most_of, roughness
 from graphkin.solver.cams import follower_inputs
 from graphkin.solver.drivers import cos_sin, meant, meant_angle, meant_value, working

@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
-from graphkin.scene.model import Mechanism, PlacedContact, PlacedGear, PlacedLink
+from graphkin.scene.model import Mechanism, PlacedLink
+from graphkin.scene.pairs import PlacedContact, PlacedGear
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Measure
 from graphkin.solver.bounds import BLOCK, FEW, Accuracy

@@ -10,8 +10,8 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from decimal import Decimal
 
-from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import Driver
+from graphkin.scene.pairs import LawCam, SlidingFollower
 from graphkin.solver.drivers import meant, meant_direction
 from graphkin.solver.dyads import DyadSolution, Joints, PoseFormula, solve_dyad
 from graphkin.solver.expressions import Code, ExpressionGraph, Name, Real, Vec, components

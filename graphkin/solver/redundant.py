@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.bodies import SlidingPair
 from graphkin.scene.model import Mechanism, PlacedLink
+from graphkin.scene.pairs import SlidingPair
 from graphkin.solver.pose import Array, ErrorBound, Pose, aimed, rest
 from graphkin.structure import Structure
 from graphkin.structure.model import slide_pair

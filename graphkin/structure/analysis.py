@@ -18,8 +18,8 @@ from itertools import pairwise, product
 from typing import Literal, TypeVar
 
 from graphkin.errors import CallError, NoDriver, Problem, Unsolvable, did_you_mean
-from graphkin.scene.cams import SlidingFollower
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
+from graphkin.scene.pairs import SlidingFollower
 from graphkin.structure.model import (
     OWN_AXIS,
     Body,

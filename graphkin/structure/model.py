@@ -14,9 +14,8 @@ from typing import Any, ClassVar, Literal, TypeVar
 
 from graphkin.errors import CallError, did_you_mean
 from graphkin.plane import added_up
-from graphkin.scene.bodies import SlidingPair
-from graphkin.scene.cams import LawCam
-from graphkin.scene.model import Driver, Mechanism, PlacedGuide, PlacedLink
+from graphkin.scene.model import Driver, Mechanism, PlacedLink
+from graphkin.scene.pairs import LawCam, PlacedGuide, SlidingPair
 from graphkin.scene.symbol import Symbol, centre_links
 from graphkin.words import Phrase
 

@@ -20,9 +20,8 @@ from dataclasses import replace
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, unit
-from graphkin.scene.bodies import CircularSlot, SlidingPair
-from graphkin.scene.cams import SwingingFollower
-from graphkin.scene.model import Mechanism, PlacedContact, PlacedDisc, PlacedGuide, PlacedLink
+from graphkin.scene.model import Mechanism, PlacedLink
+from graphkin.scene.pairs import CircularSlot, PlacedContact, PlacedDisc, PlacedGuide, SlidingPair, SwingingFollower
 from graphkin.structure.model import OWN_AXIS, Mobility, Pair, Structure
 from graphkin.words import Phrase
 

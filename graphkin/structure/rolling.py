@@ -19,7 +19,8 @@ from fractions import Fraction
 from itertools import chain, islice, product
 
 from graphkin.plane import added_up
-from graphkin.scene.model import Driver, Mechanism, PlacedContact, PlacedGear, PlacedLink
+from graphkin.scene.model import Driver, Mechanism, PlacedLink
+from graphkin.scene.pairs import PlacedContact, PlacedGear
 from graphkin.scene.touching import rack_place
 from graphkin.structure.model import Coordinate, LargerGroup, Pair, Rolled, RollingRelation, Structure
 

@@ -21,7 +21,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from graphkin.errors import CallError
-from graphkin.scene.model import PlacedContact
+from graphkin.scene.pairs import PlacedContact
 from graphkin.scene.symbol import Symbol
 from graphkin.structure.model import Dyad, Pair, Structure
 from graphkin.words import Phrase

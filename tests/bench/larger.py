@@ -16,7 +16,8 @@ import numpy as np
 
 from graphkin.errors import GraphkinError
 from graphkin.scene import mechanism_of
-from graphkin.scene.model import Mechanism, PlacedGuide, PlacedLink
+from graphkin.scene.model import Mechanism, PlacedLink
+from graphkin.scene.pairs import PlacedGuide
 from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.bounds import most_of
 from graphkin.solver.continuity import Path, follow_path

@@ -9,8 +9,8 @@ import pytest
 
 from graphkin.errors import SceneError
 from graphkin.scene import mechanism_of, mechanism_of_text
-from graphkin.scene.bodies import SlidingPair
 from graphkin.scene.model import Driver, Mechanism
+from graphkin.scene.pairs import SlidingPair
 from graphkin.scene.symbol import Symbol
 
 from .scenes import FOUR_BAR, SIX_BAR, changed

@@ -7,7 +7,8 @@ from dataclasses import replace
 import pytest
 
 from graphkin.errors import SceneError
-from graphkin.scene.model import Mechanism, PlacedGuide, PlacedLink
+from graphkin.scene.model import Mechanism, PlacedLink
+from graphkin.scene.pairs import PlacedGuide
 from graphkin.structure import pick
 
 pytestmark = pytest.mark.quick

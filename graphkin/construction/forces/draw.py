@@ -28,8 +28,8 @@ from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.construction.sheet import Reading, Sheet
 from graphkin.construction.touching import Touching
 from graphkin.plane import added_up, cross, unit
-from graphkin.scene.bodies import SlidingPair
-from graphkin.scene.model import Driver, PlacedGuide
+from graphkin.scene.model import Driver
+from graphkin.scene.pairs import PlacedGuide, SlidingPair
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, Dyad, analyse
 

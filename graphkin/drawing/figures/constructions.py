@@ -43,10 +43,10 @@ from graphkin.drawing.place.piece import Piece, cut_to, ink_box
 from graphkin.drawing.plate import Plate, centred
 from graphkin.drawing.text import plain, rich, runs_width, symbol
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.scene.cams import LawCam, SlidingFollower, SwingingFollower
 from graphkin.scene.designs import BarPositionsTask, Design
 from graphkin.scene.laws import TURN
 from graphkin.scene.model import Mechanism
+from graphkin.scene.pairs import LawCam, SlidingFollower, SwingingFollower
 from graphkin.version import __version__
 from graphkin.words import Phrase, as_markup, as_plain, languages, rich_text, say, word
 from graphkin.words.written import amount, on_paper, product

@@ -26,7 +26,7 @@ from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece
 from graphkin.drawing.text import plain, rich, symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import dot
-from graphkin.scene.cams import LawCam
+from graphkin.scene.pairs import LawCam
 from graphkin.structure import Driven, Dyad, Element, LargerGroup, Pair, Structure, replacement_told
 from graphkin.words import Phrase, class_of, languages, say
 

@@ -11,8 +11,8 @@ from collections.abc import Iterator
 
 from graphkin.account.headings import number, once
 from graphkin.account.notation import Letters
-from graphkin.scene.bodies import SlidingPair
-from graphkin.scene.model import Mechanism, PlacedGuide, PlacedLink
+from graphkin.scene.model import Mechanism, PlacedLink
+from graphkin.scene.pairs import PlacedGuide, SlidingPair
 from graphkin.words import Phrase, languages, say
 
 _BETWEEN_CHINESE = re.compile(r"(?<=[\u4e00-\u9fff]) (?=[\u4e00-\u9fff])")

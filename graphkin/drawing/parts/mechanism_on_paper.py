@@ -21,9 +21,8 @@ from graphkin.drawing.ink.primitives import Segment
 from graphkin.drawing.ink.strokes import colour_of_link
 from graphkin.drawing.ink.symbols import hull
 from graphkin.plane import cross, dot
-from graphkin.scene.bodies import CircularSlot
-from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import Mechanism
+from graphkin.scene.pairs import CircularSlot, LawCam, SlidingFollower
 from graphkin.structure import Pair
 
 # mm: how far a bar of no fixed length goes on beyond a block, and a slot beyond its pin

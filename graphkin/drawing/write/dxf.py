@@ -35,8 +35,8 @@ from graphkin.drawing.ink.primitives import (
 from graphkin.drawing.text import CAP_HEIGHT, has_cjk, start_runs, width
 from graphkin.errors import CallError
 from graphkin.plane import added_up, cross, dot
-from graphkin.scene.cams import LawCam
 from graphkin.scene.laws import LiftPiece
+from graphkin.scene.pairs import LawCam
 from graphkin.solver.cams import cam_with
 
 if TYPE_CHECKING:

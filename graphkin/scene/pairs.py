@@ -1,29 +1,182 @@
-"""Cams by the law of their follower, in SI units, and how they are read from a file.
+"""The pairs of a mechanism, in SI units: what slides on a guide or runs in a slot, what touches or meshes, and what a
+cam moves by a law.
 
-A sliding follower's first point stands beyond the foot of the axis on its line by the root of base radius and offset
-plus the lift (a flat face: by base radius plus lift); a swinging one's bar turns by the lift from where its roller's
-centre lies on the base circle of the pitch curve.
+A hollow outline (a ring) has a negative radius.  With the signs of the radii two discs touch, inside or outside, where
+their centres are r1 + r2 apart, and the point of contact parts the line of centres as r1 : r2.
+
+A cam's sliding follower stands with its first point beyond the foot of the axis on its line by the root of base radius
+and offset plus the lift (a flat face: by base radius plus lift); a swinging one's bar turns by the lift from where its
+roller's centre lies on the base circle of the pitch curve.
 """
 
 from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import Values, cross, dot
-from graphkin.scene.bodies import Reading
-from graphkin.scene.laws import FollowerLaw, Lift, follower_law
-from graphkin.scene.scene_tables import Cam
-from graphkin.scene.tables import Units, in_si
+from graphkin.plane import Values
+from graphkin.scene.laws import FollowerLaw, Lift
+from graphkin.scene.tables import Units
 from graphkin.words import Phrase
 
-AGREES = 1e-6
+# -- sliding pairs, slots, what touches --------------------------------------------------------------------------------
 
-# -- cams as they are --------------------------------------------------------------------------------------------------
+
+@dataclass(frozen=True)
+class PlacedGuide:
+    """A straight guide of a link, in that link's own axes.
+
+    ``name`` is "" for the link's own x axis.  ``through`` (m) is the guide's origin, from which travel
+    counts; ``direction`` is a unit complex number, its sense.  With a ``curvature`` (1/m, positive where it bends to
+    the left of its sense) it is the tangent of a curved one at what slides there now.
+    """
+
+    name: str
+    through: complex
+    direction: complex
+    curvature: float = 0.0
+
+
+@dataclass(frozen=True)
+class SlidingPair:
+    """``link`` slides by its own origin on a guide of link ``on``, at a fixed angle; or a pin runs in the guide, and
+    ``link`` is the block without mass, POINT/GUIDING, that stands for it between the guide and the link ``of``.
+
+    ``turn`` is the unit complex number by which the link's own x axis is turned from the guide's
+    sense (``angle_on``).  ``pin`` names the link's first point if it has one, or the pin that runs in the guide.
+    """
+
+    link: str
+    on: str
+    guide: str
+    turn: complex = 1 + 0j
+    pin: str | None = None
+    of: str = ""
+
+    @classmethod
+    def of_pin(cls, point: str, of: str, on: str, guide: str) -> SlidingPair:
+        """A pin in a slot: point ``point`` of link ``of`` runs in a guide of link ``on``, one constraint."""
+        return cls(f"{point}/{on}", on, guide, pin=point, of=of)
+
+    @property
+    def key(self) -> str:
+        """The name of the pair: SLIDING/GUIDING, or POINT/GUIDING of a pin in a slot."""
+        return self.link if self.of else f"{self.link}/{self.on}"
+
+    @property
+    def point(self) -> str:
+        """The point that runs in the guide, "" where it has no name."""
+        return self.pin or ""
+
+
+@dataclass(frozen=True)
+class CircularSlot:
+    """A slot of link ``on`` along a circle about its point ``centre`` (``radius`` in m), in which ``point`` runs.
+
+    ``bar`` is the link that moves it so: one that replaces a pin in the slot, or the block itself (``block``).
+    ``ends`` are the angles (rad, from the own x axis of ``on``) between which it is drawn, if the file has them.
+    """
+
+    name: str
+    on: str
+    centre: str
+    radius: float
+    bar: str
+    point: str
+    block: bool = False
+    ends: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
+class PlacedDisc:
+    """A round outline of link ``link`` about its point ``centre``; ``radius`` (m) is negative for a hollow one."""
+
+    link: str
+    name: str
+    centre: str
+    radius: float
+
+
+@dataclass(frozen=True)
+class PlacedContact:
+    """Two outlines that touch in ``name``.
+
+    ``one`` and ``two`` are the links in the order of the file.  ``discs`` are their outlines, None for the side that
+    has the flat face, whose ``guide`` it is; radii bear the signs with which they meet (inside: the larger is hollow).
+    ``left`` tells on which side of the guide the disc lies.  ``carrier`` is the link that holds both centres of a
+    rolling pair, "" where no link does.  ``again`` marks a further contact of the same centre with the same link.
+    """
+
+    name: str
+    one: str
+    two: str
+    discs: tuple[PlacedDisc | None, PlacedDisc | None]
+    guide: str
+    left: bool
+    rolling: bool
+    carrier: str = ""
+    again: bool = False
+
+    @property
+    def links(self) -> tuple[str, str]:
+        """Both links, in the order of the file."""
+        return self.one, self.two
+
+    @property
+    def flat(self) -> bool:
+        """Whether one side is a flat face."""
+        return None in self.discs
+
+    @property
+    def round(self) -> tuple[PlacedDisc, ...]:
+        """The discs."""
+        return tuple(d for d in self.discs if d is not None)
+
+    @property
+    def face(self) -> str:
+        """The link with the flat face, "" where there is none."""
+        return (self.one if self.discs[0] is None else self.two) if self.flat else ""
+
+    @property
+    def block(self) -> str:
+        """The name of the block (of a face) or the bar (of two discs) that replaces it."""
+        if not self.flat:
+            return "".join(d.centre for d in self.round)
+        return f"{self.name if self.again else self.round[0].centre}/{self.face}"
+
+    @property
+    def normal_to_face(self) -> complex:
+        """The direction from the face to the disc, counted from the guide's sense."""
+        return 1j if self.left else -1j
+
+
+@dataclass(frozen=True)
+class PlacedGear:
+    """Two wheels with teeth: pitch circles that roll on each other, their axes held by ``carrier``.
+
+    ``teeth`` are numbers with signs (negative: internal), None for a rack; ``axes`` the points of the wheels' axes on
+    the carrier (and on the wheels), "" for a rack, whose pitch line is ``guide`` of the second link and whose sliding
+    pair with the carrier is ``slide``.
+    """
+
+    name: str
+    wheels: tuple[str, str]
+    teeth: tuple[float, float | None]
+    carrier: str
+    axes: tuple[str, str]
+    guide: str = ""
+    slide: str = ""
+
+    @property
+    def is_rack(self) -> bool:
+        return self.teeth[1] is None
+
+
+# -- cams --------------------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -202,146 +355,3 @@ class LawCam:
             return motion.travel + moved
         line = self.axis - motion.centre
         return cmath.phase(-line if motion.back else line) + motion.side * moved
-
-
-# -- reading -----------------------------------------------------------------------------------------------------------
-
-Line = tuple[str, complex, complex]
-"""A guide of the frame on which a link slides: the key of the pair, a point of it (m), its sense."""
-
-
-def cams_of(reading: Reading, lines: Mapping[str, Line], drawn: Mapping[str, complex]) -> tuple[LawCam, ...]:
-    """The cams of a file; what is wrong with them is noted.
-
-    Parameters
-    ----------
-    lines : of each link that slides on the frame
-    drawn : roughly where points of moving links lie (m)
-    """
-    moved: dict[str, str] = {}
-    found = []
-    for name, cam in reading.file.cams.items():
-        other = moved.setdefault(cam.follower, name)
-        if other != name:
-            reading.say(f"cams.{name}.follower", "link is moved by cam already", "a follower has one cam",
-                        follower=cam.follower, other=other)
-        placed = _cam(name, cam, reading, lines, drawn)
-        if placed is not None:
-            found.append(placed)
-    return tuple(found)
-
-
-def _cam(
-    name: str, cam: Cam, reading: Reading, lines: Mapping[str, Line], drawn: Mapping[str, complex]
-) -> LawCam | None:
-    where, before, si = f"cams.{name}", len(reading.problems), in_si(cam, reading.units)
-    point = _axis(where, name, reading)
-    swings = _swings(where, name, cam, reading, lines)
-    law = follower_law(f"{where}.law", cam.law, math.pi / 180 if swings else reading.metres, reading)
-    roller = si.roller or 0.0
-    base = si.base.r + (roller if cam.base.of == "profile" else 0.0)
-    if cam.flat and cam.roller is not None:
-        reading.say(f"{where}.flat", "stands beside roller", "the face is flat or it has a")
-    if not cam.flat and base <= roller:
-        reading.say(f"{where}.base.r", "found with a roller of", "the base circle of the pitch curve is",
-                    r=f"{cam.base.r:g}", roller=f"{cam.roller:g}")
-    for side in ("rise", "fall"):
-        angle = getattr(cam.allow, side, None)
-        if angle is not None and not 0.0 < angle < 90.0:
-            reading.say(f"{where}.allow.{side}", "found value", "a pressure angle lies between 0 and 90",
-                        value=f"{angle:g}")
-    if not point or swings is None or len(reading.problems) > before:
-        return None
-    axis = _fixed(reading)[point]
-    motion: SlidingFollower | SwingingFollower | None
-    if swings:
-        motion = _swinging(where, cam, reading, axis, drawn)
-    else:
-        motion = _sliding(where, si, reading, axis, lines[cam.follower])
-    if motion is None or law is None or len(reading.problems) > before:
-        return None
-    allowed = (si.allow.rise, si.allow.fall) if si.allow else (None, None)
-    return LawCam(name, cam.follower, point, axis, law, cam.sense, base, roller, cam.flat, motion, allowed)
-
-
-def _fixed(reading: Reading) -> Mapping[str, complex]:
-    """The points of the frame (m)."""
-    return reading.places[reading.frame.name]
-
-
-def _axis(where: str, name: str, reading: Reading) -> str:
-    """The point of the frame about which a cam turns; "" where there is none."""
-    if reading.wrong(reading.no_link(where, name, moving=True)):
-        return ""
-    if name == reading.frame.name:
-        reading.say(where, "link is the frame", "a cam turns", name=name)
-        return ""
-    link = reading.links.get(name)
-    if link is None or reading.lost_under("links", name):
-        return ""
-    if link.points and link.points[0] in _fixed(reading):
-        return link.points[0]
-    if not reading.lost_under("frame"):
-        no_point = Phrase("link has no point", name=name)
-        said = Phrase("is no point of the frame", points=link.points[0]) if link.points else no_point
-        reading.say(where, said, "a cam turns about its first point which")
-    return ""
-
-
-def _swings(here: str, name: str, cam: Cam, reading: Reading, lines: Mapping[str, Line]) -> bool | None:
-    """Whether the follower swings; None where it neither swings nor slides on the frame."""
-    where, follower, frame = f"{here}.follower", cam.follower, reading.frame.name
-    if reading.wrong(reading.no_link(where, follower, moving=True)):
-        return None
-    if follower in (name, frame):
-        said = Phrase("the cam itself") if follower == name else Phrase("link is the frame", name=follower)
-        reading.say(where, said, "name the link that the cam moves")
-        return None
-    if follower in lines:
-        return False
-    link = reading.links.get(follower)
-    if link is None or reading.lost_under("links", follower) or reading.lost_under("frame"):
-        return None
-    pivots = [p for p in link.points if p in _fixed(reading)]
-    if len(pivots) != 1 or link.on is not None:
-        reading.say(where, "link neither slides on a guide of the", "write on guide or points with a pivot",
-                    follower=follower, frame=frame)
-        return None
-    if len(link.points) != 2:
-        reading.say(where, "link has no point but its pivot", "it is a bar from its pivot to", follower=follower)
-        return None
-    sliding = {"offset": (cam.offset is not None, Phrase("an offset")), "flat": (cam.flat, Phrase("a flat face"))}
-    for beside, (there, kind) in sliding.items():
-        if there:
-            reading.say(f"{here}.{beside}", "link swings", "is for a sliding follower", name=follower, kind=kind)
-    return True
-
-
-def _sliding(where: str, si: Cam, reading: Reading, axis: complex, line: Line) -> SlidingFollower | None:
-    """A follower on a line; of the cam in SI."""
-    pair, through, along = line
-    offset, metres = cross(along, axis - through), reading.metres
-    if si.offset is not None and abs(si.offset - offset) > AGREES * max(abs(axis - through), si.base.r):
-        reading.say(f"{where}.offset", "found but the guide makes it", "one is wrong positive where the axis is",
-                    offset=f"{si.offset / metres:g}", other=f"{offset / metres:.9g}")
-        return None
-    travel = dot(along, axis - through)
-    return SlidingFollower(pair, through + along * travel, along, travel, offset)
-
-
-def _swinging(
-    where: str, cam: Cam, reading: Reading, axis: complex, drawn: Mapping[str, complex]
-) -> SwingingFollower | None:
-    """A follower that swings about a point of the frame."""
-    link = reading.links[cam.follower]
-    (first, second), places = link.points, _fixed(reading)
-    pivot, tip = (first, second) if first in places else (second, first)
-    centre = places[pivot]
-    if centre == axis:
-        reading.say(f"{where}.follower", "swings about the cam's own axis", "its pivot lies elsewhere", pivot=pivot)
-        return None
-    if link.length is None:
-        reading.say(f"links.{cam.follower}.length", "is missing", "the length of a swinging follower is written")
-        return None
-    left = tip not in drawn or cross(axis - centre, drawn[tip] - centre) >= 0.0
-    return SwingingFollower(pivot, tip, centre, link.length * reading.metres, 1 if left else -1, pivot == second)
