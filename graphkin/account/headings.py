@@ -7,9 +7,8 @@ from __future__ import annotations
 import cmath
 import math
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import replace
-from functools import reduce
 
 from graphkin.account.notation import Letters
 from graphkin.construction.sheet import Sheet
@@ -18,7 +17,7 @@ from graphkin.scene.drivers import asked_time, moves_by_law
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.version import __version__
-from graphkin.words import Phrase, as_plain, languages, listed, rich_text, say, word
+from graphkin.words import Neutral, Phrase, as_plain, in_all, languages, listed, rich_text, say, word
 from graphkin.words.written import amount, in_markup, on_paper, product, true_minus
 
 FIGURE_WORDS: Mapping[DiagramName, str] = {
@@ -28,43 +27,17 @@ FIGURE_WORDS: Mapping[DiagramName, str] = {
 
 
 
-def term(key: str, language: str, otherwise: str | None = None) -> str:
-    """A word in a language; both beside each other for "both".  ``otherwise`` stands for one that no table has."""
-    return once(word(key, each, otherwise) for each in languages(language))
+def term(key: str, language: str, otherwise: str | None = None, **values: str) -> str:
+    """A word in a language; both beside each other for "both", with the values in its gaps once.  ``otherwise`` stands
+    for one that no table has.
 
-
-# A symbol, a number, or a sign.
-_SIGN = re.compile(r"\$[^$]*\$|\{\d+\}|\d[\d.]*(?: mm)?|.", re.DOTALL)
-_BETWEEN = " ,;:，；：、"
-
-
-def once(said: Iterable[str]) -> str:
-    """The same in several languages as one line: symbols and numbers with which all begin or end stand there once.
-
-    >>> once(("Detail 5 : 1", "局部放大图 5 : 1")), once(("(9): the step", "(9)：序号")), once(("mechanism", "机构"))
-    ('Detail 局部放大图 5 : 1', '(9): the step 序号', 'mechanism 机构')
+    >>> term("detail", "both", scale="5"), term("forces", "both"), term("law 345", "both")
+    ('Detail 局部放大图 5 : 1', 'Forces 力分析', '3-4-5 多项式')
     """
-    return reduce(_once, dict.fromkeys(said))
-
-
-def _once(one: str, other: str) -> str:
-    ours, theirs = _SIGN.findall(one), _SIGN.findall(other)
-    first = _alike(ours, theirs)
-    head, ours, theirs = "".join(ours[:first]), ours[first:], theirs[first:]
-    last = _alike(ours[::-1], theirs[::-1])
-    tail = "".join(ours[len(ours) - last :])
-    own = "".join(ours[: len(ours) - last]).rstrip(_BETWEEN if tail else "")
-    added = "".join(theirs[: len(theirs) - last]).strip(_BETWEEN)
-    return " ".join(filter(None, (head + own, added, tail)))
-
-
-def _alike(ours: Sequence[str], theirs: Sequence[str]) -> int:
-    """How many signs are the same from the start, up to the last symbol, number or bracket among them."""
-    pairs = enumerate(zip(ours, theirs, strict=False))
-    count = next((i for i, (a, b) in pairs if a != b), min(len(ours), len(theirs)))
-    while count and not (ours[count - 1][0] in "${})" or ours[count - 1][0].isdigit()):
-        count -= 1
-    return count
+    if values:
+        return " ".join(in_all(Phrase(key, **{gap: Neutral(value) for gap, value in values.items()}), language))
+    words = tuple(dict.fromkeys(word(key, each, otherwise) for each in languages(language)))
+    return " ".join(one for one in words if not any(other.startswith(f"{one} ") for other in words))
 
 
 def punctuation(key: str, language: str) -> str:

@@ -196,7 +196,7 @@ def heading(names: Iterable[str], below: str, width: float) -> Block:
 def foot(scale: str, width: float, language: str, note: str = "") -> Block:
     """The scale, a bar that checks a print, and a small note below them."""
     base = 8.0j
-    bar = check_bar(base + width - BAR, fitted(term("check bar", language), 2.5, BAR))
+    bar = check_bar(base + width - BAR, fitted(term("check bar", language, length="50 mm"), 2.5, BAR))
     told = (Text(base, fitted(scale, SCALE, width - BAR - 6.0)),) if scale else ()
     more = (Text(base + 3.8j, fitted(note, 2.4, width)),) if note else ()
     return Block(Piece({"labels": (*told, *bar, *more)}), base.imag, width)

@@ -85,7 +85,7 @@ def _scale_foot(lesson: Lesson, diagram: DiagramName) -> tuple[Text, tuple[Primi
     """The scale of a figure, and the bar that checks it, each about the left end of its baseline."""
     sheet = lesson.scaled if diagram == "force" else lesson.sheet
     words = Text(0j, rich(scale_statement(sheet, lesson.letters.convention, diagram), 3.2))
-    return words, check_bar(0j, rich(term("check bar", lesson.language), 2.4))
+    return words, check_bar(0j, rich(term("check bar", lesson.language, length="50 mm"), 2.4))
 
 
 def bare_picture(figure: Drawing) -> Drawing:

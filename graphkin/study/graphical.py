@@ -308,7 +308,8 @@ def chords_page(chords: Chords, reach: DriverRange, language: str) -> ChartPage:
         entries = ((CURVE, f"by {chords.way}"), (CHORD, "chords"), (EXACT, "analytic curve"))
         legend = [(look(stroke), word(key, language)) for stroke, key in entries]
         add_legend(figure, complex(MARGIN, end + 10.0), legend)
-        bar = check_bar(complex(WIDTH - MARGIN - 50.0, end + 16.0), rich(word("check bar", language), 2.5))
+        told = rich(say(Phrase("check bar", length="50 mm"), language), 2.5)
+        bar = check_bar(complex(WIDTH - MARGIN - 50.0, end + 16.0), told)
         add_words(figure, *bar)
 
     return ChartPage(

@@ -87,6 +87,12 @@ def test_they_say_it_in_chinese():
     assert ["构件 3 的导路 $s$：沿 $x$ 距 $C$ (−6, 0.5) in，与其成 70°"] == given(YOKE, "zh")
 
 
+@pytest.mark.parametrize("name", ["whitworth", "geneva-step", "scotch-yoke"])
+def test_a_sheet_in_two_languages_has_both_sentences_whole(name):
+    each = zip(given(name, "en"), given(name, "zh"), strict=True)
+    assert [" ".join(both) for both in each] == given(name, "both")
+
+
 def test_the_problem_sheet_says_it_in_both_languages():
     text = handout(YOKE, language="both").files["problem.html"].decode()
     assert "构件 3 的导路" in text

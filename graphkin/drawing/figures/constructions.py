@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from graphkin.account.headings import number, once, term, written
+from graphkin.account.headings import number, term, written
 from graphkin.checking.closed_form import FoundLength
 from graphkin.construction.cam_sheet import CamSheet, cam_sheet
 from graphkin.construction.scales import Extent, fitting_scale
@@ -48,7 +48,7 @@ from graphkin.scene.laws import TURN
 from graphkin.scene.model import Mechanism
 from graphkin.scene.pairs import LawCam, SlidingFollower, SwingingFollower
 from graphkin.version import __version__
-from graphkin.words import Phrase, as_markup, as_plain, languages, rich_text, say, word
+from graphkin.words import Phrase, as_markup, as_plain, in_all, languages, rich_text, say, word
 from graphkin.words.written import amount, on_paper, product
 
 if TYPE_CHECKING:
@@ -419,7 +419,7 @@ def _given(scene: Mechanism, cam: LawCam, language: str) -> str:
              for letter, length in lengths.items() if length)  # fmt: skip
     kind = term("cam flat" if cam.flat else "cam roller" if cam.roller else "cam edge", language)
     sense = "counter-clockwise" if cam.sense > 0 else "clockwise"
-    turns = once(say(Phrase("cam turns", (word(sense, each),)), each) for each in languages(language))
+    turns = " ".join(in_all(Phrase("cam turns", (Phrase(sense),)), language))
     return f"{kind}; {',  '.join(parts)}; {turns}"
 
 

@@ -17,9 +17,9 @@ from graphkin.account.headings import (
     dimensions_in,
     drivers,
     figure_title,
-    once,
     punctuation,
     remarks,
+    term,
     written,
 )
 from graphkin.account.notation import letters_of
@@ -46,7 +46,7 @@ from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, m
 from graphkin.drawing.text import text_box
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.scene.model import Mechanism
-from graphkin.words import Phrase, languages, say
+from graphkin.words import languages
 
 DIAGRAMS: tuple[DiagramName, ...] = ("mechanism", "velocity", "acceleration")
 ROOM = 12.0  # mm around the figure, for names
@@ -89,7 +89,7 @@ def diagram_figure(
     return page.drawing(
         page.at_drivers(page.term(title)), column(told, page.panel(content.height + 2 * ROOM + strip, drawn), gap=GAP),
         ",  ".join(filter(None, (page.scale(diagram), unit))), title=title, said=describe(sheet, (diagram,), spoken),
-        note="" if diagram == "mechanism" else page.term("step number"),
+        note="" if diagram == "mechanism" else term("step number", page.language, number="(9)"),
     )  # fmt: skip
 
 
@@ -216,7 +216,7 @@ def _position(
         drawn, _ = polygon_with_insets(sheet, diagram, letters, page.language, room.grown(-0.8), origin)
         return renamed(drawn, f"-at-{_plain(name)}")
 
-    said = once(say(Phrase("position named", position=name), each) for each in languages(page.language))
+    said = term("position named", page.language, position=name)
     named = sheet.scene.question.positions is not None and name in sheet.scene.question.positions.names
     head = (said + punctuation("colon", page.language)) * named + drivers(sheet, letters)
     found = [

@@ -19,6 +19,7 @@ from graphkin.account.headings import (
     facts,
     figure_title,
     punctuation,
+    term,
     titles,
 )
 from graphkin.checking.report import Compared, Report
@@ -212,7 +213,7 @@ def _in_corner(words: str, frame: Box) -> Piece:
 
 def _step_number(page: FigurePage, frame: Box) -> Piece:
     """What the numbers in brackets at the vectors are."""
-    words = fitted(page.term("step number"), 2.4, 0.7 * frame.width)
+    words = fitted(term("step number", page.language, number="(9)"), 2.4, 0.7 * frame.width)
     return Piece({"labels": (Text(complex(frame.left, frame.bottom + 4.0), words),)})
 
 
@@ -430,7 +431,8 @@ def title_block(page: FigurePage, shown: Sequence[Compared], box: Box) -> Piece:
     for i, diagram in enumerate(("mechanism", *POLYGONS)):
         text = fitted(page.scale(diagram), 3.0, two - one - 4.0)
         words.append(Text(complex(one + 2.0, box.top + 4.6 + 4.4 * i), text))
-    words += check_bar(complex(box.right - 53.0, box.bottom - 2.2), fitted(page.term("check bar"), 2.4, 50.0))
+    told = fitted(term("check bar", page.language, length="50 mm"), 2.4, 50.0)
+    words += check_bar(complex(box.right - 53.0, box.bottom - 2.2), told)
     answers: tuple[Primitive, ...] = ()
     if shown:
         judged = [row.ok for row in shown if row.ok is not None]

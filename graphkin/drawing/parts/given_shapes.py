@@ -9,7 +9,7 @@ import re
 from cmath import phase
 from collections.abc import Iterator
 
-from graphkin.account.headings import number, once
+from graphkin.account.headings import number
 from graphkin.account.notation import Letters
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.scene.pairs import PlacedGuide, SlidingPair
@@ -27,7 +27,8 @@ def given_shapes(scene: Mechanism, letters: Letters, language: str) -> list[str]
     """
     whole = scene.whole
     found = [phrase for link in whole.links if not link.redundant for phrase in _shape(whole, link, letters)]
-    return [once(_BETWEEN_CHINESE.sub("", say(phrase, each)) for each in languages(language)) for phrase in found]
+    told = ((_BETWEEN_CHINESE.sub("", say(phrase, each)) for each in languages(language)) for phrase in found)
+    return [" ".join(dict.fromkeys(shape)) for shape in told]
 
 
 def _shape(scene: Mechanism, link: PlacedLink, letters: Letters) -> Iterator[Phrase]:

@@ -229,7 +229,7 @@ def _inside(box: Box, caption: float) -> Box:
 
 def _enlarged(factor: float, language: str) -> str:
     """What stands below what is drawn so many times larger."""
-    return term("detail", language).replace("{scale}", f"{factor:g}")
+    return term("detail", language, scale=f"{factor:g}")
 
 
 def _inset(
