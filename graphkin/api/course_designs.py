@@ -49,15 +49,15 @@ from graphkin.papers.blocks import (
     TableBlock,
     Together,
     said,
+    said_each,
 )
 from graphkin.papers.documents import (
     answers_template,
     head_of,
-    key_rows,
     paper_title,
+    results_table,
     scene_title,
     solution_blocks,
-    way,
 )
 from graphkin.papers.documents import given as given_words
 from graphkin.papers.lesson import Lesson, compared, lesson_of, positions
@@ -474,7 +474,8 @@ def _report(
     blocks.append(
         Together((
             Heading(said("course comparison", language)),
-            _comparison(lesson),
+            results_table(lesson, "quantity", "on paper", "measured", "exact", "course difference", "unit", "sense",
+                          "tolerance"),
             Paragraph(said("course comparison words", language), small=True),
         ))
     )  # fmt: skip
@@ -501,9 +502,8 @@ def class_document(lesson: Lesson, rows: Sequence[ClassRow], asked: Sequence[Sym
         if any(found):
             keys.append(key)
             cells = [(*before, own or "–") for before, own in zip(cells, found, strict=True)]
-    heads = tuple(said(key, language) for key in keys)
     plain = [tuple(in_markup(cell) for cell in line) for line in cells]
-    tables = _value_tables(lesson, heads, plain, [row.values for row in rows], asked, unit)
+    tables = _value_tables(lesson, said_each(language, keys), plain, [row.values for row in rows], asked, unit)
     blocks: tuple[Block, ...] = (
         Heading(scene_title(lesson), 1),
         Heading(said("course class", language)),
@@ -531,7 +531,7 @@ def _cover(lesson: Lesson, student: Student, place: Said) -> Iterable[Block]:
         if text:
             yield Paragraph(said(key, language, in_markup(text)))
     yield Paragraph(place)
-    yield Fields(tuple(said(key, language) for key in (*blanks, "course teacher", "date")))
+    yield Fields(said_each(language, (*blanks, "course teacher", "date")))
     yield Picture(mechanism_picture(lesson))
 
 
@@ -574,25 +574,6 @@ def _lower(block: Block) -> Block:
     if isinstance(block, Beside):
         return replace(block, blocks=tuple(_lower(one) for one in block.blocks))  # type: ignore[misc]
     return block
-
-
-def _comparison(lesson: Lesson) -> TableBlock:
-    """Every result as it was read off and as it was computed, and what a pencil may be off."""
-    keys = ("quantity", "on paper", "measured", "exact", "course difference", "unit", "sense", "tolerance")
-    rows, bold = [], set()
-    for i, (line, row) in enumerate(zip(key_rows(lesson), lesson.results, strict=True)):
-        if line.asked:
-            bold.add(i)
-        off = row.relative
-        own = row.symbol.is_vector or row.symbol.measure == "length"
-        rows.append((
-            f"${lesson.letters.vector(row.symbol)}$",
-            number(line.on_paper, 4) if own and line.on_paper is not None else "–",
-            number(value_read(lesson, row), DIGITS), number(line.exact, DIGITS),
-            "–" if off is None else f"{100 * off:.2f}", line.unit, way(row, lesson.language),
-            "–" if line.tolerance is None else f"± {number(line.tolerance, 2)}",
-        ))  # fmt: skip
-    return TableBlock(tuple(said(k, lesson.language) for k in keys), tuple(rows), "lrrrrllr", frozenset(bold))
 
 
 def value_read(lesson: Lesson, row: Compared) -> float:

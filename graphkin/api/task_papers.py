@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
-from graphkin.account.headings import number, written
+from graphkin.account.headings import number
 from graphkin.api.arguments import known_words, own_folder, write_files
 from graphkin.api.cams import CamMade
 from graphkin.api.designed import Designed
@@ -32,13 +32,15 @@ from graphkin.papers.blocks import (
     Said,
     StepItem,
     Steps,
-    TableBlock,
     Together,
     finished,
+    in_each,
     numbered,
     said,
+    said_each,
+    table_of,
 )
-from graphkin.papers.documents import labelled
+from graphkin.papers.documents import accepted, labelled
 from graphkin.papers.lesson import plain_words
 from graphkin.papers.paper import Paper
 from graphkin.papers.pdf import papers_as
@@ -49,9 +51,9 @@ from graphkin.words.written import in_markup
 
 MANY = 6  # steps that stand in two columns
 
-Result = tuple[str, str, str, str, str]
-"""A result of a construction: its name (markup), unit, as read off, the exact value, and what may be accepted of a
-pencil drawing ("" where nothing is said)."""
+Result = Mapping[str, str]
+"""A result of a construction by the keys of heads: its name (markup), unit, as read off, the exact value, and what may
+be accepted of a pencil drawing."""
 
 
 def _papers(
@@ -76,52 +78,43 @@ def _papers(
         name = plain_words(title[0][1]) + word("colon", first) + word(key, first)
         return Document(name, languages(language), (Heading(title, 1), *blocks), paper)
 
-    def heads(*keys: str) -> tuple[Said, ...]:
-        return tuple(said(key, language) for key in keys)
+    def results_in(heading: str, keys: Sequence[str], rows: Sequence[Result], roomy: bool = False) -> Together:
+        return Together((Heading(said(heading, language), 2), table_of(language, rows, keys, roomy=roomy)))
 
     asked = [Paragraph(finished(one)) for one in given]
-    blank = tuple((name, "", "", unit) for name, unit, _, _, _ in results)
+    blank = [{key: cells[key] for key in ("quantity", "unit")} for cells in results]
     problem = document(
         "problem sheet",
-        Fields(heads("name of student", "class of student", "date")),
+        Fields(said_each(language, ("name of student", "class of student", "date"))),
         *asked,
         Paragraph(said("print true", language), small=True),
         *map(Picture, start),
-        Together((Heading(said("your results", language), 2),
-                  TableBlock(heads("quantity", "on paper", "value", "unit"), blank, "lccl", roomy=True))),
-    )  # fmt: skip
+        results_in("your results", ("quantity", "on paper", "value", "unit"), blank, roomy=True),
+    )
     items = tuple(StepItem(i, finished(words)) for i, words in enumerate(steps, 1))
-    found = tuple((name, read, exact, unit) for name, unit, read, exact, _ in results)
     solution = document(
         "worked solution",
         *asked,
         Steps(items, parted=len(items) >= MANY),
         *(Picture(bare_picture(figure), numbered(i, told), floats=i < len(whole))
           for i, (told, figure) in enumerate(whole.items(), 1)),
-        Together((Heading(said("results", language), 2),
-                  TableBlock(heads("quantity", "measured", "exact", "unit"), found, "lrrl"))),
+        results_in("results", ("quantity", "measured", "exact", "unit"), results),
         *(Paragraph(finished(one)) for one in notes),
     )  # fmt: skip
-    accepted = tuple((name, exact, within or "–", unit) for name, unit, _, exact, within in results)
     key = document(
         "answer key",
-        TableBlock(heads("quantity", "value", "accept", "unit"), accepted, "lrrl"),
+        table_of(language, results, ("quantity", "value", "accept", "unit")),
         *(Paragraph(finished(one), small=True) for one in notes),
     )
     return papers_as(formats, {f"{prefix}problem": problem, f"{prefix}solution": solution, f"{prefix}key": key})
 
 
-def _each(language: str, text: Callable[[str], str]) -> Said:
-    return tuple((each, text(each)) for each in languages(language))
-
-
-def _accepted(value: float, deviation: float, least: float = 0.0) -> str:
-    """What may be accepted of a pencil drawing, to two figures of what it may be off; "" where that has no bound."""
-    off = COVERAGE * deviation
-    if not math.isfinite(off):
-        return ""
-    places = max(0, 1 - math.floor(math.log10(off))) if off else 3
-    return " … ".join(written(f"{bound:.{places}f}") for bound in (max(value - off, least), value + off))
+def _result(
+    name: str, unit: str, read: str, exact: str, value: float, deviation: float, least: float = 0.0
+) -> Result:  # fmt: skip
+    """A result, of which a pencil drawing may be off by so many deviations as are accepted."""
+    _, within = accepted(value, COVERAGE * deviation, least)
+    return {"quantity": name, "unit": unit, "measured": read, "value": exact, "exact": exact, "accept": within}
 
 
 def design_papers(designed: Designed, formats: Sequence[str]) -> Mapping[str, bytes]:
@@ -131,17 +124,17 @@ def design_papers(designed: Designed, formats: Sequence[str]) -> Mapping[str, by
     spread = predict_lengths(given.task, sheet.scale, "pencil", given.sheet.tools)
     results = []
     for row in designed.rows:
-        within = _accepted(row.exact, spread.get(row.symbol, math.inf) * sheet.scale)
         name = row.symbol if row.symbol == "ram" else f"${row.symbol}$"
-        results.append((name, unit, number(row.measured), number(row.exact), within))
-    find = ", ".join(name for name, *_ in results)
+        deviation = spread.get(row.symbol, math.inf) * sheet.scale
+        results.append(_result(name, unit, number(row.measured), number(row.exact), row.exact, deviation))
+    find = ", ".join(cells["quantity"] for cells in results)
     return _papers(
-        title=_each(language, lambda each: in_markup(given.title_in(each) or given.name)),
-        given=(_each(language, lambda each: asked_words(given, each)),
-               _each(language, lambda each: labelled("find", find, each))),
+        title=in_each(language, lambda each: in_markup(given.title_in(each) or given.name)),
+        given=(in_each(language, lambda each: asked_words(given, each)),
+               in_each(language, lambda each: labelled("find", find, each))),
         start=(construction_picture(given, sheet, language, 1),),
         whole={said("design figure", language): construction_picture(given, sheet, language)},
-        steps=[_each(language, partial(step_words, phrase)) for phrase, _ in sheet.steps],
+        steps=[in_each(language, partial(step_words, phrase)) for phrase, _ in sheet.steps],
         results=results,
         notes=_notes(designed, language),
         language=language,
@@ -174,7 +167,7 @@ def _notes(designed: Designed, language: str) -> list[Said]:
         return word("list comma", each).join(f"{say(one.what, each)}{mark}{one.shown(one.found)}" for one in known)
 
     if known:
-        made.append(_each(language, lambda each: labelled("confirmed", told(each), each)))
+        made.append(in_each(language, lambda each: labelled("confirmed", told(each), each)))
     spoken = {each: designed.sentences(each) for each in languages(language)}
     return [*made, *_by_sentence(spoken)]
 
@@ -193,26 +186,25 @@ def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str
     spread = predict_cam(sheet, "pencil", scene.question.sheet.tools)
     for k, (d, off) in enumerate(zip(sheet.divisions, spread, strict=True)) if not cam.flat else ():
         angle = math.degrees(d.pressure)
-        within = _accepted(angle, math.degrees(off["pressure"]))
-        results.append((f"$α_{{{k}}}$", "°", f"{angle:.1f}", f"{angle:.3f}", within))
+        deviation = math.degrees(off["pressure"])
+        results.append(_result(f"$α_{{{k}}}$", "°", f"{angle:.1f}", f"{angle:.3f}", angle, deviation))
     metres = scene.units.metres
     for k, (d, off) in enumerate(zip(sheet.divisions, spread, strict=True)):
         lift = cam.law.at(d.degree).lift
         drawn, value, deviation = (math.degrees(x) if swings else x / metres for x in (d.lift, lift, off["lift"]))
         letter, unit = ("ψ", "°") if swings else ("s", scene.units.length)
-        within = _accepted(value, deviation, -math.inf)
         per = 1.0 if swings else sheet.scale / metres
         read = number(round(drawn / per, 2) * per)  # to 0.01 mm, as lengths on paper are told
-        results.append((f"${letter}_{{{k}}}$", unit, read, number(value, 5), within))
+        results.append(_result(f"${letter}_{{{k}}}$", unit, read, number(value, 5), value, deviation, -math.inf))
     spoken = {each: made.sentences(each) for each in languages(language)}
     captions = said("cam diagram", language), said("cam figure", language)
     return _papers(
-        title=_each(language, lambda each: in_markup(scene.question.title_in(each) or scene.name)),
-        given=(_each(language, lambda each: cam_given(scene, cam, each)),
-               _each(language, lambda each: labelled("find", word("cam find", each), each))),
+        title=in_each(language, lambda each: in_markup(scene.question.title_in(each) or scene.name)),
+        given=(in_each(language, lambda each: cam_given(scene, cam, each)),
+               in_each(language, lambda each: labelled("find", word("cam find", each), each))),
         start=cam_pictures(scene, sheet, language, begun=True),
         whole=dict(zip(captions, cam_pictures(scene, sheet, language), strict=True)),
-        steps=[_each(language, partial(say, phrase)) for phrase in sheet.steps],
+        steps=[in_each(language, partial(say, phrase)) for phrase in sheet.steps],
         results=results,
         notes=_by_sentence(spoken),
         language=language,

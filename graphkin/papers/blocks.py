@@ -8,7 +8,7 @@ or breaks a line of text.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -166,6 +166,23 @@ def laid_out(blocks: Iterable[Block]) -> Iterator[Leaf | Steps]:
 def said(key: str, language: str, *args: object) -> Said:
     """Words from the table of terms, in the languages of a sheet ("en", "zh" or "both")."""
     return in_each(language, lambda each: say(Phrase(key, args), each))
+
+
+def said_each(language: str, keys: Sequence[str]) -> tuple[Said, ...]:
+    """Heads of columns, or names of fields, by their keys in the table of terms."""
+    return tuple(said(key, language) for key in keys)
+
+
+def table_of(
+    language: str, rows: Iterable[Mapping[str, str]], keys: Sequence[str], bold: Collection[int] = (),
+    roomy: bool = False,
+) -> TableBlock:  # fmt: skip
+    """Rows of cells by the keys of their heads as a table of some of these columns; a cell that a row does not have is
+    left empty.  Names, units and senses stand on the left, numbers on the right, rooms to write in in the middle."""
+    left = ("quantity", "unit") if roomy else ("quantity", "unit", "sense")
+    align = "".join("l" if key in left else "c" if roomy else "r" for key in keys)
+    cells = tuple(tuple(row.get(key, "") for key in keys) for row in rows)
+    return TableBlock(said_each(language, keys), cells, align, frozenset(bold), roomy)
 
 
 def in_each(language: str, words: Callable[[str], str]) -> Said:

@@ -42,8 +42,10 @@ from graphkin.papers.blocks import (
     in_each,
     numbered,
     said,
+    said_each,
     sentences,
     spoken,
+    table_of,
 )
 from graphkin.papers.lesson import Lesson, Stage, plain_words
 from graphkin.papers.paper import A4, Paper, paper_of
@@ -80,18 +82,19 @@ def problem(lesson: Lesson) -> Document:
         first = words  # the mechanism stands on the pages of the polygons
     elif bare.width <= paper.narrow:
         first = (Beside(words, Picture(bare)),)
-    heads = tuple(said(key, language) for key in ("quantity", "on paper", "value", "unit", "sense"))
-    rows = tuple(
-        (f"${lesson.letters.vector(s)}$", "" if s.is_vector or s.measure == "length" else "–", "", lesson.unit(s), "")
+    asked = [
+        {"quantity": f"${lesson.letters.vector(s)}$", "unit": lesson.unit(s),
+         "on paper": "" if s.is_vector or s.measure == "length" else "–"}
         for s in lesson.questions
-    )
+    ]  # fmt: skip
+    blank = table_of(language, asked, ("quantity", "on paper", "value", "unit", "sense"), roomy=True)
     both = _space(lesson, bare, pictures.POLYGONS, paper) if wide and len(moving) == len(pictures.POLYGONS) else None
     before, after = _polygon_pages(lesson, bare, paper, both)
     whole: tuple[Block, ...] = (
         Heading(scene_title(lesson), 1),
-        Fields(tuple(said(key, language) for key in ("name of student", "class of student", "date"))),
+        Fields(said_each(language, ("name of student", "class of student", "date"))),
         *first,
-        Together((Heading(said("your results", language)), TableBlock(heads, rows, "lcclc", roomy=True))),
+        Together((Heading(said("your results", language)), blank)),
         *before,
         Paragraph(said("your sums", language), small=True, fills=True),
         *after,
@@ -330,25 +333,44 @@ def _degrees(value: complex | float) -> float:
     return math.degrees(cmath.phase(complex(value)))
 
 
+def result_cells(lesson: Lesson) -> Iterator[dict[str, str]]:
+    """What is told of each result, by the keys of the heads under which it stands."""
+    scales, units = lesson.report.scales, lesson.sheet.scene.units
+    for line, row in zip(key_rows(lesson), lesson.results, strict=True):
+        placed = row.symbol.scope == "position"
+        size = line.exact if placed else abs(line.exact)
+        read, right = measured(row.reading, scales, units, row), exact(row, units)
+        tolerance, accept = accepted(size, line.tolerance or 0.0, -math.inf if placed else 0.0)
+        yield {
+            "quantity": f"${lesson.letters.vector(row.symbol)}$", "on paper": length_on_paper(row),
+            "measured": unsigned(row, written(read)), "exact": unsigned(row, written(right)), "value": number(size, 5),
+            "course difference": f"{100 * abs(float(read) / float(right) - 1.0):.2f}" if float(right) else "–",
+            "tolerance": tolerance, "accept": accept, "unit": line.unit, "sense": way(row, lesson.language),
+        }  # fmt: skip
+
+
+def accepted(value: float, off: float, least: float) -> tuple[str, str]:
+    """What a pencil drawing may be off a value, to two figures, and between which values it is accepted; dashes where
+    that has no bound, and of what is nought whatever the hand does."""
+    if not off or not math.isfinite(off):
+        return "–", "–"
+    places = 1 - math.floor(math.log10(off))  # negative for tens and hundreds
+
+    def told(number: float) -> str:
+        return written(f"{round(number, places):.{max(0, places)}f}")
+
+    return f"± {told(off)}", f"{told(max(value - off, least))} … {told(value + off)}"
+
+
+def results_table(lesson: Lesson, *keys: str) -> TableBlock:
+    """The results in columns with these heads, what is asked in bold."""
+    asked = [i for i, row in enumerate(lesson.results) if row.symbol in lesson.questions]
+    return table_of(lesson.language, result_cells(lesson), keys, asked)
+
+
 def answer_key(lesson: Lesson) -> Document:
     """The answer key of a lesson."""
-    language = lesson.language
-    heads = tuple(said(k, language) for k in ("quantity", "on paper", "value", "tolerance", "accept", "unit", "sense"))
-    rows = []
-    lines = key_rows(lesson)
-    for line, row in zip(lines, lesson.results, strict=True):
-        size = abs(line.exact)
-        within = ("–", "–")
-        if line.tolerance:  # what is nought whatever the hand does has none
-            low, high = max(0.0, size - line.tolerance), size + line.tolerance
-            places = 1 - math.floor(math.log10(line.tolerance))  # two digits of it; negative for tens and hundreds
-            if row.symbol.scope == "position":
-                low, high = line.exact - line.tolerance, line.exact + line.tolerance
-            within = (f"± {_fixed(line.tolerance, places)}", f"{_fixed(low, places)} … {_fixed(high, places)}")
-        name = f"${lesson.letters.vector(row.symbol)}$"
-        shown = number(line.exact if row.symbol.scope == "position" else size, 5)
-        rows.append((name, length_on_paper(row), shown, *within, line.unit, way(row, language)))
-    tools = lesson.sheet.scene.question.sheet.tools
+    language, tools = lesson.language, lesson.sheet.scene.question.sheet.tools
     words = said(
         "key words", language, *(f"{x:g}" for x in (tools.line_width / 2, tools.ruler, tools.compass, tools.set_square))
     )
@@ -356,14 +378,10 @@ def answer_key(lesson: Lesson) -> Document:
         Heading(scene_title(lesson), 1),
         Heading(said("answer key", language)),
         *reach(lesson),
-        TableBlock(heads, tuple(rows), "lrrrrll", frozenset(i for i, line in enumerate(lines) if line.asked)),
+        results_table(lesson, "quantity", "on paper", "value", "tolerance", "accept", "unit", "sense"),
         Paragraph(sentences(words, said("sense words", language)), small=True),
     )
     return Document(paper_title(lesson, "answer key"), languages(language), blocks, paper_of(lesson.sheet.scene))
-
-
-def _fixed(value: float, places: int) -> str:
-    return f"{round(value, places):.{max(0, places)}f}"
 
 
 def key_table(lesson: Lesson) -> table.Table:
@@ -542,7 +560,7 @@ def results_blocks(lesson: Lesson) -> Iterator[Block]:
     yield Together((
         Heading(said("results", language)),
         Paragraph(spoken(drivers(lesson.sheet, lesson.letters), language)),
-        _results(lesson),
+        results_table(lesson, "quantity", "on paper", "measured", "exact", "unit", "sense"),
         Paragraph(verdict),
         Paragraph(how, small=True),
     ))  # fmt: skip
@@ -617,21 +635,3 @@ def _stage(
     else:
         yield from beside
         yield figure
-
-
-def _results(lesson: Lesson) -> TableBlock:
-    heads = tuple(said(key, lesson.language) for key in ("quantity", "on paper", "measured", "exact", "unit", "sense"))
-    units = lesson.sheet.scene.units
-    rows = tuple(
-        (
-            f"${lesson.letters.vector(row.symbol)}$",
-            length_on_paper(row),
-            unsigned(row, written(measured(row.reading, lesson.report.scales, units, row))),
-            unsigned(row, written(exact(row, units))),
-            lesson.unit(row.symbol),
-            way(row, lesson.language),
-        )
-        for row in lesson.results
-    )
-    bold = frozenset(i for i, row in enumerate(lesson.results) if row.symbol in lesson.questions)
-    return TableBlock(heads, rows, "lrrrll", bold)

@@ -14,7 +14,7 @@ from graphkin.api.handouts import handout
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink.primitives import Line, Polygon, Text, walk
 from graphkin.papers.blocks import Heading, Picture, Steps, TableBlock, laid_out
-from graphkin.papers.documents import answer_key, key_rows, problem, solution
+from graphkin.papers.documents import answer_key, key_rows, problem, result_cells, solution
 from graphkin.papers.html import document_page
 from graphkin.papers.pdf import can_typeset
 from graphkin.papers.pictures import POLYGONS, mechanism_picture, workspace
@@ -236,6 +236,16 @@ def test_a_problem_does_not_show_how_a_larger_group_is_placed():
     ids = {thing.id for d in drawn for thing in walk(d.children) if hasattr(thing, "id")}
     assert "point-B" in ids
     assert set() == {"point-S", "special-S", "label-point-S", "label-trial-B-1"} & ids
+
+
+def test_what_is_told_to_be_measured_is_the_length_on_paper_times_the_scale_and_may_be_off_the_exact_value():
+    lesson = handout("shaper-forces", language="en", formats=("html",), positions=1).lesson
+    cells = {str(row.symbol): told for row, told in zip(lesson.results, result_cells(lesson), strict=True)}
+    per_mm = lesson.sheet.scales.acceleration / lesson.sheet.scene.units.rates.metres
+    told = cells["an_C/B"]
+    assert per_mm * float(told["on paper"]) == pytest.approx(float(told["measured"]))
+    off = 100 * abs(float(told["measured"]) / float(told["exact"]) - 1.0)
+    assert (0.09, 0.09) == (float(told["course difference"]), round(off, 2))
 
 
 def test_a_force_that_is_zero_has_no_residue_on_paper():
