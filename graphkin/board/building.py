@@ -367,7 +367,7 @@ def _as_drawn(motion: Motion, point: str, to: complex) -> OwnTables:
     if any(abs(v - o) > 1e-9 * max(1.0, abs(o)) for v, o in zip(motion.values[0], own, strict=True)):
         raise CallError.of(Phrase("point", point=point), "is given as drawn at the scene's own",
                            "go back to that position to pull it")
-    return {f"drawn.{point}": [_length(scene, to.real), _length(scene, to.imag)]}
+    return _entry(scene, f"drawn.{point}", None, {}, point, to)
 
 
 def _driver(motion: Motion, point: str, to: complex) -> dict[str, float]:
@@ -391,17 +391,15 @@ def _driver(motion: Motion, point: str, to: complex) -> dict[str, float]:
 
 
 def _of_frame(raw: Tables, scene: Mechanism, point: str, to: complex) -> OwnTables:
-    entry = raw["frame"]["points"][point]
-    key = f"frame.points.{point}"
+    return _entry(scene, f"frame.points.{point}", raw["frame"]["points"][point], scene.frame.points, point, to)
+
+
+def _entry(
+    scene: Mechanism, key: str, entry: object, places: Mapping[str, complex], point: str, to: complex
+) -> OwnTables:
+    """An entry that gives the place of a point, or places it from one or two others, so that it lies at a place."""
     if not isinstance(entry, Mapping):
         return {key: [_length(scene, to.real), _length(scene, to.imag)]}
-    return _from_others(scene, key, entry, scene.frame.points, point, to)
-
-
-def _from_others(
-    scene: Mechanism, key: str, entry: Tables, places: Mapping[str, complex], point: str, to: complex
-) -> OwnTables:
-    """An entry that places a point from one or two others, so that it lies at a place."""
     if isinstance(entry["from"], str):
         origin = places[entry["from"]]
         return _polar(scene, key, entry, places[point] - origin, to - origin)
@@ -439,15 +437,12 @@ def _of_link(raw: Tables, motion: Motion, name: str, point: str, to: complex) ->
         long = _length(scene, abs(to - complex(motion.position(other, name)[0])))
         return {f"links.{name}.length": long} if long > 0 else {}
     entry = raw["links"][name].get("at", {}).get(point)
-    key = f"links.{name}.at.{point}"
     axis = cmath.rect(1.0, float(motion.angle(name)[0]))
     known = next((p for p in link.points if p != point), None)
     if entry is None or known is None:
         return {}
     own = (to - complex(motion.position(known, name)[0])) / axis + link.points[known]
-    if not isinstance(entry, Mapping):
-        return {key: [_length(scene, own.real), _length(scene, own.imag)]}
-    return _from_others(scene, key, entry, link.points, point, own)
+    return _entry(scene, f"links.{name}.at.{point}", entry, link.points, point, own)
 
 
 def _length(scene: Mechanism, value: float) -> float:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from itertools import pairwise
 from typing import Any
 
 from graphkin.errors import CallError, Problem, SceneError
@@ -38,7 +37,7 @@ def changed(text: str, changes: Mapping[str, Json]) -> str:
         document = tomlkit.parse(text)
         for key, value in changes.items():
             _put(document, key, value)
-        made = _laid_out(tomlkit.dumps(document), text)
+        made = tomlkit.dumps(document).rstrip() + "\n"
     except (TOMLKitError, TypeError, ValueError, KeyError) as error:
         raise CallError.of(", ".join(changes)[:80], "cannot be changed", error=str(error)[:180]) from None
     if len(made) > LARGEST_FILE:
@@ -80,19 +79,21 @@ def _set(place: Any, last: str, value: Any, top: bool = False) -> None:
     """Put a value, its comment kept; short tables stand on one line."""
     import tomlkit
 
+    item: Any
     if isinstance(value, Mapping):
-        short = _is_inline(place) or (_is_small(value) and not top)
-        table = tomlkit.inline_table() if short else tomlkit.table()
-        for name, item in value.items():
-            _set(table, str(name), item)
-        place[last] = table
-        return
-    old = place.get(last)
-    item = tomlkit.item(value)
-    if old is not None and hasattr(old, "trivia"):
-        trivia = old.trivia
-        item.trivia.indent, item.trivia.comment_ws = trivia.indent, trivia.comment_ws
-        item.trivia.comment, item.trivia.trail = trivia.comment, trivia.trail
+        item = tomlkit.inline_table() if _is_inline(place) or (_is_small(value) and not top) else tomlkit.table()
+        if _is_inline(item):
+            item.update(value)
+        else:
+            for name, part in value.items():
+                _set(item, str(name), part)
+            item.add(tomlkit.nl())  # a line is left free before the next head
+    else:
+        item = tomlkit.item(value)
+        if hasattr(old := place.get(last), "trivia"):
+            vars(item.trivia).update(vars(old.trivia))
+    if _is_inline(place) and place and last not in place and not place.as_string().endswith(" }"):
+        item.trivia.indent = " "  # behind the comma
     place[last] = item
 
 
@@ -107,19 +108,6 @@ def _is_small(value: Mapping[str, Json]) -> bool:
 
 
 _HOLDERS = ("links", "masses", "loads", "springs")  # tables of tables, each with a head of its own
-_CLOSE = re.compile(r"""("[^"]*"|#.*)|,(?=[^\s])""")
-
-
-def _laid_out(made: str, before: str) -> str:
-    """Heads of tables with a line free before them, new lists with a blank after each comma."""
-    written = before.splitlines()
-    old, tight = set(written), {b for a, b in pairwise(written) if a.strip() and _HEAD.match(b)}
-    lines: list[str] = []
-    for line in made.splitlines():
-        if line not in tight and _HEAD.match(line) and lines and lines[-1].strip() and not lines[-1].startswith("#"):
-            lines.append("")
-        lines.append(line if line in old else _CLOSE.sub(lambda found: found[1] or ", ", line))
-    return "\n".join(lines) + "\n"
 
 
 def _index(place: list[Any], part: str, key: str) -> int:
