@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import islice, product
+from typing import Literal, TypeAlias
 
 from graphkin.account.account import written_lines
 from graphkin.account.headings import (
@@ -33,6 +34,7 @@ from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Text, moved, walk
 from graphkin.drawing.parts.insets import (
     INSET,
+    ROUNDING,
     CoriolisTerm,
     coriolis_row,
     mechanism_with_inset,
@@ -127,75 +129,38 @@ class _Writing:
     set once for each of its rooms, however many plans are tried."""
 
     def __init__(
-        self, page: FigurePage, rows: list[TableRow], lines: Sequence[LineToSet], senses: list[CoriolisTerm]
+        self, page: FigurePage, rows: Sequence[TableRow], lines: Sequence[LineToSet], senses: Sequence[CoriolisTerm]
     ) -> None:
-        self.page, self.rows, self.lines, self.senses = page, rows, lines, senses
-        self._given = cache(self._set_given)
-        self._equations = cache(self._set_equations)
-        self._readings = cache(self._set_readings)
+        self.page = page
+        self.whole = cache(lambda size: Remainder(lines, senses, (), rows, size))
+        self._set = cache(lambda part, rest, room: part(page, rest, room, "own"))
 
     def on(self, plan: SheetPlan, size: float) -> tuple[list[Piece], Remainder]:
         """All of it on a plan, given data in letters of at most a size; and what is left for further pages."""
-        page = self.page
-        if plan.equations is None or plan.given is None or plan.readings is None:
-            given = given_lines(page.sheet, page.letters, page.language, plan.page.width, GIVEN[0])
-            return [], Remainder(self.lines, self.senses, given, self.rows)
-        data, given_rest, shown = self._given(plan.given, size)
-        equations, lines_left, senses = self._equations(plan.equations, shown)
-        readings, count = self._readings(plan.readings, 0)
-        rest = Remainder(lines_left, senses, given_rest, self.rows[count:])
-        places = (plan.given, data), (plan.equations, equations), (plan.readings, readings)
-        rooms = [below(box, piece.drawn) for box, piece in places]
+        page, whole = self.page, self.whole(size)
+        own = (_own_given, plan.given), (_own_equations, plan.equations), (_readings, plan.readings)
+        rest, pieces, rooms = whole, list[Piece](), list[Box]()
+        for part, box in own:
+            if box is None:
+                given = given_lines(page.sheet, page.letters, page.language, plan.page.width, GIVEN[0])
+                return [], replace(whole, given=given)
+            piece, rest, _ = self._set(part, rest, box)
+            pieces.append(piece)
+            rooms.append(below(box, piece.drawn))
         if plan.beside is not None:  # what is written there goes on from the equations
             rooms.insert(0, plan.beside)
         more = continued(page, rest, rooms)
         if more is None:
-            return [data, equations, readings], rest
+            return pieces, rest
         # rooms that are left lie before that of the readings: they take the first of them
-        before = len(rest.readings)
-        if before:
-            first = replace(rest, readings=self.rows[:before], readings_begin=True)
+        if before := len(rest.readings):
+            first = replace(rest, readings=whole.readings[:before], begun=False)
             turned = continued(page, first, rooms[:-1])
-            last, count = self._readings(plan.readings, before)
-            if turned is not None and count == len(self.rows) - before:
-                readings, more = last, turned
-        return [data, equations, readings, more], Remainder()
-
-    def _set_given(self, box: Box, size: float) -> tuple[Piece, Sequence[tuple[Run, ...]], int]:
-        """The given data, what is left of it, and how many of the insets stand below it."""
-        page = self.page
-        given, rest = given_data(page.sheet, page.letters, page.language, box, size)
-        data = captioned(box, page.term("given"), "labels", given)
-        ink, top = ink_box(given), box.bottom - INSET[1]
-        if rest or (ink is not None and ink.bottom + GUTTER >= top):
-            return data, rest, 0
-        first = self.senses[:1]
-        room = Box(box.left, top, box.right, box.bottom)
-        return joined((data, coriolis_row(page.sheet, first, page.letters, room))), rest, len(first)
-
-    def _set_equations(self, box: Box, shown: int) -> tuple[Piece, Sequence[LineToSet], list[CoriolisTerm]]:
-        """The equations, and below them the insets of Coriolis terms that are not shown yet; and what of both is left
-        for another page."""
-        page, lines, senses, count = self.page, self.lines, self.senses[shown:], 0
-        insets = INSET[1] + GUTTER if senses else 0.0
-        if senses and box.height >= insets + EQUATIONS_ROOM:
-            blocks, count = equations_in_room(lines, box.width, box.height - insets)
-        below_them = senses[: per_row(box.width)] if count == len(lines) else []  # the equations come first
-        if not below_them:
-            blocks, count = equations_in_room(lines, box.width, box.height)
-        written = Group(moved(blocks, complex(box.left, box.top)), id="equations")
-        parts = [captioned(box, page.term("equations"), "labels", (written,))]
-        if below_them:
-            row = Box(box.left, box.bottom - INSET[1], box.right, box.bottom)
-            parts.append(coriolis_row(page.sheet, below_them, page.letters, row))
-        return joined(parts), lines[count:], senses[len(below_them) :]
-
-    def _set_readings(self, box: Box, before: int) -> tuple[Piece, int]:
-        """The readings but for some that stand before them, and how many there is room for."""
-        page = self.page
-        table, count = readings_table(page.sheet, self.rows[before:], page.letters, page.language, box)
-        caption = "readings continued" if before else "readings"
-        return captioned(box, page.term(caption), "answers", table), count
+            others = replace(whole, readings=whole.readings[before:], begun=True)
+            last, left, _ = self._set(_readings, others, plan.readings)
+            if turned is not None and not left.readings:
+                pieces[-1], more = last, turned
+        return [*pieces, more], Remainder()
 
 
 def _as_page(sheet: Sheet, figure: Drawing, plan: SheetPlan, number: int) -> Drawing:
@@ -261,33 +226,36 @@ def _insets(pieces: Sequence[object]) -> list[str]:
     return [one.id for each in drawn for one in walk(each) if isinstance(one, Group) and "inset" in one.classes]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Remainder:
     """What is left to be shown, in the order of its parts.
 
-    readings_begin : whether the readings are the first of all, the others stand further on
+    size : of the letters of the given data, at most (mm)
+    begun : whether some of the readings stand already
     """
 
     equations: Sequence[LineToSet] = ()
     senses: Sequence[CoriolisTerm] = ()
     given: Sequence[tuple[Run, ...]] = ()
     readings: Sequence[TableRow] = ()
-    readings_begin: bool = False
+    size: float = GIVEN[0]
+    begun: bool = False
 
-    @property
-    def count(self) -> int:
+    def __len__(self) -> int:
         return len(self.equations) + len(self.senses) + len(self.given) + len(self.readings)
 
-    def __bool__(self) -> bool:
-        return self.count > 0
+
+Place: TypeAlias = Literal["own", "spare", "overleaf"]
+"""Where a room is: that of its kind, below the caption; left by others on the first page; on a further page."""
+Part: TypeAlias = tuple[Piece, Remainder, Box]
+"""What of one kind a room holds, what is left, and the room below it."""
 
 
-def _into(page: FigurePage, rest: Remainder, room: Box, begun: bool) -> tuple[list[Piece], Remainder]:
-    """What of the rest a room holds, one kind of part below the other; ``begun`` where it goes on from the first
-    page."""
+def _into(page: FigurePage, rest: Remainder, room: Box, place: Place) -> tuple[list[Piece], Remainder]:
+    """What of the rest a room holds, one kind of part below the other."""
     pieces: list[Piece] = []
     for part in (_equations, _senses, _given, _readings):
-        piece, rest, room = part(page, rest, room, begun)
+        piece, rest, room = part(page, rest, room, place)
         pieces.append(piece)
     return pieces, rest
 
@@ -296,7 +264,7 @@ def continued(page: FigurePage, rest: Remainder, rooms: Sequence[Box]) -> Piece 
     """The rest in rooms that other writing has left on the first page; None where they do not hold all of it."""
     pieces: list[Piece] = []
     for room in rooms:
-        more, rest = _into(page, rest, room, True)
+        more, rest = _into(page, rest, room, "spare")
         pieces += more
     return None if rest else joined(pieces)
 
@@ -311,12 +279,12 @@ def overleaf(page: FigurePage, rest: Remainder, frame: Box) -> tuple[Drawing, ..
         frame = Box(frame.left, frame.top, short - frame.left, long - frame.top)
     made: list[Drawing] = []
     while rest:
-        number, before = len(made) + 2, rest.count
+        number, before = len(made) + 2, len(rest)
         corner = _in_corner(say(Phrase("sheet number", number=number), languages(page.language)[0]), frame)
-        pieces, rest = _into(page, rest, Box(frame.left, frame.top + HEAD, frame.right, frame.bottom), False)
+        pieces, rest = _into(page, rest, Box(frame.left, frame.top + HEAD, frame.right, frame.bottom), "overleaf")
         size = frame.left + frame.right, frame.top + frame.bottom
         made.append(_drawn_page(page, *size, (heading(page, frame), corner, *pieces), f" ({number})"))
-        if rest.count == before:  # nothing is so large that a page does not hold it
+        if len(rest) == before:  # nothing is so large that a page does not hold it
             raise AssertionError("a page holds nothing of what is left")
     return tuple(made)
 
@@ -338,67 +306,88 @@ def captioned(box: Box, caption: str, layer: str, children: tuple[Primitive, ...
     return joined((Piece({"labels": (words,)}), Piece({layer: children})))
 
 
-_Part = tuple[Piece, Remainder, Box]
-
-
 def below(room: Box, drawn: tuple[Primitive, ...], gap: float = LEAST_GAP) -> Box:
     """What is left of a room below what is drawn in it."""
     ink = ink_box(drawn)
     return Box(room.left, (ink.bottom if ink else room.top) + gap, room.right, room.bottom)
 
 
-def _under_caption(room: Box) -> Box:
-    return Box(room.left, room.top + CAPTION, room.right, room.bottom)
+def _under_caption(room: Box, place: Place) -> Box:
+    return room if place == "own" else Box(room.left, room.top + CAPTION, room.right, room.bottom)
 
 
-def _equations(page: FigurePage, rest: Remainder, room: Box, begun: bool) -> _Part:
-    if not rest.equations:
-        return Piece(), rest, room
-    box = _under_caption(room)
-    if begun:
-        blocks, count = equations_in_room(rest.equations, box.width, box.height, LEAST_LETTERS)
-    else:
+def _foot(room: Box) -> Box:
+    """The foot of a room, which a row of insets fills."""
+    return Box(room.left, room.bottom - INSET[1], room.right, room.bottom)
+
+
+def _own_given(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Part:
+    """The given data, as large as they fit, with insets below them where these have room too."""
+    drawn, left = given_data(page.sheet, page.letters, page.language, room, rest.size)
+    data, rest = captioned(room, page.term("given"), "labels", drawn), replace(rest, given=left)
+    if left or below(room, drawn, GUTTER).top >= _foot(room).top:
+        return data, rest, room
+    insets, rest, _ = _senses(page, rest, _foot(room), place)
+    return joined((data, insets)), rest, room
+
+
+def _own_equations(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Part:
+    """The equations, and below them insets, where all of the equations have room above these."""
+    above = Box(room.left, room.top, room.right, _foot(room).top - GUTTER)
+    if rest.senses and above.height >= EQUATIONS_ROOM:
+        written, left, _ = _equations(page, rest, above, place)
+        if not left.equations:
+            insets, left, _ = _senses(page, left, _foot(room), place)
+            return joined((written, insets)), left, room
+    return _equations(page, rest, room, place)
+
+
+def _equations(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Part:
+    box = _under_caption(room, place)
+    if place == "overleaf":
         blocks, count = equations_on_page(rest.equations, box.width, box.height)
-    if not count:
+    else:
+        most = (LEAST_LETTERS,) if place == "spare" else ()
+        blocks, count = equations_in_room(rest.equations, box.width, box.height, *most)
+    if not count and place != "own":
         return Piece(), rest, room
     written = moved(blocks, complex(box.left, box.top))
-    name = "equations continued" if begun else "equations"
+    name = "equations continued" if place == "spare" else "equations"
     piece = captioned(box, page.term(name), "labels", (Group(written, id=name.replace(" ", "-")),))
     return piece, replace(rest, equations=rest.equations[count:]), below(box, written, GAP)
 
 
-def _senses(page: FigurePage, rest: Remainder, room: Box, begun: bool) -> _Part:
+def _senses(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Part:
     pieces: list[Piece] = []
-    senses = rest.senses
-    while senses and room.height >= INSET[1]:
-        count = per_row(room.width)
+    senses, count = rest.senses, per_row(room.width)
+    while senses and room.height >= INSET[1] - ROUNDING:
         row = Box(room.left, room.top, room.right, room.top + INSET[1])
         pieces.append(coriolis_row(page.sheet, senses[:count], page.letters, row))
         senses, room = senses[count:], Box(room.left, row.bottom + GAP, room.right, room.bottom)
     return joined(pieces), replace(rest, senses=senses), room
 
 
-def _given(page: FigurePage, rest: Remainder, room: Box, begun: bool) -> _Part:
+def _given(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Part:
     size = max((run.size for line in rest.given for run in line), default=1.0)
     most = max(0, int((room.height - CAPTION) / (1.55 * size)))
-    if begun or not rest.given or not most:
+    if place == "spare" or not rest.given or not most:
         return Piece(), rest, room
-    box = _under_caption(room)
+    box = _under_caption(room, place)
     lines = set_lines(rest.given[:most], complex(box.left, box.top))
     piece = captioned(box, page.term("given"), "labels", lines)
     return piece, replace(rest, given=rest.given[most:]), below(box, lines, GAP)
 
 
-def _readings(page: FigurePage, rest: Remainder, room: Box, begun: bool) -> _Part:
-    least = 0.0 if begun else LEAST_TABLE
-    if not rest.readings or room.height < CAPTION + least or room.width < TABLE_WIDTH:
+def _readings(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Part:
+    least = CAPTION + (LEAST_TABLE if place == "overleaf" else 0.0)
+    if place != "own" and (not rest.readings or room.height < least or room.width < TABLE_WIDTH):
         return Piece(), rest, room
-    box = _under_caption(room)
+    box = _under_caption(room, place)
     table, count = readings_table(page.sheet, rest.readings, page.letters, page.language, box)
-    if not count:
+    if not count and place != "own":
         return Piece(), rest, room
-    left = replace(rest, readings=rest.readings[count:], readings_begin=False)
-    caption = page.term("readings continued" if begun and not rest.readings_begin else "readings")
+    caption = page.term("readings continued" if rest.begun and place != "overleaf" else "readings")
+    left = replace(rest, readings=rest.readings[count:], begun=True)
     return captioned(box, caption, "answers", table), left, below(box, table, GAP)
 
 
