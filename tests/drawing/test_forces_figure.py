@@ -186,6 +186,15 @@ def test_a_driving_moment_is_told_with_its_own_sense_on_the_link_from_which_it_i
     assert told.endswith("− $M_{2}$ = 0;  $M_{2}$ = −10.069 N·m")
 
 
+def test_a_balancing_force_at_an_angle_to_the_guide_is_not_told_to_lie_along_it() -> None:
+    engine = graphkin.read("engine-gas-force").to_dict()
+    scene = {**engine, "balance": {"on": "4", "at": "B", "angle": 30}, "find": ["F_4"]}
+    driven = next(stage for stage in stages_of(scene) if stage.group.way == "driver")
+    (told,) = (step.words("en")[0][1] for step in driven.steps if step.kind == "close")
+    assert "∥" not in told
+    assert ["⊥h", ""] == [str(v.direction) for v in driven.group.polygon if not v.known][::-1]
+
+
 def text_of(page: Any, own: str) -> str:
     """The text of a figure that bears an id."""
     return next("".join(e.itertext()) for e in ET.fromstring(svg_bytes(page)).iter() if e.get("id") == own)

@@ -23,7 +23,7 @@ import numpy as np
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceVector, MomentEquation, MomentTerm
 from graphkin.construction.forces.position import DrawnPosition
 from graphkin.construction.instruments import Instrument
-from graphkin.construction.steps import Direction, Part
+from graphkin.construction.steps import NO_DIRECTION, Direction, Part
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, cross, cross_lines, dot, unit
 from graphkin.scene.symbol import Symbol
@@ -404,7 +404,8 @@ def _close_driven(
         group.couples.append(equation)
         return [on, equation.found]
     on = replace(on, force=1j * cut.drawn.along(pair), direction=_across(pair))
-    push = replace(push, by="closing", direction=_along(pair))
+    aside = abs(cross(push.force, cut.drawn.along(pair))) > PARALLEL  # as the scene says
+    push = replace(push, by="closing", direction=NO_DIRECTION if aside else _along(pair))
     cut.close(links, chain, on, push)
     on, push = cut.drawn_in(chain, on), cut.drawn_in(chain, push)
     return [on, push, _slide_found(cut, group, links, pair, on, on.at, _foot_name(pair), (*more, on, push), inside)]
