@@ -26,6 +26,9 @@ from graphkin.scene.scene_tables import Flywheel, LoadPhase, Positions, SceneTab
 from graphkin.scene.symbol import Printed, Symbol
 from graphkin.scene.tables import Measure, Unit, Units
 
+EDGE = 1e-9
+"""Of the stroke or the turn: a load that begins or ends within this of a position does so exactly there."""
+
 
 @dataclass(frozen=True)
 class LinkMass:
@@ -55,6 +58,41 @@ class LoadOn:
     follows: str = ""
     against: str = ""
     phase: LoadPhase | None = None
+
+    def acts_at(self, value: Any, turns: bool) -> tuple[Any, Any]:
+        """Whether it acts where the first driver has a value, and whether it begins or ends exactly there.
+
+        Parameters
+        ----------
+        value : float, or array of any shape (rad where the driver ``turns``, else m)
+        """
+        assert self.phase is not None
+        start, end = self.phase.start, self.phase.end
+        span = end - start
+        if not turns:
+            near = EDGE * span
+            return (start < value) & (value < end), (abs(value - start) < near) | (abs(value - end) < near)
+        since, near, always = (value - start) % math.tau, EDGE * math.tau, span >= math.tau * (1 - EDGE)
+        edge = (since < near) | (math.tau - since < near) | (abs(since - span) < near)
+        return (since < span) | always, edge & (not always)
+
+    def acts_on_stroke(self, part: Any, running: Any) -> tuple[Any, Any]:
+        """The same of one that acts on a part of a stroke.
+
+        Parameters
+        ----------
+        part : of the stroke that lies behind, from its lower end on: float, or array of any shape
+        running : whether the slide runs in the sense in which the load acts
+        """
+        phase = self.phase
+        assert phase is not None
+        done = part if phase.sense > 0 else 1.0 - part
+
+        def at(edge: float) -> Any:
+            turns_back = edge < EDGE or edge > 1.0 - EDGE  # both senses meet there
+            return (abs(done - edge) < EDGE) & (running | turns_back)
+
+        return running & (phase.start < done) & (done < phase.end), at(phase.start) | at(phase.end)
 
 
 @dataclass(frozen=True)

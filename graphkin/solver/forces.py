@@ -19,8 +19,7 @@ import numpy as np
 
 from graphkin.plane import cross
 from graphkin.scene.force_names import ForceJoint, joints
-from graphkin.scene.model import LoadOn, SpringOn
-from graphkin.scene.scene_tables import LoadPhase
+from graphkin.scene.model import EDGE, LoadOn, SpringOn
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.cams import cam_angle, cam_at
 from graphkin.solver.constraints import solve_all
@@ -352,11 +351,7 @@ class _Statics:
         return most, most * size
 
 
-# -- what acts on the links of a motion from outside: inertia forces, weights, loads, each where and whil --------------
-
-
-EDGE = 1e-9
-"""Of the stroke or the turn: a load that begins or ends within this of a position does so exactly there."""
+# -- what acts on the links of a motion from outside: inertia forces, weights, loads, each where and while it acts -----
 
 
 @dataclass(frozen=True)
@@ -433,7 +428,7 @@ def _has_line(motion: Motion, length: Array) -> Array:
 
 
 def _load(motion: Motion, load: LoadOn) -> Action:
-    acts, edge = _acting(motion, load.phase)
+    acts, edge = _acting(motion, load)
     at = np.asarray(motion.poses[load.link].fixed(load.at).z) if load.is_force else None
     value = _force(motion, load) if load.is_force else np.full(len(motion), load.size)
     beside = np.where(acts | edge, value, 0.0) if edge.any() else None
@@ -458,32 +453,16 @@ def _force(motion: Motion, load: LoadOn) -> Array:
     return np.full(len(motion), load.size * load.turn)
 
 
-def _acting(motion: Motion, phase: LoadPhase | None) -> tuple[Array, Array]:
-    """Where a load acts, and where it begins or ends exactly; shape (n,) each."""
-    n, turn = len(motion), 2 * np.pi
-    if phase is not None and phase.stroke:
-        return _on_stroke(motion, phase, phase.stroke)
-    turns = motion.scene.drivers[0].turns
-    if phase is None or (turns and phase.end - phase.start >= turn * (1 - EDGE)):
-        return np.ones(n, dtype=bool), np.zeros(n, dtype=bool)
-    value, span = motion.values[:, 0], phase.end - phase.start
-    if not turns:
-        near = (np.abs(value - phase.start) < EDGE * span) | (np.abs(value - phase.end) < EDGE * span)
-        return np.asarray((phase.start < value) & (value < phase.end)), np.asarray(near)
-    since = np.remainder(value - phase.start, turn)
-    near = (np.minimum(since, turn - since) < EDGE * turn) | (np.abs(since - span) < EDGE * turn)
-    return np.asarray(since < span), np.asarray(near)
-
-
-def _on_stroke(motion: Motion, phase: LoadPhase, stroke: str) -> tuple[Array, Array]:
-    """The same of a load on a part of a stroke.  Raises Unsolvable where the driver makes no whole turn."""
-    low, high = motion.reach().stroke(stroke)
-    travel, speed = motion.slide(stroke).travel, motion.growing.slide(stroke).velocity
-    part = (travel - low) / (high - low) if high > low else np.zeros(len(motion))
-    part = part if phase.sense > 0 else 1.0 - part
-    running, near = np.sign(speed) == phase.sense, np.zeros(len(motion), dtype=bool)
-    for edge in (phase.start, phase.end):
-        # where the slide turns back both senses meet
-        turns = edge < EDGE or edge > 1.0 - EDGE
-        near |= (np.abs(part - edge) < EDGE) & (running | turns)
-    return np.asarray(running & (phase.start < part) & (part < phase.end)), np.asarray(near)
+def _acting(motion: Motion, load: LoadOn) -> tuple[Array, Array]:
+    """Where a load acts, and where it begins or ends exactly; shape (n,) each.  Raises Unsolvable as `actions`."""
+    phase = load.phase
+    if phase is None:
+        return np.ones(len(motion), dtype=bool), np.zeros(len(motion), dtype=bool)
+    if not phase.stroke:
+        acts, edge = load.acts_at(motion.values[:, 0], motion.scene.drivers[0].turns)
+    else:
+        low, high = motion.reach().stroke(phase.stroke)
+        travel, speed = motion.slide(phase.stroke).travel, motion.growing.slide(phase.stroke).velocity
+        part = (travel - low) / (high - low) if high > low else np.zeros(len(motion))
+        acts, edge = load.acts_on_stroke(part, np.sign(speed) == phase.sense)
+    return np.asarray(acts), np.asarray(edge)

@@ -3,10 +3,12 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from graphkin.scene import mechanism_of_text
-from graphkin.scene.model import Driver, Mechanism
+from graphkin.scene.model import Driver, LoadOn, Mechanism
+from graphkin.scene.scene_tables import LoadPhase
 from tests.scenes import FOUR_BAR
 
 CRANK = Driver("1", "4", 0.5, 10.0, 0.0)
@@ -51,3 +53,31 @@ def test_a_mechanism_with_other_links_knows_them_by_name() -> None:
 def test_the_frame_comes_first_among_the_holders_of_its_points() -> None:
     scene = four_bar()
     assert {scene.frame.name} == {scene.holders[point][0] for point in scene.frame.points}
+
+
+STROKE = LoadPhase(stroke="6/1", sense=-1.0, start=0.0, end=0.9)
+
+
+@pytest.mark.parametrize(
+    ("phase", "turns", "value", "expected"),
+    [
+        (LoadPhase(start=1.0, end=2.0), False, [0.5, 1.0, 1.5, 2.0],
+         [(False, False), (False, True), (True, False), (False, True)]),
+        (LoadPhase(start=5.0, end=7.0), True, [4.9, 6.0, 0.5, 0.8],
+         [(False, False), (True, False), (True, False), (False, False)]),
+        (LoadPhase(start=0.0, end=math.tau), True, [0.0, 3.0], [(True, False), (True, False)]),
+    ],
+)  # fmt: skip
+def test_a_load_acts_between_two_values_of_the_driver(
+    phase: LoadPhase, turns: bool, value: list[float], expected: list[tuple[bool, bool]]
+) -> None:
+    load = LoadOn("P", "6", 1.0, True, phase=phase)
+    assert expected == [load.acts_at(one, turns) for one in value]
+    assert expected == [(bool(a), bool(b)) for a, b in zip(*load.acts_at(np.array(value), turns), strict=True)]
+
+
+def test_a_load_on_a_stroke_acts_in_one_sense_and_jumps_where_both_meet() -> None:
+    load = LoadOn("P", "6", 1.0, True, phase=STROKE)
+    here = [(1.0, False), (0.5, True), (0.5, False), (0.1, True), (0.1, False), (0.05, True)]
+    expected = [(False, True), (True, False), (False, False), (False, True), (False, False), (False, False)]
+    assert expected == [load.acts_on_stroke(part, running) for part, running in here]

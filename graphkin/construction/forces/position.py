@@ -23,7 +23,6 @@ from graphkin.construction.sheet import Sheet
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot, unit
 from graphkin.scene.model import Driver, LinkMass, LoadOn, SpringOn
-from graphkin.scene.scene_tables import LoadPhase
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Element, LargerGroup, Pair, Structure, analyse
 from graphkin.words import Phrase
@@ -213,8 +212,6 @@ def force_groups(structure: Structure) -> tuple[Element, ...]:
 
 # -- what acts from outside --------------------------------------------------------------------------------------------
 
-EDGE = 1e-9
-"""Of the stroke or the turn: a load that begins or ends within this of a position does so exactly there."""
 STILL = 1e-11
 """Of the greatest speed: what slides more slowly rests."""
 
@@ -234,43 +231,23 @@ def acting_loads(sheet: Sheet, growing: Sheet) -> dict[str, bool | None]:
     sheet : the position, with the limit positions of the strokes of loads
     growing : the same with velocities, those of the driver's growing value where the mechanism rests
     """
-    return {load.name: _acts(sheet, growing, load.phase) for load in sheet.scene.loading.loads}
+    return {load.name: _acts(sheet, growing, load) for load in sheet.scene.loading.loads}
 
 
-def _acts(sheet: Sheet, growing: Sheet, phase: LoadPhase | None) -> bool | None:
+def _acts(sheet: Sheet, growing: Sheet, load: LoadOn) -> bool | None:
+    phase = load.phase
     if phase is None:
         return True
-    if phase.stroke:
-        return _on_stroke(sheet, growing, phase, phase.stroke)
-    driver = sheet.scene.drivers[0]
-    value = sheet.drivers[driver.key]
-    if not driver.turns:
-        edge = EDGE * (phase.end - phase.start)
-        if min(abs(value - phase.start), abs(value - phase.end)) < edge:
-            return None
-        return phase.start < value < phase.end
-    turn, span = math.tau, phase.end - phase.start
-    if span >= turn * (1 - EDGE):
-        return True
-    since = (value - phase.start) % turn
-    if min(since, turn - since, abs(since - span)) < EDGE * turn:
-        return None
-    return since < span
-
-
-def _on_stroke(sheet: Sheet, growing: Sheet, phase: LoadPhase, stroke: str) -> bool | None:
-    slide, limits = sheet.structure.slide(stroke), sheet.limits[stroke]
-    here, low, high = (travel(slide, poses, 0.0) for poses in (sheet.poses, limits.low.poses, limits.high.poses))
-    part = (here - low) / (high - low) if high > low else 0.0
-    if phase.sense < 0:
-        part = 1.0 - part
-    slip, most = DrawnPosition(growing).slip(slide)
-    running = abs(slip) > STILL * most and (slip > 0) == (phase.sense > 0)
-    for edge in (phase.start, phase.end):
-        # where the slide turns back both senses meet
-        if abs(part - edge) < EDGE and (running or edge < EDGE or edge > 1.0 - EDGE):
-            return None
-    return running and phase.start < part < phase.end
+    if not phase.stroke:
+        driver = sheet.scene.drivers[0]
+        acts, edge = load.acts_at(sheet.drivers[driver.key], driver.turns)
+    else:
+        slide, limits = sheet.structure.slide(phase.stroke), sheet.limits[phase.stroke]
+        here, low, high = (travel(slide, poses, 0.0) for poses in (sheet.poses, limits.low.poses, limits.high.poses))
+        slip, most = DrawnPosition(growing).slip(slide)
+        running = abs(slip) > STILL * most and (slip > 0) == (phase.sense > 0)
+        acts, edge = load.acts_on_stroke((here - low) / (high - low) if high > low else 0.0, running)
+    return None if edge else acts
 
 
 COINCIDE = 1e-9
