@@ -10,7 +10,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from graphkin.account.headings import number, slide_index, written
+from graphkin.account.given import slide_index
+from graphkin.account.headings import number, written
 from graphkin.account.notation import Letters
 from graphkin.construction.instruments import EXACT
 from graphkin.construction.links_on_paper import pushed_by_driver

@@ -1,5 +1,5 @@
 """The forces of a position as they are told: step by step with reasons, moment equations in numbers, how a polygon is
-laid off and closed, what was read off; and what a mechanism weighs and carries, as it is given.
+laid off and closed, what was read off.
 
 Inertia forces come first, off the drawn accelerations, and springs; then group by group what is cut free, moments,
 polygon, forces inside, couples; at last the lever.
@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
-from functools import cached_property, reduce
+from functools import cached_property
 from itertools import chain
 from typing import Literal, TypeAlias
 
@@ -27,12 +27,9 @@ from graphkin.construction.forces.force_sheet import (
     MomentEquation,
     MomentTerm,
 )
-from graphkin.construction.forces.position import DrawnPosition
 from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.construction.sheet import Sheet
 from graphkin.plane import added_up
-from graphkin.scene.model import LoadOn, Mechanism, SpringOn
-from graphkin.scene.scene_tables import LoadPhase
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Neutral, Phrase, Wording, about, in_all, languages, listed, say
 from graphkin.words.written import FINER, MOST, amount, is_quotient, on_paper, pointing, product, to_lay_off
@@ -482,79 +479,3 @@ def spots_of(lever: Lever) -> list[complex]:
     """The pole, the end points and the places of the forces of a lever (mm)."""
     spots = [0j, *(row.acting.at for row in lever.rows), *(z for row in lever.rows for z in row.pair or ())]
     return [*spots, *(z for z in lever.ends.values() if abs(z) > SHORT)]
-
-
-# -- loads as they are given ------------------------------------------------------------------------------------------
-
-
-def given_loads(sheet: Sheet, letters: Letters) -> list[Phrase]:
-    """Masses, weights, inertias, loads, springs and what balances, a line for each kind."""
-    scene, loading = sheet.scene, sheet.scene.loading
-    masses = list(_masses(scene, letters))
-    balances = dict.fromkeys(DrawnPosition(sheet).balance(driver).symbol for driver in scene.drivers)
-    return [
-        *([reduce(lambda one, other: Phrase("given masses", (one, other)), masses)] if masses else []),
-        *(_load(scene, load, letters) for load in loading.loads),
-        *(_spring_given(scene, spring, letters) for spring in loading.springs),
-        Phrase("given balance", (", ".join(f"${force_letters(letters.convention, one)}$" for one in balances),)),
-    ]
-
-
-def _masses(scene: Mechanism, letters: Letters) -> Iterator[Phrase]:
-    units, loading = scene.units, scene.loading
-    for mass in loading.masses:
-        point = next((p for p, z in scene.by_name[mass.link].points.items() if z == mass.at), "")
-        where = f"${letters.point(point)}$" if point else (
-            f"({number(mass.at.real / units.metres)}, {number(mass.at.imag / units.metres)}) {units.length}"
-        )  # fmt: skip
-        said = f"$m_{{{mass.link}}}$ = {number(mass.mass / units.kilograms, 5)} {units.mass}"
-        if loading.gravity:
-            weight = mass.mass * abs(loading.gravity) / units.newtons
-            name = force_letters(letters.convention, Symbol("G", link=mass.link))
-            said += f", ${name}$ = {number(weight, 5)} {units.force}"
-        if mass.inertia:
-            square = "ft²" if units.mass == "lb" else "m²"
-            said += f", $J_{{{mass.link}}}$ = {number(mass.inertia / units.inertias, 5)} {units.mass}·{square}"
-        yield Phrase("given mass", (Neutral(said), where))
-
-
-def _load(scene: Mechanism, load: LoadOn, letters: Letters) -> Phrase:
-    units = scene.units
-    name = f"${force_letters(letters.convention, Symbol('P', name=load.name, turning=not load.is_force))}$"
-    size = Neutral(f"{name} = {number(load.size / units.newtons)} {units.force}" + ("" if load.is_force else "·m"))
-    if not load.is_force:
-        said = Phrase("given moment", (size, load.link))
-    elif load.against:
-        said = Phrase("given against", (size, load.link, load.against))
-    else:
-        angle = number(math.degrees(math.atan2(load.turn.imag, load.turn.real)), 5)
-        key = "given following" if load.follows else "given force"
-        said = Phrase(key, (size, load.link, angle, load.follows))
-    return said if load.phase is None else Phrase("given while", (said, _phase(scene, load.phase)))
-
-
-def _phase(scene: Mechanism, phase: LoadPhase) -> Phrase:
-    if phase.stroke:
-        key = "given on stroke" if phase.sense > 0 else "given on stroke back"
-        return Phrase(key, (phase.stroke, number(phase.start), number(phase.end)))
-    driver = scene.drivers[0]
-    if driver.turns:
-        ends = (number(math.degrees(phase.start)) + "°", number(math.degrees(phase.end)) + "°")
-    else:
-        metres, unit = scene.units.metres, scene.units.length
-        ends = (number(phase.start / metres), f"{number(phase.end / metres)} {unit}")
-    return Phrase("given while driver", ends)
-
-
-def _spring_given(scene: Mechanism, spring: SpringOn, letters: Letters) -> Phrase:
-    """What is given of a spring, in words with symbols."""
-    units = scene.units
-    one, two = (f"${letters.point(point)}$" for point in spring.points)
-    rate = Neutral(f"{number(spring.rate * units.metres / units.newtons)} {units.force}/{units.length}")
-    free = Neutral(f"{number(spring.free / units.metres)} {units.length}")
-    preload = Neutral(f"{number(spring.preload / units.newtons)} {units.force}")
-    name = f"${force_letters(letters.convention, Symbol('P', name=spring.name))}$"
-    told = (spring.name, one, spring.links[0], two, spring.links[1], rate, free, preload, name)
-    return Phrase("given spring", told)
-
-

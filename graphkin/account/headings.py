@@ -1,20 +1,16 @@
-"""The words of a figure: its titles, driver values and remarks, facts for programs, and the whole of it described for
+"""The words of a figure: its titles and remarks, facts for programs, and the whole of it described for
 someone who does not see it; in one language or both.
 """
 
 from __future__ import annotations
 
-import cmath
 import math
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 
-from graphkin.account.notation import Letters
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName, Direction, plain_in
-from graphkin.scene.drivers import asked_time, moves_by_law
-from graphkin.scene.model import Driver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.version import __version__
 from graphkin.words import Neutral, Phrase, as_plain, in_all, languages, listed, rich_text, say, word
@@ -89,61 +85,6 @@ def written(plain: str) -> str:
     """A number of `graphkin.words.written` for people: powers of ten as such, a true minus sign."""
     head, _, power = true_minus(plain).partition("e")
     return f"{head}·$10^{{{power}}}$" if power else head
-
-
-def drivers(sheet: Sheet, letters: Letters) -> str:
-    """Driver values with their rates, as words with symbols between dollar signs."""
-    scene = sheet.scene
-    rates = scene.units.rates
-    parts = [f"$t$ = {number(asked_time(scene))} s"] if moves_by_law(scene) else []
-    for driver in scene.drivers:
-        parts.append(_stands(sheet, driver, sheet.drivers[driver.key]))
-        index = _index(sheet, driver)
-        _, rate, second = driver.values
-        if driver.turns:
-            if driver.rpm is not None and math.isclose(driver.rpm * math.pi / 30, rate):
-                parts.append(f"$n_{{{index}}}$ = {number(driver.rpm)} r/min")
-            parts.append(f"$ω_{{{index}}}$ = {number(rate)} rad/s")
-            if second:
-                parts.append(f"$α_{{{index}}}$ = {number(second)} rad/s²")
-        else:
-            v, a = ("V", "A") if letters.convention == "us" else ("v", "a")
-            parts.append(f"${v}_{{{index}}}$ = {number(rate / rates.metres)} {rates.length}/s")
-            if second:
-                parts.append(f"${a}_{{{index}}}$ = {number(second / rates.metres)} {rates.length}/s²")
-    return ",  ".join(parts)
-
-
-def rolling_starts(sheet: Sheet) -> list[str]:
-    """Where that stands which rolls and is moved by what it moves, at the scene's own position: ``φ_3 = 60° (φ_1 =
-    50°)``, symbols between dollar signs."""
-    scene, parts = sheet.scene, []
-    own = [_stands(sheet, driver, driver.values[0]) for driver in scene.drivers]
-    for group in sheet.structure.elements:
-        for driver in group.starts:
-            value = driver.values[0]
-            if driver.turns:  # from what never turns
-                value = cmath.phase(sheet.poses[driver.relative_to].axis * cmath.rect(1.0, value))
-                driver = replace(driver, relative_to=scene.frame.name)
-            parts.append(f"{_stands(sheet, driver, value)} ({', '.join(own)})")
-    return parts
-
-
-def _stands(sheet: Sheet, driver: Driver, value: float) -> str:
-    unit = sheet.scene.unit_of(driver)
-    return f"${'φ' if driver.turns else 's'}_{{{_index(sheet, driver)}}}$ = {unit.beside(number(unit.of(value)))}"
-
-
-def _index(sheet: Sheet, driver: Driver) -> str:
-    if driver.slide:
-        return slide_index(sheet, driver.slide)
-    return driver.link if driver.turns_about(sheet.scene.frame.name) else driver.link + driver.relative_to
-
-
-def slide_index(sheet: Sheet, key: str) -> str:
-    """The index of a sliding pair's travel: the sliding link, and what it slides on unless that is the frame."""
-    sliding, guiding = key.split("/")
-    return sliding if guiding == sheet.scene.frame.name else sliding + guiding
 
 
 def facts(sheet: Sheet, figure: str) -> dict[str, object]:

@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from graphkin.account.headings import drivers, facts, figure_title, punctuation, term, titles
+from graphkin.account.given import drivers
+from graphkin.account.headings import facts, figure_title, punctuation, term, titles
 from graphkin.account.notation import Letters, letters_of, scale_statement
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName

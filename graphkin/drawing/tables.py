@@ -6,7 +6,16 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from graphkin.account.headings import drivers, number, remarks, rolling_starts, term, written
+from graphkin.account.given import (
+    fixed_guides,
+    fixed_points,
+    given_drivers,
+    given_lengths,
+    given_shapes,
+    given_teeth,
+    rolling_starts,
+)
+from graphkin.account.headings import remarks, term, written
 from graphkin.account.notation import Letters
 from graphkin.account.voice import Voice
 from graphkin.checking.readings import read_off
@@ -15,15 +24,10 @@ from graphkin.construction.sheet import Reading, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import Block, row, table
 from graphkin.drawing.ink.primitives import Primitive, Run, Text
-from graphkin.drawing.parts.given_shapes import along_its_guide, given_shapes, off_its_guide
 from graphkin.drawing.text import rich, runs_width, wrapped
-from graphkin.plane import degrees
-from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.words import languages, word
-from graphkin.words.written import as_given
 
 ROW, LEAST_ROW, GUTTER = 4.2, 3.75, 4.0  # mm
-NO_LENGTH = 1e-12  # of the mechanism's size: what is shorter are two points that fall together
 _LETTERS = {"v": 0, "omega": 1, "a": 2, "alpha": 4}
 _SHARES = (0.26, 0.18, 0.19, 0.19, 0.18)  # of the width: symbol, mm on paper, measured, exact, difference
 
@@ -130,17 +134,13 @@ def given_lines(sheet: Sheet, letters: Letters, language: str, width: float, siz
     """Drivers, lengths, fixed points and remarks as lines of text of a width (mm)."""
     scene = sheet.scene
     unit = scene.units.length
-    items = drivers(sheet, letters).split(",  ")
-    items += rolling_starts(sheet)
+    items = given_drivers(sheet, letters) + rolling_starts(sheet)
     items += given_teeth(scene, language)
     items += [f"${name}$ = {value} {unit}" for name, value in given_lengths(scene, letters)]
     items += given_shapes(scene, letters, language)
-    fixed = [f"${letters.point(p)}$ ({_pair(z, scene)}) {unit}" for p, z in scene.frame.points.items()]
-    for guide in scene.frame.guides.values():
-        if guide.name:
-            angle = number(degrees(guide.direction))
-            name = letters.guide(guide.name, scene.frame.name)
-            fixed.append(f"{term('guide', language)} ${name}$ ({_pair(guide.through, scene)}) {unit}, {angle}°")
+    fixed = [f"${name}$ {place} {unit}" for name, place in fixed_points(scene, letters)]
+    guide = term("guide", language)
+    fixed += [f"{guide} ${name}$ {place} {unit}, {angle}°" for name, place, angle in fixed_guides(scene, letters)]
     lines = [line for group in (items, fixed) for line in _flowed(group, size, width)]
     for each in languages(language):
         notes = (Voice(sheet, letters).sentence(note, each) for note in remarks(sheet))
@@ -177,44 +177,3 @@ def _flowed(items: Sequence[str], size: float, width: float) -> list[tuple[Run, 
         else:
             lines.append(item)
     return [runs for line in lines for runs in wrapped(line, size, width)]
-
-
-def given_lengths(scene: Mechanism, letters: Letters) -> list[tuple[str, str]]:
-    """The given lengths of all links: symbol (without dollar signs) and value in the scene's unit, as it is given."""
-    found: list[tuple[str, float]] = []
-    for link in scene.links:
-        if link.length is not None:
-            found.append((letters.length(link.bar), link.length / scene.units.metres))
-        found += _further(link, scene, letters)
-    metres = scene.units.metres
-    found += [(f"r_{{{d.name}}}", abs(d.radius) / metres) for link in (*scene.links, scene.frame) for d in link.discs]
-    least = NO_LENGTH * scene.size / metres
-    return [(name, written(as_given(length))) for name, length in found if length > least]
-
-
-def given_teeth(scene: Mechanism, language: str) -> list[str]:
-    """The numbers of teeth, each wheel once; of one that has several, with the gear.  Internal ones are said to be."""
-    found: dict[str, str] = {}
-    for gear in scene.gears:
-        for wheel, teeth in zip(gear.wheels, gear.teeth, strict=True):
-            if teeth is None:
-                continue
-            said = f"$z_{{{wheel}}}$ = {number(abs(teeth))}" + f" ({term('internal', language)})" * (teeth < 0)
-            if found.setdefault(wheel, said) != said:
-                found[f"{wheel} {gear.name}"] = f"{said} ({gear.name})"
-    return list(found.values())
-
-
-def _further(link: PlacedLink, scene: Mechanism, letters: Letters) -> list[tuple[str, float]]:
-    """Distances of the further points of a link from its own."""
-    told = off_its_guide(scene, link) if len(link.bar) < 2 and along_its_guide(scene, link) else []
-    more = [p for p in link.points if p not in (*link.bar, *told)]
-    return [
-        (letters.length((own, p)), abs(link.points[p] - link.points[own]) / scene.units.metres)
-        for p in more
-        for own in link.bar
-    ]
-
-
-def _pair(z: complex, scene: Mechanism) -> str:
-    return f"{number(z.real / scene.units.metres)}, {number(z.imag / scene.units.metres)}"

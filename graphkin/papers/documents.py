@@ -11,8 +11,19 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from graphkin import table
-from graphkin.account.forces import ForceAccount, ForceStage, given_loads
-from graphkin.account.headings import FIGURE_WORDS, drivers, number, rolling_starts, titles, written
+from graphkin.account.forces import ForceAccount, ForceStage
+from graphkin.account.given import (
+    drivers,
+    fixed_guides,
+    fixed_points,
+    given_drivers,
+    given_lengths,
+    given_loads,
+    given_shapes,
+    given_teeth,
+    rolling_starts,
+)
+from graphkin.account.headings import FIGURE_WORDS, number, titles, written
 from graphkin.account.notation import pole, scale_statement
 from graphkin.account.voice import whole_sentence
 from graphkin.checking.report import Compared, exact, measured, paper
@@ -22,8 +33,6 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import FigurePage
 from graphkin.drawing.figures.forces import group_equation, group_picture, lever_figure
 from graphkin.drawing.figures.train import moving_plans, train_figure
-from graphkin.drawing.parts.given_shapes import given_shapes
-from graphkin.drawing.tables import given_lengths, given_teeth
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers import pictures
 from graphkin.papers.blocks import (
@@ -199,18 +208,15 @@ def scene_title(lesson: Lesson) -> Said:
 def given(lesson: Lesson) -> Iterator[Paragraph]:
     """What is given, in sentences: lengths, fixed points, guides, drivers; then what is asked, and the source."""
     scene, letters, language = lesson.sheet.scene, lesson.letters, lesson.language
-    unit, metres = scene.units.length, scene.units.metres
+    unit = scene.units.length
     lengths = [f"${name}$ = {value}{BOUND}{unit}" for name, value in given_lengths(scene, letters)]
-    fixed = [
-        f"${letters.point(p)}$ ({number(z.real / metres)}, {number(z.imag / metres)}){BOUND}{unit}"
-        for p, z in scene.frame.points.items()
-    ]
+    fixed = [f"${name}$ {place}{BOUND}{unit}" for name, place in fixed_points(scene, letters)]
     yield from _formulas(lesson, "lengths given", [*lengths, *given_teeth(scene, language)])
     yield from _formulas(lesson, "fixed points", fixed)
     yield from _clauses(lesson, "guides", {each: _guides(lesson, each) for each in languages(language)})
     shapes = {each: given_shapes(scene, letters, each) for each in languages(language)}
     yield from _clauses(lesson, "links given", shapes)
-    yield from _formulas(lesson, "driver", [*drivers(lesson.sheet, letters).split(",  "), *_speeds(scene)])
+    yield from _formulas(lesson, "driver", [*given_drivers(lesson.sheet, letters), *_speeds(scene)])
     for sense in _senses(scene):
         yield Paragraph(lesson.sentence(sense))
     yield from _formulas(lesson, "rolling starts", rolling_starts(lesson.sheet))
@@ -231,13 +237,10 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
 def _guides(lesson: Lesson, language: str) -> list[str]:
     """Each guide of the frame that has a name, by a point of it and its direction."""
     scene, told = lesson.sheet.scene, []
-    for guide in scene.frame.guides.values():
-        name = f"${lesson.letters.guide(guide.name, scene.frame.name)}$"
-        x, y = (number(part / scene.units.metres) for part in (guide.through.real, guide.through.imag))
-        angle = number(math.degrees(math.atan2(guide.direction.imag, guide.direction.real)))
+    for name, place, angle in fixed_guides(scene, lesson.letters):
         key = {"0": "guide level", "90": "guide upright"}.get(angle, "guide at")
-        if guide.name:
-            told.append(say(Phrase(key, (name, x, y, scene.units.length, angle)), language))
+        phrase = Phrase(key, guide=f"${name}$", place=place, unit=scene.units.length, angle=angle)
+        told.append(say(phrase, language))
     return told
 
 

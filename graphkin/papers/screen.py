@@ -17,7 +17,8 @@ import numpy as np
 from markupsafe import Markup
 
 from graphkin.account.forces import ForceAccount, ForceStage, ForceStep
-from graphkin.account.headings import FIGURE_WORDS, drivers, number, term
+from graphkin.account.given import drivers
+from graphkin.account.headings import FIGURE_WORDS, number, term
 from graphkin.account.notation import Letters, scale_statement
 from graphkin.account.voice import capital
 from graphkin.checking.uncertainty import COVERAGE

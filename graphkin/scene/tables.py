@@ -140,7 +140,7 @@ class Unit(NamedTuple):
     @property
     def written(self) -> str:
         """As it stands on figures and papers: ``mm/s²``, ``°``, ``N·m``."""
-        return self.text.replace("2", "²").replace("deg", "°").replace(" m", "·m")
+        return self.text.replace("2", "²").replace("deg", "°").replace(" ", "·")
 
     def beside(self, number: str) -> str:
         """A number, as it is written, with the unit beside it: ``482.7 mm/s``, ``30°``."""

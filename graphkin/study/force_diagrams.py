@@ -175,8 +175,7 @@ MORE, LESS = "#dcdcdc", "#b8b8b8"
 def flywheel_page(reach: DriverRange, found: FlywheelStudy, language: str) -> chart.ChartPage:
     """The page of a flywheel."""
     scene, axis = reach.scene, charts.driver_axis(reach, language)
-    per, force = scene.units.newtons, scene.units.force
-    moment, inertia = f"{force}·m", f"{scene.units.mass}·{'ft' if scene.units.mass == 'lb' else 'm'}²"
+    per, moment, inertia = scene.units.newtons, scene.units.of("moment").written, scene.units.of("inertia").written
     offsets, moments = whole_turn(axis), Quantity(Symbol("M", link=found.link))
     curve = axis.curve(moments, offsets, needed_moment(reach, offsets))
     (x, needed), driving = curve.T, found.driving / per

@@ -8,6 +8,7 @@ from itertools import combinations
 import pytest
 
 from graphkin import draw
+from graphkin.account.given import given_lengths
 from graphkin.account.notation import letters_of
 from graphkin.construction import draft, plan
 from graphkin.drawing import Text
@@ -15,7 +16,7 @@ from graphkin.drawing.ink.primitives import Group, walk
 from graphkin.drawing.parts.mechanism import mechanism_piece
 from graphkin.drawing.place.piece import ink_box
 from graphkin.drawing.sheet_plan import sheet_plan, sheet_room
-from graphkin.drawing.tables import given_lengths, table_rows
+from graphkin.drawing.tables import table_rows
 from graphkin.scene import mechanism_of
 from tests.drawn import drafted
 

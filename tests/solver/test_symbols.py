@@ -143,6 +143,11 @@ def test_forces_are_in_the_units_of_the_scene() -> None:
     assert [("kN", 1e3), ("kN m", 1e3)] == [Symbol.parse(name).unit(units) for name in ("F_5/6", "M_2")]
 
 
+@pytest.mark.parametrize(("mass", "written"), [("kg", "kg·m²"), ("lb", "lb·ft²")])
+def test_a_unit_that_is_a_product_is_written_with_a_dot(mass: Any, written: str) -> None:
+    assert (written, "N·m") == tuple(Symbol.parse(name).unit(Units(mass=mass)).written for name in ("J_F", "M_2"))
+
+
 def slot_in_the_frame() -> dict[str, Any]:
     """A pin of the rod runs in a slot of the frame that passes the crank's pivot."""
     return {

@@ -11,11 +11,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
+from graphkin.account.given import drivers
 from graphkin.account.headings import (
     FIGURE_WORDS,
     describe,
     dimensions_in,
-    drivers,
     figure_title,
     punctuation,
     remarks,

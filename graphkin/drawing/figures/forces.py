@@ -19,10 +19,10 @@ from graphkin.account.forces import (
     ForceStage,
     corner_at,
     corners,
-    given_loads,
     lever_on_page,
     spots_of,
 )
+from graphkin.account.given import given_loads
 from graphkin.account.headings import figure_title, written
 from graphkin.account.notation import Letters, as_vector, force_letters, pole
 from graphkin.checking.report import Report

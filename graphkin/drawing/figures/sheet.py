@@ -12,11 +12,11 @@ from itertools import islice, product
 from typing import Literal, TypeAlias
 
 from graphkin.account.account import written_lines
+from graphkin.account.given import drivers
 from graphkin.account.headings import (
     FIGURE_WORDS,
     describe,
     dimensions_in,
-    drivers,
     facts,
     figure_title,
     punctuation,

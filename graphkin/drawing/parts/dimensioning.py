@@ -11,11 +11,11 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise, product
 from typing import TypeAlias
 
-from graphkin.account.headings import number, slide_index, written
+from graphkin.account.given import along_its_guide, as_line, off_its_guide, slide_index, used_guides
+from graphkin.account.headings import number, written
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Line, Primitive, Run, on_page
-from graphkin.drawing.parts.given_shapes import along_its_guide, as_line, off_its_guide, used_guides
 from graphkin.drawing.parts.mechanism_on_paper import GUIDE_LENGTH, MechanismOnPaper, Slider
 from graphkin.drawing.place.dimensions import (
     GAP,

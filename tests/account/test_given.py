@@ -3,10 +3,10 @@
 import pytest
 
 from graphkin import draw, handout
+from graphkin.account.given import given_shapes
 from graphkin.account.notation import letters_of
 from graphkin.construction import draft
 from graphkin.drawing.ink.primitives import Text, walk
-from graphkin.drawing.parts.given_shapes import given_shapes
 from graphkin.scene import mechanism_of
 
 OLDHAM = {

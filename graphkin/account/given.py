@@ -1,0 +1,351 @@
+"""What a problem gives, told once for sheets, papers and force pages: drivers, where rolling starts, lengths, teeth,
+the shapes of links, fixed points and guides, masses, loads and springs.
+
+A shape is what the distances of a link's points do not tell: guides that it carries, at which angle it sits on what it
+slides on, and where further points lie of links without two points of their own.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import reduce
+
+from graphkin.account.headings import number, term, written
+from graphkin.account.notation import Letters, force_letters
+from graphkin.construction.forces.position import DrawnPosition
+from graphkin.construction.sheet import Sheet
+from graphkin.plane import degrees
+from graphkin.scene.drivers import asked_time, moves_by_law
+from graphkin.scene.model import Driver, LoadOn, Mechanism, PlacedLink, SpringOn
+from graphkin.scene.pairs import PlacedGuide, SlidingPair
+from graphkin.scene.scene_tables import LoadPhase
+from graphkin.scene.symbol import Symbol
+from graphkin.words import Neutral, Phrase, languages, say
+from graphkin.words.written import as_given
+
+_BETWEEN_CHINESE = re.compile(r"(?<=[\u4e00-\u9fff]) (?=[\u4e00-\u9fff])")
+LEVEL = 1e-9  # of directions and of lengths by the size of a scene: what rounding leaves
+NO_LENGTH = 1e-12  # of the mechanism's size: what is shorter are two points that fall together
+
+# -- drivers -----------------------------------------------------------------------------------------------------------
+
+
+def given_drivers(sheet: Sheet, letters: Letters) -> list[str]:
+    """The moment, and values of drivers with their rates: words with symbols between dollar signs."""
+    scene = sheet.scene
+    told = [f"$t$ = {number(asked_time(scene))} s"] if moves_by_law(scene) else []
+    for driver in scene.drivers:
+        told.append(_stands(sheet, driver, sheet.drivers[driver.key]))
+        if driver.turns and driver.rpm is not None and math.isclose(driver.rpm * math.pi / 30, driver.rate):
+            told.append(f"$n_{{{_index(sheet, driver)}}}$ = {number(driver.rpm)} r/min")
+        names = ("ω", "α") if driver.turns else ("V", "A") if letters.convention == "us" else ("v", "a")
+        kinds = ("omega", "alpha") if driver.turns else ("v", "a")
+        for name, kind, value in zip(names, kinds, driver.values[1:], strict=True):
+            unit = Symbol(kind, link=driver.link).unit(scene.units)
+            if value or kind in ("omega", "v"):
+                told.append(f"${name}_{{{_index(sheet, driver)}}}$ = {unit.beside(number(unit.of(value)))}")
+    return told
+
+
+def drivers(sheet: Sheet, letters: Letters) -> str:
+    """The same in one line."""
+    return ",  ".join(given_drivers(sheet, letters))
+
+
+def rolling_starts(sheet: Sheet) -> list[str]:
+    """Where that stands which rolls and is moved by what it moves, at the scene's own position: ``φ_3 = 60° (φ_1 =
+    50°)``, symbols between dollar signs."""
+    scene, parts = sheet.scene, []
+    own = [_stands(sheet, driver, driver.values[0]) for driver in scene.drivers]
+    for group in sheet.structure.elements:
+        for driver in group.starts:
+            value = driver.values[0]
+            if driver.turns:  # from what never turns
+                value = cmath.phase(sheet.poses[driver.relative_to].axis * cmath.rect(1.0, value))
+                driver = replace(driver, relative_to=scene.frame.name)
+            parts.append(f"{_stands(sheet, driver, value)} ({', '.join(own)})")
+    return parts
+
+
+def _stands(sheet: Sheet, driver: Driver, value: float) -> str:
+    unit = sheet.scene.unit_of(driver)
+    return f"${'φ' if driver.turns else 's'}_{{{_index(sheet, driver)}}}$ = {unit.beside(number(unit.of(value)))}"
+
+
+def _index(sheet: Sheet, driver: Driver) -> str:
+    if driver.slide:
+        return slide_index(sheet, driver.slide)
+    return driver.link if driver.turns_about(sheet.scene.frame.name) else driver.link + driver.relative_to
+
+
+def slide_index(sheet: Sheet, key: str) -> str:
+    """The index of a sliding pair's travel: the sliding link, and what it slides on unless that is the frame."""
+    sliding, guiding = key.split("/")
+    return sliding if guiding == sheet.scene.frame.name else sliding + guiding
+
+
+# -- lengths, teeth and the frame --------------------------------------------------------------------------------------
+
+
+def given_lengths(scene: Mechanism, letters: Letters) -> list[tuple[str, str]]:
+    """The given lengths of all links: symbol (without dollar signs) and value in the scene's unit, as it is given."""
+    found: list[tuple[str, float]] = []
+    for link in scene.links:
+        if link.length is not None:
+            found.append((letters.length(link.bar), link.length / scene.units.metres))
+        found += _further(link, scene, letters)
+    metres = scene.units.metres
+    found += [(f"r_{{{d.name}}}", abs(d.radius) / metres) for link in (*scene.links, scene.frame) for d in link.discs]
+    least = NO_LENGTH * scene.size / metres
+    return [(name, written(as_given(length))) for name, length in found if length > least]
+
+
+def given_teeth(scene: Mechanism, language: str) -> list[str]:
+    """The numbers of teeth, each wheel once; of one that has several, with the gear.  Internal ones are said to be."""
+    found: dict[str, str] = {}
+    for gear in scene.gears:
+        for wheel, teeth in zip(gear.wheels, gear.teeth, strict=True):
+            if teeth is None:
+                continue
+            said = f"$z_{{{wheel}}}$ = {number(abs(teeth))}" + f" ({term('internal', language)})" * (teeth < 0)
+            if found.setdefault(wheel, said) != said:
+                found[f"{wheel} {gear.name}"] = f"{said} ({gear.name})"
+    return list(found.values())
+
+
+def _further(link: PlacedLink, scene: Mechanism, letters: Letters) -> list[tuple[str, float]]:
+    """Distances of the further points of a link from its own."""
+    told = off_its_guide(scene, link) if len(link.bar) < 2 and along_its_guide(scene, link) else []
+    more = [p for p in link.points if p not in (*link.bar, *told)]
+    return [
+        (letters.length((own, p)), abs(link.points[p] - link.points[own]) / scene.units.metres)
+        for p in more
+        for own in link.bar
+    ]
+
+
+def fixed_points(scene: Mechanism, letters: Letters) -> list[tuple[str, str]]:
+    """The points of the frame: symbol (without dollar signs) and coordinates in the scene's unit, in brackets."""
+    return [(letters.point(point), place_of(z, scene)) for point, z in scene.frame.points.items()]
+
+
+def fixed_guides(scene: Mechanism, letters: Letters) -> list[tuple[str, str, str]]:
+    """The guides of the frame that have a name: symbol (without dollar signs), coordinates of a point of each in the
+    scene's unit, in brackets, and direction (degrees)."""
+    return [
+        (letters.guide(guide.name, scene.frame.name), place_of(guide.through, scene),
+         number(degrees(guide.direction)))
+        for guide in scene.frame.guides.values() if guide.name
+    ]  # fmt: skip
+
+
+def place_of(z: complex, scene: Mechanism) -> str:
+    """The coordinates of a place (m) in the scene's unit, in brackets."""
+    least = LEVEL * scene.size
+    x, y = ((part if abs(part) > least else 0.0) / scene.units.metres for part in (z.real, z.imag))
+    return f"({number(x)}, {number(y)})"
+
+
+# -- shapes of links ---------------------------------------------------------------------------------------------------
+
+
+def given_shapes(scene: Mechanism, letters: Letters, language: str) -> list[str]:
+    """The shapes of links as short phrases, symbols between dollar signs: ``guide s on 3: 140 mm from C, 90° to x``.
+
+    Angles are those of lines, from -90 to 90 degrees, counter-clockwise positive; places are along the guide on which
+    the link slides and to the left of it.
+    """
+    whole = scene.whole
+    found = [phrase for link in whole.links if not link.redundant for phrase in _shape(whole, link, letters)]
+    told = ((_BETWEEN_CHINESE.sub("", say(phrase, each)) for each in languages(language)) for phrase in found)
+    return [" ".join(dict.fromkeys(shape)) for shape in told]
+
+
+def _shape(scene: Mechanism, link: PlacedLink, letters: Letters) -> Iterator[Phrase]:
+    pairs = along_its_guide(scene, link)
+    axis = _axis(scene, link, pairs, letters)
+    turn = pairs[0].turn if pairs and len(link.bar) < 2 else 1.0 + 0j
+    if len(pairs) == 2:
+        first, second = (_guide_name(scene, pair, letters) for pair in pairs)
+        angle = number(as_line(pairs[0].turn / pairs[1].turn))
+        yield Phrase("guides at angle", first=first, second=second, angle=angle)
+    elif pairs and (len(link.bar) == 2 or _carries_its_axis(scene, link)) and abs(pairs[0].turn.imag) > LEVEL:
+        own = axis if len(link.bar) == 2 else Phrase("axis of", link=link.name)
+        held_to = _guide_name(scene, pairs[0], letters)
+        yield Phrase("held at angle", bar=own, angle=number(as_line(pairs[0].turn)), axis=held_to)
+    beside = off_its_guide(scene, link) if len(link.bar) < 2 else []
+    if not pairs and len(link.points) <= 2 and not _axis_counts(scene, link):
+        beside = []
+    for point in beside:
+        z = link.points[point]
+        name = f"${letters.point(point)}$"
+        if pairs:
+            place, origin = _place(z * turn, scene), _origin(link, letters)
+            yield Phrase("point along", point=name, place=place, origin=origin, axis=axis)
+        else:
+            bar = f"${letters.point(link.bar[0])}{letters.point(point)}$" if link.bar else name
+            yield Phrase("held at angle", bar=bar, angle=number(math.degrees(cmath.phase(z))), axis=axis)
+    guides = used_guides(scene, link)
+    alone = not pairs and len(link.bar) < 2 and len(guides) == 1 and not beside and not _carries_its_axis(scene, link)
+    for guide in guides:
+        name = f"${letters.guide(guide.name, scene.frame.name)}$"
+        angle = number(as_line(guide.direction * turn))
+        on = next((p for p, z in link.points.items() if abs(z - guide.through) < LEVEL * scene.size), None)
+        if alone and on is not None:  # what its angle counts from is nothing else's
+            yield Phrase("guide on link only through", guide=name, link=link.name, point=f"${letters.point(on)}$")
+        elif on is None and abs(guide.through) < LEVEL * scene.size:
+            yield Phrase("guide on link", guide=name, link=link.name, angle=angle, axis=axis)
+        elif on is not None:
+            point = f"${letters.point(on)}$"
+            yield Phrase("guide on link through", guide=name, link=link.name, point=point, angle=angle, axis=axis)
+        else:
+            place = _place(guide.through * turn, scene)
+            at = {"place": place, "origin": _origin(link, letters), "axis": axis}
+            yield Phrase("guide on link at", guide=name, link=link.name, **at, angle=angle)
+
+
+def along_its_guide(scene: Mechanism, link: PlacedLink) -> list[SlidingPair]:
+    """The sliding pairs in which a link slides on others."""
+    return [pair for pair in scene.slidings if pair.link == link.name]
+
+
+def off_its_guide(scene: Mechanism, link: PlacedLink) -> list[str]:
+    """Further points of a link that lie beside its own axis."""
+    return [p for p, z in link.points.items() if p not in link.bar and abs(z.imag) > LEVEL * scene.size]
+
+
+def used_guides(scene: Mechanism, link: PlacedLink) -> list[PlacedGuide]:
+    """The guides of a link, beside its own axis, on which something slides or which touch something."""
+    used = {guide for on, guide in _ridden(scene) if on == link.name}
+    used |= {
+        c.guide for c in scene.contacts
+        for body, disc in zip(c.links, c.discs, strict=True) if body == link.name and disc is None
+    }  # fmt: skip
+    return [guide for name, guide in link.guides.items() if name and name in used]
+
+
+def as_line(way: complex) -> float:
+    """The angle of a line (degrees), above -90 to 90."""
+    angle = math.degrees(cmath.phase(way))
+    return 90.0 if abs(abs(angle) - 90.0) < 1e-9 else math.remainder(angle, 180.0) + 0.0
+
+
+def _carries_its_axis(scene: Mechanism, link: PlacedLink) -> bool:
+    """Whether something slides on a link's own axis."""
+    return (link.name, "") in _ridden(scene)
+
+
+def _ridden(scene: Mechanism) -> set[tuple[str, str]]:
+    """The guides on which links or pins slide, with the links that have them."""
+    return {(s.on, s.guide) for s in scene.slides}
+
+
+def _axis_counts(scene: Mechanism, link: PlacedLink) -> bool:
+    """Whether anything is told from a link's own axis."""
+    turned = any(link.name in d.links for d in scene.drivers if d.turns)
+    return turned or _carries_its_axis(scene, link) or bool(used_guides(scene, link))
+
+
+def _guide_name(scene: Mechanism, pair: SlidingPair, letters: Letters) -> str:
+    if pair.guide:
+        return f"${letters.guide(pair.guide, scene.frame.name)}$"
+    on = scene.by_name[pair.on]
+    return "$x$" if pair.on == scene.frame.name else _own(on, letters)
+
+
+def _own(link: PlacedLink, letters: Letters) -> str:
+    """The own axis of a link: its bar, else its number."""
+    return f"${''.join(letters.point(p) for p in link.bar)}$" if len(link.bar) == 2 else link.name
+
+
+def _axis(scene: Mechanism, link: PlacedLink, pairs: list[SlidingPair], letters: Letters) -> str | Phrase:
+    """From what angles on a link count: its bar, the guide on which it slides, else its own axis."""
+    if len(link.bar) == 2:
+        return _own(link, letters)
+    return _guide_name(scene, pairs[0], letters) if pairs else Phrase("axis of", link=link.name)
+
+
+def _origin(link: PlacedLink, letters: Letters) -> str:
+    """Where a link's own axes begin."""
+    return f"${letters.point(link.bar[0])}$" if link.bar else f"({link.name})"
+
+
+def _place(z: complex, scene: Mechanism) -> str:
+    return f"{place_of(z, scene)} {scene.units.length}"
+
+
+# -- masses, loads and springs -----------------------------------------------------------------------------------------
+
+
+def given_loads(sheet: Sheet, letters: Letters) -> list[Phrase]:
+    """Masses, weights, inertias, loads, springs and what balances, a line for each kind."""
+    scene, loading = sheet.scene, sheet.scene.loading
+    masses = list(_masses(scene, letters))
+    balances = dict.fromkeys(DrawnPosition(sheet).balance(driver).symbol for driver in scene.drivers)
+    return [
+        *([reduce(lambda one, other: Phrase("given masses", (one, other)), masses)] if masses else []),
+        *(_load(scene, load, letters) for load in loading.loads),
+        *(_spring_given(scene, spring, letters) for spring in loading.springs),
+        Phrase("given balance", (", ".join(f"${force_letters(letters.convention, one)}$" for one in balances),)),
+    ]
+
+
+def _masses(scene: Mechanism, letters: Letters) -> Iterator[Phrase]:
+    units, loading = scene.units, scene.loading
+    for mass in loading.masses:
+        point = next((p for p, z in scene.by_name[mass.link].points.items() if z == mass.at), "")
+        where = f"${letters.point(point)}$" if point else _place(mass.at, scene)
+        said = f"$m_{{{mass.link}}}$ = {number(mass.mass / units.kilograms, 5)} {units.mass}"
+        if loading.gravity:
+            weight, unit = mass.mass * abs(loading.gravity), units.of("force")
+            name = force_letters(letters.convention, Symbol("G", link=mass.link))
+            said += f", ${name}$ = {unit.beside(number(unit.of(weight), 5))}"
+        if mass.inertia:
+            unit = units.of("inertia")
+            said += f", $J_{{{mass.link}}}$ = {unit.beside(number(unit.of(mass.inertia), 5))}"
+        yield Phrase("given mass", (Neutral(said), where))
+
+
+def _load(scene: Mechanism, load: LoadOn, letters: Letters) -> Phrase:
+    symbol = Symbol("P", name=load.name, turning=not load.is_force)
+    unit = symbol.unit(scene.units)
+    size = Neutral(f"${force_letters(letters.convention, symbol)}$ = {unit.beside(number(unit.of(load.size)))}")
+    if not load.is_force:
+        said = Phrase("given moment", (size, load.link))
+    elif load.against:
+        said = Phrase("given against", (size, load.link, load.against))
+    else:
+        angle = number(degrees(load.turn), 5)
+        key = "given following" if load.follows else "given force"
+        said = Phrase(key, (size, load.link, angle, load.follows))
+    return said if load.phase is None else Phrase("given while", (said, _phase(scene, load.phase)))
+
+
+def _phase(scene: Mechanism, phase: LoadPhase) -> Phrase:
+    if phase.stroke:
+        key = "given on stroke" if phase.sense > 0 else "given on stroke back"
+        return Phrase(key, (phase.stroke, number(phase.start), number(phase.end)))
+    unit = scene.unit_of(scene.drivers[0])
+    start, end = (number(unit.of(value)) for value in (phase.start, phase.end))
+    ends = unit.beside(start) if scene.drivers[0].turns else start, unit.beside(end)
+    return Phrase("given while driver", ends)
+
+
+def _spring_given(scene: Mechanism, spring: SpringOn, letters: Letters) -> Phrase:
+    """What is given of a spring, in words with symbols."""
+    units = scene.units
+    one, two = (f"${letters.point(point)}$" for point in spring.points)
+    rate = Neutral(f"{number(spring.rate * units.metres / units.newtons)} {units.force}/{units.length}")
+    free, preload = (
+        Neutral(unit.beside(number(unit.of(value))))
+        for unit, value in ((units.of("length"), spring.free), (units.of("force"), spring.preload))
+    )
+    name = f"${force_letters(letters.convention, Symbol('P', name=spring.name))}$"
+    told = (spring.name, one, spring.links[0], two, spring.links[1], rate, free, preload, name)
+    return Phrase("given spring", told)
+
+
