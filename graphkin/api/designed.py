@@ -29,7 +29,8 @@ from graphkin.scene.designs import (
     design_of,
     scene_table,
 )
-from graphkin.scene.scene import Scene
+from graphkin.scene.scene import Scene, mechanism_of
+from graphkin.scene.symbol import Symbol
 from graphkin.words import LANGUAGES, Neutral, Phrase, say
 
 if TYPE_CHECKING:
@@ -37,7 +38,6 @@ if TYPE_CHECKING:
     from graphkin.drawing.chart import ChartPage
     from graphkin.drawing.figures.constructions import Confirmed
     from graphkin.solver.synthesis import FreeDatum, Synthesis
-    from graphkin.study.turn import TurnStudy
     from graphkin.table import Table
 
 CONFIRMS = 1e-6  # of what was asked: a turn found by searching for its limits
@@ -78,21 +78,14 @@ class Designed(Result):
         return Scene.of(scene_table(self.given, self.found.lengths, self.found.places), self.given.name)
 
     @cached_property
-    def turn(self) -> TurnStudy:
-        """The motion of the scene over a turn."""
-        from graphkin.api.sweep import sweep
-
-        turn = sweep(self.scene, positions=1).turn
-        assert turn is not None
-        return turn
-
-    @cached_property
     def confirmed(self) -> tuple[Confirmed, ...]:
         """What was asked beside what the scene does."""
         return tuple(self._confirmed())
 
     def _confirmed(self) -> Sequence[Confirmed]:
         from graphkin.drawing.figures.constructions import Confirmed
+        from graphkin.solver import structure_of
+        from graphkin.solver.driver_range import range_of
 
         task, metres = self.given.task, self.given.units.metres
 
@@ -103,21 +96,19 @@ class Designed(Result):
         if isinstance(task, BarPositionsTask | FunctionTask):
             return [row(key, asked, asked + (math.nan if own is None else math.remainder(degrees(own) - asked, 360.0)),
                         360.0, name) for key, name, asked, own in self._directions(task)]  # fmt: skip
-        name = {GuideBarTask: "5/0", SliderCrankTask: "3/0"}.get(type(task), "3")
-        output = next(o for o in self.turn.outputs if o.quantity.of == name)
-        assert output.stroke is not None
+        name = {GuideBarTask: "stroke_5/0", SliderCrankTask: "stroke_3/0"}.get(type(task), "swing_3")
+        output = range_of(structure_of(mechanism_of(self.scene))).extremes(Symbol.parse(name))
         if isinstance(task, LimitsTask):
             # which limit is which: by the turns that bring them together
-            ends = [math.degrees(end.value) for end in (output.low, output.high) if end is not None]
+            ends = math.degrees(output.low), math.degrees(output.high)
             gaps = [min((math.remainder(end - asked, 360.0) for end in ends), key=abs) for asked in task.angles]
             return [row("design limit value", asked, asked + gap, 360.0, f"{asked:.6g}°")
                     for asked, gap in zip(task.angles, gaps, strict=True)]  # fmt: skip
-        back = self.turn.quick_return(output)
         if isinstance(task, CrankRockerTask):
             first = row("design swing value", task.swing, math.degrees(output.stroke), 360.0)
         else:
             first = row("design stroke value", task.stroke, output.stroke / metres, task.stroke)
-        return [first, row("design K value", task.K, back[0] if back else math.nan, task.K)]
+        return [first, row("design K value", task.K, output.ratio, task.K)]
 
     def _directions(
         self, task: BarPositionsTask | FunctionTask
