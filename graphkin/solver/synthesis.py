@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from functools import singledispatch
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, direction, unit
@@ -24,6 +25,7 @@ from graphkin.scene.designs import (
     LimitsTask,
     SliderCrankTask,
 )
+from graphkin.search import last_true, least_value
 from graphkin.words import Phrase, Wording
 
 IN_LINE = 1e-12  # of the size: three points whose circle is larger than this allows lie in one line
@@ -294,15 +296,12 @@ def _(task: FunctionTask) -> Synthesis:
 
 
 _FREE: dict[type[DesignTask], str] = {SliderCrankTask: "offset", CrankRockerTask: "frame", LimitsTask: "rocker"}
-_SAMPLES = 400
+_SAMPLES, _NEAR = 400, 1e-9
 
 
 def choice(task: DesignTask) -> FreeDatum | None:
     """The datum that could be chosen otherwise while the rest of the wish stays, and the best for the transmission;
-    None where there is none.
-
-    Raises Unsolvable where nothing that this datum could be meets the rest.
-    """
+    None where there is none, or no best."""
     key = _FREE.get(type(task))
     if key is None:
         return None
@@ -313,22 +312,28 @@ def choice(task: DesignTask) -> FreeDatum | None:
         except (Unsolvable, ValueError):
             return None
 
+    def transmission(values: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.array([np.nan if (angle := least(float(value))) is None else angle for value in values])
+
     now = getattr(task, key)
     size = max(now, abs(task.A - task.D) if isinstance(task, LimitsTask) else now)
     grid = np.geomspace(1e-3, 1e2, _SAMPLES) * size
-    good = [float(x) for x in grid if least(float(x)) is not None]
-    if not good:
+    angles = transmission(grid)
+    i = int(np.argmax(np.nan_to_num(angles)))
+    if np.isnan(angles[i]) or i in (0, _SAMPLES - 1):  # the better, the smaller or the larger it is
         return None
-    best = max(good, key=lambda x: least(x) or 0.0)
-    i = int(np.searchsorted(grid, best))
-    low, high = float(grid[max(i - 1, 0)]), float(grid[min(i + 1, _SAMPLES - 1)])
-    for _ in range(60):  # golden section
-        a, b = high - 0.6180339887498949 * (high - low), low + 0.6180339887498949 * (high - low)
-        if (least(a) or 0.0) < (least(b) or 0.0):
-            low = a
-        else:
-            high = b
-    top = (low + high) / 2
-    if (least(top) or 0.0) < (least(best) or 0.0):
-        top = best
-    return FreeDatum(key, min(good), max(good), top, least(top) or 0.0, least)
+    # as far to both sides as nothing is refused; what may be as small as one likes may come near 0
+    refused = np.flatnonzero(np.isnan(angles))
+    first, last = max(refused[refused < i], default=-1) + 1, min(refused[refused > i], default=_SAMPLES) - 1
+    low, high = 0.0, float(grid[last])
+
+    def meets(values: NDArray[np.float64]) -> NDArray[np.bool_]:
+        return ~np.isnan(transmission(values))
+
+    if first > 0:
+        low = last_true(meets, float(grid[first]), float(grid[first - 1]), 2, _NEAR * size)
+    if last < _SAMPLES - 1:
+        high = last_true(meets, high, float(grid[last + 1]), 2, _NEAR * size)
+    around = max(low, float(grid[max(i - 1, 0)])), min(high, float(grid[min(i + 1, _SAMPLES - 1)]))
+    best, angle = least_value(lambda values: -transmission(values), *around, within=_NEAR * size)
+    return FreeDatum(key, low, high, best, -angle, least)

@@ -271,3 +271,22 @@ def test_what_a_turn_confirms_stands_on_the_figure_with_its_unit():
     words = [t.string for t in walk(made.figures["design"].children) if isinstance(t, Text)]
     stroke = f"{SLIDER['stroke']:g} mm"
     assert [stroke, stroke] == words[words.index("stroke") + 1 :][:2]
+
+
+@pytest.mark.parametrize(
+    ("task", "low", "high"),
+    [
+        # H / tan(theta), beyond which the circle does not reach the line; and the rocker, or where the arc about D
+        # touches the circle over C1C2
+        ({"kind": "slider-crank", "stroke": 120, "offset": 30, "K": 1.35}, 0.0, 120 / math.tan(math.pi * 0.35 / 2.35)),
+        ({"kind": "crank-rocker", "swing": 50, "rocker": 80, "K": 1.4, "frame": 60},
+         80 * math.sin(math.radians(50 - 30)) / math.sin(math.radians(30)), 80.0),
+    ],
+)  # fmt: skip
+def test_a_free_datum_is_told_as_far_as_the_rest_of_the_wish_is_met(task, low, high):
+    free = graphkin.design({"design": task}).data["choice"]
+    assert (low, high) == pytest.approx((free["from"], free["to"]), rel=1e-8, abs=1e-9)
+
+
+def test_a_rocker_that_is_the_better_the_smaller_it_is_has_no_best():
+    assert graphkin.design("rocker-limits").choice is None
