@@ -29,9 +29,6 @@ if TYPE_CHECKING:
     from graphkin.structure import Structure
     from graphkin.table import Array, Column, Table
 
-BALANCE_IDLE = Phrase("the balance does no work in this position")
-
-
 @dataclass(frozen=True, repr=False, eq=False)
 class Solved(OfScene, Result):
     """The motion of every link, point and sliding pair at one position or over a turn.
@@ -69,7 +66,7 @@ class Solved(OfScene, Result):
 
     def blocks(self) -> Iterator[Solved]:
         """Itself, or a long sweep as some of its positions after the other."""
-        if self.part is not None or self.count is None or self.times or "_loaded" in self.__dict__:
+        if self.part is not None or self.count is None or self.times or "_moved" in self.__dict__:
             yield self
             return
         from graphkin import solver
@@ -89,37 +86,29 @@ class Solved(OfScene, Result):
         return replace(self, part=next(solver.sweep_in_blocks(self.structure, self.values, self.count)))
 
     @cached_property
-    def _loaded(self) -> tuple[Motion, Forces | None]:
-        """The motion, not solved where forces are not, and these; None for a scene that carries nothing."""
+    def _moved(self) -> Motion:
+        """The motion, whatever the forces are."""
         from graphkin import solver
 
-        if self.first is not self and len(self.first.motion) == self.count:
-            return self.first._loaded
+        if self.first is not self and len(self.first._moved) == self.count:
+            return self.first._moved
         if self.part is not None:
-            motion = self.part
-        elif self.times and self.count is not None:
-            motion = solver.over_time(self.structure, np.array(self.times))
-        else:
-            motion = solver.solve(self.structure, at=self.values, sweep=self.count)
-        if not motion.scene.loading:
-            return motion, None
-        forces = solver.forces_of(motion)
-        stuck = motion.ok & ~forces.ok
-        if not stuck.any():
-            return motion, forces
-        why = tuple(BALANCE_IDLE if here else said for here, said in zip(stuck, motion.reasons, strict=True))
-        for name, where in solver.without_line(motion).items():
-            told = Phrase("the two points of spring coincide in this", name=name)
-            why = tuple(told if here else said for here, said in zip(where, why, strict=True))
-        return replace(motion, status=np.where(stuck, "dead point", motion.status), reasons=why), forces
+            return self.part
+        if self.times and self.count is not None:
+            return solver.over_time(self.structure, np.array(self.times))
+        return solver.solve(self.structure, at=self.values, sweep=self.count)
 
     @property
     def motion(self) -> Motion:
-        return self._loaded[0]
+        """The motion, not solved where forces are not."""
+        return self._moved if self.forces is None else self.forces.known_motion
 
     @property
     def forces(self) -> Forces | None:
-        return self._loaded[1]
+        """All forces; None for a scene that carries nothing."""
+        from graphkin import solver
+
+        return solver.forces_of(self._moved) if self._moved.scene.loading else None
 
     @property
     def said(self) -> Phrase:
@@ -151,11 +140,6 @@ class Solved(OfScene, Result):
         """What has a name, as columns of the table: a vector's size and components.  Raises CallError."""
         (shown,) = quantities_shown(self.mechanism, [name])
         return shown.columns(self.mechanism, shown.parts(None, self._moved))
-
-    @property
-    def _moved(self) -> Motion:
-        """The motion for which forces are known already, where there are any."""
-        return self.motion if self.forces is None else self.forces.motion
 
     @cached_property
     def data(self) -> dict[str, Json]:

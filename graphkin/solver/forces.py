@@ -26,6 +26,7 @@ from graphkin.solver.constraints import solve_all
 from graphkin.solver.motion import SLIGHT, Motion, contact_motion, pitch_point
 from graphkin.solver.pose import Array
 from graphkin.structure import Pair
+from graphkin.words import Phrase, Wording
 
 
 @dataclass(frozen=True)
@@ -127,6 +128,9 @@ DEAD = 1e-10
 """Equations with entries of order 1 whose inverse is greater than 1 / DEAD have no answer."""
 
 
+BALANCE_IDLE = Phrase("the balance does no work in this position")
+
+
 @dataclass(frozen=True)
 class Forces:
     """Forces and moments at n positions.
@@ -144,6 +148,19 @@ class Forces:
     values: Mapping[Symbol, Array]
     beside: Mapping[Symbol, Array]
     ok: Array
+
+    @cached_property
+    def known_motion(self) -> Motion:
+        """The motion, which counts as a dead point where there is no answer, with the reason."""
+        motion, unknown = self.motion, self.motion.ok & ~self.ok
+        if not unknown.any():
+            return motion
+        reasons: list[Wording] = [BALANCE_IDLE if here else why
+                                  for here, why in zip(unknown, motion.reasons, strict=True)]  # fmt: skip
+        for name, where in without_line(motion).items():
+            for k in np.flatnonzero(where).tolist():
+                reasons[k] = Phrase("the two points of spring coincide in this", name=name)
+        return replace(motion, status=np.where(unknown, "dead point", motion.status), reasons=tuple(reasons))
 
     @cached_property
     def bound(self) -> tuple[Array, Array]:

@@ -21,7 +21,7 @@ from graphkin.jobs import Checkpoints, Progress, Workers, key_of
 from graphkin.scene import mechanism_of
 from graphkin.scene.drivers import moments, moves_by_law
 from graphkin.scene.model import Dimension, Mechanism, dimensions, same_but_for_dimensions
-from graphkin.solver import DriverRange, driver_range, over_time, prepare, structure_of
+from graphkin.solver import DriverRange, driver_range, forces_of, over_time, prepare, structure_of
 from graphkin.solver.designs import PreparedMechanisms
 from graphkin.solver.kernel import pays
 from graphkin.solver.named_positions import named_positions
@@ -121,6 +121,8 @@ class FollowedDesign:
         else:
             motion = self.reach.motion(self.reach.table_offsets(n, first, last))
         parts = tuple(w.parts(None if times is not None else self.reach, motion) for w in self.watched)
+        if any(w.is_load for w in self.watched):
+            motion = forces_of(motion).known_motion
         return self._rows(first, motion.values, parts, motion.status, motion.why, times)
 
     def table_of(self, arrays: Arrays, n: int, first: int, last: int) -> Table:

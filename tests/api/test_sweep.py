@@ -223,3 +223,24 @@ def test_solve_sweep_and_prepare_go_in_the_sense_of_a_driven_slide(velocity: flo
     assert swept["theta_1"].tolist() == pytest.approx(solved["theta_1"].tolist(), rel=1e-9)
     prepared = graphkin.prepare(scene, find=["theta_1"]).sweep(7)
     assert prepared.driver.tolist() == pytest.approx(travels.tolist(), rel=1e-9)
+
+
+def test_positions_whose_balance_does_no_work_are_not_solved_in_a_sweep_either() -> None:
+    scene = {
+        "frame": {"name": "0", "points": {"A": [0, 0]}, "guides": {"h": {"through": [0, 0], "angle": 0}}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 50},
+            "2": {"points": ["B", "C"], "length": 150},
+            "3": {"points": ["C"], "on": "0.h"},
+        },
+        "driver": {"link": "1", "angle": 0, "omega": 10},
+        "loads": {"L": {"on": "1", "moment": 10}},
+        "balance": {"on": "2"},  # the rod does not turn at 90 and 270 degrees
+    }
+    swept, solved = graphkin.sweep(scene, positions=4), graphkin.solve(scene, sweep=4)
+    assert ["ok", "dead point", "ok", "dead point"] == swept.table["status"].tolist()
+    assert solved.table == swept.table
+    assert "the balance does no work in this position" in swept.table["why"][1]
+    assert 2 == swept.good
+    assert np.isfinite(swept["F_1/2"][0])
+    assert ["ok"] * 4 == graphkin.sweep(scene, positions=4, find=["v_C"]).table["status"].tolist()
