@@ -177,11 +177,11 @@ class Table:
         units : for each column its unit, "" where it has none
         """
         cells = list(rows)
-        found = []
+        columns = []
         none = [""] * len(heads)
         for i, (head, form, unit) in enumerate(zip(heads, forms or none, units or none, strict=True)):
-            found.append(Column(head, as_array([row[i] for row in cells]), unit, form=form))
-        return cls(tuple(found))
+            columns.append(Column(head, as_array([row[i] for row in cells]), unit, form=form))
+        return cls(tuple(columns))
 
     def __len__(self) -> int:
         return len(self.columns[0].values) if self.columns else 0
@@ -344,12 +344,12 @@ class Table:
         along = self.index or ("row",)
         columns = {c.name: c.values for c in self.columns}
         frame = _library("pandas").DataFrame(columns if self.index else {"row": np.arange(len(self)), **columns})
-        found = frame.set_index(list(along)).to_xarray()
-        if found.sizes and math.prod(found.sizes.values()) != len(self):
+        dataset = frame.set_index(list(along)).to_xarray()
+        if dataset.sizes and math.prod(dataset.sizes.values()) != len(self):
             raise CallError.of("table", "is no grid of", shape=", ".join(self.index))
         for column in self.columns:
-            found[column.name].attrs |= _attributes(column)
-        return found
+            dataset[column.name].attrs |= _attributes(column)
+        return dataset
 
     # files
 
@@ -391,8 +391,8 @@ def _library(name: str) -> Any:
 
 
 def _facts(column: Column) -> dict[str, str]:
-    found = {"unit": column.unit, "symbol": column.symbol}
-    return {key: text for key, text in found.items() if text}
+    facts = {"unit": column.unit, "symbol": column.symbol}
+    return {key: text for key, text in facts.items() if text}
 
 
 def _attributes(column: Column) -> dict[str, str]:
@@ -419,30 +419,30 @@ def as_array(cells: Sequence[object]) -> Array:
 
 def plain(values: Array) -> list[Json]:
     """Cells for programs: ``None`` where there is no number."""
-    found: list[Json] = (values + 0.0 if values.dtype.kind == "f" else values).tolist()
+    cells: list[Json] = (values + 0.0 if values.dtype.kind == "f" else values).tolist()
     if values.dtype.kind == "f" and not np.isfinite(values).all():
-        return [x if known else None for x, known in zip(found, np.isfinite(values).tolist(), strict=True)]
-    return found
+        return [x if known else None for x, known in zip(cells, np.isfinite(values).tolist(), strict=True)]
+    return cells
 
 
 def formatted(values: Array, form: str) -> list[str]:
     """Numbers in a format, "" where there is none."""
     # "a: b" and "a: b" alike: one call for each cell, none of them in Python
-    found = list(map(("{:" + form + "}").format, values.tolist()))
-    found = [text[1:] if text.startswith("-0") and not text.strip("-0.") else text for text in found]
+    cells = list(map(("{:" + form + "}").format, values.tolist()))
+    cells = [text[1:] if text.startswith("-0") and not text.strip("-0.") else text for text in cells]
     for k in np.flatnonzero(np.isnan(values)).tolist():
-        found[k] = ""
-    return found
+        cells[k] = ""
+    return cells
 
 
 def shortest(values: Array) -> list[str]:
     """Numbers as the shortest decimals that read back the same."""
-    found = list(map(repr, (values + 0.0).tolist()))
+    cells = list(map(repr, (values + 0.0).tolist()))
     size = np.abs(values)
     other = (size < 1e-4) | ~(size < _MOST) | (values == np.rint(values))
     for k in np.flatnonzero(other).tolist():
-        found[k] = _shown(float(values[k]))
-    return found
+        cells[k] = _shown(float(values[k]))
+    return cells
 
 
 def _shown(value: float) -> str:

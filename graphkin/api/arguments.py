@@ -248,8 +248,8 @@ def _driver(scene: Mechanism, name: str) -> Driver:
 def passed_words(scene: Mechanism, passed: Iterable[ChangePoint]) -> list[Phrase]:
     """What to say of change points on the way: which branch was kept, why, and how to ask for the other."""
     said = []
-    for links in dict.fromkeys(one.links for one in passed):
-        at = [zip(scene.drivers, one.values, strict=True) for one in passed if one.links == links]
+    for links in dict.fromkeys(point.links for point in passed):
+        at = [zip(scene.drivers, point.values, strict=True) for point in passed if point.links == links]
         places = (", ".join(f"{d.key} = {scene.unit_of(d).said(v)}" for d, v in values) for values in at)
         said.append(Phrase("passed change point", links=", ".join(links), places="; ".join(dict.fromkeys(places))))
     return said

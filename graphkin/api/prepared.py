@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from numbers import Integral, Real
+from numbers import Real
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphkin.api.arguments import as_scene, quantities_shown
+from graphkin.api.arguments import as_scene, quantities_shown, whole_number
 from graphkin.api.results import OfScene, Tabled
 from graphkin.errors import CallError, as_list, as_text, did_you_mean, unfit
 from graphkin.scene.model import Mechanism
@@ -120,8 +120,8 @@ class Prepared(Tabled, OfScene):
         """
         if type(value) is not float or not -MOST_VALUE <= value <= MOST_VALUE:
             value = driver_value(value)
-        found = self.ready.at(value * self.own_unit.si)
-        return found if found is None or not self.ready.bounded else found[: len(self.names)]
+        columns = self.ready.at(value * self.own_unit.si)
+        return columns if columns is None or not self.ready.bounded else columns[: len(self.names)]
 
     def columns(self, values: ArrayLike) -> Samples:
         """The quantities at given values of the first driver, shape (n,), in its own unit."""
@@ -149,7 +149,7 @@ class Prepared(Tabled, OfScene):
         CallError : n is no number of positions; ``out`` does not fit; numba is to compile and is not installed
         """
         if type(n) is not int or not 1 <= n <= MOST:
-            self.allowed(n)
+            n = whole_number("sweep", n, 1, MOST, " positions")
         if out is not None:
             self._fitting(n, out)
         return self.samples(*self.ready.sweep(n, out, self.compiled(n)), None)
@@ -161,13 +161,6 @@ class Prepared(Tabled, OfScene):
         if out.shape != shape or out.dtype != float or not out.flags.c_contiguous:
             wanted = Phrase("give an array of floats of the shape in", shape=shape)
             raise CallError.of("out", Phrase("of the shape", dtype=out.dtype, shape=out.shape), wanted)
-
-    @staticmethod
-    def allowed(n: int) -> None:
-        """Raises CallError where n is no number of positions."""
-        if isinstance(n, bool) or not isinstance(n, Integral) or not 1 <= n <= MOST:
-            raise CallError.of("sweep", "positions of number", "give a whole number from 1 to", number=f"{n!r:.60}",
-                               most=MOST)
 
     def over(self, designs: Mapping[str, ArrayLike]) -> PreparedDesigns:
         """The same mechanism with other dimensions, nothing read or analysed again: for an optimiser's inner loop.
@@ -296,8 +289,8 @@ class Samples(Tabled):
         index = ("design",) * many + ("position",) * (len(shape) - many)
         columns = [Column(name, np.ravel(k) + 1) for name, k in zip(index, np.indices(shape), strict=True)]
         for key, values in designs.items():
-            own = values.reshape(-1, *[1] * (len(shape) - 1)) if many else values
-            columns.append(Column(key, np.ravel(np.broadcast_to(own, shape))))
+            column = values.reshape(-1, *[1] * (len(shape) - 1)) if many else values
+            columns.append(Column(key, np.ravel(np.broadcast_to(column, shape))))
         driver = f"driver_{self.prepared.mechanism.drivers[0].key}"
         shown = np.ravel(np.broadcast_to(np.round(self.driver, 11), shape))
         columns.append(Column(driver, shown, self.prepared.own_unit.text))
@@ -370,7 +363,7 @@ class PreparedDesigns(Tabled, OfScene):
         Designs whose groups stay away from dead points over the whole turn are computed together, in some microseconds
         each; others (a rocker that is driven, a larger group) are followed one by one, in some milliseconds.
         """
-        self.prepared.allowed(n)
+        n = whole_number("sweep", n, 1, MOST, " positions")
         columns, ok, values = self._designs.sweep(n, self.prepared.compiled(n * len(self)))
         return self._samples(columns, ok, np.asarray(self.prepared.own_unit.of(values)))
 
@@ -378,9 +371,9 @@ class PreparedDesigns(Tabled, OfScene):
         if self.single:
             one_each = driver.shape[:1] == ok.shape[:1] and driver.ndim == ok.ndim
             columns, ok, driver = columns[:, 0], ok[0], driver[0] if one_each else driver
-        found = self.prepared.samples(columns, ok, driver)
-        found.designs = {key: x.reshape(()) if self.single else x for key, x in self.values.items()}
-        return found
+        samples = self.prepared.samples(columns, ok, driver)
+        samples.designs = {key: x.reshape(()) if self.single else x for key, x in self.values.items()}
+        return samples
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, PreparedDesigns):

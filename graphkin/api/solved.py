@@ -178,9 +178,9 @@ class Solved(OfScene, Result):
 
     def _plain(self, name: str) -> NDArray[np.float64]:
         """What has a name, shape (positions,) or (positions, 2) for vectors; angles in radians."""
-        own = self[name]
-        own = np.radians(own) if self.columns(name)[0].unit == "deg" else own
-        return np.stack([own.real, own.imag], axis=1) if np.iscomplexobj(own) else own
+        values = self[name]
+        values = np.radians(values) if self.columns(name)[0].unit == "deg" else values
+        return np.stack([values.real, values.imag], axis=1) if np.iscomplexobj(values) else values
 
     def loops(self, language: str | None = None) -> LoopText:
         """The vector loops of the first position that is solved, with their equations in numbers.
@@ -223,8 +223,8 @@ def _finite(value: NDArray[np.float64] | NDArray[np.complex128]) -> float | list
 def refused(scene: SceneLike, at: At, stop: Unsolvable) -> dict[str, Json]:
     """The object of ``solve --json`` for a mechanism that is refused as a whole: its count, and why."""
     given = as_scene(scene)
-    given, found = placed(given, at)
-    values = found or {}
+    given, values_at = placed(given, at)
+    values = values_at or {}
     driver = {d.key: given.unit_of(d, radians=True).of(values.get(d.key, d.value)) for d in given.drivers}
     return {
         "title": given.question.title,

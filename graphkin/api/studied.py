@@ -108,10 +108,10 @@ def speed_accuracy(
     repeats = whole_number("repeats", repeats, 1, 1000)
     known_words(language=language)
     _ = out is None or path_of(out)  # what is wrong with it is said before minutes of work
-    found = SpeedAccuracy(race(given, repeats), language or given.question.sheet.language)
+    measured = SpeedAccuracy(race(given, repeats), language or given.question.sheet.language)
     if out is not None:
-        found.write(out)
-    return found
+        measured.write(out)
+    return measured
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -124,7 +124,7 @@ class Stability(_Charted):
 
     def __getitem__(self, kind: str) -> Singularity:
         """One kind of singular position, by its name."""
-        return named({one.key: one for one in self.singularities}, kind, where="kind")
+        return named({singularity.key: singularity for singularity in self.singularities}, kind, where="kind")
 
     @cached_property
     def figures(self) -> Mapping[str, ChartPage]:
@@ -185,7 +185,7 @@ def stability(
     samples = whole_number("samples", samples, 1, 100)
     known_words(language=language)
     _ = out is None or path_of(out)
-    found = Stability(run_singularities(wanted, samples), language)
+    measured = Stability(run_singularities(wanted, samples), language)
     if out is not None:
-        found.write(out)
-    return found
+        measured.write(out)
+    return measured

@@ -109,8 +109,8 @@ class Swept(OfScene, Result):
         else:
             parts = [np.zeros(0)] * (1 + quantity.is_vector)
             heads = [column.name for column in quantity.columns(self.mechanism, parts, sizes=False)]
-            found, unit = [self.table[head] for head in heads], quantity.unit(self.mechanism).text
-            values = found[0] + 1j * found[1] if quantity.is_vector else found[0]
+            columns, unit = [self.table[head] for head in heads], quantity.unit(self.mechanism).text
+            values = columns[0] + 1j * columns[1] if quantity.is_vector else columns[0]
         shown = values.reshape(-1, self.over.positions) if self.over.designs.keys else values
         return shown if unit is None else Values.of(shown, unit)
 
@@ -151,9 +151,9 @@ class Swept(OfScene, Result):
     @property
     def _wished(self) -> list[Quantity]:
         """What is asked besides the scene's own wishes: it alone is drawn."""
-        own = [str(s) for s in self.over.scene.question.find]
+        by_scene = [str(s) for s in self.over.scene.question.find]
         wished = [q for q in self.over.asked if q.kind != "place"]
-        return wished if [q.name for q in self.over.asked] != own else []
+        return wished if [q.name for q in self.over.asked] != by_scene else []
 
     @cached_property
     def data(self) -> dict[str, Json]:
@@ -184,7 +184,7 @@ class Swept(OfScene, Result):
         # what is asked alone is drawn alone; without that the outputs and the coupler curves
         asked = self._wished
         offsets = self.turn.reach.offsets
-        over = {q: [(float(offsets(np.array(at))), x) for at, x in own] for q, own in self.measured.items()}
+        over = {q: [(float(offsets(np.array(at))), x) for at, x in pairs] for q, pairs in self.measured.items()}
         if over:
             signed = {replace(quantity, along=False): quantity for quantity in over}
             asked = list(dict.fromkeys((*(signed.get(q, q) for q in asked), *over)))
@@ -194,7 +194,7 @@ class Swept(OfScene, Result):
         if self.chords:
             from graphkin.study.graphical import chords_page
 
-            pages |= {name: chords_page(one, self.turn.reach, self.language) for name, one in self.chords.items()}
+            pages |= {name: chords_page(chords, self.turn.reach, self.language) for name, chords in self.chords.items()}
         return pages
 
     @cached_property
@@ -387,11 +387,11 @@ def sweep(
         with Workers(through, workers if over.long else None) as working:
             if out is None:
                 return Swept(over, collect(over, working, progress), spoken, elsewhere, on_paper)
-            found = write_tables(over, path_of(out), working, have("pyarrow"), progress)
+            tables = write_tables(over, path_of(out), working, have("pyarrow"), progress)
     finally:
         if scheduler is not None and through is not None:
             through.shutdown()
-    swept = Swept(over, found, spoken, elsewhere, on_paper)
+    swept = Swept(over, tables, spoken, elsewhere, on_paper)
     if not made.keys:
         swept.write_figures(out, formats, text)
     return swept
@@ -401,8 +401,8 @@ def _over_time_alone(**wishes: object) -> None:
     """Refuse what counts along the driver, where drivers move by laws over the time."""
     given = [name for name, wish in wishes.items() if wish not in (None, ())]
     if given:
-        found = Phrase("does not go with a driver that moves")
-        raise CallError(*(Problem(name, found, Phrase("leave it out or give omega instead of")) for name in given))
+        refusal = Phrase("does not go with a driver that moves")
+        raise CallError(*(Problem(name, refusal, Phrase("leave it out or give omega instead of")) for name in given))
 
 
 def _elsewhere(scene: Mechanism, measured: AnswersLike) -> dict[Quantity, list[tuple[float, float]]]:
@@ -416,23 +416,24 @@ def _elsewhere(scene: Mechanism, measured: AnswersLike) -> dict[Quantity, list[t
     if any(row.at is None for row in rows):
         raise CallError.of("measured", "has no column at", "write the driver's value of each row under")
     places = [(driver_values(scene, row.at) or {})[scene.drivers[0].key] for row in rows]
-    signed = {one.symbol for row in rows for one in row.values if one.shows_sign}
-    signed -= {one.symbol for row in rows for one in row.values if isinstance(one.value, complex)}
+    answers = [answer for row in rows for answer in row.values]
+    signed = {answer.symbol for answer in answers if answer.shows_sign}
+    signed -= {answer.symbol for answer in answers if isinstance(answer.value, complex)}
     along = {s for s in signed if s.is_vector and senses_along(solve(scene), s) is not None}
-    found: dict[Quantity, list[tuple[float, float]]] = {}
+    elsewhere: dict[Quantity, list[tuple[float, float]]] = {}
     for row, place in zip(rows, places, strict=True):
-        for one in (one for one in row.values if one.symbol.scope != "turn" and not one.symbol.at):
-            quantity = Quantity(one.symbol, one.symbol in along)
-            value = abs(one.value) if quantity.is_size else float(one.value.real)
-            found.setdefault(quantity, []).append((place, value))
-    return found
+        for answer in (answer for answer in row.values if answer.symbol.scope != "turn" and not answer.symbol.at):
+            quantity = Quantity(answer.symbol, answer.symbol in along)
+            value = abs(answer.value) if quantity.is_size else float(answer.value.real)
+            elsewhere.setdefault(quantity, []).append((place, value))
+    return elsewhere
 
 
 def _asked(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Quantity, ...]:
     """What is asked, in its order.  Raises CallError, naming everything that names nothing."""
     if find is None:
-        own = scene.question.find
-        shown = (s for s in own if s.scope not in ("turn", "cycle") and s.kind not in ("h", "arm") and not s.at)
+        by_scene = scene.question.find
+        shown = (s for s in by_scene if s.scope not in ("turn", "cycle") and s.kind not in ("h", "arm") and not s.at)
         return quantities_shown(scene, tuple(shown))
     asked: list[Quantity] = []
     problems: list[Problem] = []

@@ -305,11 +305,11 @@ def add_labels(
             for (words, _), mark, directions in zip(labels, marks, liked, strict=True)
         ]
         placed = place(asked, panel, obstacles)
-        if all(one.clear for one in placed):
+        if all(label_placed.clear for label_placed in placed):
             break
-    for k, one in enumerate(placed, 1):
-        text = replace(one.text, id=f"{axes.get_gid()}-label-{k}")
-        add_words(_figure(axes), text, *([one.leader] if one.leader is not None else []))
+    for k, label_placed in enumerate(placed, 1):
+        text = replace(label_placed.text, id=f"{axes.get_gid()}-label-{k}")
+        add_words(_figure(axes), text, *([label_placed.leader] if label_placed.leader is not None else []))
 
 
 def _figure(axes: Axes) -> Figure:
@@ -345,13 +345,13 @@ def _in_the_way(axes: Axes) -> Obstacles:
         points = _on_page(_figure(axes), line.get_transform(), line.get_xydata())
         if line.get_linestyle() != "None":
             inside = [box.left <= z.real <= box.right and box.top <= z.imag <= box.bottom for z in points]
-            found = (  # most lie whole within
+            parts = (  # most lie whole within
                 (a, b) if both else box.clip(a, b)
                 for (a, b), both in zip(pairwise(points), map(all, pairwise(inside)), strict=True)
                 if both or math.isfinite(abs(a - b))
             )
             kept = ground if line.get_zorder() <= BEHIND else solid
-            kept.extend(one for one in found if one is not None)
+            kept.extend(one for one in parts if one is not None)
         if line.get_marker() not in ("", "None", None):
             reach = line.get_markersize() / POINTS_PER_MM / 2
             areas += [Box.around((z,)).grown(reach) for z in points if math.isfinite(abs(z))]

@@ -216,27 +216,27 @@ def lessons(race: Race) -> tuple[Phrase, ...]:
 
     hands = sorted((e for e in race.entries if e.key == "by hand"), key=lambda e: float(e.tag))
     drawn, closed = race.of("exact drawing"), race.of("closed arrays")
-    told = []
+    phrases = []
     if hands:
         usual, large = next((e for e in hands if e.tag == "1"), hands[0]), hands[-1]
-        told.append(Phrase(
+        phrases.append(Phrase(
             "speed lesson draw", minutes=f"{usual.acceleration_cost / 60:.2g}", error=percent(usual), size=usual.tag,
             large_error=percent(large), large_size=large.tag, exact_time=f"{1e3 * drawn.acceleration_cost:.2g}",
             exact_error=error(drawn),
         ))  # fmt: skip
-    told.append(Phrase("speed lesson compute", times=times(closed, drawn), error=error(closed)))
+    phrases.append(Phrase("speed lesson compute", times=times(closed, drawn), error=error(closed)))
     steps = [e for e in race.entries if e.key == "differences"]
     newton = min((e for e in race.entries if e.key == "Newton"), key=lambda e: float(error(e)), default=None)
     if steps and newton is not None:
         single = race.of("closed single")
         best = [min(getattr(e, kind) for e in steps if getattr(e, kind) is not None)
                 for kind in ("velocity_error", "acceleration_error")]  # fmt: skip
-        told.append(Phrase(
+        phrases.append(Phrase(
             "speed lesson lose", times=times(steps[0], closed),
             velocity=f"{best[0]:.1g}", acceleration=f"{best[1]:.1g}", single_times=times(single, closed),
             single_error=error(single), newton_times=times(newton, closed), newton_error=error(newton),
         ))  # fmt: skip
-    return tuple(told)
+    return tuple(phrases)
 
 
 def _lessons(race: Race, language: str) -> list[str]:
@@ -256,14 +256,14 @@ def _lines(paragraphs: Sequence[str], y: float, letters: float, step: float) -> 
 
 def _points(entries: Sequence[Entry], kind: str) -> list[tuple[Entry, float, float]]:
     """Entries that give something, with cost and error."""
-    found = []
+    points = []
     for e in entries:
         cost, error = (
             (e.velocity_cost, e.velocity_error) if kind == "velocity" else (e.acceleration_cost, e.acceleration_error)
         )
         if error is not None and math.isfinite(error):
-            found.append((e, cost, max(error, LOWEST * 1.5)))
-    return found
+            points.append((e, cost, max(error, LOWEST * 1.5)))
+    return points
 
 
 def _draw(figure: Figure, race: Race, kind: str, box: Box, language: str) -> None:
@@ -277,15 +277,15 @@ def _draw(figure: Figure, race: Race, kind: str, box: Box, language: str) -> Non
     points = [p for p in points if p[2] <= HIGHEST]
     axes.plot([floor] * 2, [LOWEST, HIGHEST], **look(FLOOR))
     for name, stroke in LINES.items():
-        own = [p for p in points if p[0].family == name or (name == "pencil" and p[0].key == "pencil")]
-        axes.plot([c for _, c, _ in own], [e for _, _, e in own], **look(stroke))
+        shown = [p for p in points if p[0].family == name or (name == "pencil" and p[0].key == "pencil")]
+        axes.plot([c for _, c, _ in shown], [e for _, _, e in shown], **look(stroke))
     for e, cost, error in points:  # lines from each whole run to the one that is limited to what is asked
         whole = next((p for p in points if p[0].key == e.key and not p[0].tag and e.tag == "asked"), None)
         if whole is not None:
             axes.plot([whole[1], cost], [whole[2], error], **look(SAVED))
     for family, shape in SHAPES.items():
-        own = [p for p in points if p[0].family == family]
-        axes.plot([c for _, c, _ in own], [e for _, _, e in own], **marker(shape))
+        shown = [p for p in points if p[0].family == family]
+        axes.plot([c for _, c, _ in shown], [e for _, _, e in shown], **marker(shape))
     named = [(_words(race, e, points, language), (cost, error)) for e, cost, error in points]
     stretch = (floor, HIGHEST / 20), (floor, HIGHEST / 2e4)
     add_labels(axes, [*((w, at) for w, at in named if w), (word("copying", language), stretch)], LETTERS_TRIED)

@@ -51,16 +51,16 @@ def compared_points(structure: Structure) -> tuple[ComparedPoint, ...]:
     """Every moving point by the first moving link that has it, and the points of guides under sliding pins."""
     scene = structure.scene
     fixed = scene.frame.points
-    found = [
+    points = [
         ComparedPoint(p, link.name) for link in scene.links if not link.redundant for p in link.points if p not in fixed
     ]
-    firsts = {o.point: o for o in reversed(found)}
+    firsts = {o.point: o for o in reversed(points)}
     unders = [
         ComparedPoint(s.pin, s.b, False)
         for s in structure.slides
         if s.pin and s.b != scene.frame.name and s.b in scene.by_name and s.pin not in structure.links[s.b].points
     ]
-    return (*dict.fromkeys(firsts[o.point] for o in found), *unders)
+    return (*dict.fromkeys(firsts[o.point] for o in points), *unders)
 
 
 def point_rates(equations: Equations, solution: Solution, outputs: Sequence[ComparedPoint]) -> tuple[Array, Array]:
@@ -68,8 +68,8 @@ def point_rates(equations: Equations, solution: Solution, outputs: Sequence[Comp
     (outputs,) or (outputs, positions)."""
     velocities, accelerations = [], []
     for output in outputs:
-        own = equations.structure.links[output.link].points
-        local = own[output.point] if output.own else equations.under(solution, output.point, output.link)
+        places = equations.structure.links[output.link].points
+        local = places[output.point] if output.own else equations.under(solution, output.point, output.link)
         _, _, vx, vy, ax, ay = equations.point(solution, output.link, local)
         velocities.append(vx + 1j * vy)
         accelerations.append(ax + 1j * ay)
@@ -138,11 +138,11 @@ class Work:
         """The outputs that are asked for: their points, or points of links whose turning is asked for."""
         refs = {ref for s in self.asked for ref in (s.of, s.to) if ref is not None}
         turning = {s.link for s in self.asked if s.link}
-        found = [
+        asked = [
             o for o in self.outputs
             if o.ref in refs or (o.link in turning and o.own)
         ]  # fmt: skip
-        return tuple(found or self.outputs)
+        return tuple(asked or self.outputs)
 
 
 def _error(right: Array, measured: Array | None) -> float | None:

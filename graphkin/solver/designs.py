@@ -84,36 +84,36 @@ class PreparedMechanisms:
     @cached_property
     def _open(self) -> dict[Name, Array]:
         """Numbers of the formulas by name, for each design, where it changes them."""
-        found: dict[Name, Array] = {}
+        columns: dict[Name, Array] = {}
         ready = self.ready
         numbers = {name: (values, ready.dimensions[name]) for name, values in self.given.items()}
         for name, (values, old) in {**numbers, **self._guides}.items():
             kind, *rest = name
             if kind in ("rate", "second"):
-                found[name] = values.real
+                columns[name] = values.real
             elif kind == "value" and rest[0]:
                 k, u = rest[0], turned(values.real)
-                found["travel", k], found["cos", k], found["sin", k] = values.real, u.real, u.imag
+                columns |= {("travel", k): values.real, ("cos", k): u.real, ("sin", k): u.imag}
             elif kind in ("point", "turn") or name in self._guides:
                 for axis, part, was in (("x", values.real, old.real), ("y", values.imag, old.imag)):
                     if (part != was).any():
-                        found[*name, axis] = part
-        return found
+                        columns[*name, axis] = part
+        return columns
 
     @cached_property
     def _guides(self) -> dict[Dimension, tuple[Array, complex]]:
         """Place and direction of the guide of each sliding pair that the designs change, and those of the mechanism
         itself.  The centre of a disc on a flat face slides beside the face, by the radius of the disc."""
-        own, found = self.ready.dimensions, dict[Dimension, tuple[Array, complex]]()
+        dimensions, guides = self.ready.dimensions, dict[Dimension, tuple[Array, complex]]()
         for s in self.ready.structure.slides:
             through, direction = ("through", s.b, s.guide.name), ("direction", s.b, s.guide.name)
             if through in self.given or direction in self.given:
-                beside = (s.guide.through - own[through]) / own[direction]
-                along = self.given.get(direction, np.full(1, own[direction]))
-                at = self.given.get(through, np.full(1, own[through])) + beside * along
-                found["through", s.key] = np.broadcast_to(at, (self.count,)), s.guide.through
-                found["direction", s.key] = np.broadcast_to(along, (self.count,)), s.guide.direction
-        return found
+                beside = (s.guide.through - dimensions[through]) / dimensions[direction]
+                along = self.given.get(direction, np.full(1, dimensions[direction]))
+                at = self.given.get(through, np.full(1, dimensions[through])) + beside * along
+                guides["through", s.key] = np.broadcast_to(at, (self.count,)), s.guide.through
+                guides["direction", s.key] = np.broadcast_to(along, (self.count,)), s.guide.direction
+        return guides
 
     @cached_property
     def _code(self) -> _OpenCode:
@@ -227,8 +227,9 @@ class PreparedMechanisms:
 
     def _loops(self, which: Array, n: int, out: Array) -> None:
         code = self._code
-        own = code.dimensioned.params(code.alone.params, {**self.ready.given_names, **dict.fromkeys(self._open, 0.0)})
-        numbers = np.tile([*own, 0.0, 0.0], (self.count, 1))
+        given = {**self.ready.given_names, **dict.fromkeys(self._open, 0.0)}
+        params = code.dimensioned.params(code.alone.params, given)
+        numbers = np.tile([*params, 0.0, 0.0], (self.count, 1))
         for j, name in enumerate(code.alone.params):
             if name in self._open:
                 numbers[:, j] = self._open[name]

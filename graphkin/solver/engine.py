@@ -144,7 +144,7 @@ class State:
     clear : positions far from every dead point of a dyad, without larger groups, shape (n,)
     slack : how far lifts and what rolls may be off, as for ``error_bounds``
     singular : the sine below which a group is at a dead point, smaller where the driver is given from a dead point
-    lifted : what the formulas take of followers of cams and of what rolls, by name, shape (n,)
+    given : what the formulas take of followers of cams, of what rolls and of larger groups, by name, shape (n,)
     """
 
     poses: Mapping[str, Pose]
@@ -154,7 +154,7 @@ class State:
     clear: Array
     slack: Array
     singular: Array
-    lifted: Mapping[Name, Array] = field(default_factory=dict)
+    given: Mapping[Name, Array] = field(default_factory=dict)
 
     def bounds(self, structure: Structure, rows: Array) -> dict[str, ErrorBound[Array]]:
         """How far each link may be off at some of the positions, bool, shape (n,)."""
@@ -290,7 +290,7 @@ class _Run:
             sharp = sharp * np.abs(groups[i].sine)  # type: ignore[union-attr]
         slack = np.concatenate(self.slack, axis=1) if self.slack else np.zeros((self.n, 0))
         state = State(poses, self.drive, dict(sorted(groups.items())), np.zeros(self.n, dtype=bool), sharp > CLEAR,
-                      slack, np.where(exact, TINY, SINGULAR), self._lifted())  # fmt: skip
+                      slack, np.where(exact, TINY, SINGULAR), self._found())  # fmt: skip
         again = exact
         if names and explicit and self.fine and self.rates and upto == len(self.structure.elements):
             again = exact | self._rough(state)
@@ -299,11 +299,11 @@ class _Run:
         extended = self._extended(program.code((first, upto, self.rates), asked, self.varying))
         return replace(state, refined=extended.place(again, asked, columns))  # the columns are those of the poses
 
-    def _lifted(self) -> dict[Name, Array]:
-        """What formulas take of followers of cams and of what rolls."""
+    def _found(self) -> dict[Name, Array]:
+        """What formulas take of followers of cams, of what rolls and of larger groups."""
         count = len(self.structure.scene.drivers)
         rolled = ((part, k) for k in range(count, len(self.structure.drivers)) for part in ("cos", "sin", "travel"))
-        names = [*rolled, *(name for name in self.given if name[0] in ("lift", "rolled"))]
+        names = [*rolled, *(name for name in self.given if name[0] in ("lift", "rolled", "pose"))]
         return {name: self.given[name] for name in names if name in self.given}
 
     def _rough(self, state: State) -> Array:

@@ -24,7 +24,7 @@ from graphkin.solver.expressions import Code, Name, Real, Vec
 from graphkin.solver.forces import forces_of
 from graphkin.solver.kernel import LONG, Kernel
 from graphkin.solver.mobility import structure_of
-from graphkin.solver.pose import FIELDS, GIVEN, UNIT, Array, Drive, turned
+from graphkin.solver.pose import GIVEN, UNIT, Array, Drive, turned
 from graphkin.solver.program import DimensionedProgram, Program, program_of
 from graphkin.solver.quantities import VALUES, Posed, bound_of_symbol
 from graphkin.structure import Structure
@@ -266,21 +266,14 @@ class PreparedMechanism:
         """The assembly of each group at values of the first driver, where it changes."""
         return {("sign", i): form for i, form in self._forms_at(value).items() if form.ndim == 1}
 
-    def _poses_by_newton(self, value: Array, ok: Array) -> dict[Name, Array]:
+    def _from_larger_groups(self, value: Array, ok: Array) -> Mapping[Name, Array]:
         """Inputs of the formulas that come from larger groups; positions that are in none of their assemblies are no
         longer ok."""
         # positions out of reach are computed at one that is not
         state = self._state(np.where(ok, value, value[int(np.argmax(ok))]))
         for _, dead in singular(self.structure, state, len(value)):
             ok &= ~dead
-        given: dict[Name, Array] = {}
-        for name in (n for group in self.structure.larger_groups for n in group.members):
-            for field in FIELDS:
-                part = np.broadcast_to(getattr(state.poses[name], field), value.shape)
-                given["pose", name, field, "x"] = np.ascontiguousarray(part.real)
-                given["pose", name, field, "y"] = np.ascontiguousarray(part.imag)
-        given.update(state.lifted)
-        return given
+        return state.given
 
     # many
 
@@ -330,48 +323,48 @@ class PreparedMechanism:
         out = np.empty((self.rows, len(values))) if out is None else out
         return out, self._all(GivenValues(values), out, fast)
 
-    def _all(self, way: GivenValues | UniformGrid, out: Array, fast: bool) -> Array:
+    def _all(self, steps: GivenValues | UniformGrid, out: Array, fast: bool) -> Array:
         """All columns: those of formulas, below them forces and moments, at last the bounds of both, infinite where
         they are not known; NaN where there is no such position."""
-        count, n = len(self.asked), len(way)
-        ok = self._formulas(way, out[:count], fast) if count or not self.loads else self._reached(way.values)
+        count, n = len(self.asked), len(steps)
+        ok = self._formulas(steps, out[:count], fast) if count or not self.loads else self._reached(steps.values)
         if self.clear:
             return ok
         bounds = out[len(self.names) :]
         if self.loads:
-            rows, of_loads, solved = force_rows(self.range, self.loads, way.values, self.bounded)
-            ok = ok & solved & self._reached(way.values)
+            rows, of_loads, solved = force_rows(self.range, self.loads, steps.values, self.bounded)
+            ok = ok & solved & self._reached(steps.values)
             rows_of_out = [*out[count : len(self.names)], *bounds[len(self.wanted) :]]
             for row, value in zip(rows_of_out, [*rows, *of_loads], strict=True):
                 row[:] = value
         for k in range(0, n if self.bounded and self.wanted else 0, CHUNK):
             some = slice(k, k + CHUNK)
-            self._bounds(way.values[some], ok[some], bounds[: len(self.wanted), some])
+            self._bounds(steps.values[some], ok[some], bounds[: len(self.wanted), some])
         bounds[np.isnan(bounds)] = np.inf
         if not ok.all():
             out[:, ~ok] = np.nan
         return ok
 
-    def _formulas(self, way: GivenValues | UniformGrid, out: Array, fast: bool) -> Array:
+    def _formulas(self, steps: GivenValues | UniformGrid, out: Array, fast: bool) -> Array:
         """The columns of formulas, and where there is such a position; where there is none they mean nothing."""
-        n, count, compiled = len(way), len(self.asked), fast and not self.by_newton
+        n, count, compiled = len(steps), len(self.asked), fast and not self.by_newton
         if n > CHUNK and not compiled:
             parts = [slice(k, min(k + CHUNK, n)) for k in range(0, n, CHUNK)]
-            return np.concatenate([self._formulas(way[p], out[:, p], fast) for p in parts])
-        ok = _every(n) if self._regular else np.ones(n, dtype=bool) if self.whole else self._reached(way.values)
+            return np.concatenate([self._formulas(steps[p], out[:, p], fast) for p in parts])
+        ok = _every(n) if self._regular else np.ones(n, dtype=bool) if self.whole else self._reached(steps.values)
         if not ok.any():
             return ok
-        given: dict[Name, Array] = {} if self.signs is not None else self.signs_at(way.values)
+        given: dict[Name, Array] = {} if self.signs is not None else self.signs_at(steps.values)
         if compiled:
-            kernel = self._on_grid if isinstance(way, UniformGrid) else self._at_values
+            kernel = self._on_grid if isinstance(steps, UniformGrid) else self._at_values
             rows = [np.array([given[name] for name in kernel.signs])] if kernel.signs else []
-            kernel(n, self._numbers, *way.given, *rows, out, *([ok] if kernel.checked else []))
+            kernel(n, self._numbers, *steps.given, *rows, out, *([ok] if kernel.checked else []))
         else:
-            given |= self._poses_by_newton(way.values, ok) if self.by_newton else {}
+            given |= self._from_larger_groups(steps.values, ok) if self.by_newton else {}
             if self.turns:
-                given["cos", 0], given["sin", 0] = way.turn
+                given["cos", 0], given["sin", 0] = steps.turn
             else:
-                given["travel", 0] = way.values
+                given["travel", 0] = steps.values
             sines = np.empty((len(self._code.asked) - count, n))
             self._code.arrays(self._same, [given[name] for name in self._code.inputs], [*out, *sines])
             for sine in sines:
@@ -438,10 +431,10 @@ def prepare(
     loads = tuple(name for name in asked if force_heads(structure.scene, name))
     asked = [name for name in asked if name not in loads]
     dimensioned = program_of(structure, tuple(d.values[2] != 0 for d in structure.drivers))
-    found = formulas(dimensioned.program, structure, asked, units)
-    names = (*found, *(column for name in loads for column in force_heads(structure.scene, name)))
+    columns = formulas(dimensioned.program, structure, asked, units)
+    names = (*columns, *(column for name in loads for column in force_heads(structure.scene, name)))
     along = along or range_of(structure)
-    return PreparedMechanism(names, along, tuple(found.values()), dimensioned, tuple(asked), units, bounded, loads)
+    return PreparedMechanism(names, along, tuple(columns.values()), dimensioned, tuple(asked), units, bounded, loads)
 
 Units = tuple[float, float, float]
 """What one metre, one radian and one metre in rates are in the units of the columns."""

@@ -160,24 +160,24 @@ class Program:
         """The code for some formulas, made once; of a vector both components.  ``varying`` are rates of drivers that
         change from position to position."""
         if (key, varying) not in self._codes:
-            self._codes[key, varying] = Code(self.graph, [x for one in asked for x in components(one)], (), varying)
+            self._codes[key, varying] = Code(self.graph, [x for value in asked for x in components(value)], (), varying)
         return self._codes[key, varying]
 
 
 def _numbers(structure: Structure) -> dict[Name, complex]:
     """Every place, direction and ratio that a structure gives, by name."""
-    found: dict[Name, complex] = {}
+    numbers: dict[Name, complex] = {}
     for name, link in structure.links.items():
         for point, z in link.points.items():
-            found["point", name, point] = z
+            numbers["point", name, point] = z
     for s in structure.slides:
-        found["turn", s.key] = s.turn
-        found["through", s.key] = s.guide.through
-        found["direction", s.key] = s.guide.direction
+        numbers["turn", s.key] = s.turn
+        numbers["through", s.key] = s.guide.through
+        numbers["direction", s.key] = s.guide.direction
     for element in structure.driven:
         if rolled := element.rolled:
-            found |= {("ratio", rolled.key, *coordinate): complex(factor) for coordinate, factor in rolled.factors}
-    return found
+            numbers |= {("ratio", rolled.key, *coordinate): complex(factor) for coordinate, factor in rolled.factors}
+    return numbers
 
 
 def _form(structure: Structure, open_: Container[Name]) -> Hashable:
@@ -222,13 +222,13 @@ class DimensionedProgram:
 
     def params(self, names: Iterable[Name], drivers: Mapping[Name, float]) -> list[float]:
         """Numbers by their names, with the rates of the drivers and the greatest of their values."""
-        found: list[float] = []
+        numbers: list[float] = []
         for name in names:
             changing = drivers.get(name)
             if changing is None and name not in self._found:
                 self._found[name] = self._fixed(name)
-            found.append(self._found[name] if changing is None else changing)
-        return found
+            numbers.append(self._found[name] if changing is None else changing)
+        return numbers
 
     def _fixed(self, name: Name) -> float:
         if name[0] == "size":

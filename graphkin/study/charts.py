@@ -446,12 +446,12 @@ def legend_of(panels: Sequence[Panel], language: str) -> list[tuple[chart.Look, 
     for panel in panels:
         if panel.allowed is not None:
             low, high = panel.allowed
-            told = f"≥ {low:g}°" if high == 90.0 else f"≤ {high:g}°"
+            band = f"≥ {low:g}°" if high == 90.0 else f"≤ {high:g}°"
             if panel.falling:
-                told = say(Phrase("rising and falling", rising=f"{high:g}°", falling=f"{panel.falling:g}°"), language)
-            own = panel.allowed != _usual(panel.quantity)
-            key = "allowed by scene" if own else "allowed band"
-            entries.append((chart.look(LIMIT), say(Phrase(key, angle=told), language)))
+                band = say(Phrase("rising and falling", rising=f"{high:g}°", falling=f"{panel.falling:g}°"), language)
+            by_scene = panel.allowed != _usual(panel.quantity)
+            key = "allowed by scene" if by_scene else "allowed band"
+            entries.append((chart.look(LIMIT), say(Phrase(key, angle=band), language)))
     if any(panel.jumps for panel in panels):
         entries.append((chart.look(LEAP), word("load jumps", language)))
     return entries

@@ -229,8 +229,8 @@ def _law(first: complex, change: complex, begin: float, step: float, turning: bo
     value is on its way, or its direction (deg) is turned."""
 
     def along(value: ArrayLike) -> Complexes:
-        own = np.asarray(value, dtype=float)
-        return turned(np.radians(own)) if turning else own.astype(complex)
+        numbers = np.asarray(value, dtype=float)
+        return turned(np.radians(numbers)) if turning else numbers.astype(complex)
 
     start, end = along(begin), along(begin + step)
     return lambda values: np.asarray(first + change * ((along(values) - start) / (end - start)))
@@ -251,7 +251,7 @@ class DesignKeys:
         ------
         CallError : a value that is no finite number, a length that is not positive
         """
-        found: dict[Dimension, Complexes] = {}
+        changed: dict[Dimension, Complexes] = {}
         for key, of_key in values.items():
             low = 0.0 if key.endswith(".length") else -math.inf
             bad = ~(np.isfinite(of_key) & (of_key > low))
@@ -261,8 +261,8 @@ class DesignKeys:
                 raise CallError.of(f"designs {key}", "found value", wanted, value=f'{found_one:g}')
             for name, law in self.laws[key].items():
                 new = law(of_key)
-                found[name] = found[name] + (new - self.own[name]) if name in found else new
-        return found
+                changed[name] = changed[name] + (new - self.own[name]) if name in changed else new
+        return changed
 
 
 def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> DesignKeys:
@@ -307,10 +307,10 @@ def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> Design
 def _begin(source: Tables, key: str) -> tuple[float, float]:
     """A value of a key and a step from it: its own where it has one."""
     path = path_of_key(source, key)
-    own = None if path is None else value_at(source, path)
-    if not isinstance(own, Real) or own == 0:  # of what is no number the reader says what is wrong
+    begin = None if path is None else value_at(source, path)
+    if not isinstance(begin, Real) or begin == 0:  # of what is no number the reader says what is wrong
         return 0.0, 1.0
-    return float(own), abs(float(own)) / 8
+    return float(begin), abs(float(begin)) / 8
 
 
 def _read(source: Tables, values: Mapping[str, float]) -> Mechanism:
@@ -322,13 +322,13 @@ def _read(source: Tables, values: Mapping[str, float]) -> Mechanism:
 
 
 def _laws(
-    key: str, begin: float, step: float, found: Sequence[Mapping[Dimension, complex]]
+    key: str, begin: float, step: float, readings: Sequence[Mapping[Dimension, complex]]
 ) -> dict[Dimension, _Law]:
     """The laws of all numbers that a key changes, from three readings a step apart."""
     laws: dict[Dimension, _Law] = {}
     w = complex(turned(np.radians(np.array([step])))[0])
-    for name in found[0]:
-        a, b, c = (numbers[name] for numbers in found)
+    for name in readings[0]:
+        a, b, c = (numbers[name] for numbers in readings)
         size = SAME * max(abs(a), abs(b), abs(c))
         if abs(b - a) <= size and abs(c - b) <= size:
             continue
@@ -346,11 +346,11 @@ def _laws(
 
 def _side_by_side(keys: DesignKeys, values: Mapping[str, float], read_so: Mapping[Dimension, complex]) -> None:
     """Hold the laws of several keys against a reading with all of them changed.  Raises CallError."""
-    own = keys.own
-    told = keys.numbers({key: np.array([value]) for key, value in values.items()})
+    numbers = keys.own
+    together = keys.numbers({key: np.array([value]) for key, value in values.items()})
     for name, read_one in read_so.items():
-        mine = complex(told[name][0]) if name in told else own[name]
-        if abs(mine - read_one) > 10 * SAME * max(abs(own[name]), abs(read_one), keys.scene.size):
+        mine = complex(together[name][0]) if name in together else numbers[name]
+        if abs(mine - read_one) > 10 * SAME * max(abs(numbers[name]), abs(read_one), keys.scene.size):
             what = f"designs {', '.join(values)}"
             raise CallError.of(what, "act on together not side by side", "sweep over them graphkin.sweep designs",
                                name=name[1])

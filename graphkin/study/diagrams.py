@@ -72,12 +72,13 @@ def diagrams(
         name = f"motion-{kind}-{quantity.of.replace('/', '-')}"
         pages[name] = _motion_page(turn, axis, output, dots[quantity], over, language)
     known = turn.reach.known
-    points = [one for one in coupler_points(turn.scene) if np.isfinite(known.position(*one)).all()]
+    points = [(point, link) for point, link in coupler_points(turn.scene)
+              if np.isfinite(known.position(point, link)).all()]  # fmt: skip
     if points:  # of a mechanism that is singular throughout there are none
-        own = dict(zip((d.key for d in turn.scene.drivers), known.values[0].tolist(), strict=True))
+        values = dict(zip((d.key for d in turn.scene.drivers), known.values[0].tolist(), strict=True))
         links = [Symbol("theta", link=link.name) for link in turn.scene.links]
         with suppress(Unsolvable):  # a mechanism that no pencil can draw has no such page
-            sheet = draft(turn.reach.structure, own, links)
+            sheet = draft(turn.reach.structure, values, links)
             pages |= {f"curve-{point}": curve_page(sheet, axis, point, link, language) for point, link in points}
     return pages | _balance_pages(turn, language)
 
@@ -189,7 +190,7 @@ def measured(
     scene = reach.scene
     known = {chain[0].name: chain for chain in ordinate_chains(scene) if len(chain) == 3}
     chains = {q: known[q.name] for q in outputs if q.name in known}
-    found: dict[Quantity, list[tuple[float, ...]]] = {q: [] for q in outputs}
+    readings: dict[Quantity, list[tuple[float, ...]]] = {q: [] for q in outputs}
     asked = [ordinate.symbol for chain in chains.values() for ordinate in chain]
     low, high = reach.ends
     count *= max(reach.turns, 1)
@@ -205,8 +206,8 @@ def measured(
         for quantity, chain in chains.items():
             read = [ordinate.drawn(sheet) for ordinate in chain]
             if None not in read:
-                found[quantity].append((offset, *(value for value in read if value is not None)))
-    return found
+                readings[quantity].append((offset, *(value for value in read if value is not None)))
+    return readings
 
 
 TICKS = 12
@@ -220,14 +221,14 @@ def coupler_points(scene: Mechanism) -> tuple[tuple[str, str], ...]:
     frame = scene.frame
     guided = {s.link for s in scene.slidings if s.on == frame.name}
     plain = {link.name for link in scene.links if any(p in frame.points for p in link.points)} | guided
-    found: list[tuple[str, str]] = []
+    points: list[tuple[str, str]] = []
     for link in scene.links:
         if link.name in plain:
             continue
         for point in link.points:
-            if not any(h in plain for h in scene.holders[point]) and point not in [p for p, _ in found]:
-                found.append((point, link.name))
-    return tuple(found)
+            if not any(h in plain for h in scene.holders[point]) and point not in [p for p, _ in points]:
+                points.append((point, link.name))
+    return tuple(points)
 
 
 def curve_page(sheet: Sheet, axis: charts.DriverAxis, point: str, link: str, language: str) -> Drawing:

@@ -111,13 +111,13 @@ class Equations:
 
     def _pairs(self) -> list[Pair]:
         """Every pair that joins the links."""
-        found: list[Pair] = []
+        pairs: list[Pair] = []
         for e in self.structure.elements:
             if isinstance(e, Dyad):
-                found += [*e.pairs, *(joint.pair for joint in e.joints)]
+                pairs += [*e.pairs, *(joint.pair for joint in e.joints)]
             else:
-                found += [e.pair] if isinstance(e, Driven) else e.pairs
-        return found
+                pairs += [e.pair] if isinstance(e, Driven) else e.pairs
+        return pairs
 
     def _along(self, row: int, pair: Pair, along: complex) -> None:
         """The line of a sliding pair along a direction of its guide."""

@@ -85,12 +85,12 @@ def force_extremes(reach: DriverRange) -> dict[str, tuple[Quantity, tuple[Extrem
     motion = reach.motion(offsets)
     forces = forces_of(motion)
     most = max(float(np.nanmax(np.abs(value), initial=0.0)) for value in forces.values.values())
-    found = dict[str, tuple[Quantity, tuple[Extreme, ...]]]()
+    extremes = dict[str, tuple[Quantity, tuple[Extreme, ...]]]()
     for quantity in quantities:
         value = forces.value(quantity.symbol)
         if value is not None and np.nanmax(np.abs(value), initial=0.0) > NOUGHT * most:
-            found[quantity.name] = quantity, _extremes(axis, quantity, offsets, quantity.values(reach, motion))
-    return found
+            extremes[quantity.name] = quantity, _extremes(axis, quantity, offsets, quantity.values(reach, motion))
+    return extremes
 
 
 def _extremes(
@@ -107,13 +107,13 @@ def _extremes(
     both = axis.extremes(quantity, offsets, values)
     if axis.reach.full:
         return both
-    found = []
+    extremes = []
     for extreme in both:
         low, high = extreme.offset <= offsets[2], extreme.offset >= offsets[-3]
         inside = float(np.nanmax(np.abs(values[3:6] if low else values[-6:-3]), initial=0.0))
         away = (low or high) and abs(extreme.value) > GROWS * inside
-        found.append(replace(extreme, value=math.copysign(math.inf, extreme.value)) if away else extreme)
-    return tuple(found)
+        extremes.append(replace(extreme, value=math.copysign(math.inf, extreme.value)) if away else extreme)
+    return tuple(extremes)
 
 
 def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> chart.ChartPage:
@@ -172,13 +172,13 @@ DRIVING = Stroke(0.35, (6.0, 1.2))
 MORE, LESS = "#dcdcdc", "#b8b8b8"
 
 
-def flywheel_page(reach: DriverRange, found: FlywheelStudy, language: str) -> chart.ChartPage:
+def flywheel_page(reach: DriverRange, study: FlywheelStudy, language: str) -> chart.ChartPage:
     """The page of a flywheel."""
     scene, axis = reach.scene, charts.driver_axis(reach, language)
     per, moment, inertia = scene.units.newtons, scene.units.of("moment").written, scene.units.of("inertia").written
-    offsets, moments = whole_turn(axis), Quantity(Symbol("M", link=found.link))
+    offsets, moments = whole_turn(axis), Quantity(Symbol("M", link=study.link))
     curve = axis.curve(moments, offsets, needed_moment(reach, offsets))
-    (x, needed), driving = curve.T, found.driving / per
+    (x, needed), driving = curve.T, study.driving / per
     # gained since the axis begins, by the trapezoidal rule: for the eye
     gain = (driving - (needed[1:] + needed[:-1]) / 2) * np.abs(np.diff(np.radians(x)))
     energy = np.concatenate([[0.0], np.cumsum(gain)])
@@ -186,9 +186,9 @@ def flywheel_page(reach: DriverRange, found: FlywheelStudy, language: str) -> ch
     title = word("moments and flywheel", language)
     facts = [
         say(Phrase("driving moment is", moment=f"{charts.number(driving)} {moment}"), language),
-        say(Phrase("excess work is", work=f"{charts.number(found.excess / per)} {moment}"), language),
-        f"$δ$ = {charts.number(found.delta)}",
-        f"$J_{{F}}$ = {charts.number(found.inertia / scene.units.inertias)} {inertia}",
+        say(Phrase("excess work is", work=f"{charts.number(study.excess / per)} {moment}"), language),
+        f"$δ$ = {charts.number(study.delta)}",
+        f"$J_{{F}}$ = {charts.number(study.inertia / scene.units.inertias)} {inertia}",
     ]
 
     def paint(figure: chart.Figure) -> None:
@@ -207,7 +207,7 @@ def flywheel_page(reach: DriverRange, found: FlywheelStudy, language: str) -> ch
             axes.fill_between(x, needed, driving, where=over, color=colour, linewidth=0.0, zorder=0.5, interpolate=True)
         axes.tick_params(labelbottom=False)
         labels, growing = [], np.argsort(x, kind="stable")
-        for area in _joined(found.areas, reach.ends[1]):
+        for area in _joined(study.areas, reach.ends[1]):
             middle = float(axis.at(np.array([(area.first + area.last) / 2 % reach.ends[1]]))[0])
             near = float(np.interp(middle, x[growing], needed[growing]))
             sign = "+" if area.work > 0 else ""
@@ -233,7 +233,7 @@ def flywheel_page(reach: DriverRange, found: FlywheelStudy, language: str) -> ch
     return chart.ChartPage(
         charts.WIDTH, MOMENT_TOP + MOMENT_TALL + ENERGY_GAP + ENERGY_LOW + 20.0, paint,
         title=f"{title}: {charts.title_of(scene, language)}", desc="; ".join(facts).replace("$", ""), lang=language,
-        metadata={"scene": scene.name, "units": moment, "flywheel": found.link},
+        metadata={"scene": scene.name, "units": moment, "flywheel": study.link},
     )  # fmt: skip
 
 

@@ -143,7 +143,7 @@ def _chain_of(scene: Mechanism, name: str) -> tuple[tuple[Ordinate, ...], int]:
     ------
     CallError : no such quantity, or one without a sign
     """
-    places = {one.name: (chain, k) for chain in ordinate_chains(scene) for k, one in enumerate(chain)}
+    places = {ordinate.name: (chain, k) for chain in ordinate_chains(scene) for k, ordinate in enumerate(chain)}
     if name not in places:
         raise CallError.of(Phrase("quantity of name", name=f"{name:.60}"), "is no quantity with a sign here",
                            did_you_mean(name, places))
@@ -204,7 +204,7 @@ def graphical(reach: DriverRange, name: str, way: Way) -> Chords:
         slopes = np.diff(y) / widths
         pole = next((h for h in POLES if h * np.max(np.abs(slopes)) <= TALL), POLES[-1])
         rays = slopes * pole
-        found, per_found = rays, per_y / (per_x * pole)
+        ordinates, per_found = rays, per_y / (per_x * pole)
         means = np.diff(np.asarray(given.solved(reach, reach.motion(nodes)), dtype=float)) / (per_x * widths)
     else:
         # so that the broken line stays on the paper
@@ -212,15 +212,15 @@ def graphical(reach: DriverRange, name: str, way: Way) -> Chords:
         tallest = max(float(np.ptp(np.concatenate([[0.0], np.cumsum(steps)]))), 1e-300)
         pole = next((h for h in reversed(POLES) if tallest / h <= TALL), POLES[0])
         rays = y
-        found = np.concatenate([[0.0], np.cumsum(steps / pole)])
+        ordinates = np.concatenate([[0.0], np.cumsum(steps / pole)])
         per_found = per_y * per_x * pole
         exact = exact - exact[0]
-    return Chords(way, given, result, x, y, pole, rays, found, exact, means, at, per_x, per_y, per_found)
+    return Chords(way, given, result, x, y, pole, rays, ordinates, exact, means, at, per_x, per_y, per_found)
 
 
 def _drawn(reach: DriverRange, given: Ordinate, offsets: Array) -> Array:
     """The ordinates, measured on a drawing of each position."""
-    scene, found = reach.scene, []
+    scene, ordinates = reach.scene, []
     for offset in offsets:
         values = dict(zip((d.key for d in scene.drivers), reach.values(np.array([offset]))[0].tolist(), strict=True))
         try:
@@ -229,8 +229,8 @@ def _drawn(reach: DriverRange, given: Ordinate, offsets: Array) -> Array:
             raise Unsolvable("not drawn", *error.problems) from None
         if value is None:
             raise Unsolvable("not drawn", Problem(given.name, "cannot be measured on the drawing of this"))
-        found.append(value)
-    return np.array(found)
+        ordinates.append(value)
+    return np.array(ordinates)
 
 
 WIDTH, MARGIN = 210.0, 8.0
@@ -246,9 +246,9 @@ PARTS = 6  # of an interval, in a curve through its ends
 _GREEK = {"theta": "θ", "omega": "ω", "alpha": "α"}
 
 
-def markup_of(one: Ordinate) -> str:
+def markup_of(ordinate: Ordinate) -> str:
     """The letter of a quantity: ``θ_{4}``, ``s_{61}``, ``v_{Cx}``."""
-    kind, _, rest = one.name.partition("_")
+    kind, _, rest = ordinate.name.partition("_")
     return f"{_GREEK.get(kind, kind)}_{{{rest.replace('/', '').replace('.', '').replace('@', '')}}}"
 
 
@@ -323,14 +323,14 @@ def chords_page(chords: Chords, reach: DriverRange, language: str) -> ChartPage:
 def chords_table(chords: Chords, reach: DriverRange) -> bytes:
     """A row for each result: driver, mm on paper, measured, exact, difference; in scene units, degrees, as CSV."""
     scene, driver = reach.scene, reach.driver
-    place, own = scene.unit_of(driver), scene.units.of(chords.result.symbol.measure)
-    measured, exact = own.of(chords.measured), own.of(chords.exact)
+    place, unit = scene.unit_of(driver), scene.units.of(chords.result.symbol.measure)
+    measured, exact = unit.of(chords.measured), unit.of(chords.exact)
     table = Table((
         Column(f"driver_{driver.key}", np.round(place.of(reach.value(chords.at)), 9), place.text),
         Column("on_paper_mm", np.round(chords.found, 4), "mm"),
-        Column(chords.result.name, measured, own.text),
-        Column("exact", exact, own.text),
-        Column("difference", measured - exact, own.text),
+        Column(chords.result.name, measured, unit.text),
+        Column("exact", exact, unit.text),
+        Column("difference", measured - exact, unit.text),
     ))  # fmt: skip
     return table.csv().encode("utf-8-sig")
 

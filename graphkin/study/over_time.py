@@ -59,12 +59,12 @@ class TimeAxis(Axis):
         return np.asarray(quantity.values(None, self.motion), dtype=float)
 
     def values(self, quantity: Quantity, places: Array) -> Array:
-        found = np.asarray(quantity.values(None, over_time(self.structure, places, fine=False)), dtype=float)
+        values = np.asarray(quantity.values(None, over_time(self.structure, places, fine=False)), dtype=float)
         if quantity.measure != "angle":
-            return found
+            return values
         # whole turns as on the curve
         near = np.interp(places, self.times, self.course(quantity))
-        return np.asarray(found + 2 * np.pi * np.rint((near - found) / (2 * np.pi)))
+        return np.asarray(values + 2 * np.pi * np.rint((near - values) / (2 * np.pi)))
 
 
 @dataclass(frozen=True)
@@ -87,13 +87,13 @@ class TimeStudy:
     def extremes(self) -> dict[Quantity, tuple[Extreme, ...]]:
         """Of each quantity the least and the greatest value, none of one that stands still; their offset and driver is
         the time (s)."""
-        found = dict[Quantity, tuple[Extreme, ...]]()
-        for quantity in (q for _, own in self.pages for q in own):
+        extremes = dict[Quantity, tuple[Extreme, ...]]()
+        for quantity in (q for _, quantities in self.pages for q in quantities):
             values = self.axis.course(quantity)
             good = values[np.isfinite(values)]
             still = not len(good) or np.ptp(good) <= 1e-12 * np.max(np.abs(good))
-            found[quantity] = () if still else self.axis.extremes(quantity, self.axis.times, values)[::-1]
-        return found
+            extremes[quantity] = () if still else self.axis.extremes(quantity, self.axis.times, values)[::-1]
+        return extremes
 
     def diagrams(self, language: str) -> dict[str, ChartPage]:
         """A page for each output: its position, rate and second rate over the time."""
@@ -122,26 +122,26 @@ class TimeStudy:
         lines = [self._fact(language)]
         for quantity, extremes in self.extremes.items():
             unit = quantity.unit(self.scene)
-            told = []
+            ends = []
             for e in extremes:
                 key = "least at time" if e.kind == "min" else "greatest at time"
                 value = unit.said(e.value)
-                told.append(say(Phrase(key, quantity=value, time=number(e.offset)), language))
+                ends.append(say(Phrase(key, quantity=value, time=number(e.offset)), language))
             if extremes:
-                lines.append(f"  {quantity.name}{word('colon', language)}{word('list comma', language).join(told)}")
+                lines.append(f"  {quantity.name}{word('colon', language)}{word('list comma', language).join(ends)}")
         return lines
 
     @cached_property
     def data(self) -> dict[str, Json]:
         """The same as plain data: scene units, radians, seconds."""
         low, high = time_span(self.scene)
-        found: dict[str, Json] = {}
+        outputs: dict[str, Json] = {}
         for quantity, extremes in self.extremes.items():
             ends, unit = {"min": "least", "max": "greatest"}, quantity.unit(self.scene, radians=True)
-            found[quantity.name] = {
+            outputs[quantity.name] = {
                 ends[e.kind]: {"value": unit.of(e.value), "time": e.offset} for e in extremes
             }
-        return {"title": self.scene.question.title, "time": [low, high], "outputs": found}
+        return {"title": self.scene.question.title, "time": [low, high], "outputs": outputs}
 
 
 def study_time(scene: Mechanism, asked: Sequence[Quantity] = ()) -> TimeStudy:

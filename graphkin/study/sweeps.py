@@ -326,8 +326,8 @@ def _together(sweep: Sweep, designs: Sequence[FollowedDesign | tuple[str, str]])
             here = design.reach.forms(np.zeros(1))
             if all(np.array_equal(here[i], form[i]) for i in form):
                 alike[number] = dimensions(design.scene)
-    changed = [name for name, z in ready.dimensions.items() if any(own[name] != z for own in alike.values())]
-    given = {name: np.array([own[name] for own in alike.values()]) for name in changed}
+    columns_of = {name: np.array([numbers[name] for numbers in alike.values()]) for name in ready.dimensions}
+    given = {name: column for name, column in columns_of.items() if (column != ready.dimensions[name]).any()}
     if not given:
         return {}
     together = PreparedMechanisms(ready, given).together
@@ -389,9 +389,9 @@ def _with_design(table: Table, keys: Sequence[str], number: int, values: Sequenc
 def collect(sweep: Sweep, workers: Workers, progress: Progress | None = None) -> Found:
     """A whole sweep in memory."""
     tables, outcomes = list[Table](), list[Outcome]()
-    for table, own in workers.results(made, ((sweep.piece(k),) for k in range(sweep.pieces))):
+    for table, ends in workers.results(made, ((sweep.piece(k),) for k in range(sweep.pieces))):
         tables.append(table)
-        outcomes += own
+        outcomes += ends
         _count(sweep, len(tables), progress)
     return replace(_joined(sweep, outcomes), table=Table.joined(tables))
 
@@ -442,17 +442,17 @@ def _merged(sweep: Sweep, points: Checkpoints, folder: Path, parquet: bool) -> F
                 raise CallError.of(str(points.place), "a piece was damaged while the table was", wanted)
             piece.copy(out)
             outcomes += [Outcome(**o) for o in piece.facts["outcomes"]]
-    found = _joined(sweep, outcomes)
+    swept = _joined(sweep, outcomes)
     if sweep.designs.keys:
         files.append(folder / "designs.csv")
         with whole_file(files[-1], points.place) as out:
-            designs_table(sweep, found.outcomes).write_csv(out)
+            designs_table(sweep, swept.outcomes).write_csv(out)
     if parquet:
         files.append(folder / "table.parquet")
         with whole_file(files[-1], points.place) as out:
             parquet_of_csv(files[0], sweep.head, out)
     points.close()
-    return replace(found, files=tuple(files))
+    return replace(swept, files=tuple(files))
 
 
 def _count(sweep: Sweep, done: int, progress: Progress | None) -> None:
@@ -465,11 +465,11 @@ def _joined(sweep: Sweep, outcomes: Sequence[Outcome]) -> Found:
     could not be given), or has the status of the first that could not."""
     whole = []
     for design, pieces in groupby(outcomes, lambda outcome: outcome.design):
-        own = list(pieces)
-        good = sum(o.good for o in own)
-        said = next((o for o in own if o.why), own[0])
+        parts = list(pieces)
+        good = sum(o.good for o in parts)
+        said = next((o for o in parts if o.why), parts[0])
         status = "ok" if good == sweep.positions else "partly" if good else said.status
-        whole.append(Outcome(design, status, said.why, own[0].cells, good))
+        whole.append(Outcome(design, status, said.why, parts[0].cells, good))
     return Found(sum(o.good for o in whole), tuple(whole) if sweep.designs.keys else ())
 
 
