@@ -10,7 +10,8 @@ until the last coefficients vanish in rounding; zeros are roots of the polynomia
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -137,7 +138,8 @@ class Pieces:
 
     low, high : shape (pieces,), the ends of each piece, in increasing order
     coefficients : shape (pieces, points, curves)
-    weight : shape (curves,), the power of sin(parameter) that the curves were multiplied by to stay finite at the ends
+    weight : shape (2, curves), the powers of the sine and of the cosine of half the parameter that the curves were
+        multiplied by to stay finite at the lower and at the upper end
     seams : parameters at which curves may jump or bend, each between two pieces
     scale : shape (curves,), the largest value of each curve (the usual one, where it grows without bound), or the floor
     doubt : shape (pieces, curves), how far the values of each piece may be off; infinite where a piece is left out
@@ -164,18 +166,30 @@ class Pieces:
             found = np.append(found[apart > CLOSE * whole], seam)
         return np.sort(found)
 
+    def near_zero(self, curve: int, within: float) -> tuple[Array, Array]:
+        """Zeros and extremes of a curve, from the pieces alone in which it may come so near to zero; seams aside."""
+        c = self.coefficients[:, :, curve]
+        near = np.abs(c[:, 0]) <= np.abs(c[:, 1:]).sum(axis=1) + within
+        if not near.any():
+            return np.zeros(0), np.zeros(0)
+        part = replace(self, low=self.low[near], high=self.high[near], coefficients=self.coefficients[near],
+                       doubt=self.doubt[near], seams=self.seams[:0])  # fmt: skip
+        return part.zeros(curve), part.extremes(curve)
+
     def extremes(self, curve: int) -> Array:
         """Parameters at which the derivative of a curve is zero, in increasing order."""
         c = self.coefficients[:, :, curve]
         slopes = np.stack([chebyshev.chebder(piece) for piece in c])
-        power = self.weight[curve]
-        if power:
-            # f = g / sin^p is at rest where g' sin - p g cos = 0
+        first, last = self.weight[:, curve] / 2
+        if first or last:
+            # f = g / (s^2a c^2b), s and c of half the parameter, is at rest where g' s c - g (a c^2 - b s^2) = 0
             half = (self.high - self.low)[:, None] / 2
-            at = (self.low + self.high)[:, None] / 2 + half * _NODES
+            at = ((self.low + self.high)[:, None] / 2 + half * _NODES) / 2
             g = c @ chebyshev.chebvander(_NODES, POINTS - 1).T
             dg = slopes @ chebyshev.chebvander(_NODES, POINTS - 2).T / half
-            slopes = (half * (dg * np.sin(at) - power * g * np.cos(at))) @ _FIT.T
+            rising, falling = np.sin(at) ** (first > 0), np.cos(at) ** (last > 0)
+            bent = first * np.cos(at) * falling - last * np.sin(at) * rising
+            slopes = (half * (dg * rising * falling - g * bent)) @ _FIT.T
         # rounding of the values, seen in the derivative of a polynomial of this degree
         return self._roots(slopes, self.scale[curve] * POINTS, self.doubt[:, curve] * POINTS)
 
@@ -208,7 +222,12 @@ class Pieces:
         rises, falls = (np.sign(values - self.at(self._within(places + by), curve)) for by in (-steps, steps))
         turning = (rises == falls) & (np.abs(rises) == 1.0) & ~told
         inner = zip(*(x[turning].tolist() for x in (places, values, rises)), strict=True)
-        return sorted([*found, *(Turn(*one) for one in inner)])
+        turns = sorted([*found, *(Turn(*one) for one in inner)])
+        # between two greatest values lies a least one: where none is found, rounding has parted one place
+        near = BESIDE * (high - low)
+        parted = [turn for turn, after in pairwise(turns) if turn.sense == after.sense
+                  and not (turn.at_seam or after.at_seam) and after.place - turn.place < near]  # fmt: skip
+        return [turn for turn in turns if turn not in parted]
 
     def _room(self) -> Array:
         """How far each seam is from what is next to it: another seam, or an end of the range."""
@@ -231,7 +250,7 @@ class Pieces:
         powers = chebyshev.chebvander((2 * places - low - high) / (high - low), POINTS - 1)
         values = (powers * self.coefficients[piece, :, curve]).sum(axis=-1).reshape(places.shape)
         with np.errstate(all="ignore"):
-            values = values / np.sin(places) ** self.weight[curve] if self.weight[curve] else values
+            values = values / _weighing(places, self.weight[:, curve]) if self.weight[:, curve].any() else values
         return np.asarray(np.where(np.isinf(self.doubt[piece, curve]), np.nan, values))
 
     def levels(self, curve: int) -> Array:
@@ -251,7 +270,13 @@ class Pieces:
         rounding = 1e-15 * scale
         rest = np.sum(np.abs(coefficients[:, 1:]), axis=1)
         # a piece that is nothing but rounding has no roots
-        look = ~((np.abs(coefficients[:, 0]) > rest) | (rest <= np.maximum(rounding, doubt)))
+        known = rest > np.maximum(rounding, doubt)
+        look = (np.abs(coefficients[:, 0]) <= rest + rounding) & known
+        # one where two pieces meet may lie outside of both, by rounding
+        signs = (-1.0) ** np.arange(coefficients.shape[1])
+        passed = coefficients[:-1].sum(axis=1) * (coefficients[1:] * signs).sum(axis=1) < 0.0
+        joint = passed & known[:-1] & known[1:] & (self.high[:-1] == self.low[1:])
+        found += self.low[1:][joint & ~np.isin(self.low[1:], self.seams)].tolist()
         for low, high, c in zip(self.low[look], self.high[look], coefficients[look], strict=True):
             for x in _real_roots(c, rounding):
                 found.append(float((low + high) / 2 + (high - low) / 2 * x))
@@ -277,14 +302,15 @@ def _real_roots(c: Array, rounding: float) -> list[float]:
     for z in chebyshev.chebroots(c):
         if abs(z.imag) > 1e-6 or abs(z.real) > 1 + 1e-6:
             continue
-        x = float(z.real)
+        x, rate = float(z.real), 0.0
         for _ in range(3):
             rate = float(chebyshev.chebval(x, slope))
             step = float(chebyshev.chebval(x, c) / rate) if rate else 0.0
             x -= step if abs(step) < 1e-6 else 0.0
         # a pair of complex roots near the axis is a curve that comes close to zero without reaching it
-        if abs(x) <= 1 + OUTSIDE and (abs(z.imag) < 1e-12 or _crosses(c, x, abs(z.imag))):
-            roots.append(x)
+        beyond = max(OUTSIDE, 4 * rounding / abs(rate) if rate else 0.0)
+        if abs(x) <= 1 + beyond and (abs(z.imag) < 1e-12 or _crosses(c, x, abs(z.imag))):
+            roots.append(min(max(x, -1.0), 1.0))
     return roots
 
 
@@ -293,6 +319,10 @@ def _crosses(c: Array, x: float, reach: float) -> bool:
     step = max(10 * reach, 1e-9)
     before, after = chebyshev.chebval(np.array([x - step, x + step]), c)
     return bool(before * after <= 0)
+
+
+def _weighing(parameter: Array, weight: Array) -> Array:
+    return np.asarray(np.sin(parameter / 2) ** weight[0] * np.cos(parameter / 2) ** weight[1])
 
 
 def resolve(
@@ -312,8 +342,9 @@ def resolve(
         are not finite, a short piece is left out: it has no roots
     low, high : range of the parameter
     periodic : whether both ends are the same position
-    weight : shape (curves,), powers of sin(parameter) that the curves are multiplied by: over a range 0 .. pi, for
-        curves that grow without bound at its ends.  The zeros stay, the extremes found are those of the curve itself.
+    weight : shape (2, curves), powers of the sine and of the cosine of half the parameter that the curves are
+        multiplied by: over a range 0 .. pi, for curves that grow without bound at its lower or upper end.  The zeros
+        stay, the extremes found are those of the curve itself.
     floor : shape (curves,), values that are as good as zero relative to it are not looked into
     seams : parameters inside the range at which curves may jump or bend: pieces end there
     """
@@ -324,7 +355,6 @@ def resolve(
         far[[0, -1]] = True
         edges = np.unique(np.concatenate([edges[far], seams]))
     waiting = np.stack([edges[:-1], edges[1:]], axis=1)
-    power = np.zeros(1) if weight is None else weight
     before = np.full((len(waiting), 1), np.inf)
     done: list[tuple[Array, Array, Array]] = []
     scale = usual = np.zeros(1)
@@ -333,7 +363,7 @@ def resolve(
         at = middle[:, None] + half[:, None] * _NODES
         value, off = curves(at.ravel())
         if weight is not None:
-            by = np.sin(at.ravel())[:, None] ** power
+            by = _weighing(at.ravel()[:, None], weight)
             value, off = value * by, off * by
         value, off = (x.reshape(len(waiting), POINTS, -1) for x in (value, off))
         broken: NDArray[np.bool_] = np.asarray(~np.isfinite(value).all(axis=1))
@@ -369,7 +399,7 @@ def resolve(
         np.stack([k for _, k, _ in done]),
         scale,
         periodic,
-        np.broadcast_to(power, scale.shape),
+        np.zeros((2, len(scale))) if weight is None else weight,
         np.stack([d for _, _, d in done]),
         seams,
     )

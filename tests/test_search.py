@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from graphkin.search import changes, intervals, last_true, least_value, resolve
+from graphkin.search import FIRST_PIECES, changes, intervals, last_true, least_value, resolve
 
 pytestmark = pytest.mark.quick
 
@@ -36,6 +36,14 @@ def test_a_curve_that_comes_close_to_zero_has_no_zero() -> None:
     assert len(resolve(lambda t: column((t - 0.4) ** 2 + 1e-8), 0.0, 1.0).zeros(0)) == 0
 
 
+@pytest.mark.parametrize("amplitude", [1e-2, 1e-4, 1e-5, 1e-6, 1e-7])
+@pytest.mark.parametrize("level", [-0.8, 0.155, 0.7])
+def test_an_extreme_where_two_pieces_meet_is_found_once(amplitude: float, level: float) -> None:
+    for place in (np.arange(1, FIRST_PIECES) / FIRST_PIECES).tolist():
+        pieces = resolve(lambda t, at=place: column(level + amplitude * np.cos(3 * (t - at))), 0.0, 1.0)  # type: ignore[misc]
+        assert [place] == pytest.approx([turn.place for turn in pieces.turns(0)], abs=1e-6)
+
+
 def test_an_extreme_where_a_turn_begins_is_counted_once() -> None:
     assert len(resolve(lambda t: column(np.cos(t)), 0.0, 2 * np.pi, periodic=True).extremes(0)) == 2
 
@@ -59,7 +67,7 @@ def test_noise_about_zero_is_not_looked_into() -> None:
 
 def test_extremes_of_a_curve_that_grows_without_bound_at_its_ends() -> None:
     # 1 / sin has its least value in the middle
-    pieces = resolve(lambda t: column(1 / np.sin(t)), 0.0, np.pi, weight=np.ones(1))
+    pieces = resolve(lambda t: column(1 / np.sin(t)), 0.0, np.pi, weight=np.ones((2, 1)))
     assert [np.pi / 2] == pytest.approx(pieces.extremes(0).tolist(), abs=1e-12)
 
 

@@ -22,6 +22,8 @@ NOTHING = 5e-11
 """A driver value this small (rad, m) is 0: no extreme of an acceleration is placed better."""
 SAMPLES, LOCAL = 400, 1e-9
 """Positions over a range that ends, and how much, of the largest value there, goes beyond an extreme."""
+NEAR = np.array([1e-8, 1e-6])
+"""Of a range: so near to its ends one sees what grows without bound there."""
 GROWS = 5.0
 """A hundred times nearer to an end a rate like the root of the distance is ten times as much."""
 EQUAL = 1e-11
@@ -194,7 +196,7 @@ def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[Traced, .
     if rates:
         # near the end of a motion, a distance x away, velocities grow as x^-1/2 and accelerations as x^-3/2
         power = np.array([(1.0 if q.is_speed else 3.0) * (2 if q.is_size else 1) for q in rates])
-        curves += resolved(rates, _floor(reach, rates), None if reach.full else power)
+        curves += resolved(rates, _floor(reach, rates), None if reach.full else power * _grow(reach, rates))
     traced = _traced(way, curves) if reach.full else _beside_ends(reach, _traced(way, curves))
     found = {t.quantity: t for t in traced if t.constant is None or np.isfinite(t.constant)}
     return tuple(found[q] for q in quantities if q in found)
@@ -208,6 +210,14 @@ def _values(
     ends = np.cumsum([0, *map(len, offsets)]).tolist()
     motion = reach.motion(np.concatenate([*offsets, np.zeros(1)]), unit=unit, fine=fine)
     return [q.values(reach, motion)[a:b] for q, (a, b) in zip(quantities, pairwise(ends), strict=True)]
+
+
+def _grow(reach: DriverRange, rates: Sequence[Quantity]) -> Array:
+    """Whether rates grow without bound towards the lower and the upper end, as far as is known there, shape (2, n)."""
+    low, high = reach.ends
+    motion = reach.motion(low + (high - low) * np.concatenate([NEAR, 1.0 - NEAR]), fine=False)
+    nearest, next_ = np.abs([q.values(reach, motion) for q in rates]).T.reshape(2, 2, -1).swapaxes(0, 1)
+    return np.asarray(~(nearest <= GROWS * next_) & np.array(reach.limited)[:, None])
 
 
 def _floor(reach: DriverRange, rates: Sequence[Quantity]) -> Array:
@@ -255,8 +265,7 @@ def _traced(way: CurveParameter, curves: Sequence[Curve]) -> list[Traced]:
 def _beside_ends(reach: DriverRange, curves: Sequence[Traced]) -> list[Traced]:
     """Curves over a range that ends, with what goes beyond their extremes, and what grows without bound."""
     low, high = reach.ends
-    near = np.array([1e-8, 1e-6])
-    part = np.concatenate([near, np.sin(np.linspace(0.0, np.pi / 2, SAMPLES)[1:-1]) ** 2, 1.0 - near[::-1]])
+    part = np.concatenate([NEAR, np.sin(np.linspace(0.0, np.pi / 2, SAMPLES)[1:-1]) ** 2, 1.0 - NEAR[::-1]])
     motion, found = reach.motion(low + (high - low) * part), list[Traced]()
     for curve in curves:
         values = curve.quantity.values(reach, motion)

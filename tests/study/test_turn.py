@@ -384,6 +384,28 @@ def test_zeros_over_a_limited_range_are_the_changes_of_sign(angle: float, alpha:
             assert seen.tolist() == pytest.approx(sorted(one.zeros), abs=2e-3), one.quantity.name
 
 
+SWUNG: dict[str, object] = {
+    # a bar about O, moved by a pin that slides past O at 40 mm
+    "frame": {"points": {"O": [0, 0]}, "guides": {"h": {"through": [0, 40], "angle": 0}}},
+    "links": {
+        "1": {"points": ["P"], "on": "0.h"},
+        "2": {"points": ["O"], "guides": {"s": {"through": "O", "angle": 0}}},
+        "3": {"points": ["P"], "on": "2.s"},
+    },
+    "driver": {"slide": "1/0", "travel": 30, "velocity": 20},
+}
+
+
+def test_no_zero_and_no_extreme_is_invented_where_a_slide_is_only_not_followed_further() -> None:
+    curves = {t.quantity.name: t for t in study_turn(driver_range(mechanism_of(SWUNG))).curves}
+    alpha, omega = curves["alpha_2"], curves["omega_2"]
+    # tan theta = 40 / x: omega is greatest at x = 0, and alpha at x = 40 / sqrt 3 to either side
+    assert [0.0] == pytest.approx(alpha.zeros, abs=1e-12)
+    assert [0.0] == pytest.approx([e.driver for e in omega.extremes], abs=1e-9)
+    far = 0.04 / math.sqrt(3)
+    assert [-far, far] == pytest.approx([e.driver for e in alpha.extremes], abs=1e-9)
+
+
 def test_an_extreme_a_hundredth_of_a_degree_from_the_end_of_the_motion_is_found() -> None:
     study = study_turn(driver_range(mechanism_of({
         "frame": {
