@@ -10,8 +10,8 @@ import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up
-from graphkin.search import last_true
 from graphkin.solver.constraints import Constraints, solve_all
+from graphkin.solver.driver_path import TOUCH, Path, assembled
 from graphkin.solver.drivers import own_values
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
@@ -27,7 +27,6 @@ from graphkin.structure import (
     pick,
     started,
 )
-from graphkin.structure.assembly import TOUCH
 from graphkin.structure.model import Coordinate
 from graphkin.words import Phrase, Wording
 
@@ -175,27 +174,17 @@ def _other_way(structure: Structure, i: int, drive: Drive, forms: Mapping[int, A
 
 def _nearest(structure: Structure, i: int, drive: Drive, forms: Mapping[int, Array]) -> Wording:
     """The nearest value of the first driver at which everything up to group ``i`` can be assembled."""
-    scene = structure.scene
-    first = scene.drivers[0]
-    wide = np.pi if first.turns else 2 * scene.size
-
-    def closes(offset: Array) -> Array:
-        value = np.repeat(drive.value, len(offset), axis=0)
-        value[:, 0] += wide * offset
-        state = positions(structure, Drive.at(structure, value), {**forms, i: np.ones(1)}, i + 1, rates=False)
-        gaps = [g.discriminant >= 0 for g in state.groups.values() if isinstance(g, DyadSolution)]
-        return np.asarray(np.logical_and.reduce(np.broadcast_arrays(*gaps)))
-
     if not all(e.explicit for e in structure.elements[:i]):
         return ""
-    offset = np.linspace(-1, 1, 721)
-    good = np.flatnonzero(closes(offset))
-    if not len(good):
+    first, value = structure.scene.drivers[0], float(drive.value[0, 0])
+    wide = np.pi if first.turns else 2 * structure.scene.size
+    signs = {j: float(form) for j, form in forms.items()} | {i: 1.0}
+    found = assembled(Path.of_driver(structure, drive.value[0]), [*signs], value - wide, value + wide, signs)
+    ends = [end for _, stretch in found for end in (stretch.low, stretch.high)]
+    if not ends:
         return Phrase("no value of the driver assembles them with")
-    near = offset[good[np.argmin(np.abs(offset[good]))]]
-    limit = last_true(closes, float(near), float(near - np.copysign(1 / 360, near)))
-    value = float(drive.value[0, 0] + wide * limit)
-    return Phrase("the nearest position where they do is at", key=first.key, driver=driver_text(scene, first, value))
+    near = driver_text(structure.scene, first, min(ends, key=lambda end: abs(end - value)))
+    return Phrase("the nearest position where they do is at", key=first.key, driver=near)
 
 
 def new_places(structure: Structure, i: int, links: Sequence[str], poses: Mapping[str, Pose]) -> dict[str, complex]:

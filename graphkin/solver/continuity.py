@@ -7,21 +7,16 @@ points, and to the end of the motion.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
-from functools import cached_property
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from graphkin.solver.dyads import DyadSolution
-from graphkin.solver.engine import group_at, least_closes, positions
+from graphkin.solver.driver_path import OFF_FLIP, START, Path, Stretch, stretches
+from graphkin.solver.engine import group_at, positions
 from graphkin.solver.larger_groups import GroupSolved
-from graphkin.solver.pose import Array, Drive
-from graphkin.solver.sentences import limit_why
+from graphkin.solver.pose import Array
 from graphkin.structure import Driven, Dyad, LargerGroup, Rolled, Structure
-from graphkin.structure.assembly import ChangePoint, Passage, follow
-from graphkin.words import Phrase
 
-FAR = 4.0  # sizes of the mechanism that a slide driver which nothing limits is followed to either side
 CLOSE = 2e-13
 """A position is found where no constraint is open by more, with lengths in the size."""
 LEAST = 1e-13
@@ -183,98 +178,6 @@ TRAVEL_STEP = 1 / 200
 CLUSTER_STEP = np.radians(4.0)
 SWING = 0.09
 """Between two nodes no link turns by more than this (about 5 degrees)."""
-OFF_FLIP = 1e-6
-"""At a change point a group tells nothing; what follows it is watched this far beside it."""
-
-
-@dataclass(frozen=True)
-class Path:
-    """A straight path of driver values, parameter 0 .. 1, with the form of each group along it.
-
-    ``limit`` is the parameter where the motion ends (None if it does not), ``by`` the element that ends it.
-    Between two ``nodes`` no link turns by more than a few degrees.
-    """
-
-    structure: Structure
-    start: Array
-    end: Array
-    forms: Mapping[int, Callable[[Array], Array]] = field(default_factory=dict)
-    flips: Array = field(default_factory=lambda: np.zeros(0))
-    limit: float | None = None
-    by: int | None = None
-    nodes: Array = field(default_factory=lambda: np.zeros(1))
-    passed: tuple[tuple[int, float], ...] = ()
-
-    @property
-    def reach(self) -> float:
-        """The parameter that the motion reaches."""
-        return 1.0 if self.limit is None else self.limit
-
-    def values(self, t: Array) -> Array:
-        """Driver values, shape (n, drivers)."""
-        return np.asarray(self.start + t[:, None] * (self.end - self.start))
-
-    def rescaled(self, by: float) -> Path:
-        """The same way, its end so many times as far: nearer where the motion goes on, farther where it has ended."""
-        forms = {i: lambda t, form=form: form(np.asarray(t) * by) for i, form in self.forms.items()}
-        nodes, flips = self.nodes / by, self.flips / by
-        return replace(
-            self,
-            end=self.start + by * (self.end - self.start),
-            forms=forms,
-            flips=flips[flips < 1.0],
-            limit=None if self.limit is None else self.limit / by,
-            passed=tuple((i, t / by) for i, t in self.passed if t / by < 1.0),
-            nodes=np.append(nodes[nodes < 1.0], 1.0) if by < 1.0 else nodes,
-        )
-
-    def form(self, t: Array) -> dict[int, Array]:
-        """The form of each group at these parameters, for ``positions``."""
-        return {i: form(t) for i, form in self.forms.items()}
-
-    @cached_property
-    def change_points(self) -> tuple[ChangePoint, ...]:
-        """Where two assemblies of a group meet on the way, and the motion went smoothly on, in the order of the way."""
-        found = []
-        for i, t in sorted(self.passed, key=lambda one: one[1]):
-            element = self.structure.elements[i]
-            if t < self.reach and element.order > 1:
-                found.append(ChangePoint(element.links, tuple(self.values(np.array([t]))[0].tolist())))
-        return tuple(found)
-
-    def why_ended(self, between: tuple[float, float] | None = None) -> Phrase:
-        """Why it ends, and between which values the motion runs, where that is known."""
-        end = self.values(np.array([self.reach]))[0].tolist()
-        return limit_why(self.structure, self.by or 0, np.flatnonzero(self.end != self.start).tolist(), end, between)
-
-    @cached_property
-    def last_forms(self) -> dict[int, Array]:
-        """The form of each group at the end of the path."""
-        return {i: form[0] for i, form in self.form(np.ones(1)).items()}
-
-    def turned(self, t: Array) -> dict[str, Array]:
-        """How far each link has turned from the start (rad), whole turns included, to a few degrees."""
-        return {name: self.turned_of(name, t) for name in self._turned}
-
-    def turned_of(self, link: str, t: Array) -> Array:
-        """The same of one link.  Raises KeyError for a redundant one."""
-        return np.asarray(np.interp(t, self.nodes, self._turned[link]))
-
-    @cached_property
-    def _turned(self) -> dict[str, Array]:
-        nodes = _off_flips(self.flips, self.nodes)
-        poses = positions(self.structure, self.drive(nodes), self.form(nodes), rates=False).poses
-        found: dict[str, Array] = {}
-        for name, pose in poses.items():
-            u = np.nan_to_num(np.broadcast_to(pose.u, nodes.shape), nan=1.0)
-            steps = np.angle(u[1:] * np.conj(u[:-1]))
-            found[name] = np.concatenate(([0.0], np.cumsum(steps)))
-        return found
-
-    def drive(self, t: Array) -> Drive:
-        """The drivers with rates by the path parameter."""
-        value = self.values(t)
-        return Drive(value, np.broadcast_to(self.end - self.start, value.shape), np.zeros_like(value))
 
 
 def follow_path(structure: Structure, forms: Mapping[int, Array], start: Array, end: Array) -> Path:
@@ -289,7 +192,7 @@ def follow_path(structure: Structure, forms: Mapping[int, Array], start: Array, 
     grid = np.linspace(0.0, 1.0, _steps(structure, np.abs(end - start)) + 1)
     for i, element in enumerate(structure.elements):
         if isinstance(element, Dyad):
-            path = _follow_dyad(path, i, element, float(forms[i]), grid)
+            path = _follow_dyad(path, i, element, float(forms[i]))
         elif isinstance(element, Driven) and element.rolled is not None:
             path = _follow_rolled(path, i, element.rolled, np.asarray(forms[i]), grid)
         elif isinstance(element, LargerGroup):
@@ -308,42 +211,32 @@ def _steps(structure: Structure, span: Array) -> int:
     return min(steps, 4000)
 
 
-def _follow_dyad(path: Path, i: int, dyad: Dyad, sign: float, grid: Array) -> Path:
-    def discriminant(t: Array) -> Array:
-        t = _off_flips(path.flips, t)
-        forms = {**path.form(t), i: np.asarray(sign)}
-        solved = positions(path.structure, path.drive(t), forms, i + 1, rates=False).groups[i]
-        assert isinstance(solved, DyadSolution)
-        return np.broadcast_to(solved.discriminant, t.shape)
+def _follow_dyad(path: Path, i: int, dyad: Dyad, sign: float) -> Path:
+    """A path with the form of a dyad, that goes over to the other at change points; to where it ends."""
+    found = [s for s in stretches(path.with_sign(i, sign), i, 0.0, path.reach) if s.low <= START]
+    first = found[0] if found else Stretch(0.0, 0.0, (False, True))
+    limit, flips = first.high if first.ends[1] else None, np.array(first.touches)
+    if dyad.is_two_lines and len(flips):
+        limit, flips = float(flips[0]), flips[:0]
 
-    def least(t: float) -> tuple[float, int] | None:
-        if not all(e.explicit for e in path.structure.elements[:i]):
-            return None
-        forms = path.form(_off_flips(path.flips, np.array([t])))
-        return least_closes(path.structure, i, forms, path.start.tolist(), path.end.tolist(), t)
+    def form(t: Array) -> Array:
+        return sign * np.where(np.searchsorted(flips, t) % 2, -1.0, 1.0)
 
-    passage = follow(discriminant, grid, flips=not dyad.is_two_lines, least_closes=least)
-    limit, by = (path.limit, path.by) if passage.limit is None else (passage.limit, i)
-    flips = np.sort(np.append(path.flips, passage.flips))
-    passed = (*path.passed, *((i, t) for t in passage.flips.tolist()))
-    form = _signed(sign, passage)
-    return replace(path, forms={**path.forms, i: form}, flips=flips, limit=limit, by=by, passed=passed)
+    return _passed_by(path, i, form, flips, limit)
 
 
-def _signed(sign: float, passage: Passage) -> Callable[[Array], Array]:
-    return lambda t: sign * passage.sign(t)
-
-
-def _off_flips(flips: Array, t: Array) -> Array:
-    for flip in flips:
-        t = np.where(np.abs(t - flip) < OFF_FLIP, flip + OFF_FLIP, t)
-    return t
+def _passed_by(path: Path, i: int, form: Callable[[Array], Array], flips: Array, limit: float | None) -> Path:
+    """A path with a further group: its form, the change points that it passes, and where it ends the path."""
+    end, by = (path.limit, path.by) if limit is None else (limit, i)
+    passed = (*path.passed, *((i, t) for t in flips.tolist()))
+    flips = np.sort(np.append(path.flips, flips))
+    return replace(path, forms={**path.forms, i: form}, flips=flips, limit=end, by=by, passed=passed)
 
 
 def _refined(path: Path, i: int, grid: Array) -> Array:
     """More nodes where the links found so far turn fast."""
     for _ in range(20):
-        t = _off_flips(path.flips, grid)
+        t = path.off_flips(grid)
         poses = positions(path.structure, path.drive(t), path.form(t), i + 1, rates=False).poses
         turning = [np.broadcast_to(np.nan_to_num(p.u), grid.shape) for p in poses.values()]
         swing = np.max([np.abs(np.diff(u)) for u in turning], axis=0)
@@ -356,22 +249,19 @@ def _refined(path: Path, i: int, grid: Array) -> Array:
 
 def _follow_group(path: Path, i: int, place: Array) -> Path:
     def solved(t: float, start: Array) -> tuple[GroupSolved, Array]:
-        t_ = _off_flips(path.flips, np.array([t]))
+        t_ = path.off_flips(np.array([t]))
         found = group_at(path.structure, path.drive(t_), {**path.form(t_), i: start[None]}, i)
         return found, found.slope
 
     steps = _steps(path.structure, np.abs(path.end - path.start))
     most = min(0.125, CLUSTER_STEP / TURN_STEP / steps)
     walk = _walk_group(solved, place, path.structure.scene.size, path.reach, most)
-    limit, by = (path.limit, path.by) if walk.end is None else (walk.end, i)
-    flips = np.sort(np.append(path.flips, walk.flips))
-    passed = (*path.passed, *((i, t) for t in walk.flips))
-    return replace(path, forms={**path.forms, i: walk.start}, flips=flips, limit=limit, by=by, passed=passed)
+    return _passed_by(path, i, walk.start, np.array(walk.flips), walk.end)
 
 
 def _follow_rolled(path: Path, i: int, rolled: Rolled, form: Array, grid: Array) -> Path:
     """Count the turns of what a link rolls on."""
-    t = _off_flips(path.flips, grid)
+    t = path.off_flips(grid)
     poses = positions(path.structure, path.drive(t), path.form(t), i, rates=False).poses
     columns = []
     for k, ((kind, name), _) in enumerate(rolled.factors):

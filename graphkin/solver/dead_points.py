@@ -6,28 +6,24 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
-from itertools import product
 
 import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
-from graphkin.search import last_true, least_value
 from graphkin.solver.bounds import most_of
-from graphkin.solver.drivers import meant_value, working
+from graphkin.solver.driver_path import FAR, Path, assembled, stretches
+from graphkin.solver.drivers import meant_value
 from graphkin.solver.dyads import DyadSolution
-from graphkin.solver.engine import SINGULAR, ExtendedPrecision, State, closes, discriminant_of, newton, positions, touch
+from graphkin.solver.engine import SINGULAR, State, closes, positions
 from graphkin.solver.larger_groups import GroupSolved
 from graphkin.solver.pose import Array, Drive
 from graphkin.solver.sentences import dyad_words, group_words, lies_at, links_words
 from graphkin.structure import Dyad, LargerGroup, Structure
 from graphkin.words import Phrase, Wording
 
-GRID = 1440
-FAR = 4.0
 MOST_GROUPS = 6
-TOUCH = 1e-9
-NOTHING = Decimal(10) ** -36
-STEP = Decimal(10) ** -12
+MARGIN = 1e-3
+"""Of the way that is searched: so much more on both sides, for what lies at its ends."""
 BESIDE = 0.01
 SAME = 1e-9
 
@@ -61,14 +57,15 @@ def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
     if not all(e.explicit for e in structure.elements):
         where = Phrase("cams named", cams=", ".join(cam.link for cam in structure.scene.cams))
         raise Unsolvable("dead point", Problem(where, Phrase("dead points are found for mechanisms without cams")))
+    turning = structure.scene.drivers[0].turns
+    wide = (1 + MARGIN) * structure.scene.drivers[0].span(structure.scene.size) * (math.pi if turning else FAR)
+    path, dyads = Path.of_driver(structure, np.zeros(1)), [*structure.dyads][:MOST_GROUPS]
     found: list[DeadPoint] = []
-    dyads = [*structure.dyads][:MOST_GROUPS]
     for k, i in enumerate(dyads):
-        for chosen in product((1.0, -1.0), repeat=k):
-            signs = dict(zip(dyads, chosen, strict=False))
-            for point in _of_group(structure, i, signs, _grid(structure, near)):
-                if not any(p.element == i and p.signs == signs and _same(structure, p, point) for p in found):
-                    found.append(point)
+        own = _of_group(path, dyads[:k], i, near - wide, near + wide, {})
+        for point in sorted(own, key=lambda p: [-sign for sign in p.signs.values()]):
+            if not any(p.element == i and p.signs == point.signs and _same(structure, p, point) for p in found):
+                found.append(point)
     return found
 
 
@@ -85,80 +82,31 @@ def nearest_dead_point(structure: Structure, i: int, signs: Mapping[int, float],
     """The dead point of a group within a hundredth of a radian (of the size) of a value of the only driver."""
     if len(structure.scene.drivers) != 1 or not all(e.explicit for e in structure.elements[: i + 1]):
         return None
-    unit = structure.scene.drivers[0].span(structure.scene.size)
-    grid = value + BESIDE * unit * np.linspace(-1.0, 1.0, 42)
-    found = list(_of_group(structure, i, signs, grid))
+    near = BESIDE * structure.scene.drivers[0].span(structure.scene.size)
+    found = _of_group(Path.of_driver(structure, np.zeros(1)), [*signs], i, value - near, value + near, signs)
     return min(found, key=lambda p: abs(float(p.value) - value), default=None)
 
 
-def _grid(structure: Structure, near: float) -> Array:
-    turning = structure.scene.drivers[0].turns
-    wide = math.pi if turning else FAR * structure.scene.size
-    # a step more on both sides, for what lies at the ends
-    return np.asarray(near + wide * np.arange(-GRID // 2 - 1, GRID // 2 + 2) / (GRID // 2))
+def _of_group(
+    path: Path, before: Sequence[int], i: int, low: float, high: float, signs: Mapping[int, float]
+) -> Iterator[DeadPoint]:
+    """The dead points of a dyad between two values of the driver, behind some others of which the assemblies are given
+    or both are tried."""
+    group = path.structure.elements[i]
+    assert isinstance(group, Dyad)
+    for known, part in assembled(path, before, low, high, signs):
+        chosen = {j: float(known.forms[j](np.zeros(1))) for j in before}
+        for stretch in stretches(known.with_sign(i, 1.0), i, part.low, part.high):
+            exact = known.with_sign(i, 1.0).exactly(i, stretch.low)
+            assert exact is not None
+            ends = [(exact.zero(end), side) for end, side, ended in
+                    zip((stretch.low, stretch.high), (1, -1), stretch.ends, strict=True) if ended]  # fmt: skip
+            touched = (touches[0] for t in stretch.touches if (touches := exact.touches(t, BESIDE)))
+            yield from (DeadPoint(value, i, chosen, (-1, 1)) for value in touched)
+            for value, side in ends:
+                if value is not None:
+                    yield DeadPoint(value, i, chosen, (-1, 1) if group.is_two_lines else (side,))
 
-
-def _of_group(structure: Structure, i: int, signs: Mapping[int, float], grid: Array) -> Iterator[DeadPoint]:
-    def gap(value: Array) -> Array:
-        state = positions(
-            structure, Drive.at(structure, value[:, None]), {**{j: np.asarray(s) for j, s in signs.items()}, i: _ONE},
-            i + 1, rates=False,
-        )  # fmt: skip
-        before = [g.discriminant for j, g in state.groups.items() if j != i and isinstance(g, DyadSolution)]
-        solved = state.groups[i]
-        assert isinstance(solved, DyadSolution)
-        held = np.logical_and.reduce([np.broadcast_to(b >= 0, value.shape) for b in before]) if before else True
-        return np.where(held, np.broadcast_to(solved.discriminant, value.shape), np.nan)
-
-    value = gap(grid)
-    group = structure.elements[i]
-    two_sided = isinstance(group, Dyad) and group.is_two_lines
-    touched: set[int] = set()
-    for k in range(1, len(grid) - 1):
-        before, here, after = value[k - 1], value[k], value[k + 1]
-        if np.isfinite(before + here + after) and abs(here) <= min(before, after) and here < max(before, after):
-            about, least = least_value(gap, float(grid[k - 1]), float(grid[k + 1]))
-            if abs(least) < TOUCH:
-                touched |= {k - 1, k}
-                yield from _touching(structure, i, signs, about)
-    for k in range(len(grid) - 1):
-        one, two = value[k], value[k + 1]
-        if k in touched or not (np.isfinite(one) and np.isfinite(two)) or (one > 0) == (two > 0):
-            continue
-        low, high = (k, k + 1) if one > 0 else (k + 1, k)
-        about = last_true(lambda x: gap(x) > 0, float(grid[low]), float(grid[high]))
-        sides = (-1, 1) if two_sided else ((-1,) if low < high else (1,))
-        exact = newton(_gap(structure, i, signs), about)
-        if exact is not None:
-            yield DeadPoint(exact, i, signs, sides)
-
-
-def _touching(structure: Structure, i: int, signs: Mapping[int, float], about: float) -> Iterator[DeadPoint]:
-    """Where the discriminant of a group comes to zero without sixteen digits telling whether it goes below: one change
-    point, or two ends of the motion close to each other, or none."""
-    gap = _gap(structure, i, signs)
-    place = touch(gap, about)
-    if place is None:
-        return
-    with working():
-        least, doubt = gap.with_doubt(0, [place])
-        if abs(least) <= max(doubt, NOTHING):
-            yield DeadPoint(place, i, signs, (-1, 1))
-        elif least < 0:
-            step = STEP
-            bend = (gap(place + step) + gap(place - step) - 2 * least) / (step * step)
-            away = (-2 * least / bend).sqrt() if bend > 0 else Decimal(0)
-            for side in (-1, 1) if away else ():
-                exact = newton(gap, place + side * away)
-                if exact is not None:
-                    yield DeadPoint(exact, i, signs, (side,))
-
-
-_ONE = np.asarray(1.0)
-
-
-def _gap(structure: Structure, i: int, signs: Mapping[int, float]) -> ExtendedPrecision:
-    return discriminant_of(structure, i, {j: np.asarray(s) for j, s in signs.items()})
 
 OPEN = 1e-9
 CERTIFIED = 0.5

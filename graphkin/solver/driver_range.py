@@ -13,7 +13,7 @@ import math
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -26,6 +26,7 @@ from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.bounds import Accuracy
 from graphkin.solver.cams import cam_angle
 from graphkin.solver.dead_points import singular, without_singular
+from graphkin.solver.driver_path import FAR, Path
 from graphkin.solver.drivers import UniformGrid, goal_values, own_values
 from graphkin.solver.engine import positions
 from graphkin.solver.motion import Motion
@@ -36,9 +37,6 @@ from graphkin.structure import Structure
 from graphkin.structure.assembly import MOST_TURNS, ChangePoint, ways
 from graphkin.structure.transmission import sliding_pair
 from graphkin.words import Phrase, Wording
-
-if TYPE_CHECKING:
-    from graphkin.solver.continuity import Path
 
 CLOSED = 1e-7
 """Two positions are the same where links lie closer than this, in the size of the mechanism, and turn closer (rad)."""
@@ -82,7 +80,7 @@ def range_from(structure: Structure, forms: Mapping[int, Array], start: Array, w
 
 
 def _followed(structure: Structure, forms: Mapping[int, Array], start: Array, which: int) -> DriverRange:
-    from graphkin.solver.continuity import FAR, follow_path
+    from graphkin.solver.continuity import follow_path
 
     driver = structure.scene.drivers[which]
     turning = driver.turns
@@ -144,7 +142,7 @@ def stopped_why(structure: Structure, forms: Mapping[int, Array], start: Array, 
 def way_to(structure: Structure, forms: Mapping[int, Array], goal: Array) -> Path:
     """The way from the scene's own position to other driver values: straight, whole turns included, else the other way
     round for drivers that turn; the straight one if none gets there."""
-    from graphkin.solver.continuity import Path, follow_path
+    from graphkin.solver.continuity import follow_path
 
     start, ended = own_values(structure.scene), list[tuple[Mapping[int, Array], Path]]()
     for end in ways(structure.scene.drivers, start.tolist(), goal.tolist(), structure.rolls):
@@ -404,8 +402,11 @@ class DriverRange:
 
     @cached_property
     def _start_angle(self) -> dict[str, float]:
-        poses = self.motion(np.zeros(1)).poses
-        return {name: float(np.angle(np.where(np.isfinite(p.u), p.u, 1.0))[0]) for name, p in poses.items()}
+        start = self.motion(np.zeros(1))
+        return {
+            name: float(self.ahead.angles[name][0] if name in self.ahead.angles else np.nan_to_num(np.angle(pose.u))[0])
+            for name, pose in start.poses.items()
+        }
 
 
 @dataclass(frozen=True)

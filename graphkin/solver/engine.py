@@ -18,7 +18,7 @@ from graphkin.scene.model import Driver
 from graphkin.scene.pairs import LawCam
 from graphkin.solver.bounds import LOOKED_UP, error_bounds, most_of, roughness
 from graphkin.solver.cams import follower_inputs
-from graphkin.solver.drivers import cos_sin, meant, meant_angle, meant_value, working
+from graphkin.solver.drivers import cos_sin, meant, meant_angle, working
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.expressions import DECIMALS, Code, Name, Real, Vec
 from graphkin.solver.larger_groups import GroupSolved, solve_group
@@ -94,6 +94,11 @@ class ExtendedPrecision:
         except ArithmeticError:
             return Decimal(0), UNKNOWN
         return value, len(moved) * sum(moved, Decimal(0))
+
+    def signed(self, k: int, at: Sequence[Decimal] = ()) -> tuple[Decimal, int]:
+        """The first of them, and its sign: 0 where it is zero as far as can be told."""
+        value, doubt = self.with_doubt(k, at)
+        return value, _sign(value, doubt)
 
     def _row(self, numbers: Mapping[Name, Decimal]) -> list[Decimal]:
         return self.code.values(numbers.__getitem__, {}, DECIMALS)
@@ -409,8 +414,6 @@ def _pose(given: Mapping[str, Array]) -> Pose:
 # whether a dyad closes
 
 SMALL = Decimal(10) ** -20
-BESIDE = Decimal("1e-5")
-"""A least value farther away, of the path, is another one."""
 LAST_DIGITS = Decimal(10) ** -48
 ROUNDING = Decimal(10) ** -36
 """What fifty digits leave open of a discriminant at a place that is found from it."""
@@ -443,25 +446,6 @@ def closes(structure: Structure, i: int, forms: Mapping[int, Array], drive: Driv
     found = np.array([_sign(*one) for one in told], dtype=int)
     return found, np.array([not sign and ROUNDING < doubt < UNKNOWN
                             for sign, (_, doubt) in zip(found, told, strict=True)], dtype=bool)  # fmt: skip
-
-
-def least_closes(
-    structure: Structure, i: int, forms: Mapping[int, Array], start: Sequence[float], end: Sequence[float], about: float
-) -> tuple[float, int] | None:
-    """Where the discriminant of a dyad is least on a straight path of driver values (rad, m), near a parameter of it,
-    and what ``closes`` says there; None where there is no such place."""
-    discriminant = discriminant_of(structure, i, forms)
-    with working():
-        first = [meant_value(d, x) for d, x in zip(structure.scene.drivers, start, strict=True)]
-        way = [meant_value(d, x) - a for d, x, a in zip(structure.scene.drivers, end, first, strict=True)]
-
-        def at(t: Decimal) -> list[Decimal]:
-            return [a + t * w for a, w in zip(first, way, strict=True)]
-
-        place = touch(lambda t: discriminant(*at(t)), about)
-        if place is None or abs(place - Decimal(about)) > BESIDE:
-            return None
-        return float(place), _sign(*discriminant.with_doubt(0, at(place)))
 
 
 def _sign(value: Decimal, doubt: Decimal) -> int:

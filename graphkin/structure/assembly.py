@@ -1,25 +1,14 @@
-"""Which of the possible assemblies a scene means, and how it goes on along a path of driver values.
-
-Which ways lead to a goal, where an assembly ends on one of them, and where its two forms pass through each other.
-
-A group of two links has a discriminant: positive where it can be assembled in two forms, zero where they fall
-together.  Along a path the form is kept while it stays positive.  Where it only touches zero (a change point, the
-parallelogram in line) the smooth motion goes over to the other sign; where it goes below, the motion ends.
-"""
+"""Which of the possible assemblies a scene means, and which ways of the drivers lead to a goal."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import product
-
-import numpy as np
-from numpy.typing import NDArray
 
 from graphkin.errors import Problem, SceneError
 from graphkin.scene.model import Driver, Mechanism
-from graphkin.search import last_true, least_value
 from graphkin.words import Phrase, Wording, listed
 
 
@@ -124,72 +113,5 @@ class ChangePoint:
     links: tuple[str, ...]
     values: tuple[float, ...]
 
-
-Reals = NDArray[np.float64]
 TOLD = 1e-9
 """Of the size, by how far two assemblies are apart: by so much their distances from the sketch differ."""
-TOUCH = 1e-12
-"""A least value of a discriminant (no unit) within this of zero is a touch."""
-START = 1e-6
-"""A touch as near to the start as this is the start's own: the form was chosen there."""
-
-
-@dataclass(frozen=True)
-class Passage:
-    """What happens to one group on the path parameter 0 .. 1.
-
-    ``limit`` is where the motion ends, None if it does not; ``flips`` are the change points before that.
-    """
-
-    limit: float | None = None
-    flips: Reals = field(default_factory=lambda: np.zeros(0))
-
-    def sign(self, t: Reals) -> Reals:
-        """+1 or -1: the sign of the assembly relative to that at the start of the path."""
-        return np.where(np.searchsorted(self.flips, t) % 2, -1.0, 1.0)
-
-
-def follow(
-    discriminant: Callable[[Reals], Reals],
-    grid: Reals,
-    flips: bool = True,
-    touch: float = TOUCH,
-    least_closes: Callable[[float], tuple[float, int] | None] | None = None,
-) -> Passage:
-    """Follow one discriminant along a path.
-
-    Parameters
-    ----------
-    discriminant : function of path parameters, shape (n,), to values, shape (n,), scaled to have no unit
-    grid : increasing parameters, fine enough that the discriminant has at most one least value between three of them
-    flips : False where a touch of zero ends the motion too (two lines that become parallel)
-    touch : a least value within this of zero may be a touch
-    least_closes : what tells more exactly where the discriminant is least near a parameter, and whether it is positive
-        (1), zero (0) or negative (-1) there; None where it cannot
-    """
-    value = discriminant(grid)
-    touches: list[float] = []
-    for i in range(len(grid)):
-        if value[i] < -touch:
-            return Passage(_end(discriminant, 0.0, grid[max(i - 1, 0)], grid[i]), np.array(touches))
-        before, after = max(i - 1, 0), min(i + 1, len(grid) - 1)
-        if not np.isfinite(value[[before, i, after]]).all():
-            continue
-        change = max(abs(value[before] - value[i]), abs(value[after] - value[i]))
-        if value[before] < value[i] or value[after] < value[i] or value[i] > change:
-            continue
-        where, least = least_value(discriminant, grid[before], grid[after], -TOUCH)
-        exact = least_closes(where) if least_closes and flips and abs(least) <= touch else None
-        where, sign = exact or (where, None)
-        if least > touch or where <= grid[0] + START or where >= grid[-1] or sign == 1:
-            continue
-        if least < -touch or not flips or sign == -1:
-            floor = touch if not flips and least >= -touch else 0.0
-            return Passage(_end(discriminant, floor, grid[before], where), np.array(touches))
-        if not touches or where > touches[-1] + 1e-6:
-            touches.append(where)
-    return Passage(None, np.array(touches))
-
-
-def _end(discriminant: Callable[[Reals], Reals], floor: float, low: float, high: float) -> float:
-    return last_true(lambda t: discriminant(t) >= floor, low, high)

@@ -6,22 +6,17 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import product
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphkin.errors import Unsolvable
 from graphkin.plane import added_up
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.search import intervals
 from graphkin.solver import DriverRange, Motion, own_slides
-from graphkin.solver.continuity import FAR
+from graphkin.solver.driver_path import FAR, Path, assembled
 from graphkin.solver.driver_range import Extremes
-from graphkin.solver.engine import positions
-from graphkin.solver.pose import Drive
 from graphkin.solver.values import FlywheelStudy, flywheel_of
 from graphkin.structure import Dyad, DyadKind, Pair, Structure
 from graphkin.study.extremes import Extreme, Traced, trace
@@ -422,10 +417,9 @@ def _output(reach: DriverRange, position: Traced) -> Output:
     return Output(position)
 
 
-Array = NDArray[np.float64]
-
-GRID = 1440
 MOST_GROUPS = 7
+BESIDE = 1e-9
+"""Ranges (rad, m) that overlap by less have only their ends in common."""
 
 
 @dataclass(frozen=True)
@@ -471,42 +465,20 @@ def not_searched(reach: DriverRange) -> tuple[str, ...]:
 
 
 def _elsewhere(reach: DriverRange, dyads: list[int], own: AssemblyRange) -> list[AssemblyRange]:
-    def closes(value: Array) -> NDArray[np.bool_]:
-        values = np.repeat(reach.start[None], len(value), axis=0)
-        values[:, 0] = value
-        drive = Drive.at(reach.structure, values)
-        some = np.zeros(len(value), dtype=bool)
-        # the last group's own form decides nothing about whether it closes
-        for signs in product((1.0, -1.0), repeat=max(len(dyads) - 1, 0)):
-            forms = {i: np.asarray(sign) for i, sign in zip(dyads, (*signs, 1.0), strict=True)}
-            state = positions(reach.structure, drive, forms, rates=False)
-            gaps = [np.broadcast_to(_closed(reach, i, state.groups[i]), value.shape) for i in dyads]
-            some |= np.logical_and.reduce(gaps)
-        return some
-
     turning = reach.driver.turns
+    wide = max(FAR * reach.scene.size, 2 * abs(own.low), 2 * abs(own.high))
+    first, last = (own.low + BESIDE, own.low + BESIDE + 2 * np.pi) if turning else (-wide, wide)
+    found = assembled(Path.of_driver(reach.structure, reach.start), dyads, first, last, {})
+    joined = list[tuple[float, float]]()
+    for low, high in sorted((stretch.low, stretch.high) for _, stretch in found):
+        if joined and low < joined[-1][1] - BESIDE:
+            joined[-1] = joined[-1][0], max(high, joined[-1][1])
+        else:
+            joined.append((low, high))
+    apart = [(a, b) for a, b in joined if not (a < own.high - BESIDE and b > own.low + 2 * BESIDE)]
     if turning:
-        grid = own.low + 1e-9 + np.linspace(0.0, 2 * np.pi, GRID + 1)
-    else:
-        wide = max(FAR * reach.scene.size, 2 * abs(own.low), 2 * abs(own.high))
-        grid = np.linspace(-wide, wide, GRID + 1)
-    found: list[AssemblyRange] = []
-    for low, high in intervals(closes, grid):
-        open_low, open_high = low == grid[0], high == grid[-1]
-        apart = not (low < own.high and high > own.low + 2e-9)
-        if apart and turning and not open_low and not open_high:
-            found.append(_within(low, high))
-        elif apart and not turning:
-            found.append(AssemblyRange(low, high, False, open_low=open_low, open_high=open_high))
-    return found
-
-
-def _closed(reach: DriverRange, i: int, solved: object) -> NDArray[np.bool_]:
-    discriminant = np.asarray(solved.discriminant)  # type: ignore[attr-defined]
-    element = reach.structure.elements[i]
-    if isinstance(element, Dyad) and element.is_two_lines:
-        return np.asarray(np.abs(discriminant) > 1e-12)
-    return np.asarray(discriminant >= 0)
+        return [_within(low, high) for low, high in apart if low > first and high < last]
+    return [AssemblyRange(low, high, False, open_low=low == first, open_high=high == last) for low, high in apart]
 
 
 def _within(low: float, high: float) -> AssemblyRange:

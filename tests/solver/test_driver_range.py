@@ -46,6 +46,13 @@ def test_solve_and_prepare_come_to_the_same_positions_over_the_range(text: str) 
     assert motion.ok.tolist() == ok.tolist()
 
 
+@pytest.mark.parametrize("travel", [70, 170])
+def test_angles_do_not_jump_over_a_range_that_begins_in_a_dead_point(travel: int) -> None:
+    reach = range_of(scenes.PISTON.replace("travel = 150", f"travel = {travel}") + "[sketch]\nB = [49, 1]\n")
+    angle = reach.angle(reach.motion(np.linspace(*reach.ends, 200)[1:-1]), "1")
+    assert np.abs(np.diff(angle)).max() < 0.2
+
+
 def test_a_range_in_one_turn_closes_there() -> None:
     assert 1 == range_of(scenes.FOUR_BAR).turns
 

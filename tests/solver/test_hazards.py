@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-import numpy as np
+from dataclasses import replace
+
 import pytest
 
-from graphkin.structure.assembly import Passage
+from graphkin.solver import continuity
+from graphkin.solver.driver_path import stretches
 from tests import EVERYTHING
 from tests.bench.hazards import Found, look
 
@@ -24,5 +26,5 @@ def test_dead_points_are_among_them(found: Found) -> None:
 
 
 def test_a_jump_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Passage, "sign", lambda self, t: np.ones_like(t))
+    monkeypatch.setattr(continuity, "stretches", lambda *at: [replace(s, touches=()) for s in stretches(*at)])
     assert any("jumps" in x for x in look(500, 11, each=6).wrong)
