@@ -224,9 +224,9 @@ class Pieces:
         inner = zip(*(x[turning].tolist() for x in (places, values, rises)), strict=True)
         turns = sorted([*found, *(Turn(*one) for one in inner)])
         # between two greatest values lies a least one: where none is found, rounding has parted one place
-        near = BESIDE * (high - low)
+        beside = BESIDE * (high - low)
         parted = [turn for turn, after in pairwise(turns) if turn.sense == after.sense
-                  and not (turn.at_seam or after.at_seam) and after.place - turn.place < near]  # fmt: skip
+                  and not (turn.at_seam or after.at_seam) and after.place - turn.place < beside]  # fmt: skip
         return [turn for turn in turns if turn not in parted]
 
     def _room(self) -> Array:
