@@ -78,7 +78,7 @@ def forces_named(mechanism: Mechanism) -> tuple[Symbol, ...]:
 def force_of(mechanism: Mechanism, symbol: Symbol) -> Symbol | None:
     """A force or moment as the mechanism has it, or its opposite, which tells whether a load is a moment; None for one
     that it does not have."""
-    plain = replace(symbol, at="", plus=False)
+    plain = replace(symbol, at="", plus=False, axis="")
     known = next((force for force in forces_named(mechanism) if force in (plain, plain.opposite)), None)
     return known and replace(symbol, turning=known.turning)
 
@@ -96,5 +96,5 @@ def no_force(mechanism: Mechanism, where: str, symbol: Symbol) -> Problem | None
                        symbol=symbol)
     if force_of(mechanism, symbol) is not None:
         return None
-    name = str(replace(symbol, at="", plus=False))
+    name = str(replace(symbol, at="", plus=False, axis=""))
     return Problem(where, "there is no here", did_you_mean(name, map(str, known)), symbol=symbol)

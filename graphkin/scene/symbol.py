@@ -3,7 +3,8 @@ and values that somebody states of them.
 
 A kind of quantity is one entry of `KINDS`: what its name is followed by, and what it measures.  A name means the same
 wherever it stands: ``v_C/B`` is the velocity of point C relative to point B, ``v_3/4``, where the names are no points,
-that of link 3 along the guide of link 4 on which it slides, with its sign; ``C`` and ``B@3`` are places of points.
+that of link 3 along the guide of link 4 on which it slides, with its sign; ``C`` and ``B@3`` are places of points,
+``v_C.x`` is a component.
 """
 
 from __future__ import annotations
@@ -140,6 +141,7 @@ _OF_ALL = {
 """With the place of a point, which has no letter of its own, and what only a group as a whole has."""
 _LONGEST_FIRST = sorted(KINDS, key=len, reverse=True)
 _ELSEWHERE = re.compile(r"(.*\S)\s+at\s+(\S+)", re.DOTALL)
+_COMPONENT = re.compile(r"(.+)\.([xy])", re.DOTALL)
 
 
 class PointRef(NamedTuple):  # looked up by the ten thousand
@@ -167,7 +169,7 @@ class Symbol:
     Of forces ``link`` acts on ``other`` at the joint ``of`` (where they share two); ``name`` is that of a load, or of a
     force whose arm is meant; with ``plus`` the load that begins or ends exactly there acts.  ``turning`` is a load that
     is a moment, which no name tells.  ``seen`` is the link from which a vector is seen, with that held still; "" for
-    the frame.
+    the frame.  ``axis`` is "x" or "y" of a component of a vector along an axis of the frame.
 
     >>> Symbol.parse("v_B@3/B@2").id
     'v_B3-B2'
@@ -187,6 +189,7 @@ class Symbol:
     plus: bool = False
     turning: bool = field(default=False, compare=False)
     seen: str = ""
+    axis: str = ""
 
     @classmethod
     def parse(cls, text: str) -> Symbol:
@@ -194,6 +197,12 @@ class Symbol:
         elsewhere = _ELSEWHERE.fullmatch(text)
         if elsewhere:
             return replace(cls.parse(elsewhere[1]), at=elsewhere[2])
+        component = _COMPONENT.fullmatch(text)
+        if component:
+            vector = cls.parse(component[1])
+            if not vector.is_vector:
+                raise ValueError(Phrase("is no vector", text=component[1]))
+            return replace(vector, axis=component[2])
         place = re.fullmatch(_FORMS["place"], text)
         if place is not None:
             return cls.of_names("place", place.groupdict(""))
@@ -220,7 +229,7 @@ class Symbol:
 
     @property
     def is_vector(self) -> bool:
-        return self.kind in VECTORS and not self.turning and not self.is_rate_of_pair
+        return self.kind in VECTORS and not (self.turning or self.axis or self.is_rate_of_pair)
 
     @property
     def is_rate_of_pair(self) -> bool:
@@ -229,9 +238,9 @@ class Symbol:
 
     @property
     def is_of_tables(self) -> bool:
-        """Whether tables alone give it: the place of a point, a rate of a sliding pair, which no drawing has by
-        itself."""
-        return self.kind == "place" or self.is_rate_of_pair
+        """Whether tables alone give it: the place of a point, a component, a rate of a sliding pair, which no drawing
+        has by itself."""
+        return self.kind == "place" or self.axis != "" or self.is_rate_of_pair
 
     @property
     def is_load(self) -> bool:
@@ -260,6 +269,11 @@ class Symbol:
     def here(self) -> Symbol:
         """The same quantity without the position that is meant."""
         return replace(self, at="") if self.at else self
+
+    @property
+    def whole(self) -> Symbol:
+        """The vector of which it is a component; itself where it is none."""
+        return replace(self, axis="") if self.axis else self
 
     @property
     def opposite(self) -> Symbol:
@@ -293,6 +307,7 @@ class Symbol:
         else:
             name = f"{self.kind}_{self.of}" + (f"/{self.to}" if self.to else "")
             name += f" seen from {self.seen}" if self.seen else ""
+        name += f".{self.axis}" if self.axis else ""
         return f"{name} at {self.at}" if self.at else name
 
 
@@ -368,8 +383,8 @@ def known_symbol(
         return [Problem(where, "names two different points", "it is between coincident points of two links", text=text,
                         kind=symbol.kind)]
     if drawn and symbol.is_of_tables:
-        vector = f"{symbol.kind}_B@{symbol.link}/B@{symbol.other}"
-        instead = f"x_{symbol.of.point}, y_{symbol.of.point}" if symbol.of else vector
+        vector = str(symbol.whole) if symbol.axis else f"{symbol.kind}_B@{symbol.link}/B@{symbol.other}"
+        instead = f"x_{symbol.of.point}, y_{symbol.of.point}" if symbol.kind == "place" and symbol.of else vector
         return [Problem(where, "is given by tables alone", "ask a drawing for", text=text, instead=instead)]
     return symbol
 

@@ -447,7 +447,7 @@ def column_symbol(name: str) -> Symbol:
         symbol = Symbol.parse(name)
     except ValueError as error:
         raise CallError.of(f'"{name}"', error.args[0]) from None
-    if symbol.order is None or (symbol.other and symbol.kind != "s"):
+    if symbol.order is None or symbol.axis or (symbol.other and symbol.kind != "s"):
         raise CallError.of(f'"{name}"', "is no column", "ask for places v_ a_ theta_ omega_ alpha_")
     return symbol
 
@@ -491,7 +491,9 @@ def force_heads(scene: Mechanism, name: str) -> tuple[str, ...]:
         force = force_of(scene, Symbol.parse(name))
     except ValueError:
         force = None
-    return () if force is None else (f"{name}.x", f"{name}.y") if force.is_vector else (name,)
+    if force is None or force.axis:
+        return ()
+    return (f"{name}.x", f"{name}.y") if force.is_vector else (name,)
 
 
 def force_rows(

@@ -45,6 +45,9 @@ def value_of(motion: Motion, symbol: Symbol) -> Array:
     CallError : the symbol names nothing here
     Unsolvable : a load acts on a part of a stroke, or a flywheel is asked for, and the driver makes no whole turn
     """
+    if symbol.axis:
+        vector = value_of(motion, symbol.whole)
+        return np.asarray(vector.real if symbol.axis == "x" else vector.imag)
     if symbol.scope not in ("force", "cycle"):
         return motion.value(symbol)
     problem = no_force(motion.scene, str(symbol), symbol)

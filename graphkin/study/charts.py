@@ -303,18 +303,24 @@ def motion_panel(
     return replace(panel, unbounded=traced is not None and traced.unbounded)
 
 
+LETTERS = {"theta": "θ", "omega": "ω", "alpha": "α", "gamma": "γ", "pressure": "α^{p}", "d": "l"}
+"""Of kinds of quantities that bear other letters on diagrams than in names."""
+
+
 def quantity_title(scene: Mechanism, quantity: Quantity) -> str:
     """Symbol and unit of a quantity as markup."""
-    letter, symbol = quantity.kind, quantity.symbol
-    name = str(symbol).removeprefix(f"{letter}_") if quantity.order is None else symbol.link
-    greek = {"theta": "θ", "omega": "ω", "alpha": "α", "gamma": "γ", "pressure": "α^{p}", "d": "l"}.get(letter, letter)
-    shown = force_symbol(scene, quantity.of) if quantity.is_load else f"${greek}_{{{name.replace('@', '')}}}$"
-    return f"{shown} ({quantity.unit(scene).written})"
+    kind, symbol = quantity.kind, quantity.symbol
+    if symbol.is_load:
+        shown = force_letters(scene.question.sheet.convention, symbol)
+    else:
+        name = str(symbol).removeprefix(f"{kind}_") if quantity.order is None else symbol.link
+        shown = f"{LETTERS.get(kind, kind)}_{{{name.replace('@', '')}}}"
+    return f"${shown}$ ({quantity.unit(scene).written})"
 
 
-def force_symbol(scene: Mechanism, name: str) -> str:
+def force_symbol(scene: Mechanism, force: Symbol) -> str:
     """A force or a moment in the letters of the scene's convention, as markup."""
-    return f"${force_letters(scene.question.sheet.convention, Symbol.parse(name))}$"
+    return f"${force_letters(scene.question.sheet.convention, force)}$"
 
 
 def _allowed(quantity: Quantity, scene: Mechanism) -> tuple[tuple[float, float] | None, float | None]:

@@ -32,7 +32,7 @@ from graphkin.solver import DriverRange
 from graphkin.solver.values import FlywheelStudy
 from graphkin.study import charts
 from graphkin.study.force_diagrams import flywheel_page, force_page, polar_page
-from graphkin.study.graphical import ordinate_chains
+from graphkin.study.graphical import drawn, on_paper, ordinate_chains
 from graphkin.study.quantities import Quantity, rates_of
 from graphkin.study.turn import Output, TurnStudy
 from graphkin.words import Phrase, say, word
@@ -188,10 +188,10 @@ def measured(
     that cannot be drawn, or outputs that lie behind a group that compass and ruler cannot draw, are left out
     """
     scene = reach.scene
-    known = {chain[0].name: chain for chain in ordinate_chains(scene) if len(chain) == 3}
-    chains = {q: known[q.name] for q in outputs if q.name in known}
+    known = {chain[0]: chain for chain in ordinate_chains(scene) if len(chain) == 3}
+    chains = {q: known[q.symbol] for q in outputs if q.symbol in known}
     readings: dict[Quantity, list[tuple[float, ...]]] = {q: [] for q in outputs}
-    asked = [ordinate.symbol for chain in chains.values() for ordinate in chain]
+    asked = [on_paper(scene, symbol)[0] for chain in chains.values() for symbol in chain]
     low, high = reach.ends
     count *= max(reach.turns, 1)
     sheet: Sheet | None = None
@@ -204,7 +204,7 @@ def measured(
         except GraphkinError:
             continue
         for quantity, chain in chains.items():
-            read = [ordinate.drawn(sheet) for ordinate in chain]
+            read = [drawn(sheet, symbol) for symbol in chain]
             if None not in read:
                 readings[quantity].append((offset, *(value for value in read if value is not None)))
     return readings

@@ -8,6 +8,7 @@ direction, and the scale is mu_y mu_t H (Artobolevsky, Theory of Mechanisms and 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
@@ -25,8 +26,9 @@ from graphkin.drawing.text import fitted, rich, symbol, wrapped
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.solver import DriverRange, Motion
-from graphkin.study.charts import number, title_of
+from graphkin.solver import DriverRange
+from graphkin.study.charts import LETTERS, number, title_of
+from graphkin.study.quantities import Quantity
 from graphkin.table import Column, Table
 from graphkin.words import Phrase, say, word
 
@@ -43,29 +45,22 @@ POLES = (40.0, 30.0, 25.0, 20.0, 15.0, 10.0)  # mm; the longest at which the lin
 INSIDE = 0.02  # of a range that ends, left out at its ends, where rates may grow without bound
 
 
-@dataclass(frozen=True)
-class Ordinate:
-    """A quantity with a sign that may be differentiated or integrated: angle, travel or coordinate, or a rate of one.
+def on_paper(scene: Mechanism, symbol: Symbol) -> tuple[Symbol, complex]:
+    """What a drawing has of a quantity with a sign: a number, or the vector of which it is a part; and the direction of
+    unit length along which it counts.  A rate of a sliding pair on the frame is that of its pin along the guide."""
+    if symbol.axis:
+        return symbol.whole, 1.0 + 0j if symbol.axis == "x" else 1j
+    if not symbol.is_rate_of_pair:
+        return symbol, 1.0 + 0j
+    pair = next(pair for pair in scene.slidings if pair.key == symbol.pair)
+    return Symbol(symbol.kind, PointRef(pair.pin or "")), scene.frame.guides[pair.guide].direction
 
-    name : "theta_4", "omega_4", "alpha_4"; "s_6/1", "v_6/1", "a_6/1"; "x_C", "v_C.x", "a_C.x"
-    symbol : as it is asked of a drawing
-    along : of a vector the direction of unit length along which it counts; 1 for numbers
-    """
 
-    name: str
-    symbol: Symbol
-    along: complex = 1.0
-
-    def drawn(self, sheet: Sheet) -> float | None:
-        """Its value (SI) on a drawing; None where it is not there."""
-        readings = read_off(sheet, (self.symbol,))
-        return (complex(readings[0].value) * self.along.conjugate()).real if readings else None
-
-    def solved(self, reach: DriverRange, motion: Motion) -> Array:
-        """Its values (SI) in a motion; angles go on from those before."""
-        if self.symbol.kind == "theta":
-            return reach.angle(motion, self.symbol.link)
-        return np.asarray((motion.value(self.symbol) * self.along.conjugate()).real)
+def drawn(sheet: Sheet, symbol: Symbol) -> float | None:
+    """The value (SI) of a quantity with a sign on a drawing; None where it is not there."""
+    vector, along = on_paper(sheet.scene, symbol)
+    readings = read_off(sheet, (vector,))
+    return (complex(readings[0].value) * along.conjugate()).real if readings else None
 
 
 @dataclass(frozen=True)
@@ -85,8 +80,8 @@ class Chords:
     """
 
     way: Way
-    given: Ordinate
-    result: Ordinate
+    given: Symbol
+    result: Symbol
     x: Array
     y: Array
     pole: float
@@ -120,37 +115,34 @@ class Chords:
         return float(np.max(np.abs(self.measured - self.exact))) / most if most else 0.0
 
 
-def ordinate_chains(scene: Mechanism) -> Iterator[tuple[Ordinate, ...]]:
+def ordinate_chains(scene: Mechanism) -> Iterator[tuple[Symbol, ...]]:
     """Position, rate and second rate of each link, of each sliding pair (of one on the frame the rates too, which are
     those of its pin along the guide), and of each point along both axes."""
-    for link in (link.name for link in scene.links):
-        yield tuple(Ordinate(f"{kind}_{link}", Symbol(kind, link=link)) for kind in ("theta", "omega", "alpha"))
+    for link in scene.links:
+        yield tuple(Symbol(kind, link=link.name) for kind in ("theta", "omega", "alpha"))
     for pair in scene.slidings:
-        travel = Ordinate(f"s_{pair.key}", Symbol("s", link=pair.link, other=pair.on))
-        rates = "va" if pair.on == scene.frame.name and pair.pin is not None else ""
-        along = scene.frame.guides[pair.guide].direction if rates else 1.0
-        yield travel, *(Ordinate(f"{k}_{pair.key}", Symbol(k, PointRef(pair.pin or "")), along) for k in rates)
+        kinds = "sva" if pair.on == scene.frame.name and pair.pin is not None else "s"
+        yield tuple(Symbol(kind, link=pair.link, other=pair.on) for kind in kinds)
     for point in map(PointRef, scene.holders):
-        for axis, along in (("x", 1.0 + 0j), ("y", 1j)):
-            moving = (Ordinate(f"{kind}_{point}.{axis}", Symbol(kind, point), along) for kind in "va")
-            yield Ordinate(f"{axis}_{point}", Symbol(axis, point)), *moving
+        for axis in ("x", "y"):
+            yield Symbol(axis, point), *(Symbol(kind, point, axis=axis) for kind in "va")
 
 
-def _chain_of(scene: Mechanism, name: str) -> tuple[tuple[Ordinate, ...], int]:
+def _chain_of(scene: Mechanism, name: str) -> tuple[tuple[Symbol, ...], int]:
     """A quantity by its name: its place among position, rate and second rate.
 
     Raises
     ------
     CallError : no such quantity, or one without a sign
     """
-    places = {ordinate.name: (chain, k) for chain in ordinate_chains(scene) for k, ordinate in enumerate(chain)}
+    places = {str(symbol): (chain, k) for chain in ordinate_chains(scene) for k, symbol in enumerate(chain)}
     if name not in places:
         raise CallError.of(Phrase("quantity of name", name=f"{name:.60}"), "is no quantity with a sign here",
                            did_you_mean(name, places))
     return places[name]
 
 
-def known_ordinate(scene: Mechanism, name: str, way: Way) -> tuple[Ordinate, Ordinate]:
+def known_ordinate(scene: Mechanism, name: str, way: Way) -> tuple[Symbol, Symbol]:
     """What is differentiated or integrated, and what comes out.
 
     Raises
@@ -165,7 +157,7 @@ def known_ordinate(scene: Mechanism, name: str, way: Way) -> tuple[Ordinate, Ord
             if way == "derivative"
             else Phrase("is a position integrate a rate of it")
         )
-        raise CallError.of(f"{way} of {name}", says, "one of", names=', '.join(o.name for o in chain))
+        raise CallError.of(f"{way} of {name}", says, "one of", names=', '.join(map(str, chain)))
     _, rate, second = scene.drivers[0].values
     if rate == 0.0 or second != 0.0:
         raise CallError.of(f"{way} of {name}", "the driver does not move evenly", "give it a rate and no second rate")
@@ -192,20 +184,20 @@ def graphical(reach: DriverRange, name: str, way: Way) -> Chords:
     per_x = (high - low) / WIDE / abs(rate)  # s
     drawn, at = (nodes, middles) if way == "derivative" else (middles, nodes)
     values = _drawn(reach, given, drawn)
-    if given.symbol.measure == "angle":
+    if given.measure == "angle":
         values = np.unwrap(values)
-    unit = scene.units.of(given.symbol.measure)
+    unit = scene.units.of(given.measure)
     per_y = unit.si * next_of_series(float(unit.of(np.max(np.abs(values), initial=1e-300))) / TALL)
     y = values / per_y
     widths = np.diff(x)
-    exact = np.asarray(result.solved(reach, reach.motion(at)), dtype=float)
+    exact = np.asarray(Quantity(result).values(reach, reach.motion(at)), dtype=float)
     means = np.zeros(0)
     if way == "derivative":
         slopes = np.diff(y) / widths
         pole = next((h for h in POLES if h * np.max(np.abs(slopes)) <= TALL), POLES[-1])
         rays = slopes * pole
         ordinates, per_found = rays, per_y / (per_x * pole)
-        means = np.diff(np.asarray(given.solved(reach, reach.motion(nodes)), dtype=float)) / (per_x * widths)
+        means = np.diff(np.asarray(Quantity(given).values(reach, reach.motion(nodes)), dtype=float)) / (per_x * widths)
     else:
         # so that the broken line stays on the paper
         steps = y * widths
@@ -218,17 +210,17 @@ def graphical(reach: DriverRange, name: str, way: Way) -> Chords:
     return Chords(way, given, result, x, y, pole, rays, ordinates, exact, means, at, per_x, per_y, per_found)
 
 
-def _drawn(reach: DriverRange, given: Ordinate, offsets: Array) -> Array:
+def _drawn(reach: DriverRange, given: Symbol, offsets: Array) -> Array:
     """The ordinates, measured on a drawing of each position."""
     scene, ordinates = reach.scene, []
     for offset in offsets:
         values = dict(zip((d.key for d in scene.drivers), reach.values(np.array([offset]))[0].tolist(), strict=True))
         try:
-            value = given.drawn(draft(reach.structure, values, (given.symbol,)))
+            value = drawn(draft(reach.structure, values, (on_paper(scene, given)[0],)), given)
         except GraphkinError as error:
             raise Unsolvable("not drawn", *error.problems) from None
         if value is None:
-            raise Unsolvable("not drawn", Problem(given.name, "cannot be measured on the drawing of this"))
+            raise Unsolvable("not drawn", Problem(str(given), "cannot be measured on the drawing of this"))
         ordinates.append(value)
     return np.array(ordinates)
 
@@ -243,13 +235,12 @@ CHORD = Stroke(0.25, (), "#0b62a5")
 RAY, ACROSS = Stroke(0.13, (), "#0b62a5"), Stroke(0.1, (), "#909090")
 AXIS = Stroke(0.25)
 PARTS = 6  # of an interval, in a curve through its ends
-_GREEK = {"theta": "θ", "omega": "ω", "alpha": "α"}
 
 
-def markup_of(ordinate: Ordinate) -> str:
+def markup_of(symbol: Symbol) -> str:
     """The letter of a quantity: ``θ_{4}``, ``s_{61}``, ``v_{Cx}``."""
-    kind, _, rest = ordinate.name.partition("_")
-    return f"{_GREEK.get(kind, kind)}_{{{rest.replace('/', '').replace('.', '').replace('@', '')}}}"
+    names = re.sub("[/.@]", "", str(symbol).removeprefix(f"{symbol.kind}_"))
+    return f"{LETTERS.get(symbol.kind, symbol.kind)}_{{{names}}}"
 
 
 def _per_mm(unit: str) -> str:
@@ -259,7 +250,7 @@ def _per_mm(unit: str) -> str:
 def chords_page(chords: Chords, reach: DriverRange, language: str) -> ChartPage:
     """Draw it.  One mm of the file is one mm on paper, so that what a ruler measures times the scale is the value."""
     scene = reach.scene
-    of_given, of_result = scene.units.of(chords.given.symbol.measure), scene.units.of(chords.result.symbol.measure)
+    of_given, of_result = scene.units.of(chords.given.measure), scene.units.of(chords.result.measure)
     given, result = markup_of(chords.given), markup_of(chords.result)
     title = say(Phrase(f"graphical {chords.way}", result=f"${result}$", curve=f"${given}$"), language)
     per_y, per_found = of_given.of(chords.per_y), of_result.of(chords.per_found)
@@ -315,7 +306,7 @@ def chords_page(chords: Chords, reach: DriverRange, language: str) -> ChartPage:
     return ChartPage(
         WIDTH, end + 22.0, paint, f"{title.replace('$', '')}: {title_of(scene, language)}",
         " ".join(fact.replace("$", "") for fact in facts), language,
-        {"scene": scene.name, "units": scene.units.length, "given": chords.given.name, "result": chords.result.name,
+        {"scene": scene.name, "units": scene.units.length, "given": str(chords.given), "result": str(chords.result),
          "pole": chords.pole, "scales": {"given": per_y, "time": chords.per_x, "result": per_found}},
     )  # fmt: skip
 
@@ -323,12 +314,12 @@ def chords_page(chords: Chords, reach: DriverRange, language: str) -> ChartPage:
 def chords_table(chords: Chords, reach: DriverRange) -> bytes:
     """A row for each result: driver, mm on paper, measured, exact, difference; in scene units, degrees, as CSV."""
     scene, driver = reach.scene, reach.driver
-    place, unit = scene.unit_of(driver), scene.units.of(chords.result.symbol.measure)
+    place, unit = scene.unit_of(driver), scene.units.of(chords.result.measure)
     measured, exact = unit.of(chords.measured), unit.of(chords.exact)
     table = Table((
         Column(f"driver_{driver.key}", np.round(place.of(reach.value(chords.at)), 9), place.text),
         Column("on_paper_mm", np.round(chords.found, 4), "mm"),
-        Column(chords.result.name, measured, unit.text),
+        Column(str(chords.result), measured, unit.text),
         Column("exact", exact, unit.text),
         Column("difference", measured - exact, unit.text),
     ))  # fmt: skip

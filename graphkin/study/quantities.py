@@ -103,7 +103,8 @@ class Quantity:
     @property
     def can_be_prepared(self) -> bool:
         """Whether a prepared mechanism gives it, as it stands in tables."""
-        return self.symbol.order is not None and self.kind != "theta" and not self.symbol.is_rate_of_pair
+        given = self.symbol.order is not None and self.kind != "theta"
+        return given and not (self.symbol.is_rate_of_pair or self.symbol.axis)
 
     def unit(self, scene: Mechanism, radians: bool = False) -> Unit:
         """Its unit in tables; with ``radians`` that in JSON."""

@@ -66,7 +66,8 @@ def test_what_leads_over_no_contact_tells_of_none() -> None:
     assert "at contact" not in run("check", "cam-swinging-roller", "--find", "d_A/C").stdout
 
 
-WRONG = ["v_B/B", "ak_B@1/C@2", "v_Q", "omega_9", "v_B at 9", "v_2/3", "C", "B@3", "v_9/3", "speed"]
+WRONG = ["v_B/B", "ak_B@1/C@2", "v_Q", "omega_9", "v_B at 9", "v_2/3", "C", "B@3", "v_9/3", "speed", "v_D.x",
+         "omega_3.x"]  # fmt: skip
 
 
 @pytest.mark.parametrize("name", WRONG)
@@ -78,7 +79,8 @@ def test_a_name_that_cannot_be_drawn_is_refused_alike_in_a_file_and_in_a_call(na
     assert [str(p.wanted) for p in called.value.problems] == [str(p.wanted) for p in filed.value.problems]
 
 
-@pytest.mark.parametrize(("name", "instead"), [("v_2/3", "v_B@2/B@3"), ("a_2/3", "a_B@2/B@3"), ("D", "x_D, y_D")])
+@pytest.mark.parametrize(("name", "instead"), [("v_2/3", "v_B@2/B@3"), ("a_2/3", "a_B@2/B@3"), ("D", "x_D, y_D"),
+                                               ("v_D.x", "v_D")])  # fmt: skip
 def test_what_stands_in_tables_alone_is_refused_with_what_a_drawing_has(name: str, instead: str) -> None:
     assert graphkin.solve(SIXBAR, find=name).table[name if "_" in name else f"x_{name}"].size
     told = run("check", SIXBAR, "--find", name).stderr
@@ -95,3 +97,12 @@ def test_a_name_of_two_points_is_of_a_sliding_pair_where_they_are_links() -> Non
     solved = graphkin.solve(scene)
     assert solved["v_C"][0].real == pytest.approx(solved["v_G/F"][0], rel=1e-12)
     assert solved["v_C/B"][0] == pytest.approx(solved["v_C"][0] - solved["v_B"][0], rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["v_D", "a_B@3", "v_B@3/D"])
+def test_a_component_is_given_by_the_name_of_its_column(name: str) -> None:
+    solved = graphkin.solve(SIXBAR, sweep=3)
+    x, y = (solved[f"{name}.{axis}"] for axis in "xy")
+    assert [(x + 1j * y)[k] for k in range(3)] == pytest.approx(solved[name].tolist(), rel=1e-12)
+    assert ("position", "driver_1", f"{name}.x", "status", "why") == graphkin.sweep(
+        SIXBAR, positions=3, find=f"{name}.x").table.names
