@@ -6,17 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from decimal import Decimal
 from typing import NamedTuple
 
-from graphkin.construction.centres import (
-    Centre,
-    CentreRelation,
-    Centres,
-    LinkPair,
-    Turning,
-    by_centres,
-    error_by_centres,
-    moving_pins,
-    turning_of,
-)
+from graphkin.construction.centres import Centre, CentreRelation, Centres, LinkPair, Turning
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, written
@@ -62,10 +52,10 @@ def place_of(centres: Centres, centre: Centre) -> tuple[float, float] | None:
 def points_asked(centres: Centres) -> tuple[Symbol, ...]:
     """The absolute velocities of points that the scene asks for; of every moving pin if it asks for nothing."""
     asked = centres.scene.question.find
-    return tuple(s for s in asked if s.kind == "v" and s.to is None) if asked else moving_pins(centres)
+    return tuple(s for s in asked if s.kind == "v" and s.to is None) if asked else centres.moving_pins
 
 
-def velocity_sentences(centres: Centres, moving: Mapping[str, Turning]) -> tuple[Phrase, ...]:
+def velocity_sentences(centres: Centres) -> tuple[Phrase, ...]:
     """Every link's rate from the link before it in its chain, then every asked point's speed from its link's rate, and
     the sliding velocity of every pin along a guide that moves.
 
@@ -74,18 +64,19 @@ def velocity_sentences(centres: Centres, moving: Mapping[str, Turning]) -> tuple
     """
     rates: dict[str, _Rate] = {}
     told: dict[str, Phrase] = {}
+    moving = centres.turning
     largest = max((abs(t.omega) for t in moving.values()), default=0.0)
     for turning in sorted(moving.values(), key=lambda one: len(one.chain)):
-        off = error_by_centres(centres, moving, Symbol("omega", link=turning.link))
+        off = centres.velocity_error(Symbol("omega", link=turning.link))
         nothing = abs(turning.omega) <= max(STILL * largest, min(off, SURE * largest))  # but rounding
         if len(turning.chain) > 1:
             rates[turning.link], told[turning.link] = _of_link(centres, rates, turning, nothing)
         else:
             rates[turning.link] = _Rate("0" if nothing else amount(turning.omega))
     links = [told[name] for name in moving if name in told]
-    speeds = {s: abs(by_centres(centres, moving, s) or 0.0) for s in points_asked(centres)}
+    speeds = {s: abs(centres.velocity(s) or 0.0) for s in points_asked(centres)}
     least = STILL * max(speeds.values(), default=0.0)
-    points = [_of_point(centres, moving, rates, s) for s, speed in speeds.items() if speed > least]
+    points = [_of_point(centres, rates, s) for s, speed in speeds.items() if speed > least]
     slidings = (_of_sliding(centres, rates, *one) for one in _pins_on_guides(centres))
     return (*links, *(p for p in (*points, *slidings) if p is not None))
 
@@ -147,13 +138,11 @@ def _of_link(
     return rate, Phrase(key, (*args, far, near, true_minus(rate.written)))
 
 
-def _of_point(
-    centres: Centres, moving: Mapping[str, Turning], rates: Mapping[str, _Rate], symbol: Symbol
-) -> Phrase | None:
+def _of_point(centres: Centres, rates: Mapping[str, _Rate], symbol: Symbol) -> Phrase | None:
     """The speed of a point: its distance from the link's centre times the rate; of a link that only translates, the
     speed that the link before it has where both have one velocity."""
     assert symbol.of is not None
-    turning = turning_of(centres, moving, symbol.of)
+    turning = centres.turning_of(symbol.of)
     if turning is None:
         return None
     link, centre = turning.link, centres.of(turning.link, centres.scene.frame.name)

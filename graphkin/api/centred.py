@@ -20,18 +20,7 @@ from graphkin.api.arguments import ON_SHEETS, At, as_scene, for_paper, known_wor
 from graphkin.api.checked import solved_here
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.report import Known, in_unit
-from graphkin.construction.centres import (
-    Centre,
-    Centres,
-    LinkPair,
-    Turning,
-    by_centres,
-    error_by_centres,
-    find_centres,
-    moving_pins,
-    speeds,
-    turning_of,
-)
+from graphkin.construction.centres import Centre, Centres, LinkPair, Turning, find_centres
 from graphkin.construction.projective import normal, wedge
 from graphkin.construction.scales import Room
 from graphkin.errors import CallError, as_text, did_you_mean
@@ -73,7 +62,7 @@ def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str,
         how = say(how_found(found, centre, name), language, name)
         rows.append((str(centre.number or ""), name(centre.pair), place, how))
     why = [say(c.why, language, str) for c in found.indeterminate if c.why]
-    told = [as_plain(rich_text(said, language, name)) for said in velocity_sentences(found, centred.turning)]
+    told = [as_plain(rich_text(said, language, name)) for said in velocity_sentences(found)]
     off = [name(p) for p, apart in centred.compared.items() if apart is not None and apart[0] > apart[1]]
     off += [str(v.symbol) for v in centred.velocities if v.ok is False]
     near = [v.too_near(language) for v in centred.velocities if v.ok is None]
@@ -130,13 +119,11 @@ class SpeedByCentres(Known):
         return ("by centres", self.by_centres), ("exact", self.exact)
 
 
-def velocities_by_centres(
-    centres: Centres, turning: Mapping[str, Turning], motion: Motion
-) -> tuple[SpeedByCentres, ...]:
+def velocities_by_centres(centres: Centres, motion: Motion) -> tuple[SpeedByCentres, ...]:
     """Velocities (SI) measured through centres beside the exact ones: those the scene asks for, or all."""
     scene, size = centres.scene, centres.scene.size
     moving = [name for name in centres.names if name != scene.frame.name]
-    every = [*(Symbol("omega", link=name) for name in moving), *moving_pins(centres)]
+    every = [*(Symbol("omega", link=name) for name in moving), *centres.moving_pins]
     symbols = [s for s in scene.question.find if s.kind in ("v", "omega")] if scene.question.find else every
     # what is asked may be nought beside the rest: it is judged by the whole mechanism
     exact = {s: complex(motion.value(s)[0]) for s in dict.fromkeys((*symbols, *every))}
@@ -144,16 +131,16 @@ def velocities_by_centres(
     largest["omega"] = max(largest["omega"], largest["v"] / size)
     found = []
     for symbol in symbols:
-        value = by_centres(centres, turning, symbol)
+        value = centres.velocity(symbol)
         wanted = exact[symbol] if symbol.is_vector else exact[symbol].real
         chain: tuple[str, ...] = ()
         tolerance, most, ok = math.inf, largest[symbol.kind], None
         if value is not None:
-            of = turning_of(centres, turning, symbol.of or PointRef("", symbol.link))
+            of = centres.turning_of(symbol.of or PointRef("", symbol.link))
             chain = () if of is None else of.chain
             most = max(most, 1e-300)
             rounded = float(motion.rough[0][0]) / (1.0 if symbol.is_vector else size)
-            tolerance = max(TOLERANCE * most, rounded, SAFETY * error_by_centres(centres, turning, symbol))
+            tolerance = max(TOLERANCE * most, rounded, SAFETY * centres.velocity_error(symbol))
             ok = None if tolerance > FAIR * most else abs(value - wanted) <= tolerance
         found.append(SpeedByCentres(symbol, "", value, wanted, chain, tolerance, most, ok))
     return tuple(found)
@@ -192,7 +179,6 @@ class Centred(OfScene, Result):
     """
 
     centres: Centres
-    turning: Mapping[str, Turning]
     motion: Motion
     language: str | None = None
     convention: str | None = None
@@ -200,6 +186,11 @@ class Centred(OfScene, Result):
     @property
     def mechanism(self) -> Mechanism:
         return self.centres.scene
+
+    @property
+    def turning(self) -> Mapping[str, Turning]:
+        """The motion of each link by centres."""
+        return self.centres.turning
 
     @property
     def spoken(self) -> str:
@@ -221,7 +212,7 @@ class Centred(OfScene, Result):
     @cached_property
     def velocities(self) -> tuple[SpeedByCentres, ...]:
         """Those asked for, or the angular velocity of every link and the velocity of every moving pin."""
-        return velocities_by_centres(self.centres, self.turning, self.motion)
+        return velocities_by_centres(self.centres, self.motion)
 
     @property
     def ok(self) -> bool:
@@ -319,7 +310,7 @@ class Centred(OfScene, Result):
         from graphkin.drawing.figures.centres import centres_figure
 
         for_paper(self.mechanism)
-        return centres_figure(self.centres, self.turning, language=self.language, convention=self.convention)
+        return centres_figure(self.centres, language=self.language, convention=self.convention)
 
     @cached_property
     def figures(self) -> Mapping[str, Drawing]:
@@ -470,7 +461,7 @@ def centres(
     motion = solved_here(given, values)
     found = found_centres(motion.structure, values)
     drawn = as_drawn(motion, found.sheet.structure)
-    centred = Centred(found, speeds(found), drawn, language, convention)
+    centred = Centred(found, drawn, language, convention)
     if out is not None:
         centred.write(out, formats)
     return centred

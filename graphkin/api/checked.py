@@ -161,12 +161,9 @@ class Checked(OfScene, Result):
         """What was read, found in other ways: by instant centres (velocities), by Zhukovsky's lever (what balances),
         and on the drawing at the contacts, which is this one where pins slide in straight slots; sizes of vectors, SI.
         """
-        from graphkin.construction.centres import by_centres, speeds
-
         symbols = [row.symbol for row in self.report.rows]
-        turning = speeds(self.centres)
         velocities = {
-            s: by_centres(self.centres, turning, s) for s in symbols if s.kind in ("v", "omega") and not s.at
+            s: self.centres.velocity(s) for s in symbols if s.kind in ("v", "omega") and not s.at
         }
         found = {"by_centres": {s: abs(v) if s.kind == "v" else v.real + 0.0
                                 for s, v in velocities.items() if v is not None}}  # fmt: skip

@@ -150,15 +150,13 @@ class Drawn(OfScene, Result):
 
 def _centres(drawn: Drawn) -> tuple[Any, ...]:
     from graphkin.api.centred import ROOM, found_centres
-    from graphkin.construction.centres import speeds
 
     whole = drawn.checked
     # what exact hands have drawn serves this figure too; finite ones draw nothing of the centres
     exact = whole.sheet.instrument == EXACT.name
     values = {d.key: whole.sheet.drivers[d.key] for d in whole.part.drivers}
     centres = whole.centres
-    found = centres.at(centres.sheet.scales_for(ROOM)) if exact else found_centres(whole.part, values)
-    return found, speeds(found)
+    return (centres.at(centres.sheet.scales_for(ROOM)) if exact else found_centres(whole.part, values),)
 
 
 def _forces(drawn: Drawn) -> tuple[Any, ...] | None:

@@ -87,6 +87,22 @@ class Centre:
 
 
 @dataclass(frozen=True)
+class Turning:
+    """The motion of a link by centres.
+
+    ``strength`` (1/s) belongs to the centre's homogeneous coordinates (`ProjectiveChart.velocity`), ``omega`` is the
+    angular velocity (rad/s).  ``chain`` names the links from the driver to this one, each measured from the one before;
+    ``error`` (1/s) is how far the strength may be off, since centres near each other measure badly.
+    """
+
+    link: str
+    strength: float
+    omega: float
+    chain: tuple[str, ...]
+    error: float = 0.0
+
+
+@dataclass(frozen=True)
 class Centres:
     """The links of a scene where they lie on paper, and the centres of every two of them.
 
@@ -180,6 +196,58 @@ class Centres:
         low, high = min(z.imag for z in spots), max(z.imag for z in spots)
         half = abs(complex(right - left, high - low)) / 2
         return ProjectiveChart(complex(left + right, low + high) / 2, half or self.scene.size * self.mm)
+
+
+    # -- velocities by centres -----------------------------------------------------------------------------------------
+
+    @cached_property
+    def turning(self) -> dict[str, Turning]:
+        """The motion of every link that a chain of centres reaches from a driver; a link at rest is among them.  With
+        several drivers the first that moves is the start."""
+        return _chained(self)
+
+    @property
+    def moving_pins(self) -> tuple[Symbol, ...]:
+        """The velocities of all pins that links move."""
+        frame, links = self.scene.frame, set(self.names) - {self.scene.frame.name}
+        pins = (p for p, names in self.scene.holders.items() if p not in frame.points and links.intersection(names))
+        return tuple(Symbol("v", PointRef(p)) for p in pins)
+
+    def turning_of(self, ref: PointRef) -> Turning | None:
+        """The motion of the link of a point: that of the first link with it that is known."""
+        holders = [ref.link] if ref.link else self.scene.holders[ref.point]
+        return next((self.turning[name] for name in holders if name in self.turning), None)
+
+    def velocity(self, symbol: Symbol) -> complex | float | None:
+        """A velocity (m/s) or an angular velocity (rad/s) by centres, measured on the figure; None where no chain leads
+        to it, or where it is neither."""
+        if symbol.kind == "omega":
+            return self.turning[symbol.link].omega if symbol.link in self.turning else None
+        if symbol.kind != "v" or symbol.of is None:
+            return None
+        of, to = self._velocity(symbol.of), self._velocity(symbol.to) if symbol.to else 0j
+        return None if of is None or to is None else of - to
+
+    def _velocity(self, ref: PointRef) -> complex | None:
+        turning = self.turning_of(ref)
+        place = None if turning is None else self.of(turning.link, self.scene.frame.name).place
+        if turning is None or place is None or turning.strength == 0.0:
+            return 0j if turning else None
+        return self.chart.velocity(place, turning.strength, self.point(ref.point)) / self.mm
+
+    def velocity_error(self, symbol: Symbol) -> float:
+        """How far a velocity by centres (m/s, rad/s) may be off by the rounding of the centres' places."""
+        chart, frame = self.chart, self.scene.frame.name
+        refs = [ref for ref in (symbol.of, symbol.to) if ref is not None]
+        spots = [chart.middle + chart.unit, *(self.point(ref.point) for ref in refs)]
+        reach = 1.0 + max(abs(z - chart.middle) for z in spots) / chart.unit
+        whole = 0.0
+        for ref in refs or [PointRef("", symbol.link)]:
+            turning = self.turning_of(ref)
+            if turning is not None and turning.link != frame:
+                # a motion of nothing may be off by all there is, where centres fall together
+                whole += turning.error + abs(turning.strength) * self.of(turning.link, frame).error
+        return whole * reach * (1.0 if symbol.link else chart.unit / self.mm)
 
 
 def find_centres(
@@ -474,29 +542,8 @@ def _otherwise(diagram: CircleDiagram, motions: Mapping[str, LinkMotion], larges
 CERTAIN = 1e-6  # of the driver's own: a link whose motion may err by more waits for a longer chain that gives it better
 
 
-@dataclass(frozen=True)
-class Turning:
-    """The motion of a link by centres.
-
-    ``strength`` (1/s) belongs to the centre's homogeneous coordinates (`ProjectiveChart.velocity`), ``omega`` is the
-    angular velocity (rad/s).  ``chain`` names the links from the driver to this one, each measured from the one before;
-    ``error`` (1/s) is how far the strength may be off, since centres near each other measure badly.
-    """
-
-    link: str
-    strength: float
-    omega: float
-    chain: tuple[str, ...]
-    error: float = 0.0
-
-
-def speeds(centres: Centres) -> dict[str, Turning]:
-    """The motion of every link that a chain of centres reaches from a driver; a link at rest is among them.
-
-    Returns
-    -------
-    dict from the link's name to its motion; with several drivers the first that moves is the start
-    """
+def _chained(centres: Centres) -> dict[str, Turning]:
+    """The motion of every link from the links before it, the shortest chains first."""
     frame = centres.scene.frame.name
     moving = [d for d in centres.scene.drivers if d.values[1] != 0.0]
     if not moving:
@@ -574,51 +621,3 @@ def _carried(
     off = (known.error + common.error + 2 * (sine / apart) * (wanted.error + common.error)) / apart
     strength, error = turning.strength * ratio, turning.error * abs(ratio) + abs(turning.strength) * off
     return Turning(chain[-1], strength, strength * wanted.place[2], chain, error)
-
-
-def turning_of(centres: Centres, moving: Mapping[str, Turning], ref: PointRef) -> Turning | None:
-    """The motion of the link of a point: that of the first link with it that is known."""
-    holders = [ref.link] if ref.link else centres.scene.holders[ref.point]
-    return next((moving[name] for name in holders if name in moving), None)
-
-
-def by_centres(centres: Centres, moving: Mapping[str, Turning], symbol: Symbol) -> complex | float | None:
-    """A velocity (m/s) or an angular velocity (rad/s) by centres, measured on the figure; None where no chain leads to
-    it, or where it is neither."""
-    if symbol.kind == "omega":
-        return moving[symbol.link].omega if symbol.link in moving else None
-    if symbol.kind != "v" or symbol.of is None:
-        return None
-    of = _velocity(centres, moving, symbol.of)
-    to = _velocity(centres, moving, symbol.to) if symbol.to else 0j
-    return None if of is None or to is None else of - to
-
-
-def _velocity(centres: Centres, moving: Mapping[str, Turning], ref: PointRef) -> complex | None:
-    turning = turning_of(centres, moving, ref)
-    place = None if turning is None else centres.of(turning.link, centres.scene.frame.name).place
-    if turning is None or place is None or turning.strength == 0.0:
-        return 0j if turning else None
-    return centres.chart.velocity(place, turning.strength, centres.point(ref.point)) / centres.mm
-
-
-def error_by_centres(centres: Centres, moving: Mapping[str, Turning], symbol: Symbol) -> float:
-    """How far a velocity by centres (m/s, rad/s) may be off by the rounding of the centres' places."""
-    chart, frame = centres.chart, centres.scene.frame.name
-    refs = [ref for ref in (symbol.of, symbol.to) if ref is not None]
-    spots = [chart.middle + chart.unit, *(centres.point(ref.point) for ref in refs)]
-    reach = 1.0 + max(abs(z - chart.middle) for z in spots) / chart.unit
-    whole = 0.0
-    for ref in refs or [PointRef("", symbol.link)]:
-        turning = turning_of(centres, moving, ref)
-        if turning is not None and turning.link != frame:
-            # a motion of nothing may be off by all there is, where centres fall together
-            whole += turning.error + abs(turning.strength) * centres.of(turning.link, frame).error
-    return whole * reach * (1.0 if symbol.link else chart.unit / centres.mm)
-
-
-def moving_pins(centres: Centres) -> tuple[Symbol, ...]:
-    """The velocities of all pins that links move."""
-    frame, links = centres.scene.frame, set(centres.names) - {centres.scene.frame.name}
-    pins = (p for p, names in centres.scene.holders.items() if p not in frame.points and links.intersection(names))
-    return tuple(Symbol("v", PointRef(p)) for p in pins)

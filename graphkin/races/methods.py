@@ -15,7 +15,7 @@ import numpy as np
 from graphkin import solver
 from graphkin.checking.readings import read_off
 from graphkin.construction import EXACT, Instrument, Plan, Scales, cad, execute, pencil, plan
-from graphkin.construction.centres import by_centres, find_centres, speeds
+from graphkin.construction.centres import find_centres
 from graphkin.races.work import Entry, Work, best_time, point_rates
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import PreparedMechanism
@@ -316,14 +316,13 @@ def instant_centres(work: Work, repeats: int) -> Iterator[Entry]:
     tables: list[dict[Symbol, complex]] = []
     for sheet in sheets:
         centres = find_centres(work.scene, sheet.drivers, sheet=sheet)
-        turning = speeds(centres)
-        velocities = {(s := Symbol("v", o.ref)): by_centres(centres, turning, s) for o in few.outputs}
+        velocities = {(s := Symbol("v", o.ref)): centres.velocity(s) for o in few.outputs}
         tables.append({s: complex(v) for s, v in velocities.items() if v is not None})
     error = few.errors(_vectors_of(few, tables, "v"), None)[0]
     if error is None:
         return
     cost = best_time(
-        lambda: [speeds(find_centres(work.scene, sheet.drivers, sheet=sheet)) for sheet in sheets], repeats
+        lambda: [find_centres(work.scene, sheet.drivers, sheet=sheet).turning for sheet in sheets], repeats
     ) / len(sheets)
     yield Entry("drawn", "instant centres", "", cost, cost, error, None)
 

@@ -24,7 +24,7 @@ import numpy as np
 from graphkin import solver
 from graphkin.checking.uncertainty import COVERAGE, predict
 from graphkin.construction import EXACT, Scales, execute, pencil, plan
-from graphkin.construction.centres import by_centres, find_centres, speeds
+from graphkin.construction.centres import find_centres
 from graphkin.construction.instruments import Instrument
 from graphkin.construction.sheet import Sheet
 from graphkin.errors import Unsolvable
@@ -430,7 +430,7 @@ class _CoupledFourBar:
         """Errors of the centre's place (of its distance; nan where it is given as a direction only) and of the velocity
         of C through it (relative)."""
         centres = find_centres(self.scene, instrument=hand)
-        velocity = by_centres(centres, speeds(centres), Symbol.parse("v_C"))
+        velocity = centres.velocity(Symbol.parse("v_C"))
         off = float(abs(velocity - self.velocity) / abs(self.velocity)) if velocity is not None else math.nan
         point = centres.of("2", "0").point
         if point is None:

@@ -8,7 +8,7 @@ import pytest
 
 from graphkin.account.centres import velocity_sentences
 from graphkin.api.centred import centres as checked_centres
-from graphkin.construction.centres import find_centres, speeds
+from graphkin.construction.centres import find_centres
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol
 from graphkin.words import written
@@ -18,7 +18,7 @@ from tests.mechanisms import random_scene
 
 def test_the_sense_is_opposite_where_the_common_centre_lies_between() -> None:
     centres = find_centres(mechanism_of("sixbar-420rpm"))
-    assert "centre opposite sense" in [p.key for p in velocity_sentences(centres, speeds(centres))]
+    assert "centre opposite sense" in [p.key for p in velocity_sentences(centres)]
 
 
 @pytest.mark.parametrize("name", sorted(library()))
@@ -26,7 +26,7 @@ def test_the_told_rates_multiply_up_to_the_exact_ones(name: str) -> None:
     found = checked_centres(name)
     exact = {f"v_{v.symbol.of}": abs(v.exact) for v in found.velocities if v.symbol.kind == "v"}
     metres = found.scene.units.metres
-    for phrase in velocity_sentences(found.centres, found.turning):
+    for phrase in velocity_sentences(found.centres):
         if phrase.key == "centre speed":
             symbol, _, _, _, rate, arm, scale, _ = phrase.args
             told = float(str(rate)) * float(str(arm)) * float(str(scale).split()[0]) * metres
@@ -38,7 +38,7 @@ def test_the_told_rates_multiply_up_to_the_exact_ones(name: str) -> None:
 def test_every_told_rate_is_true_as_it_is_written(name: str) -> None:
     found = checked_centres(name)
     turning = {link: written.amount(one.omega) for link, one in found.turning.items()}
-    for phrase in velocity_sentences(found.centres, found.turning):
+    for phrase in velocity_sentences(found.centres):
         if phrase.key in ("centre same sense", "centre opposite sense"):
             link, known, *_, far, near, rate = (str(arg).replace("−", "-") for arg in phrase.args)
             sign = -1.0 if phrase.key == "centre opposite sense" else 1.0
@@ -51,7 +51,7 @@ def test_a_residue_is_no_rate_of_a_velocity_by_centres() -> None:
     # at this dead centre a link stands still: nothing but rounding is left of its rate
     scene = random_scene(9129, ("RRP", "RPR"), "slot", textbook=True)
     found = checked_centres(scene, at=121.65525060596437)
-    told = [str(arg) for phrase in velocity_sentences(found.centres, found.turning) for arg in phrase.args]
+    told = [str(arg) for phrase in velocity_sentences(found.centres) for arg in phrase.args]
     assert [] == [text for text in told if "e-" in text or "e−" in text]
 
 
@@ -67,7 +67,7 @@ def test_the_speed_of_a_translating_link_is_that_of_the_crank_at_their_centre() 
     given = mechanism_of("shaper-scheme-2")
     scene = replace(given, question=replace(given.question, find=(Symbol.parse("v_C@6"),)))
     centres = find_centres(scene)
-    (told,) = [p for p in velocity_sentences(centres, speeds(centres)) if p.key == "centre speed"]
+    (told,) = [p for p in velocity_sentences(centres) if p.key == "centre speed"]
     _, link, _, end, rate, arm, scale, said = told.args
     exact = abs(checked_centres(scene).velocities[0].exact) / scene.units.metres
     assert ("2", True) == (link, isinstance(end, tuple))
@@ -79,13 +79,13 @@ def test_the_speed_of_a_translating_link_is_that_of_the_crank_at_their_centre() 
 
 def test_a_clockwise_link_is_told_with_its_sign() -> None:
     centres = find_centres(mechanism_of("shaper-scheme-2"))
-    told = {p.args[0]: p.args[-1] for p in velocity_sentences(centres, speeds(centres)) if "sense" in p.key}
+    told = {p.args[0]: p.args[-1] for p in velocity_sentences(centres) if "sense" in p.key}
     assert "−0.739" == told["4"]  # 6.70206 · 8.68 mm / 78.68 mm
 
 
 def test_the_sliding_velocity_is_the_difference_of_rates_times_the_arm_from_the_common_centre():
     centres = find_centres(mechanism_of("sixbar-guide-40deg"))
-    told = [p.args for p in velocity_sentences(centres, speeds(centres)) if p.key == "centre sliding"]
+    told = [p.args for p in velocity_sentences(centres) if p.key == "centre sliding"]
     assert [("1", "3"), ("5", "3")] == [args[1:3] for args in told]
     sizes = [float(args[-1].split()[0]) for args in told]
     assert [575.4062995771787, 99.20039152997784] == pytest.approx(sizes, rel=1e-3)
@@ -93,8 +93,8 @@ def test_the_sliding_velocity_is_the_difference_of_rates_times_the_arm_from_the_
 
 def test_no_sliding_velocity_is_told_of_links_that_turn_alike_but_for_rounding() -> None:
     centres = find_centres(mechanism_of(mechanism(9028)))
-    moving = speeds(centres)
-    told = [p.args[1:3] for p in velocity_sentences(centres, moving) if p.key == "centre sliding"]
+    moving = centres.turning
+    told = [p.args[1:3] for p in velocity_sentences(centres) if p.key == "centre sliding"]
     assert told
     for pinned, guiding in told:
         one, other = moving[str(pinned)].omega, moving[str(guiding)].omega

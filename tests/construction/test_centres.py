@@ -5,14 +5,14 @@ from __future__ import annotations
 import cmath
 import math
 import random
-from itertools import combinations
+from itertools import combinations, pairwise
 from typing import Any
 
 import pytest
 
 from graphkin.api.centred import centres as checked_centres
-from graphkin.construction.centres import Centres, by_centres, find_centres, speeds
-from graphkin.scene import library, mechanism_of
+from graphkin.construction.centres import Centres, find_centres
+from graphkin.scene import library, mechanism_of, read
 from graphkin.scene.symbol import Symbol
 
 
@@ -203,7 +203,7 @@ def test_all_15_centres_of_any_six_bar_agree_with_the_solver(seed: int) -> None:
 
 @pytest.mark.parametrize("name", ["sixbar-420rpm", "shaper-scheme-2", "oldham-coupling", "hydraulic-cylinder"])
 def test_the_shortest_chain_leads_from_the_driver_in_one_step(name: str) -> None:
-    assert 2 >= max(len(t.chain) for t in speeds(find_centres(mechanism_of(name))).values())
+    assert 2 >= max(len(t.chain) for t in find_centres(mechanism_of(name)).turning.values())
 
 
 def test_a_slider_has_the_velocity_of_the_crank_at_their_centre() -> None:
@@ -213,6 +213,25 @@ def test_a_slider_has_the_velocity_of_the_crank_at_their_centre() -> None:
     assert common is not None
     assert pivot is not None
     omega = mechanism_of("slider-crank-offset").drivers[0].values[1]
-    value = by_centres(centres, speeds(centres), Symbol.parse("v_C"))
+    value = centres.velocity(Symbol.parse("v_C"))
     assert isinstance(value, complex)
     assert abs(common - pivot) * centres.sheet.scales.length * abs(omega) == pytest.approx(abs(value), rel=1e-12)
+
+
+def test_a_relative_velocity_by_centres_is_that_of_the_one_point_less_that_of_the_other() -> None:
+    centres = find_centres(mechanism_of("slider-crank-offset"))
+    c, b = (centres.velocity(Symbol.parse(name)) for name in ("v_C", "v_B"))
+    assert c is not None
+    assert b is not None
+    assert c - b == pytest.approx(centres.velocity(Symbol.parse("v_C/B")), rel=1e-12)
+
+
+def test_a_velocity_by_centres_may_be_off_by_the_more_the_nearer_two_of_its_centres_lie_to_each_other() -> None:
+    scene, of_slider = read("slider-crank-offset"), Symbol.parse("v_C")
+    errors = []
+    for crank in (1.0, 1e-3, 1e-6):
+        centres = find_centres(mechanism_of(scene.replace("links.1.length", crank)))
+        velocity = centres.velocity(of_slider)
+        assert velocity is not None
+        errors.append(centres.velocity_error(of_slider) / abs(velocity))
+    assert [True, True] == [0.0 < less < more for less, more in pairwise(errors)]

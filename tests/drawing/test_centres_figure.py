@@ -11,7 +11,7 @@ import pytest
 import graphkin
 from graphkin.account.notation import letters_of
 from graphkin.api.centred import centrodes, found_centres
-from graphkin.construction.centres import Centres, speeds
+from graphkin.construction.centres import Centres
 from graphkin.construction.scales import Room
 from graphkin.drawing.box import Box
 from graphkin.drawing.figures.centres import background, centre_marks, centres_figure, named_centres, untold
@@ -30,7 +30,7 @@ CLASSROOM = ("fourbar-150-500-300-400", "slider-crank-offset", "shaper-scheme-2"
 
 def figure(name: str, convention: str | None = None) -> tuple[Centres, Drawing]:
     centres = found_centres(mechanism_of(name), None)
-    return centres, centres_figure(centres, speeds(centres), convention=convention)
+    return centres, centres_figure(centres, convention=convention)
 
 
 def things(drawing: Drawing) -> Iterator[Primitive]:
@@ -158,7 +158,7 @@ def test_the_lines_of_every_centre_in_the_figure_are_named_there_or_in_a_picture
 def test_a_picture_of_one_centre_has_its_two_lines_through_the_centres_that_are_known() -> None:
     found = graphkin.centres("single-flier")
     crowded = found.centres.at(replace(found.centres.sheet.scales, length=5e-3))
-    pages = centres_figure(crowded, found.turning).further
+    pages = centres_figure(crowded).further
     assert 2 <= len(pages)
     small: dict[int, list[Line]] = {}
     for page in pages:

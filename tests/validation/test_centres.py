@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.construction.centres import Centres, by_centres, find_centres, speeds
+from graphkin.construction.centres import Centres, find_centres
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
 
@@ -67,4 +67,4 @@ def test_the_centre_of_cam_and_follower_lies_28_603_mm_from_the_cam_pivot() -> N
 
 def test_the_cam_gives_the_follower_2_63374_rad_per_s_by_centres() -> None:
     centres = find_centres(mechanism_of("cam-eccentric-flat-rocker"))
-    assert by_centres(centres, speeds(centres), Symbol.parse("omega_2")) == pytest.approx(2.633742889782669, rel=1e-12)
+    assert centres.velocity(Symbol.parse("omega_2")) == pytest.approx(2.633742889782669, rel=1e-12)

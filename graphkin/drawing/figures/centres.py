@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise, permutations
@@ -20,7 +20,7 @@ import numpy as np
 from graphkin.account.centres import line_through, place_of, velocity_sentences
 from graphkin.account.headings import describe, figure_title, number, term
 from graphkin.account.notation import Letters, in_counting_order
-from graphkin.construction.centres import Centre, CentreRelation, Centres, LinkPair, Turning
+from graphkin.construction.centres import Centre, CentreRelation, Centres, LinkPair
 from graphkin.construction.scales import Room
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import (
@@ -331,15 +331,12 @@ RADIUS = {3: 15.0, 4: 17.0, 5: 20.0, 6: 22.0}
 LEGEND = ("legend",)
 
 
-def centres_figure(
-    centres: Centres, turning: Mapping[str, Turning], *, language: str | None = None, convention: str | None = None
-) -> Drawing:
+def centres_figure(centres: Centres, *, language: str | None = None, convention: str | None = None) -> Drawing:
     """Draw all centres of a position on a page of its own; those whose lines have no room for their names there again
     on further pages, each in a picture of its own.
 
     Parameters
     ----------
-    turning : the velocities by centres (`graphkin.construction.centres.speeds`)
     language : "en", "zh" or "both"; the scene's own if None
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
     """
@@ -358,11 +355,11 @@ def centres_figure(
         content, wide, high, lambda around: joined((back, centre_marks(centres, letters, around, back.drawn))),
         lambda whole, around: named_centres(whole, around, centres),
     )
-    report = _report(centres, turning, letters, spoken, page.width)
+    report = _report(centres, letters, spoken, page.width)
     made = page.drawing(
         page.at_drivers(page.term("centres")),
         column(row(figure, side, gap=BESIDE), report, gap=GAP), page.scale("mechanism"), title="centres",
-        said=describe(sheet, ("mechanism",), spoken) + "\n" + _description(centres, turning, letters, spoken),
+        said=describe(sheet, ("mechanism",), spoken) + "\n" + _description(centres, letters, spoken),
     )  # fmt: skip
     some = untold(centres, figure.piece.drawn)
     return replace(made, further=tuple(_centre_by_centre(centres, some, letters, spoken))) if some else made
@@ -414,7 +411,7 @@ def _how_found(centre: Centre, letters: Letters, language: str) -> str:
     return _lines_of(centre, letters) or term(f"way {centre.way or 'none'}", language)
 
 
-def _report(centres: Centres, turning: Mapping[str, Turning], letters: Letters, language: str, width: float) -> Block:
+def _report(centres: Centres, letters: Letters, language: str, width: float) -> Block:
     """What Kennedy's theorem does not give and why, and the velocities by centres."""
     lines: list[str] = []
     for each in languages(language):
@@ -422,7 +419,7 @@ def _report(centres: Centres, turning: Mapping[str, Turning], letters: Letters, 
             by = Phrase(f"centre {centre.way}", (centre.pair, ", ".join(centres.kept))) if centre.way else None
             told = [as_markup(_rich(one, each, letters)) for one in (centre.why, by) if one is not None]
             lines.append(word("sentence joint", each).join(told))
-    spoken = velocity_sentences(centres, turning)
+    spoken = velocity_sentences(centres)
     head = [term("velocities by centres", language)] if spoken else []
     found = [said for phrase in spoken for said in _in_all(phrase, language, letters)]
     return column(prose(lines, width, 3.0, classes=TOLD), prose(head, width, 3.2, bold=True, classes=TOLD),
@@ -454,7 +451,7 @@ def _bare(markup: str) -> str:
     return markup.replace("$", "").replace("_{", "").replace("}", "")
 
 
-def _description(centres: Centres, turning: Mapping[str, Turning], letters: Letters, language: str) -> str:
+def _description(centres: Centres, letters: Letters, language: str) -> str:
     """Every centre in words, for those who do not see the figure."""
     said = []
     for each in languages(language):
@@ -464,7 +461,7 @@ def _description(centres: Centres, turning: Mapping[str, Turning], letters: Lett
                 place = f"({', '.join(f'{x:.4g}' for x in place_of(centres, centre) or ())})"
             how = _how_found(centre, letters, each) if centre.number else centre.joint
             said.append(f"{_bare(letters.centre(centre.pair))} {place}: {_bare(how)}")
-        said += [as_plain(_rich(phrase, each, letters)) for phrase in velocity_sentences(centres, turning)]
+        said += [as_plain(_rich(phrase, each, letters)) for phrase in velocity_sentences(centres)]
     return "\n".join(said)
 
 
