@@ -6,10 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
-from graphkin.construction import Plan, Room, execute, plan
-from graphkin.construction.scales import Scales
+from graphkin.construction import Plan, Room, plan
+from graphkin.construction.scales import DIAGRAMS, Scales
 from graphkin.drawing.box import Box
-from graphkin.drawing.parts.polygon import extent
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene_tables import PAPERS
 from graphkin.scene.symbol import Symbol
@@ -54,28 +53,15 @@ class Paper:
         """Width of a figure so narrow that words stand beside it."""
         return self.body.width - COLUMN
 
-    @property
-    def filled(self) -> Room:
-        """What figures are to fill at scales that the scene does not give: on A4 150 mm, polygons 140."""
-        return self._room((150.0, 150.0), (140.0, 140.0))
-
-    @property
-    def most(self) -> Room:
-        """What figures may fill, under a heading in two languages: on A4 160 by 180 mm, polygons 157 by 190."""
-        return self._room((160.0, 180.0), (157.0, 190.0))
-
-    def part(self, part: float) -> Room:
-        """What figures are to fill that share a page: a part of ``filled``."""
-        mechanism, polygon = ((part * wide, part * high) for wide, high in (self.filled.mechanism, self.filled.polygon))
-        return Room(mechanism=mechanism, polygon=polygon)
-
-    def _room(self, mechanism: tuple[float, float], polygon: tuple[float, float]) -> Room:
-        wide, high = self.body.width / A4.body.width, self.body.height / A4.body.height
-        return Room(
-            mechanism=(mechanism[0] * wide, mechanism[1] * high), polygon=(polygon[0] * wide, polygon[1] * high)
-        )
+    def room(self, on_a4: Room, part: float = 1.0) -> Room:
+        """A room as large by this paper as another, or a part of it, by A4."""
+        wide, high = part * self.body.width / A4.body.width, part * self.body.height / A4.body.height
+        mechanism, polygon = ((x * wide, y * high) for x, y in (on_a4.mechanism, on_a4.polygon))
+        return Room(mechanism, polygon)
 
 
+FILLED = Room()  # what figures are to fill at scales that the scene does not give
+MOST = Room((160.0, 180.0), (157.0, 190.0))  # what they may fill, under a heading in two languages
 A4 = Paper(*PAPERS["A4"])
 PaperName: TypeAlias = Literal["A5", "A4", "A3", "A2", "A1", "A0"]
 LARGER: tuple[PaperName, ...] = ("A4", "A3", "A2", "A1")
@@ -104,7 +90,7 @@ def paper_plan(
     paper = paper_of(scene)
     wished = {name: getattr(scene.question.sheet, f"{name}_scale") for name in NAMES}
     if paper != A4:
-        scales, filled = own.scales, own.scales_for(paper.filled)
+        scales, filled = own.scales, own.scales_for(paper.room(FILLED))
         own = replace(own, scales=_scales(lambda name: getattr(scales if wished[name] else filled, name)))
     fits = _fits(own, paper)
     if not all(fits.values()):
@@ -112,7 +98,7 @@ def paper_plan(
         if larger is not None:
             whole = of if isinstance(of, Mechanism) else of.scene
             return paper_plan(whole.asking(sheet=replace(whole.question.sheet, paper=larger)), values, asked, share)
-        scales, roomed = own.scales, own.scales_for(paper.most)
+        scales, roomed = own.scales, own.scales_for(paper.room(MOST))
         own = replace(own, scales=_scales(lambda name: getattr(scales if fits[name] else roomed, name)))
     return _sharing(own, paper, wished) if share else own
 
@@ -123,29 +109,27 @@ def _sharing(own: Plan, paper: Paper, wished: Mapping[str, float | None]) -> Pla
     if _share(own, paper):
         return own
     for part in PARTS:
-        both = own.scales, own.scales_for(paper.part(part))
-        coarser = {name: max(getattr(one, name) for one in both[: 1 if wished[name] else 2]) for name in NAMES}
-        tried = replace(own, scales=Scales(*coarser.values()))
+        both = own.scales, own.scales_for(paper.room(FILLED, part))
+        coarser = (max(getattr(scales, name) for scales in both[: 1 if wished[name] else 2]) for name in NAMES)
+        tried = replace(own, scales=Scales(*coarser))
         if _share(tried, paper):
-            enough = all(max(_size(tried, name)) >= min(LEAST_DRAWN, max(_size(own, name))) for name in NAMES)
-            return tried if enough else own
+            sizes = zip(_sizes(tried), _sizes(own), strict=True)
+            return tried if all(max(less) >= min(LEAST_DRAWN, max(size)) for less, size in sizes) else own
     return own
 
 
-def _size(own: Plan, name: str) -> tuple[float, float]:
-    """Width and height (mm) of the mechanism (``length``) or of a polygon."""
-    extent = own.exact.extents["mechanism" if name == "length" else name]  # type: ignore[index]
-    per = getattr(own.scales, name)
-    return extent.width / per, extent.height / per
+def _sizes(own: Plan) -> list[tuple[float, float]]:
+    """Width and height (mm) of the mechanism and of both polygons."""
+    pairs = ((own.exact.extents[diagram], own.scales.of(diagram)) for diagram in DIAGRAMS)
+    return [(extent.width / per, extent.height / per) for extent, per in pairs]
 
 
 def _share(own: Plan, paper: Paper) -> bool:
     """Whether the mechanism, with its dimensions, and each polygon stand side by side or one above the other."""
-    wide, high = (size + BESIDE for size in _size(own, "length"))
-    body = paper.body
-    for name in ("velocity", "acceleration"):
-        across, up = (size + AROUND for size in _size(own, name))
-        across = max(across, LEAST_WIDE)
+    (wide, high), *polygons = _sizes(own)
+    wide, high, body = wide + BESIDE, high + BESIDE, paper.body
+    for across, up in polygons:
+        across, up = max(across + AROUND, LEAST_WIDE), up + AROUND
         beside = wide + across <= body.width and max(high, up) <= body.height - HEAD
         if not beside and (max(wide, across) > body.width or high + up > body.height - HEAD):
             return False
@@ -154,13 +138,9 @@ def _share(own: Plan, paper: Paper) -> bool:
 
 def _fits(own: Plan, paper: Paper) -> dict[str, bool]:
     """Whether each of the three figures fits the paper."""
-    sheet = execute(own)
-    mechanism, polygon = paper.most.mechanism, paper.most.polygon
-    boxes = Box.around(sheet.points.values()), extent(sheet, "velocity"), extent(sheet, "acceleration")
-    return {
-        name: box.width <= wide and box.height <= high
-        for name, box, (wide, high) in zip(NAMES, boxes, (mechanism, polygon, polygon), strict=True)
-    }
+    most = paper.room(MOST)
+    rooms = zip(NAMES, _sizes(own), (most.mechanism, most.polygon, most.polygon), strict=True)
+    return {name: size[0] <= room[0] and size[1] <= room[1] for name, size, room in rooms}
 
 
 def _larger(own: Plan, paper: Paper, wished: Mapping[str, float | None]) -> PaperName | None:
