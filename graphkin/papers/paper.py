@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 from graphkin.construction import Plan, Room, plan
-from graphkin.construction.scales import DIAGRAMS, Scales
+from graphkin.construction.scales import Scales
+from graphkin.construction.steps import DIAGRAMS
 from graphkin.drawing.box import Box
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene_tables import PAPERS

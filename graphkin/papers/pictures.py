@@ -179,28 +179,28 @@ def workspace(lesson: Lesson, bare: Drawing, diagrams: Sequence[DiagramName], pa
 def draw_frame(
     lesson: Lesson, diagram: DiagramName, height: float | None = None, width: float | None = None
 ) -> Drawing:
-    """A frame to draw a polygon in, with the pole where the polygon will have room, and its scale."""
-    content = extent(lesson.sheet, diagram)
-    page = paper_of(lesson.sheet.scene).body
-    wide = width or page.width
-    tall = height or min(page.height - 40.0, max(LEAST_FRAME, content.height + 2 * AROUND))
-    box = Box(0.2, 0.2, wide - 0.2, tall)
-    # to the nearest 5 mm, so that the place of the pole does not tell the answer
-    off = box.centre - content.centre
-    at = complex(5.0 * round(off.real / 5.0), 5.0 * round(off.imag / 5.0))
-    mark = pole(lesson.letters.convention, diagram)
+    """A frame to draw a polygon in, with the pole where the polygon will have room, and its scale; of forces, which
+    have no pole, a bare one."""
+    page, language = paper_of(lesson.sheet.scene).body, lesson.language
+    title, wide, marks = term(FIGURE_WORDS[diagram], language), width or page.width, list[Primitive]()
+    tall = height or page.height - 40.0
+    if diagram != "force":
+        content = extent(lesson.sheet, diagram)
+        tall = height or min(tall, max(LEAST_FRAME, content.height + 2 * AROUND))
+        # to the nearest 5 mm, so that the place of the pole does not tell the answer
+        off = Box(0.2, 0.2, wide - 0.2, tall).centre - content.centre
+        at = complex(5.0 * round(off.real / 5.0), 5.0 * round(off.imag / 5.0))
+        mark = pole(lesson.letters.convention, diagram)
+        title += punctuation("colon", language) + mark
+        marks += Circle(at, 0.9, fill=strokes.WHITE, stroke=strokes.OUTLINE), Circle(at, 0.3, fill=strokes.BLACK)
+        marks.append(Text(at + complex(1.6, -1.6), symbol(mark, 3.5)))
     words, bar = _scale_foot(lesson, diagram)
-    children: list[Primitive] = [
-        Polygon(box.corners, "", strokes.DIMENSION),
-        Circle(at, 0.9, fill=strokes.WHITE, stroke=strokes.OUTLINE),
-        Circle(at, 0.3, fill=strokes.BLACK),
-        Text(at + complex(1.6, -1.6), symbol(mark, 3.5)),
+    children = (
+        Polygon(Box(0.2, 0.2, wide - 0.2, tall).corners, "", strokes.DIMENSION), *marks,
         *moved((words,), complex(3.0, tall - 3.0)),
         *moved(bar, complex(wide - 3.0 - BAR, tall - (3.0 if wide > 2 * BAR else 10.0))),
-    ]
-    language = lesson.language
-    title = f"{term(FIGURE_WORDS[diagram], language)}{punctuation('colon', language)}{mark}"
-    return Drawing(wide, tall + 0.2, tuple(children), title, "", languages(language)[0])
+    )  # fmt: skip
+    return Drawing(wide, tall + 0.2, children, title, "", languages(language)[0])
 
 
 def force_space(lesson: Lesson, bare: Drawing, page: Box) -> Drawing:
@@ -208,17 +208,10 @@ def force_space(lesson: Lesson, bare: Drawing, page: Box) -> Drawing:
     by side, one above the other, or the frame alone where the mechanism leaves no room on a page."""
     beside = page.width - bare.width - GAP >= LEAST_FRAME and bare.height <= page.height
     above = not beside and page.height - bare.height - GAP >= LEAST_FRAME / 2 and bare.width <= page.width
-    left, top = (bare.width + GAP if beside else 0.0), (bare.height + GAP if above else 0.0)
-    box = Box(left + 0.2, top + 0.2, page.width - 0.2, page.height)
-    words, bar = _scale_foot(lesson, "force")
-    children: list[Primitive] = [
-        *(bare.children if beside or above else ()),
-        Polygon(box.corners, "", strokes.DIMENSION),
-        *moved((words,), complex(left + 3.0, box.bottom - 3.0)),
-        *moved(bar, complex(box.right - 3.0 - BAR, box.bottom - 3.0)),
-    ]
-    title, first = term("forces", lesson.language), languages(lesson.language)[0]
-    return Drawing(page.width, page.height + 0.2, tuple(children), title, bare.desc, first)
+    corner = complex(bare.width + GAP if beside else 0.0, bare.height + GAP if above else 0.0)
+    frame = draw_frame(lesson, "force", page.height - corner.imag, page.width - corner.real)
+    children = (*(bare.children if beside or above else ()), *moved(frame.children, corner))
+    return replace(frame, width=page.width, height=page.height + 0.2, children=children, desc=bare.desc)
 
 
 def blank_equations(lesson: Lesson, equations: Iterable[Equation], width: float) -> Drawing:
