@@ -33,7 +33,7 @@ from graphkin.scene.asked import spelling_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Printed, Symbol, Value
-from graphkin.solver import Motion, as_drawn, driver_range, exact_values, structure_of
+from graphkin.solver import Motion, driver_range, exact_values, structure_of
 from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
@@ -443,15 +443,10 @@ def evidence_at(
     """
     scene, values = placed(scene, at)
     motion = solved_here(scene, values)
-    structure = motion.structure
-    what = plan(structure, values, [symbol for symbol in asked if symbol.scope != "cycle"])
-    # everything is drawn, so that slips in what leads to the asked and beside it are found
-    whole = plan(structure, values, ())
-    drawn = what if set(what.elements) == set(whole.elements) else whole
-
+    what = plan(motion.structure, values, [symbol for symbol in asked if symbol.scope != "cycle"])
     predicted = predict(what, "pencil", scene.question.sheet.tools)
-    exact = exact_values(as_drawn(motion, what.structure), asked)
-    return Evidence(drawn, exact, predicted, _elsewhere(scene, values), variants, motion)
+    found = Evidence.of(what, motion, predicted, asked)
+    return replace(found, elsewhere=_elsewhere(scene, values), variants=variants, motion=motion)
 
 
 def _elsewhere(scene: Mechanism, values: dict[str, float] | None) -> ValuesElsewhere:

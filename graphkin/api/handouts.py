@@ -41,7 +41,7 @@ from graphkin.papers.documents import (
     solution_blocks,
 )
 from graphkin.papers.exports import PLATFORMS, Question, files_for, question_of
-from graphkin.papers.lesson import Lesson, evidence_of, lesson_of, usual_count, views_of
+from graphkin.papers.lesson import Lesson, lesson_of, usual_count, views_of
 from graphkin.papers.paper import paper_plan
 from graphkin.papers.pdf import FORMATS, can_typeset, papers_as
 from graphkin.papers.screen import handout_page, motion_data
@@ -193,7 +193,7 @@ def handout(
     what = paper_plan(motion.structure, values, asked)
     wishes = given.question.sheet
     lesson = lesson_of(what, motion, language or wishes.language, convention or wishes.convention)
-    question = question_of(lesson, evidence_of(what, motion, lesson), given.name) if platforms else None
+    question = question_of(lesson, what, motion, given.name) if platforms else None
     made = Handout(lesson, values, tuple(dict.fromkeys(formats)), count, progress, question, platforms)
     if out is not None:
         made.write(out)
@@ -276,6 +276,5 @@ class Papers:
         lesson = lesson_of(what, motion, self.language, self.convention)
         made = papers_in(lesson, self.formats)
         if self.exports:
-            question = question_of(lesson, evidence_of(what, motion, lesson), f"{self.name}-{variant.name}")
-            made |= files_for(question, self.exports)
+            made |= files_for(question_of(lesson, what, motion, f"{self.name}-{variant.name}"), self.exports)
         return made

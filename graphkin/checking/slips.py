@@ -13,7 +13,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cache, cached_property, partial
 from typing import TypeVar
 
 import numpy as np
@@ -21,14 +21,14 @@ import numpy as np
 from graphkin.checking.readings import read_off
 from graphkin.checking.slip_likelihood import Suspect, Suspects
 from graphkin.checking.uncertainty import Uncertainty
-from graphkin.construction import NO_SLIP, GoneOn, Plan, Sheet, Slip, execute
+from graphkin.construction import NO_SLIP, GoneOn, Plan, Sheet, Slip, execute, plan
 from graphkin.construction.steps import Order, Term
 from graphkin.errors import GraphkinError
 from graphkin.plane import added_up, unit
 from graphkin.scene.model import LinkMass, Loading, LoadOn, Mechanism, PlacedLink
 from graphkin.scene.pairs import PlacedGear
 from graphkin.scene.symbol import PointRef, Symbol, Value
-from graphkin.solver import Motion, as_drawn, forces_of, senses_along, solve, value_of
+from graphkin.solver import Motion, as_drawn, exact_values, forces_of, senses_along, solve, value_of
 from graphkin.words import Phrase
 
 NOTHING = 1e-9  # of the greatest value of its sort: what is smaller is zero
@@ -71,9 +71,19 @@ class Evidence:
     plan: Plan
     exact: Callable[[Symbol], Value]
     predicted: Mapping[Symbol, Uncertainty]
-    elsewhere: ValuesElsewhere
+    elsewhere: ValuesElsewhere = lambda symbol: ()
     variants: ValuesElsewhere = lambda symbol: ()
     motion: Motion | None = None
+
+    @classmethod
+    def of(
+        cls, what: Plan, motion: Motion, predicted: Mapping[Symbol, Uncertainty], asked: Sequence[Symbol]
+    ) -> Evidence:
+        """What is known at the one position of a plan: everything is drawn, so that slips in what leads to the asked
+        and beside it are found."""
+        whole = plan(what.structure, what.values, ())
+        drawn = what if set(what.elements) == set(whole.elements) else whole
+        return cls(drawn, exact_values(as_drawn(motion, what.structure), asked), predicted)
 
     @cached_property
     def sheet(self) -> Sheet:
@@ -96,22 +106,19 @@ class Evidence:
         return _made((*_assemblies(self.plan), *_terms(self.plan, self.sheet)))
 
     @cached_property
-    def _held(self) -> dict[Symbol, ExpectedValue]:
-        return {}
+    def held(self) -> Callable[[Symbol], ExpectedValue]:
+        """What stated values of a symbol are held against; worked out once for each."""
+        return cache(self._held)
 
-    def held(self, symbol: Symbol) -> ExpectedValue:
-        """What stated values of a symbol are held against; worked out once."""
-        if symbol not in self._held:
-            exact = self.exact(symbol)
-            alike = [abs(v) for s, v in self.others.items() if _sort(s) == _sort(symbol)]
-            largest = max([abs(exact), *alike]) or math.inf
-            residue = symbol.scope in CANCELLING and abs(exact) <= NOTHING * largest
-            uncertainty = self.predicted.get(symbol)
-            bound = uncertainty.bound if uncertainty else 0.0
-            bound = math.inf if symbol.scope == "motion" and bound > largest else bound
-            right = type(exact)(0.0) if residue else exact
-            self._held[symbol] = ExpectedValue(right, largest, bound, self._line(symbol))
-        return self._held[symbol]
+    def _held(self, symbol: Symbol) -> ExpectedValue:
+        exact = self.exact(symbol)
+        alike = [abs(v) for s, v in self.others.items() if _sort(s) == _sort(symbol)]
+        largest = max([abs(exact), *alike]) or math.inf
+        residue = symbol.scope in CANCELLING and abs(exact) <= NOTHING * largest
+        uncertainty = self.predicted.get(symbol)
+        bound = uncertainty.bound if uncertainty else 0.0
+        bound = math.inf if symbol.scope == "motion" and bound > largest else bound
+        return ExpectedValue(type(exact)(0.0) if residue else exact, largest, bound, self._line(symbol))
 
     def _line(self, symbol: Symbol) -> complex | None:
         """Unit vector of the positive sense of a vector symbol, None where nothing gives it one: along a guide its
@@ -126,14 +133,9 @@ class Evidence:
         return None if lines is None else complex(lines[0])
 
     @cached_property
-    def _explanations(self) -> dict[Symbol, Suspects]:
-        return {}
-
-    def suspects(self, symbol: Symbol) -> Suspects:
-        """Every explanation for a wrong value of a symbol; looked for once."""
-        if symbol not in self._explanations:
-            self._explanations[symbol] = Suspects(tuple(_suspects(self, symbol)))
-        return self._explanations[symbol]
+    def suspects(self) -> Callable[[Symbol], Suspects]:
+        """Every explanation for a wrong value of a symbol; looked for once for each."""
+        return cache(lambda symbol: Suspects(tuple(_suspects(self, symbol))))
 
     # -- what follows from somebody's own values
 

@@ -19,6 +19,7 @@ from markupsafe import Markup
 
 from graphkin.account.headings import structure_words
 from graphkin.checking.slips import Evidence
+from graphkin.construction import Plan
 from graphkin.errors import GraphkinError
 from graphkin.papers.blocks import clean, in_each
 from graphkin.papers.documents import given, key_rows, scene_title
@@ -26,6 +27,7 @@ from graphkin.papers.html import rendered, said_html, words_html
 from graphkin.papers.lesson import Lesson, plain_words
 from graphkin.papers.pictures import mechanism_picture
 from graphkin.scene.symbol import Symbol
+from graphkin.solver import Motion
 from graphkin.words import languages, say, word
 
 PLATFORMS = ("moodle", "gift", "prairielearn")
@@ -76,8 +78,9 @@ class Question:
         return _NOTHING.sub("-", self.name).strip("-") or "question"
 
 
-def question_of(lesson: Lesson, evidence: Evidence, name: str) -> Question:
-    """The question of a lesson; quantities for which a drawing promises nothing are left out."""
+def question_of(lesson: Lesson, what: Plan, motion: Motion, name: str) -> Question:
+    """The question of a lesson, drawn by a plan; quantities for which a drawing promises nothing are left out."""
+    evidence = Evidence.of(what, motion, lesson.tolerance, what.asked)
     first = languages(lesson.language)[0]
     scene = lesson.sheet.scene
     built = in_each(

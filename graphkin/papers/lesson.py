@@ -15,7 +15,6 @@ from graphkin.account.account import Account
 from graphkin.account.notation import Letters, letters_of
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import Compared, Report, compare, rounding_of
-from graphkin.checking.slips import Evidence
 from graphkin.checking.uncertainty import Uncertainty, predict
 from graphkin.construction import Plan, execute, plan
 from graphkin.construction.centres import Centres, find_centres
@@ -211,14 +210,6 @@ def compared(sheet: Sheet, motion: Motion, language: str, convention: str, asked
     rounding = rounding_of(motion, lost)
     report = compare(sheet, read_off(sheet), exact, asked, rounding=rounding, force_scale=scale)
     return Lesson(sheet, report, {}, language, convention, asked)
-
-
-def evidence_of(what: Plan, motion: Motion, lesson: Lesson) -> Evidence:
-    """What the slips of a lesson are looked for in: everything drawn, so that one in what leads to the asked counts."""
-    whole = plan(what.structure, what.values, ())
-    drawn = what if set(what.elements) == set(whole.elements) else whole
-    exact = solver.exact_values(solver.as_drawn(motion, what.structure), what.asked)
-    return Evidence(drawn, exact, lesson.tolerance, lambda symbol: ())
 
 
 def usual_count(scene: Mechanism) -> int:
