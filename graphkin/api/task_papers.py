@@ -31,7 +31,6 @@ from graphkin.papers.blocks import (
     Picture,
     Said,
     StepItem,
-    Steps,
     Together,
     finished,
     in_each,
@@ -91,11 +90,11 @@ def _papers(
         *map(Picture, start),
         results_in("your results", ("quantity", "on paper", "value", "unit"), blank, roomy=True),
     )
-    items = tuple(StepItem(i, finished(words)) for i, words in enumerate(steps, 1))
+    parted = len(steps) >= MANY
     solution = document(
         "worked solution",
         *asked,
-        Steps(items, parted=len(items) >= MANY),
+        *(StepItem(i, finished(words), parted=parted) for i, words in enumerate(steps, 1)),
         *(Picture(bare_picture(figure), numbered(i, told), floats=i < len(whole))
           for i, (told, figure) in enumerate(whole.items(), 1)),
         results_in("results", ("quantity", "measured", "exact", "unit"), results),

@@ -56,18 +56,12 @@ class Paragraph:
 
 @dataclass(frozen=True)
 class StepItem:
-    """One step of the construction: its number, its reason, the lines of numbers computed in it."""
+    """One step of the construction: its number, its reason, the lines of numbers computed in it; ``parted`` sets it and
+    those beside it on paper in two columns, down the left and then down the right."""
 
     number: int
     words: Said
     work: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True)
-class Steps:
-    """Steps in their order; ``parted`` sets them on paper in two columns, down the left and then down the right."""
-
-    items: tuple[StepItem, ...]
     parted: bool = False
 
 
@@ -123,7 +117,7 @@ class Fields:
 class Beside:
     """Blocks with a narrow figure at their right."""
 
-    blocks: tuple[Heading | Paragraph | Steps, ...]
+    blocks: tuple[Heading | Paragraph | StepItem, ...]
     picture: Picture
 
 
@@ -131,12 +125,12 @@ class Beside:
 class Together:
     """Blocks that stand on one page if they fit on one."""
 
-    blocks: tuple[Leaf | Steps, ...]
+    blocks: tuple[Leaf, ...]
 
 
 Leaf: TypeAlias = Heading | Paragraph | Fields | StepItem | Picture | Plate | TableBlock | Beside
 """What is never parted, but for long tables."""
-Block: TypeAlias = Leaf | Steps | Together
+Block: TypeAlias = Leaf | Together
 
 
 @dataclass(frozen=True)
@@ -151,7 +145,7 @@ class Document:
     folded: bool = False
 
 
-def laid_out(blocks: Iterable[Block]) -> Iterator[Leaf | Steps]:
+def laid_out(blocks: Iterable[Block]) -> Iterator[Leaf]:
     """Every block by itself, in the order in which they are read."""
     for block in blocks:
         if isinstance(block, Together):

@@ -45,7 +45,6 @@ from graphkin.papers.blocks import (
     Picture,
     Said,
     StepItem,
-    Steps,
     TableBlock,
     Together,
     in_each,
@@ -482,8 +481,7 @@ def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterato
             count += plan is not None
             yield Together(tuple(_plan_blocks(lesson, stage.diagram, plan, count, stage)))
         elif _leads_on(stage, after):
-            steps = Steps(step_items(lesson, stage), parted=len(stage.steps) > 1)
-            yield Together((*_told(lesson, stage, count + 1), steps))
+            yield Together((*_told(lesson, stage, count + 1), *step_items(lesson, stage, len(stage.steps) > 1)))
             first = stage.first
         else:
             count += 1
@@ -500,12 +498,12 @@ def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterato
 
 def _plan_blocks(
     lesson: Lesson, order: str, figure: Drawing | None, count: int, stage: Stage | None = None
-) -> Iterator[Heading | Steps | Picture]:
+) -> Iterator[Heading | StepItem | Picture]:
     """A velocity plan with its steps; without a figure where nothing of it moves."""
     told = said("plan" if order == "velocity" else "plan accelerations", lesson.language)
     yield Heading(told)
     if stage is not None:
-        yield Steps(step_items(lesson, stage), parted=len(stage.steps) > 1)
+        yield from step_items(lesson, stage, len(stage.steps) > 1)
     if figure is not None:
         yield Picture(figure, numbered(count, told), floats=True)
 
@@ -519,13 +517,13 @@ def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
     lead: tuple[Heading | Paragraph, ...] = (Heading(said("forces", language)), statement)
     lever = lever_figure(sheet, forces, language=language, convention=lesson.convention)
     for turn, stage in enumerate(ForceAccount(lesson.scaled, forces, lesson.letters).stages()):
-        steps = Steps(tuple(StepItem(s.number, s.words(language), s.lines(language)) for s in stage.steps))
+        steps = (StepItem(step.number, step.words(language), step.lines(language)) for step in stage.steps)
         title = stage.heading(language)
         if len(forces.states) > 1 and stage.group.links:
             load = said("force with load" if stage.again else "force without load", language)
             title = tuple((each, f"{one}  ({text})") for (each, one), (_, text) in zip(title, load, strict=True))
         count += bool(stage.group.links)
-        yield Together((*lead, Heading(title, 3), *_force_pictures(lesson, stage, f"-{turn}", count), steps))
+        yield Together((*lead, Heading(title, 3), *_force_pictures(lesson, stage, f"-{turn}", count), *steps))
         lead = ()
         if stage.figure == "lever" and lever is not None:
             count += 1
@@ -583,11 +581,11 @@ def stage_title(lesson: Lesson, stage: Stage) -> Said:
     )
 
 
-def step_items(lesson: Lesson, stage: Stage) -> tuple[StepItem, ...]:
+def step_items(lesson: Lesson, stage: Stage, parted: bool = False) -> tuple[StepItem, ...]:
     """The steps of a stage in words and numbers."""
     account, names = lesson.account, languages(lesson.language)
     return tuple(
-        StepItem(step.number, tuple((each, account.step(step, each)) for each in names), account.work(step))
+        StepItem(step.number, tuple((each, account.step(step, each)) for each in names), account.work(step), parted)
         for step in stage.steps
     )
 
@@ -614,7 +612,7 @@ def _told(lesson: Lesson, stage: Stage, count: int) -> Iterator[Heading | Paragr
 
 def _stage(
     lesson: Lesson, stage: Stage, layers: pictures.Layers, lead: tuple[Paragraph, ...], begun: int, count: int
-) -> Iterator[Heading | Paragraph | Steps | Picture | Beside]:
+) -> Iterator[Heading | Paragraph | StepItem | Picture | Beside]:
     """A stage with its figure, on which what is new since step ``begun`` stands out."""
     sheet = lesson.sheet
     drawn = pictures.stage_picture(lesson, layers, stage.diagram, begun, stage.last)
@@ -627,12 +625,12 @@ def _stage(
     caption = in_each(lesson.language, lambda each: say(Phrase(key, (word(named, each), *args)), each))
     figure = Picture(drawn, numbered(count, caption), floats=True)
     narrow = drawn.width <= paper_of(sheet.scene).narrow
-    steps = Steps(step_items(lesson, stage), parted=not narrow and len(stage.steps) >= MANY)
-    beside: tuple[Heading | Paragraph | Steps, ...] = (steps,)
+    steps = step_items(lesson, stage, parted=not narrow and len(stage.steps) >= MANY)
+    beside: tuple[Heading | Paragraph | StepItem, ...] = steps
     if stage.equation is not None:
         yield from _told(lesson, stage, count)
     else:
-        beside = (*lead, Heading(stage_title(lesson, stage)), steps)
+        beside = (*lead, Heading(stage_title(lesson, stage)), *steps)
     if narrow:
         yield Beside(beside, figure)
     else:

@@ -39,7 +39,6 @@ from graphkin.papers.blocks import (
     Plate,
     Said,
     StepItem,
-    Steps,
     TableBlock,
     Together,
     clean,
@@ -311,29 +310,23 @@ def pages_of(document: Document, measure: Measure) -> list[tuple[Page, ...]]:
 
 def _pieces(blocks: Iterable[Block]) -> Iterator[Piece]:
     """Leaf by leaf, and what it costs to part it from the one before."""
-    leads = False  # whether words or an equation lead to what follows them
+    leads, before = False, None  # whether words or an equation lead to what follows them
     for block in blocks:
-        leaves: list[Piece] = []
-        for one in block.blocks if isinstance(block, Together) else (block,):
-            if isinstance(one, Steps):
-                leaves += [Piece(step, tie=INSIDE if k else 0.0, half=one.parted) for k, step in enumerate(one.items)]
-            else:
-                leaves.append(Piece(one))
-        for i, piece in enumerate(leaves):
-            tie = piece.tie
+        leaves: Sequence[Leaf] = block.blocks if isinstance(block, Together) else (block,)
+        for i, leaf in enumerate(leaves):
+            tie = INSIDE if isinstance(leaf, StepItem) and isinstance(before, StepItem) else 0.0
             if leads:
                 tie = KEPT
-            elif i and not tie and isinstance(block, Together):
-                tie = BEFORE if piece.floats else KEPT
-            leads = isinstance(piece.block, Heading) or (isinstance(piece.block, Picture) and piece.block.joined)
-            yield replace(piece, tie=tie)
+            elif i and not tie:
+                tie = BEFORE if isinstance(leaf, Picture) and leaf.floats else KEPT
+            yield Piece(leaf, tie=tie, half=isinstance(leaf, StepItem) and leaf.parted)
+            leads, before = isinstance(leaf, Heading) or (isinstance(leaf, Picture) and leaf.joined), leaf
 
 
 def lines_of(beside: Beside) -> list[tuple[float, Heading | Paragraph | StepItem]]:
     """The words beside a figure, step by step, each with the gap above it (mm)."""
-    lines = [line for one in beside.blocks for line in (one.items if isinstance(one, Steps) else (one,))]
-    gaps = [0.0, *(_gap(one, other) for one, other in pairwise(lines))]
-    return list(zip(gaps, lines, strict=True))
+    gaps = [0.0, *(_gap(above, below) for above, below in pairwise(beside.blocks))]
+    return list(zip(gaps, beside.blocks, strict=True))
 
 
 def _narrow(picture: Picture, wide: float) -> float:
@@ -407,8 +400,7 @@ def _fitted(piece: Piece, wide: float, sizes: Sizes, below: bool) -> Iterator[Pi
             if taken > sizes[picture, picture.drawing.width][1] and len(lines) - i >= MANY_STEPS and steps:
                 break
             count = i + 1
-        near = tuple(Steps((line,)) if isinstance(line, StepItem) else line for _, line in lines[:count])
-        yield replace(piece, block=replace(block, blocks=near))
+        yield replace(piece, block=replace(block, blocks=block.blocks[:count]))
         yield from (Piece(line, tie=INSIDE, half=True) for _, line in lines[count:])
 
 

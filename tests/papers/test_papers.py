@@ -13,7 +13,7 @@ from graphkin.api.checked import check
 from graphkin.api.handouts import handout
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink.primitives import Line, Polygon, Text, walk
-from graphkin.papers.blocks import Heading, Picture, Steps, TableBlock, laid_out
+from graphkin.papers.blocks import Heading, Picture, StepItem, TableBlock, laid_out
 from graphkin.papers.documents import answer_key, key_rows, problem, result_cells, solution
 from graphkin.papers.html import document_page
 from graphkin.papers.pdf import can_typeset
@@ -130,7 +130,7 @@ def test_larger_paper_has_larger_figures_unless_the_scene_gives_the_scales():
 
 def test_the_solution_has_every_step_once_in_order(shaper):
     blocks = laid_out(solution(shaper.lesson).blocks)
-    found = [item.number for one in blocks if isinstance(one, Steps) for item in one.items]
+    found = [block.number for block in blocks if isinstance(block, StepItem)]
     assert [s.number for s in shaper.lesson.sheet.steps] == found
 
 
