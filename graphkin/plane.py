@@ -1,15 +1,16 @@
-"""Points and directions of the plane as complex numbers: products, crossings, compass arcs in closed form."""
+"""Points and directions of the plane as complex numbers: products, crossings, compass arcs in closed form; and where a
+link lies in it."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from functools import reduce
 from operator import add
 from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     import numpy as np
     from numpy.typing import NDArray
 
@@ -118,3 +119,27 @@ def cross_arcs(p: complex, r: float, q: complex, s: float) -> tuple[complex, com
     along = ((r - s) * (r + s) / c + c) / 2.0
     e = line / c
     return p + e * complex(along, height), p + e * complex(along, -height)
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Where a link lies: its origin (m, or mm on paper) and the unit direction of its own x axis."""
+
+    origin: complex
+    axis: complex
+
+    def place(self, local: complex) -> complex:
+        """A place that is given in the link's own axes."""
+        return self.origin + self.axis * local
+
+    def local(self, place: complex) -> complex:
+        """A place in the link's own axes."""
+        return (place - self.origin) / self.axis
+
+    def scaled(self, times: float) -> Pose:
+        """The same where lengths are so many times as large."""
+        return Pose(self.origin * times, self.axis)
+
+
+Poses = Mapping[str, Pose]
+"""Where links lie, by their names."""

@@ -21,14 +21,14 @@ from itertools import combinations
 from typing import Literal
 
 from graphkin.construction.instruments import EXACT, Instrument
-from graphkin.construction.links_on_paper import LinkMotion, Pose
+from graphkin.construction.links_on_paper import LinkMotion
 from graphkin.construction.plan import draft
 from graphkin.construction.projective import Line, Place, ProjectiveChart, product, wedge
 from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import Superposed
 from graphkin.construction.touching import Touching
-from graphkin.plane import dot
+from graphkin.plane import Pose, dot
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Structure, analyse, driver_pair, part_of

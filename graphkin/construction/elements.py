@@ -261,7 +261,7 @@ def _mark_special(plot: Polygons, move: VectorChain) -> None:
     plot.places[name] = at
     if not move.base:
         pose = plot.paper.poses[link]
-        points = {**plot.links[link].points, name: (at - pose.origin) / pose.axis / plot.paper.mm}
+        points = {**plot.links[link].points, name: pose.local(at) / plot.paper.mm}
         plot.links[link] = replace(plot.links[link], points=points)
     joints = tuple(leg[-1].end.point for leg in legs)
     driven = any(not e.unknown and (e.slide or e.joint) for leg in legs for e in leg)

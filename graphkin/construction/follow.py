@@ -11,10 +11,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, assembled, meet
+from graphkin.construction.links_on_paper import PlacedLinks, assembled, meet, rolled_near
 from graphkin.construction.reduced_mechanism import ReducedMechanism, RemovedConstraint, reduced_mechanisms
-from graphkin.construction.touching import rolled_near
 from graphkin.errors import Unsolvable
+from graphkin.plane import Pose, Poses
 from graphkin.scene.model import Driver
 from graphkin.structure import Driven, Dyad, Element, LargerGroup, Rolled, Structure, started
 from graphkin.structure.assembly import out_of_reach, ways

@@ -22,20 +22,12 @@ import numpy as np
 
 from graphkin.construction.follow import Pace, best_first, drawn_near, fitted, walk
 from graphkin.construction.instruments import EXACT
-from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, Story, drive, meet
+from graphkin.construction.links_on_paper import PlacedLinks, Story, drive, meet
 from graphkin.construction.proportional_division import divide, shares
 from graphkin.construction.reduced_mechanism import ReducedMechanism
-from graphkin.construction.steps import (
-    Bar,
-    CompassArc,
-    Missed,
-    Step,
-    Stroke,
-    TrialCurve,
-    TrialPositions,
-    TrialRow,
-)
+from graphkin.construction.steps import Bar, CompassArc, Missed, Step, Stroke, TrialCurve, TrialPositions, TrialRow
 from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import Pose, Poses
 from graphkin.scene.model import Driver
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Driven
@@ -253,7 +245,7 @@ def _curve(
     def seen(lying: Poses) -> complex:
         """The free end as seen from what it must meet: from the bar's other end, or from the link with the guide."""
         if base:
-            return poses[base].place((at(lying, point, link) - lying[base].origin) / lying[base].axis)
+            return poses[base].place(lying[base].local(at(lying, point, link)))
         return at(lying, point, link) - at(lying, *ends[1]) + at(poses, *ends[1])
 
     places, free = tuple(seen(drawn.poses) for drawn in tried), at(poses, point, link)

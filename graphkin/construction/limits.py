@@ -16,11 +16,12 @@ from numpy.polynomial import chebyshev
 
 from graphkin.construction.follow import Choices, Pace, found_near, moved, walk
 from graphkin.construction.instruments import Instrument
-from graphkin.construction.links_on_paper import Poses, travel
+from graphkin.construction.links_on_paper import travel
 from graphkin.construction.position import Assembly, assembly_at, place, poses_at
 from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import LimitPosition, Limits
 from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import Poses
 from graphkin.scene.model import Mechanism
 from graphkin.scene.pairs import SwingingFollower
 from graphkin.scene.symbol import Symbol

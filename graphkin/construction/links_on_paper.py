@@ -1,4 +1,5 @@
-"""Links on paper: where they lie, how hands prick and place them, and where those of an element lie, lengths in mm.
+"""Links on paper: where they lie, how hands prick and place them, how far what rolls has gone, and where the links of
+an element lie, lengths in mm.
 
 Of a driven link the angle or the travel is laid off.  For each kind of dyad compass arcs and ruler lines meet: a
 `Meeting` tells how well the two loci cross, the possible places of the links, and for each what was drawn.
@@ -9,12 +10,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from graphkin.construction.instruments import EXACT, Instrument
-from graphkin.construction.steps import Bar, CompassArc, OnPaper, Step
+from graphkin.construction.steps import Bar, CompassArc, Step
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import added_up, cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
+from graphkin.plane import Pose, Poses, added_up, cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
 from graphkin.scene.model import Driver, PlacedLink
 from graphkin.scene.pairs import LawCam
 from graphkin.structure import (
@@ -30,26 +31,12 @@ from graphkin.structure import (
     named_with_contact,
     pick,
 )
+from graphkin.structure.model import Coordinate
 from graphkin.words import Phrase
 
 SAME_HOLE = 1e-9
 """Points of a link that lie nearer to each other on paper (mm) are pricked once."""
 DEAD = 1e-7  # sine of a crossing below which a group is at a dead point
-
-
-@dataclass(frozen=True)
-class Pose(OnPaper):
-    """Where a link lies on paper: its origin (mm) and the unit direction of its own x axis."""
-
-    origin: complex
-    axis: complex
-
-    def place(self, own: complex) -> complex:
-        """A place on paper (mm), given in the link's own axes (mm)."""
-        return self.origin + self.axis * own
-
-
-Poses = Mapping[str, Pose]
 
 
 def apart(one: Poses, other: Poses) -> float:
@@ -231,6 +218,39 @@ def pushed_by_driver(
         if ends == {origin, slide.pin}:
             return driver, abs(values[driver.key])
     return None
+
+
+TURNS = 3
+"""Turns that what something rolls on may have made since the position from which it is followed."""
+
+
+def rolled_near(structure: Structure, paper: PlacedLinks, driver: Rolled, start: Poses, guess: Poses) -> float:
+    """The value of what rolls (rad, m) in a position that is being placed, by how far what it rolls on has gone since
+    a position ``start`` within some turns; nearest to where it is expected."""
+    before, near = (replace(paper, poses=dict(poses)) for poses in (start, guess))
+    value, turns = coordinate_on_paper(structure, before, driver.coordinate), [0.0]
+    for coordinate, factor in driver.factors:
+        here, there = (coordinate_on_paper(structure, placed, coordinate) for placed in (paper, before))
+        value += factor * (here - there)
+        if coordinate[0] == "angle":
+            turns = [more + k * math.tau * factor for more in turns for k in range(-TURNS, TURNS + 1)]
+    wanted = coordinate_on_paper(structure, near, driver.coordinate)
+
+    def off(whole: float) -> float:
+        far = value + whole - wanted
+        return abs(math.remainder(far, math.tau) if driver.turns else far)
+
+    # of several that fit as well the one with the fewest turns
+    return value + min(turns, key=lambda whole: (round(off(whole), 9), abs(whole)))
+
+
+def coordinate_on_paper(structure: Structure, paper: PlacedLinks, coordinate: Coordinate) -> float:
+    """An angle within a turn (rad), or a travel (m)."""
+    kind, name = coordinate
+    if kind == "angle":
+        return cmath.phase(paper.poses[name].axis)
+    slide = structure.slide(name)
+    return travel(slide, paper.poses, paper.mm) / paper.mm
 
 
 # -- the links of an element -------------------------------------------------------------------------------------------

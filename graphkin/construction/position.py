@@ -25,11 +25,10 @@ from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import (
     Meeting,
     PlacedLinks,
-    Pose,
-    Poses,
     Story,
     assemble,
     assembled,
+    coordinate_on_paper,
     drive,
     meant,
     meet,
@@ -41,8 +40,7 @@ from graphkin.construction.links_on_paper import (
 from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.sheet import Board
 from graphkin.construction.steps import FINDS_A_POINT, Mark, Reason, Step
-from graphkin.construction.touching import coordinate_on_paper
-from graphkin.plane import added_up, dot, unit
+from graphkin.plane import Pose, Poses, added_up, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.search import last_true
 from graphkin.structure import (
@@ -256,8 +254,8 @@ def cams_in_place(
     rolling = {n for g in scene.gears for n in g.wheels} | {n for c in scene.contacts if c.rolling for n in c.links}
     starts = {**scene.starts, **{name: cmath.phase(poses[name].axis) for name in rolling & poses.keys()}}
     starts |= {s.key: travel(s, poses, mm) / mm for s in structure.slides if rolling and poses.keys() >= {*s.links}}
-    lying = {name: (pose.origin / mm, pose.axis) for name, pose in poses.items()}
-    return analyse(replace(cams_replaced(scene, lying, values, bars), starts=starts))
+    in_metres = {name: pose.scaled(scene.size) for name, pose in poses.items()}
+    return analyse(replace(cams_replaced(scene, in_metres, values, bars), starts=starts))
 
 
 # -- the scene's own position: all the places at which the groups close -----------------------------------------------

@@ -14,9 +14,9 @@ from dataclasses import dataclass, field, replace
 from itertools import combinations, islice
 from typing import Literal
 
-from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, across, reading, travel
+from graphkin.construction.links_on_paper import PlacedLinks, across, reading, travel
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import cross, cross_lines, unit
+from graphkin.plane import Pose, Poses, cross, cross_lines, unit
 from graphkin.scene.model import Driver
 from graphkin.structure import Driven, Dyad, LargerGroup, Pair, RollingRelation, Structure, regrouped, unrolled, without
 from graphkin.words import Phrase
@@ -297,7 +297,7 @@ class RemovedConstraint:
     def _hinges(self, paper: PlacedLinks) -> list[tuple[complex, complex]]:
         """Of each hinge its place (mm) on the link left out, in its axes, and where the other link has it on paper."""
         own, lying = paper.links[self.left_out].points, ((p, paper.poses[n], paper.links[n]) for p, n in self.ends)
-        return [(own[p] * paper.mm, pose.origin + pose.axis * link.points[p] * paper.mm) for p, pose, link in lying]
+        return [(own[p] * paper.mm, pose.place(link.points[p] * paper.mm)) for p, pose, link in lying]
 
     def _slid(self, slide: Pair, poses: Poses, way: float = 0.0, mm: float = 1.0) -> Pose:
         """The link left out as a sliding pair puts it, at a travel (mm)."""

@@ -15,7 +15,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
 from graphkin.construction.instruments import EXACT_NAME, Instrument
-from graphkin.construction.links_on_paper import Pose
 from graphkin.construction.scales import Extent, Room, Scales, chosen_scales
 from graphkin.construction.steps import (
     DIAGRAMS,
@@ -32,7 +31,7 @@ from graphkin.construction.steps import (
 )
 from graphkin.construction.touching import Touching, outlines_on_paper
 from graphkin.errors import CallError, Problem, Unsolvable
-from graphkin.plane import cross, cross_lines
+from graphkin.plane import Pose, cross, cross_lines
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import leading, links_for

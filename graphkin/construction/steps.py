@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from operator import mul
 from typing import Any, Literal, Self, TypeAlias, TypeVar
 
+from graphkin.plane import Pose
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, gaps_of, listed, sense_of, word
 from graphkin.words.written import MOST, amount, computed, figures, increase, on_paper, product, true_minus
@@ -160,7 +161,7 @@ def _times(value: Any, times: float) -> Any:
         return tuple(_times(part, times) for part in value)
     if isinstance(value, dict):
         return {name: _times(part, times) for name, part in value.items()}
-    if isinstance(value, OnPaper):
+    if isinstance(value, OnPaper | Pose):
         return value.scaled(times)
     return value * times if isinstance(value, float | complex) else value
 

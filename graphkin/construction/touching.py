@@ -1,5 +1,5 @@
 """What touches, as it stands on paper: the outlines of cams, found point by point, contacts with their normals, pitch
-circles, pitch lines and pitch points; and how far what rolls has gone, in angles and travels read off, since elsewhere.
+circles, pitch lines and pitch points.
 
 A cam's follower is turned back with its line; the normal goes through the instant centre, and the roller's radius is
 laid off along it.
@@ -15,13 +15,10 @@ from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Literal, NamedTuple
 
-from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, travel
-from graphkin.plane import dot, unit
+from graphkin.plane import Pose, dot, unit
 from graphkin.scene.laws import TURN, Lift
 from graphkin.scene.model import Mechanism
 from graphkin.scene.pairs import LawCam, PlacedContact, PlacedGear, SlidingFollower
-from graphkin.structure import Rolled, Structure
-from graphkin.structure.model import Coordinate
 
 POINTS = 180
 """Points of an outline, those at the seams beside them."""
@@ -111,7 +108,7 @@ class Touching:
             if self.poses.keys() >= both and all(both != {*touch.links} for touch in contacts):
                 pose = self.poses[cam.link]
                 here = station(cam, cam.sense * phase(pose.axis))
-                at, normal = pose.origin + pose.axis * here.contact * self.mm, pose.axis * here.normal
+                at, normal = pose.place(here.contact * self.mm), pose.axis * here.normal
                 yield Touch(_free("K", taken), (cam.link, cam.follower), at, normal, "slides")
 
     def rolling(self) -> Iterator[Touch]:
@@ -154,39 +151,6 @@ def _free(name: str, taken: set[str]) -> str:
         name += "'"
     taken.add(name)
     return name
-
-
-TURNS = 3
-"""Turns that what something rolls on may have made since the position from which it is followed."""
-
-
-def rolled_near(structure: Structure, paper: PlacedLinks, driver: Rolled, start: Poses, guess: Poses) -> float:
-    """The value of what rolls (rad, m) in a position that is being placed, by how far what it rolls on has gone since
-    a position ``start`` within some turns; nearest to where it is expected."""
-    before, near = (replace(paper, poses=dict(poses)) for poses in (start, guess))
-    value, turns = coordinate_on_paper(structure, before, driver.coordinate), [0.0]
-    for coordinate, factor in driver.factors:
-        here, there = (coordinate_on_paper(structure, placed, coordinate) for placed in (paper, before))
-        value += factor * (here - there)
-        if coordinate[0] == "angle":
-            turns = [more + k * math.tau * factor for more in turns for k in range(-TURNS, TURNS + 1)]
-    wanted = coordinate_on_paper(structure, near, driver.coordinate)
-
-    def off(whole: float) -> float:
-        far = value + whole - wanted
-        return abs(math.remainder(far, math.tau) if driver.turns else far)
-
-    # of several that fit as well the one with the fewest turns
-    return value + min(turns, key=lambda whole: (round(off(whole), 9), abs(whole)))
-
-
-def coordinate_on_paper(structure: Structure, paper: PlacedLinks, coordinate: Coordinate) -> float:
-    """An angle within a turn (rad), or a travel (m)."""
-    kind, name = coordinate
-    if kind == "angle":
-        return cmath.phase(paper.poses[name].axis)
-    slide = structure.slide(name)
-    return travel(slide, paper.poses, paper.mm) / paper.mm
 
 
 # -- the outlines of cams ----------------------------------------------------------------------------------------------
@@ -278,5 +242,5 @@ def outlines_on_paper(scene: Mechanism, poses: Mapping[str, Pose], mm: float) ->
     for cam in scene.cams:
         if cam.link in poses:
             pose = poses[cam.link]
-            found[cam.link] = tuple(pose.origin + pose.axis * z * mm for z in outline(cam))
+            found[cam.link] = tuple(pose.place(z * mm) for z in outline(cam))
     return found

@@ -19,7 +19,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import cross, unit
+from graphkin.plane import Poses, cross, unit
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.scene.pairs import CircularSlot, PlacedContact, PlacedDisc, PlacedGuide, SlidingPair, SwingingFollower
 from graphkin.structure.model import OWN_AXIS, Mobility, Pair, Structure
@@ -48,13 +48,10 @@ def replacing_link(contact: PlacedContact, links: Mapping[str, PlacedLink]) -> t
     return PlacedLink(contact.block, places, (one.centre, two.centre), OWN_AXIS), None
 
 
-Lying = Mapping[str, tuple[complex, complex]]
-"""Where links lie: their origins (m) and the directions of their own x axes."""
-
-
-def pins_on_circles(scene: Mechanism, poses: Lying, values: Mapping[str, float]) -> Mechanism:
+def pins_on_circles(scene: Mechanism, poses: Poses, values: Mapping[str, float]) -> Mechanism:
     """The mechanism at one position with pins in its circular slots, instead of the bars that stand for them: in a
-    straight guide along the tangent that carries the curvature; ``values`` are those of the drivers, by key (rad, m).
+    straight guide along the tangent that carries the curvature; ``poses`` are those of its links (m), ``values`` of the
+    drivers, by key (rad, m).
     """
     links, slides = dict(scene.by_name), list(scene.slides)
     for slot in scene.slots:
@@ -62,9 +59,8 @@ def pins_on_circles(scene: Mechanism, poses: Lying, values: Mapping[str, float])
             continue
         del links[slot.bar]
         holder = next(n for n in scene.holders[slot.point] if n != slot.bar)
-        (origin, axis), on = poses[holder], links[slot.on]
-        place = origin + axis * scene.by_name[holder].points[slot.point]
-        at = (place - poses[slot.on][0]) / poses[slot.on][1]
+        on, place = links[slot.on], poses[holder].place(scene.by_name[holder].points[slot.point])
+        at = poses[slot.on].local(place)
         guide = _guide(on, slot.name, at, 1j * unit(at - on.points[slot.centre]), 1.0 / slot.radius)
         links[slot.on] = replace(on, guides={**on.guides, guide.name: guide})
         slides.append(SlidingPair.of_pin(slot.point, holder, slot.on, guide.name))
@@ -74,10 +70,10 @@ def pins_on_circles(scene: Mechanism, poses: Lying, values: Mapping[str, float])
     )  # fmt: skip
 
 
-def _standing(scene: Mechanism, poses: Lying, values: Mapping[str, float]) -> Mechanism:
+def _standing(scene: Mechanism, poses: Poses, values: Mapping[str, float]) -> Mechanism:
     """The mechanism at other driver values, where links lie so: their points are sketched there."""
-    lying = ((link, *poses[link.name]) for link in scene.links if link.name in poses)
-    places = {p: origin + axis * z for link, origin, axis in lying for p, z in link.points.items()}
+    lying = (link for link in scene.links if link.name in poses)
+    places = {p: poses[link.name].place(z) for link in lying for p, z in link.points.items()}
     return replace(scene, drivers=tuple(d.at_value(values[d.key]) for d in scene.drivers),
                    sketch={**scene.sketch, **places}, drawn={})  # fmt: skip
 
@@ -111,12 +107,12 @@ ROUNDED = 1e-13
 """A centre of curvature nearer to the axis than this part of the radius lies on it."""
 
 
-def cams_replaced(scene: Mechanism, poses: Lying, values: Mapping[str, float], bars: bool = True) -> Mechanism:
+def cams_replaced(scene: Mechanism, poses: Poses, values: Mapping[str, float], bars: bool = True) -> Mechanism:
     """The mechanism that stands for one with cams at a position.
 
     Parameters
     ----------
-    poses : where its links lie, all cams among them
+    poses : where its links lie (m), all cams among them
     values : of the drivers, by key (rad, m)
     bars : whether bars stand for rollers and edges, as far as they can, and pins for what moves faces
 
@@ -132,7 +128,7 @@ def cams_replaced(scene: Mechanism, poses: Lying, values: Mapping[str, float], b
     places: dict[str, complex] = {}
     names, letters = _free_names(scene, "O", "Q"), _free_names(scene, "K")  # of centres of curvature, and of contacts
     for cam in scene.cams:
-        _, turn = poses[cam.link]
+        turn = poses[cam.link].axis
         lift = cam.law.at(cam.sense * cmath.phase(turn))
         course = cam.course(lift)
         link, follower = links[cam.link], links[cam.follower]

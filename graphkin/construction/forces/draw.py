@@ -23,11 +23,10 @@ from graphkin.construction.forces.force_sheet import ForceSheet, ForceState, For
 from graphkin.construction.forces.groups import NORMAL, TANGENT, CutFree, at_driver, of_dyad, of_larger_group
 from graphkin.construction.forces.position import DrawnPosition, force_groups, from_outside, inertias
 from graphkin.construction.instruments import EXACT, Instrument
-from graphkin.construction.links_on_paper import Pose
 from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.construction.sheet import Reading, Sheet
 from graphkin.construction.touching import Touching
-from graphkin.plane import added_up, cross, unit
+from graphkin.plane import Pose, added_up, cross, unit
 from graphkin.scene.model import Driver
 from graphkin.scene.pairs import PlacedGuide, SlidingPair
 from graphkin.scene.symbol import PointRef, Symbol
@@ -129,7 +128,7 @@ def held_by_pairs(sheet: Sheet) -> Sheet:
     slides, points, poses = list(scene.whole.slides), dict(sheet.points), dict(sheet.poses)
 
     def local(link: str, at: complex) -> complex:
-        return (at - sheet.poses[link].origin) / sheet.poses[link].axis / mm
+        return sheet.poses[link].local(at) / mm
 
     def with_point(link: str, point: str, at: complex) -> None:
         links[link] = replace(links[link], points={**links[link].points, point: local(link, at)})
