@@ -297,7 +297,7 @@ class RemovedConstraint:
     def _hinges(self, paper: PlacedLinks) -> list[tuple[complex, complex]]:
         """Of each hinge its place (mm) on the link left out, in its axes, and where the other link has it on paper."""
         own, lying = paper.links[self.left_out].points, ((p, paper.poses[n], paper.links[n]) for p, n in self.ends)
-        return [(own[p] * paper.mm, pose.place(link.points[p] * paper.mm)) for p, pose, link in lying]
+        return [(own[p] * paper.mm, pose.origin + pose.axis * link.points[p] * paper.mm) for p, pose, link in lying]
 
     def _slid(self, slide: Pair, poses: Poses, way: float = 0.0, mm: float = 1.0) -> Pose:
         """The link left out as a sliding pair puts it, at a travel (mm)."""

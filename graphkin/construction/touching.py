@@ -108,7 +108,7 @@ class Touching:
             if self.poses.keys() >= both and all(both != {*touch.links} for touch in contacts):
                 pose = self.poses[cam.link]
                 here = station(cam, cam.sense * phase(pose.axis))
-                at, normal = pose.place(here.contact * self.mm), pose.axis * here.normal
+                at, normal = pose.origin + pose.axis * here.contact * self.mm, pose.axis * here.normal
                 yield Touch(_free("K", taken), (cam.link, cam.follower), at, normal, "slides")
 
     def rolling(self) -> Iterator[Touch]:
@@ -242,5 +242,5 @@ def outlines_on_paper(scene: Mechanism, poses: Mapping[str, Pose], mm: float) ->
     for cam in scene.cams:
         if cam.link in poses:
             pose = poses[cam.link]
-            found[cam.link] = tuple(pose.place(z * mm) for z in outline(cam))
+            found[cam.link] = tuple(pose.origin + pose.axis * z * mm for z in outline(cam))
     return found

@@ -364,7 +364,7 @@ def _middle(sheet: Sheet, link: str) -> complex:
     mass = next((m for m in sheet.scene.loading.masses if m.link == link), None)
     points, pose = sheet.structure.links[link].points.values(), sheet.poses[link]
     at = added_up(points, 0j) / max(1, len(points)) if mass is None else mass.at
-    return pose.place(at / sheet.scales.length)
+    return pose.origin + pose.axis * at / sheet.scales.length
 
 
 def _arms(plate: Plate, stage: ForceStage, times: float) -> None:

@@ -348,7 +348,7 @@ def travels(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts 
         if slider.driven:
             key, pose = slider.slide.key, here.sheet.poses[slider.slide.b]
             value = here.sheet.drivers[key] / here.scene.units.metres
-            start = pose.place(slider.slide.guide.through / here.sheet.scales.length)
+            start = pose.origin + pose.axis * slider.slide.guide.through / here.sheet.scales.length
             runs = rich(f"$s_{{{slide_index(here.sheet, key)}}}$ = {written(as_given(value))}", SIZE)
             parts = _apart(room, (start,), (slider.at,), slider.along, abs(value), runs)
             yield parts or driven_value(here, key, runs, (on_page(start), on_page(slider.at)))

@@ -201,7 +201,7 @@ class MechanismOnPaper:
             if cam.link in outlines and cam.follower in poses:
                 pose = poses[cam.link]
                 at = station(cam, cam.sense * phase(pose.axis))
-                point, contact = (pose.place(z * mm) for z in (at.point, at.contact))
+                point, contact = (pose.origin + pose.axis * z * mm for z in (at.point, at.contact))
                 normal = pose.axis * at.normal
                 found.append(CamOnPaper(cam, outlines[cam.link], point, contact, normal, cam.roller * mm))
         return tuple(found)
