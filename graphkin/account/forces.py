@@ -167,25 +167,24 @@ class ForceAccount:
             for lever in state.levers:
                 why = Phrase("lever reason", (f"${pole(self.letters.convention, 'velocity')}$",))
                 why = Phrase("two sentences", (why, Phrase("lever virtual"))) if lever.virtual else why
-                total, balanced = self.lever(state, lever_on_page(self.sheet, lever)[0])
+                total, balanced = self.lever(state, lever)
                 steps = (ForceStep("lever", why), ForceStep("lever", Phrase("lever step forces")),
                          ForceStep("lever", balanced, (total,), (lever.unknown.symbol,)))  # fmt: skip
                 yield ForceStage("lever", Phrase("lever"), steps, state, again=bool(k))
 
     def inertia(self, one: Inertia) -> str:
         """``F_I4 = -m_4 a_S4 = 22.4 kg x 2.11 m/s2 = 47.4 N; M_I4 = ...; h_4 = ...``."""
-        units, link = self.sheet.scene.units, one.link
-        mass, push = amount(one.mass / units.kilograms, MOST), amount(abs(one.push), MOST)
+        units, link = self.sheet.scene.units, one.mass.link
+        mass, push = amount(one.mass.mass / units.kilograms, MOST), amount(abs(one.push), MOST)
         size = product(mass, push, amount(units.kilograms / units.newtons, 12), carried=MOST)
-        mass_of = next(m for m in self.sheet.scene.loading.masses if m.link == link)
-        point = next((p for p, z in self.sheet.scene.by_name[link].points.items() if z == mass_of.at), f"S{link}")
+        point = next((p for p, z in self.sheet.scene.by_name[link].points.items() if z == one.mass.at), f"S{link}")
         letter = "A" if self.letters.convention == "us" else "a"
         said = [f"{self.name(Symbol('Fi', link=link))} = $m_{{{link}}}$ ${letter}_{{{point}}}$ = "
                 f"{written(mass)} {units.mass} × {written(push)} m/s² = {written(size)} {units.force}"]  # fmt: skip
-        if one.inertia:
+        if one.mass.inertia:
             turned = f"{number(one.moment / units.newtons, MOST)} {units.force}·m"
             said.append(f"{self.name(Symbol('Mi', link=link))} = −$J_{{{link}}}$ $α_{{{link}}}$ = {turned}")
-        if one.inertia and one.h is not None:
+        if one.mass.inertia and one.h is not None:
             said.append(f"$h_{{{link}}}$ = {number(abs(one.h) / units.metres, MOST)} {units.length}")
         return ";  ".join(said)
 
@@ -368,14 +367,14 @@ class ForceAccount:
 
     def lever(self, state: ForceState, lever: Lever) -> tuple[Phrase, Phrase]:
         """The sum of the moments on a lever in numbers, and what balances by it beside the value of the polygons."""
-        units, balances = self.sheet.scene.units, lever.unknown.symbol
-        name, moment = self.name(balances), balances.kind == "M"
-        total = added_up(row.moment for row in lever.rows) / units.newtons
+        units, balances, per_mm = self.sheet.scene.units, lever.unknown.symbol, lever_scale(self.sheet, lever)
+        name, moment, arm = self.name(balances), balances.kind == "M", lever.unknown.moment / per_mm
+        total = added_up(row.moment for row in lever.rows) / units.newtons / per_mm
         if moment:
             values = lever.value, float(state.moments.get(balances) or 0.0)
         else:
             values = abs(lever.value), abs(state.vectors.get(balances, 0j)) * self.sheet.scales.force
-        lead = f"{'−' if lever.unknown.moment < 0 else ''}{name}·{number(abs(lever.unknown.moment), MOST)}"
+        lead = f"{'−' if arm < 0 else ''}{name}·{number(abs(arm), MOST)}"
         rest = f"{'+' if total >= 0 else '−'} {number(abs(total), MOST)}"
         unit = units.force + ("·m" if moment else "")
         by_lever, by_polygons = (f"{number(v / units.newtons, MOST)} {unit}" for v in values)
@@ -455,27 +454,15 @@ def _balance(sheet: Sheet, one: MomentEquation, carried: int, of_forces: int) ->
 # -- the lever ---------------------------------------------------------------------------------------------------------
 
 
-def lever_on_page(sheet: Sheet, lever: Lever) -> tuple[Lever, float]:
-    """A lever of a size that a page shows, and m/s for one of its mm: the sheet's own where it is no virtual one."""
-    extent = Extent.around(spots_of(lever), 1.0)
-    if not lever.virtual and extent.width <= LEVER_ROOM[0] and extent.height <= LEVER_ROOM[1]:
-        return lever, lever.per_mm
-    metres = sheet.scene.units.rates.metres
-    extent = Extent(extent.width * lever.per_mm, extent.height * lever.per_mm)
-    per_mm = fitting_scale(extent, LEVER_ROOM, 1.0 / metres) * metres
-    times = lever.per_mm / per_mm
-
-    def larger(row: MomentTerm) -> MomentTerm:
-        pair = None if row.pair is None else (row.pair[0] * times, row.pair[1] * times)
-        arm = None if row.arm is None else row.arm * times
-        return replace(row, acting=replace(row.acting, at=row.acting.at * times), arm=arm, moment=row.moment * times,
-                       pair=pair)  # fmt: skip
-
-    ends, rows = {name: z * times for name, z in lever.ends.items()}, tuple(map(larger, lever.rows))
-    return replace(lever, per_mm=per_mm, ends=ends, rows=rows, unknown=larger(lever.unknown)), per_mm
+def lever_scale(sheet: Sheet, lever: Lever) -> float:
+    """The scale of a lever on a page (m/s for one mm): the sheet's own where it is no virtual one and has room."""
+    extent, metres = Extent.around(spots_of(lever, lever.per_mm), lever.per_mm), sheet.scene.units.rates.metres
+    if not lever.virtual and extent.least_scale(LEVER_ROOM) <= lever.per_mm:
+        return lever.per_mm
+    return fitting_scale(extent, LEVER_ROOM, 1.0 / metres) * metres
 
 
-def spots_of(lever: Lever) -> list[complex]:
-    """The pole, the end points and the places of the forces of a lever (mm)."""
-    spots = [0j, *(row.acting.at for row in lever.rows), *(z for row in lever.rows for z in row.pair or ())]
-    return [*spots, *(z for z in lever.ends.values() if abs(z) > SHORT)]
+def spots_of(lever: Lever, per_mm: float) -> list[complex]:
+    """The pole, the end points and the places of the forces of a lever at a scale (mm)."""
+    places = [0j, *(row.acting.at for row in lever.rows), *(z for row in lever.rows for z in row.pair or ())]
+    return [z / per_mm for z in (*places, *(end for end in lever.ends.values() if abs(end) > SHORT * per_mm))]

@@ -173,7 +173,7 @@ class Checked(OfScene, Result):
             balance = replace(symbol, plus=False, at="")
             for lever in self.forces.states[-1 if symbol.plus else 0].levers:
                 if lever.unknown.symbol == balance:
-                    size = lever.value if balance.kind == "M" else abs(lever.vector)
+                    size = lever.value if balance.kind == "M" else abs(lever.value)
                     found.setdefault("by_lever", {}).setdefault(symbol, 0.0 + size)
         other = self if self.at_contacts is None and self.sheet.scene.pins else self.at_contacts
         if other is not None:

@@ -107,7 +107,7 @@ def lever_lines(checked: Checked, language: str) -> list[str]:
                 continue
             moment = balance.kind == "M"
             unit = f"{units.force} m" if moment else units.force
-            values = lever.value if moment else abs(lever.vector), row.measured if moment else abs(row.measured)
+            values = lever.value if moment else abs(lever.value), row.measured if moment else abs(row.measured)
             by_lever, by_polygons = (f"{amount(float(v.real) / units.newtons, MOST)} {unit}" for v in values)
             found.append(say(Phrase("lever balance", (f"{row.symbol} = {by_lever}", by_polygons)), language))
     return list(dict.fromkeys(found))

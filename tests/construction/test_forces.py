@@ -17,6 +17,7 @@ from graphkin.construction.forces import forces_on, groups
 from graphkin.construction.forces import position as acting
 from graphkin.construction.forces.groups import CutFree
 from graphkin.errors import Unsolvable
+from graphkin.plane import cross
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
 from tests.mechanisms import KINDS, floating_cylinder, random_scene, redriven
@@ -58,7 +59,7 @@ def test_arms_on_the_lever_are_those_of_the_reference(at):
     for row in lever.rows:
         expected = true["rows"].get(str(row.symbol), {}).get("arm_mm")
         if expected is not None and row.acting.force:
-            assert expected == pytest.approx(abs(row.arm) * lever.per_mm / 10e-3, abs=1e-9), row.symbol
+            assert expected == pytest.approx(abs(row.arm) / 10e-3, abs=1e-9), row.symbol
 
 
 def test_a_force_at_the_crank_end_has_the_published_arm():
@@ -198,6 +199,16 @@ def test_every_polygon_closes(seed):
         most = max(abs(v.span) for v in polygon)
         for one, two in zip(polygon, (*polygon[1:], polygon[0]), strict=True):
             assert abs(one.tip - two.tail) <= 1e-9 * most
+
+
+def test_a_force_on_its_shifted_line_turns_as_its_couple_does():
+    sheet = drawn(SHAPER)
+    shifted = [one for one in forces_on(sheet).inertias.values() if one.shifted is not None and one.moment]
+    assert shifted
+    for one in shifted:
+        moment = cross(one.shifted - one.centre, one.force) * sheet.scales.length
+        assert one.moment == pytest.approx(moment, rel=1e-9)
+        assert one.moment / abs(one.force) == pytest.approx(one.h, rel=1e-12)
 
 
 def test_at_rest_loads_against_a_motion_act_as_if_the_driver_grew():

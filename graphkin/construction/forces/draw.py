@@ -70,12 +70,12 @@ def force_scale(sheet: Sheet) -> float:
 def _drawn(sheet: Sheet, hand: Instrument, per_mm: float) -> ForceSheet:
     moves = any(driver.values[1] for driver in sheet.scene.drivers)
     growing = sheet if moves else sheet.growing[0]
-    held, found = held_by_pairs(sheet), inertias(sheet, hand)
+    held, pushes = held_by_pairs(sheet), inertias(sheet, hand)
     states = [
-        _state(held, hand, per_mm, from_outside(sheet, growing, found, sheet.acting, with_edges, hand))
+        _state(held, hand, per_mm, from_outside(sheet, growing, pushes, sheet.acting, with_edges, hand))
         for with_edges in ((False, True) if None in sheet.acting.values() else (False,))
     ]
-    return ForceSheet(per_mm, found, tuple(replace(state, levers=levers_of(sheet, state, hand)) for state in states))
+    return ForceSheet(per_mm, pushes, tuple(replace(state, levers=levers_of(sheet, state, hand)) for state in states))
 
 
 def _state(held: Sheet, hand: Instrument, per_mm: float, known: tuple[ForceVector, ...]) -> ForceState:
@@ -91,8 +91,8 @@ def _state(held: Sheet, hand: Instrument, per_mm: float, known: tuple[ForceVecto
             groups.append(of_dyad(cut, element, balances))
         else:
             groups.append(of_larger_group(cut, element, tuple(balances.values())))
-    vectors = {one.symbol: one.force / per_mm for one in known if not one.turned and one.symbol.is_vector}
-    moments = {one.symbol: one.moment for one in known if not one.symbol.is_vector}
+    vectors = {load.symbol: load.force / per_mm for load in known if not load.turned and load.symbol.is_vector}
+    moments = {load.symbol: load.moment for load in known if not load.symbol.is_vector}
     _joints(cut, vectors, moments)
     for symbol, value in cut.balances.items():
         if symbol.kind == "M":
@@ -105,12 +105,13 @@ def _state(held: Sheet, hand: Instrument, per_mm: float, known: tuple[ForceVecto
 def _joints(cut: CutFree, vectors: dict[Symbol, complex], moments: dict[Symbol, float]) -> None:
     """The forces of all joints by their names, off what was found of pins and sliding pairs."""
     names = cut.drawn
-    for point, first, later in names.turning():
+    for joint in (joint for joint in names.joints if joint.kind == "turning"):
+        point, later = joint.point, joint.second
         force = cut.pins[point, later]
         # the block of a pin in a slot belongs to the link of the pin
         force += added_up((cut.pins[point, key] for key, (of, _) in names.blocks.items()
                            if of == later and point in names.structure.links[key].points), 0j)  # fmt: skip
-        vectors[names.between(first, later, point)] = force / cut.per_mm
+        vectors[names.between(joint.first, later, point)] = force / cut.per_mm
     for slide in names.structure.slides:
         force, couple = cut.slides[slide.key]
         vectors[names.of_slide(slide)] = force / cut.per_mm
@@ -173,10 +174,11 @@ def levers_of(sheet: Sheet, state: ForceState, hand: Instrument) -> tuple[Lever,
 def _lever(sheet: Sheet, drawn: Sheet, state: ForceState, driver: Driver, hand: Instrument) -> Lever | None:
     images = DrawnPosition(drawn)
     balance = images.balance(driver)
-    ends = {str(ref): TURN * z for ref, z in drawn.ends["velocity"].items()}
+    per_mm = drawn.scales.velocity
+    ends = {str(ref): TURN * z * per_mm for ref, z in drawn.ends["velocity"].items()}
     # the forces with their places on the figure from which the images are
     times = sheet.scales.length / drawn.scales.length
-    rows = tuple(_on_lever(images, replace(one, at=one.at * times), hand) for one in state.known)
+    rows = tuple(_on_lever(images, replace(load, at=load.at * times), hand) for load in state.known)
     unknown = _on_lever(images, balance, hand)
     if balance.off != sheet.scene.frame.name:  # between both links that it acts on
         other = _on_lever(images, replace(balance, link=balance.off), hand)
@@ -184,28 +186,27 @@ def _lever(sheet: Sheet, drawn: Sheet, state: ForceState, driver: Driver, hand: 
     if abs(unknown.moment) <= 1e-12 * max((abs(z) for z in ends.values()), default=0.0):
         return None
     value = -added_up(row.moment for row in rows) / unknown.moment
-    return Lever(drawn.scales.velocity, drawn is not sheet, ends, rows, unknown, value, value * balance.force)
+    return Lever(per_mm, drawn is not sheet, ends, rows, unknown, value)
 
 
 def _on_lever(images: DrawnPosition, acting: ForceVector, hand: Instrument) -> MomentTerm:
     """The moment of a force about the pole, at the end point of its point's velocity; of a couple as a pair of forces
     at two points of its link, square to the line between them."""
-    link = acting.link
+    link, per_mm = acting.link, images.sheet.scales.velocity
     if acting.symbol.is_vector:
         end = TURN * images.end("velocity", link, acting.at)
         mm = cross(end, unit(acting.force)) if acting.force else 0.0
-        arm = hand.read_signed(mm) if abs(mm) > 1e-13 * abs(end) else 0.0
-        return MomentTerm(replace(acting, at=end), arm, abs(acting.force) * arm)
+        arm = hand.read_signed(mm) * per_mm if abs(mm) > 1e-13 * abs(end) else 0.0
+        return MomentTerm(replace(acting, at=end * per_mm), arm, abs(acting.force) * arm)
     far = images.image("velocity", link) if link != images.sheet.scene.frame.name else None
     omega = images.sheet.omega[link].value if link in images.sheet.omega else 0.0
     if far is None or omega == 0.0:
         # a link without two points on the figure: its rate is that of another link
-        arm = omega / images.sheet.scales.velocity
-        return MomentTerm(replace(acting, force=complex(acting.moment), at=0j), arm, acting.moment * arm)
+        return MomentTerm(replace(acting, force=complex(acting.moment), at=0j), omega, acting.moment * omega)
     (a, a_end), (b, b_end) = far
     square, size = 1j * unit(b - a), acting.moment / (abs(b - a) / images.mm)
-    tail, tip = TURN * a_end, TURN * b_end
-    arm = hand.read_signed(math.copysign(abs(tip - tail), cross(tip - tail, square)))
+    tail, tip = TURN * a_end * per_mm, TURN * b_end * per_mm
+    arm = hand.read_signed(math.copysign(abs(b_end - a_end), cross(tip - tail, square))) * per_mm
     return MomentTerm(replace(acting, force=square * size, at=tip), arm, size * arm, pair=(tail, tip))
 
 
@@ -243,9 +244,10 @@ def _of_states(forces: ForceSheet, hand: Instrument) -> Iterator[Reading]:
 
 def _shifts(sheet: Sheet, forces: ForceSheet) -> Iterator[Reading]:
     """The shifts of inertia forces that have a couple."""
-    for link, one in forces.inertias.items():
-        if one.h is not None and one.inertia and abs(one.force) > NOUGHT * forces.largest * forces.per_mm:
-            yield Reading(Symbol("h", link=link), abs(one.h) / sheet.scales.length, one.h, "mechanism")
+    least = NOUGHT * forces.largest * forces.per_mm
+    for link, inertia in forces.inertias.items():
+        if inertia.h is not None and inertia.mass.inertia and abs(inertia.force) > least:
+            yield Reading(Symbol("h", link=link), abs(inertia.h) / sheet.scales.length, inertia.h, "mechanism")
 
 
 def _arms(forces: ForceSheet) -> Iterator[Reading]:
@@ -261,4 +263,4 @@ def _arms(forces: ForceSheet) -> Iterator[Reading]:
             if forceful and symbol not in seen:
                 seen.add(symbol)
                 arm = row.moment if sought else row.arm or 0.0  # what balances may act between two moving links
-                yield Reading(symbol, abs(arm), arm * lever.per_mm, "velocity")
+                yield Reading(symbol, abs(arm) / lever.per_mm, arm, "velocity")

@@ -13,6 +13,7 @@ from typing import Literal
 
 from graphkin.construction.steps import NO_DIRECTION, Direction, Part, Term
 from graphkin.plane import cross, unit
+from graphkin.scene.model import LinkMass
 from graphkin.scene.symbol import Symbol
 
 Way = Literal["polygon", "driver", "drawn system"]
@@ -79,37 +80,39 @@ class ForceVector:
         return self if link == self.link else self.back
 
 
+def shifted_line(force: complex, at: complex, couple: float, mm: float) -> tuple[complex, float]:
+    """Where a couple (N m) puts the line of action of a force (N) that stands at a place (mm): a place of it (mm), and
+    how far it is shifted (m, counter-clockwise positive: the couple's sense), on paper with ``mm`` for one m."""
+    shift = couple / abs(force)
+    return at - 1j * unit(force) * (shift * mm), shift
+
+
 @dataclass(frozen=True)
 class Inertia:
     """Inertia force and couple of a link, from its drawn acceleration.
 
-    ``centre`` is the centre of mass (mm), ``image`` the end point of its acceleration (mm from the pole), ``push`` that
-    acceleration as it was read (m/s2).  The force -m a_S and the couple -J alpha together are the force alone, shifted
-    to the line through ``shifted`` (mm), at the distance ``h`` = M / F (m, counter-clockwise positive: the couple's
-    sense); None where there is no force.
+    ``centre`` is the centre of mass (mm), ``push`` its acceleration as it was read (m/s2).  The force -m a_S and the
+    couple -J alpha together are the force alone, on the line through ``shifted`` (mm) at the distance ``h`` = M / F
+    (m); None where there is no force.
     """
 
-    link: str
-    mass: float
-    inertia: float
+    mass: LinkMass
     centre: complex
-    image: complex
     push: complex
-    alpha: float
     force: complex
     moment: float
-    h: float | None = None
     shifted: complex | None = None
+    h: float | None = None
 
 
 @dataclass(frozen=True)
 class MomentTerm:
-    """The moment of what acts on a link: of a force at its place ``about`` another (mm on the mechanism; on a lever mm
+    """The moment of what acts on a link: of a force at its place ``about`` another (mm on the mechanism; on a lever m/s
     from its pole), or of a couple.
 
-    ``arm`` is the distance of its line, as measured (mm; positive where the force turns counter-clockwise; None of a
-    couple), ``moment`` what it comes to (N m; N mm on a lever).  On a lever a couple is a ``pair`` of forces at two end
-    points of an image; its arm is their distance, its force the couple over the length of the bar.
+    ``arm`` is the distance of its line, as measured (mm, m/s; positive where the force turns counter-clockwise; None of
+    a couple), ``moment`` what it comes to (N m, W).  On a lever a couple is a ``pair`` of forces at two end points of
+    an image; its arm is their distance, its force the couple over the length of the bar.
     """
 
     acting: ForceVector
@@ -190,10 +193,10 @@ class ForceGroup:
 @dataclass(frozen=True)
 class Lever:
     """Zhukovsky's lever of one driver: the velocity polygon turned by 90 degrees clockwise about its pole, so that the
-    moment of a force about the pole is its power.
+    moment of a force about the pole is its power.  Its places and arms are velocities (m/s), moments powers (W).
 
-    ``per_mm`` is m/s for one mm; ``virtual`` where the mechanism rests (or has several drivers) and the polygon is that
-    of a unit rate.  ``rows`` are the moments of the known forces, ``unknown`` that of what balances, of size 1,
+    ``per_mm`` is m/s for one mm of the polygon; ``virtual`` where the mechanism rests (or has several drivers) and it
+    is that of a unit rate.  ``rows`` are the moments of the known forces, ``unknown`` that of what balances, of size 1,
     ``value`` (N m, or N along its line) what they give for it.
     """
 
@@ -203,7 +206,6 @@ class Lever:
     rows: tuple[MomentTerm, ...]
     unknown: MomentTerm
     value: float
-    vector: complex = 0j
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from graphkin.construction.forces.force_sheet import ForceGroup, ForceVector, MomentEquation, MomentTerm
+from graphkin.construction.forces.force_sheet import ForceGroup, ForceVector, MomentEquation, MomentTerm, shifted_line
 from graphkin.construction.forces.position import DrawnPosition
 from graphkin.construction.instruments import Instrument
 from graphkin.construction.steps import NO_DIRECTION, Direction, Part
@@ -84,11 +84,11 @@ class CutFree:
 
     def on(self, links: Iterable[str]) -> list[ForceVector]:
         """What is known to act on some links, of no size left out."""
-        return [one for link in links for one in self.acting[link] if one.force or one.moment]
+        return [load for link in links for load in self.acting[link] if load.force or load.moment]
 
     def couples_on(self, links: Iterable[str]) -> list[ForceVector]:
         """The known couples on some links, of no size left out."""
-        return [one for one in self.on(links) if not one.force]
+        return [load for load in self.on(links) if not load.force]
 
     def load_pins(self, members: Iterable[str]) -> None:
         """Links found before hang on pins of these: what they do there acts on the first that has the pin."""
@@ -160,8 +160,8 @@ class CutFree:
         sought = self.term(unknown, about)
         if sought.arm is not None and abs(sought.arm) <= PARALLEL * self.size:
             raise _dead_point(links)
-        acting = [*self.on(links), *(one for one in more if one.force or one.moment)]
-        terms = tuple(self.term(one, about) for one in sorted(acting, key=lambda one: not one.force))
+        acting = [*self.on(links), *(load for load in more if load.force or load.moment)]
+        terms = tuple(self.term(load, about) for load in sorted(acting, key=lambda load: not load.force))
         total = added_up(term.moment for term in terms)
         # what is left of terms that cancel is rounding
         rounding = abs(total) <= 1e-13 * added_up(abs(term.moment) for term in terms)
@@ -177,7 +177,7 @@ class CutFree:
 
     def lay_known(self, chain: Chain, links: Iterable[str]) -> None:
         """Lay off the known forces on some links."""
-        self.lay(chain, *(one for one in self.on(links) if one.force))
+        self.lay(chain, *(load for load in self.on(links) if load.force))
 
     def close(self, links: Sequence[str], chain: Chain, last: ForceVector, first: ForceVector | None = None) -> None:
         """Close a polygon: by one force, or by two of known directions, the one before its first vector and the other
@@ -243,8 +243,7 @@ def _slide_found(
 def _shift_line(cut: CutFree, group: ForceGroup, force: ForceVector, couple: float) -> None:
     """Where a couple (N m) puts the line of action of its force."""
     if force.force:
-        along, shift = unit(force.force), couple / abs(force.force)
-        group.lines[force.symbol] = force.at - 1j * along * (shift * cut.drawn.mm), shift
+        group.lines[force.symbol] = shifted_line(force.force, force.at, couple, cut.drawn.mm)
 
 
 # -- a dyad ------------------------------------------------------------------------------------------------------------
@@ -265,15 +264,15 @@ def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, ForceVector]) -> Fo
     cut.load_pins(dyad.members)
     group = ForceGroup(dyad.links, dyad.kind, "polygon", cut.couples_on(dyad.members))
     pairs = dyad.outer_first, dyad.outer_second
-    one, two = (cut.at_pair(pair, body.links) for pair, body in zip(pairs, dyad.bodies, strict=True))
-    (first, head), (second, tail) = _outer_parts(cut, dyad, one, two, group)
+    at_first, at_second = (cut.at_pair(pair, body.links) for pair, body in zip(pairs, dyad.bodies, strict=True))
+    (first, head), (second, tail) = _outer_parts(cut, dyad, at_first, at_second, group)
     chain = group.polygon
     cut.lay(chain, *first)
     cut.lay_known(chain, dyad.first.links)
     cut.lay_known(chain, dyad.second.links)
     cut.lay(chain, *second)
     cut.close(dyad.links, chain, tail, head)
-    outer = cut.drawn_in(chain, one), cut.drawn_in(chain, two)
+    outer = cut.drawn_in(chain, at_first), cut.drawn_in(chain, at_second)
     for pair, force in zip(pairs, outer, strict=True):
         if pair.turns:
             cut.pins[pair.point, pair.a] += force.force
@@ -286,11 +285,11 @@ def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, ForceVector]) -> Fo
             at, letter, acting = opposed.at, dyad.inner.point, [force]
         couples.append(_slide_found(cut, group, body.links, pair, force, at, letter, acting, dyad.members))
     for body, force, opposed in zip(dyad.bodies, outer, (inner, inner.back), strict=True):
-        turning = (one for couple in couples for one in (couple, couple.back) if one.link in body.links)
+        turning = (load for couple in couples for load in (couple, couple.back) if load.link in body.links)
         acting = [opposed, force, *turning]
         # links that drivers hold together, from the outermost on
         for joint in reversed(body.joints):
-            on_leaf = [one for one in acting if one.link == joint.b]
+            on_leaf = [load for load in acting if load.link == joint.b]
             acting += _at_driven_joint(cut, group, joint, balances[joint.driver.key], on_leaf, body.links)
     cut.done |= set(dyad.members)
     return group
@@ -301,28 +300,28 @@ OuterParts = tuple[list[ForceVector], ForceVector]
 
 
 def _outer_parts(
-    cut: CutFree, dyad: Dyad, one: ForceVector, two: ForceVector, group: ForceGroup
+    cut: CutFree, dyad: Dyad, at_first: ForceVector, at_second: ForceVector, group: ForceGroup
 ) -> tuple[tuple[list[ForceVector], ForceVector | None], OuterParts]:
     """What is known of both outer forces before the polygon closes; None where nothing of the first is left open."""
     slide, outer = dyad.inner, dyad.outer_second
     if slide.turns:
-        return (_by_inner_pin(cut, dyad.first.links, dyad.outer_first, one, slide, group),
-                _by_inner_pin(cut, dyad.second.links, outer, two, slide, group))  # fmt: skip
+        return (_by_inner_pin(cut, dyad.first.links, dyad.outer_first, at_first, slide, group),
+                _by_inner_pin(cut, dyad.second.links, outer, at_second, slide, group))  # fmt: skip
     # body one slides on body two: what pushes it along the guide only its pin can hold
     along = cut.drawn.along(slide)
     laid: Chain = []
     cut.lay_known(laid, dyad.first.links)
     push = along * -dot(_end_of(laid), along) * cut.per_mm
-    known = [replace(one, force=push, part="n", by="moments", direction=_along(slide))] if push else []
+    known = [replace(at_first, force=push, part="n", by="moments", direction=_along(slide))] if push else []
     mark: Part = "t" if known else ""
-    square = replace(one, force=1j * along, part=mark, direction=_across(slide))
+    square = replace(at_first, force=1j * along, part=mark, direction=_across(slide))
     if not outer.turns:
-        return (known, square), ([], replace(two, force=1j * cut.drawn.along(outer), direction=_across(outer)))
+        return (known, square), ([], replace(at_second, force=1j * cut.drawn.along(outer), direction=_across(outer)))
     equation = cut.moments(
-        (*dyad.first.links, *dyad.second.links), two.at, outer.point, replace(square, part="t"), known
+        (*dyad.first.links, *dyad.second.links), at_second.at, outer.point, replace(square, part="t"), known
     )  # fmt: skip
     group.moments.append(equation)
-    return ([*known, replace(equation.found, part=mark)], None), ([], two)
+    return ([*known, replace(equation.found, part=mark)], None), ([], at_second)
 
 
 def _by_inner_pin(
@@ -352,8 +351,8 @@ def _inner_force(
     outer : the outer force on the first body
     """
     pair, links = dyad.inner, dyad.first.links
-    own = [vector for vector in group.polygon if vector.link in links]
-    force = (own[0].tail - _end_of(own)) * cut.per_mm
+    chain = [vector for vector in group.polygon if vector.link in links]
+    force = (chain[0].tail - _end_of(chain)) * cut.per_mm
     if pair.turns:
         names, point, known = cut.drawn, pair.point, cut.drawn.structure.links
         first, second = (next(n for n in body.links if point in known[n].points) for body in dyad.bodies)
@@ -367,8 +366,8 @@ def _inner_force(
     else:
         square = 1j * cut.drawn.along(pair)
         on_first = replace(cut.at_pair(pair, links), force=square * dot(force, square))
-    cut.close(links, own, on_first)
-    group.inner[on_first.link] = own
+    cut.close(links, chain, on_first)
+    group.inner[on_first.link] = chain
     if pair.turns:
         return on_first, []
     about, letter = outer.at, dyad.outer_first.point
@@ -424,20 +423,20 @@ def _at_driven_joint(
     leaf, other, pair = joint.b, joint.a, joint.pair
     chain: Chain = []
     cut.lay_known(chain, (leaf,))
-    cut.lay(chain, *(replace(one, by="given") for one in extra if one.symbol.is_vector))
+    cut.lay(chain, *(replace(load, by="given") for load in extra if load.symbol.is_vector))
     on = cut.at_pair(pair, (leaf,))
     if pair.turns:
         symbol = cut.drawn.of_pin(pair.point, leaf)
         if leaf == cut.drawn.holders.get(pair.point, ("",))[0]:
             symbol = cut.drawn.between(other, leaf, pair.point)
         on = ForceVector(symbol, leaf, at=cut.drawn.point(leaf, pair.point), by="closing", off=other)
-    found = on, push, *_ = _close_driven(cut, group, chain, pair, on, balance.on(leaf), extra, inside)
+    on_leaf = on, push, *_ = _close_driven(cut, group, chain, pair, on, balance.on(leaf), extra, inside)
     group.inner[leaf] = chain
     cut.set_balance(balance, push)
     if pair.turns:
         cut.pins[pair.point, leaf] += on.force
         cut.pins[pair.point, other] -= on.force
-    return [acting.back for acting in found]
+    return [acting.back for acting in on_leaf]
 
 
 def at_driver(cut: CutFree, element: Driven, balance: ForceVector) -> ForceGroup:
@@ -492,7 +491,7 @@ def of_larger_group(cut: CutFree, group: LargerGroup, balances: Sequence[ForceVe
 
 
 def _unknown_forces(cut: CutFree, members: Sequence[str], balances: Sequence[ForceVector]) -> list[Unknown]:
-    found, inside, structure = list[Unknown](), set(members), cut.drawn.structure
+    unknowns, inside, structure = list[Unknown](), set(members), cut.drawn.structure
     for point, holders in structure.hinges.items():
         mine = [n for n in holders if n in inside]
         if not mine:
@@ -500,14 +499,14 @@ def _unknown_forces(cut: CutFree, members: Sequence[str], balances: Sequence[For
         held = any(n not in inside and n not in cut.done for n in holders)
         at, off = cut.drawn.point(mine[0], point), "" if held else mine[0]
         for link in mine if held else mine[1:]:
-            one = ForceVector(cut.drawn.of_pin(point, link), link, at=at, off=off)
-            found += [(replace(one, force=along), point, None) for along in (1 + 0j, 1j)]
+            force = ForceVector(cut.drawn.of_pin(point, link), link, at=at, off=off)
+            unknowns += [(replace(force, force=along), point, None) for along in (1 + 0j, 1j)]
     for slide in structure.slides:
         if slide.key not in cut.slides and {slide.a, slide.b} & inside:
             at, square = cut.drawn.foot(slide), 1j * cut.drawn.along(slide)
-            found += [(ForceVector(cut.drawn.of_slide(slide, kind), slide.a, along, at, off=slide.b), "", slide)
+            unknowns += [(ForceVector(cut.drawn.of_slide(slide, kind), slide.a, along, at, off=slide.b), "", slide)
                       for kind, along in (("F", square), ("M", 0j))]  # fmt: skip
-    return found + [(balance, "", None) for balance in balances]
+    return unknowns + [(balance, "", None) for balance in balances]
 
 
 def _solved(cut: CutFree, members: Sequence[str], unknowns: Sequence[Unknown]) -> list[float]:
@@ -516,25 +515,25 @@ def _solved(cut: CutFree, members: Sequence[str], unknowns: Sequence[Unknown]) -
     row = {name: 3 * i for i, name in enumerate(members)}
     about = {name: cut.drawn.sheet.poses[name].origin for name in members}
 
-    def parts(one: ForceVector, link: str) -> tuple[float, float, float]:
+    def parts(load: ForceVector, link: str) -> tuple[float, float, float]:
         """Both projections of a force, and its moment about a link's origin over the mechanism's size."""
-        arm = cross(one.at - about[link], one.force) / mm / size
-        return one.force.real, one.force.imag, arm + one.moment / size
+        arm = cross(load.at - about[link], load.force) / mm / size
+        return load.force.real, load.force.imag, arm + load.moment / size
 
     left, right = np.zeros((3 * len(members), len(unknowns))), np.zeros(3 * len(members))
-    for k, (one, _, _) in enumerate(unknowns):
-        couple = replace(one, moment=0.0 if one.force else size)
-        for link, sign in ((one.link, 1.0), (one.off, -1.0)):
+    for k, (load, _, _) in enumerate(unknowns):
+        couple = replace(load, moment=0.0 if load.force else size)
+        for link, sign in ((load.link, 1.0), (load.off, -1.0)):
             if link in row:
                 left[row[link] : row[link] + 3, k] += sign * np.array(parts(couple, link))
     for link, i in row.items():
-        for one in cut.on((link,)):
-            right[i : i + 3] -= parts(one, link)
+        for load in cut.on((link,)):
+            right[i : i + 3] -= parts(load, link)
     if left.shape[0] != left.shape[1] or not np.isfinite(left).all() or np.linalg.cond(left) > 1.0 / SINGULAR:
         raise _dead_point(members)
-    found = np.linalg.solve(left, right)
-    found += np.linalg.solve(left, right - left @ found)  # a second pass takes back the rounding of the first
-    return [float(v * (1.0 if one.force else size)) for v, (one, _, _) in zip(found, unknowns, strict=True)]
+    solution = np.linalg.solve(left, right)
+    solution += np.linalg.solve(left, right - left @ solution)  # a second pass takes back the rounding of the first
+    return [float(v * (1.0 if load.force else size)) for v, (load, _, _) in zip(solution, unknowns, strict=True)]
 
 
 def _carry_over(
@@ -543,31 +542,31 @@ def _carry_over(
     """Put what was found (N, N m) to the pairs, and draw the polygon of each link."""
     forces: dict[tuple[Symbol, str, str], Unknown] = {}
     couples: dict[str, ForceVector] = {}
-    for (one, point, slide), value in zip(unknowns, values, strict=True):
-        if one.force:
-            key = one.symbol, one.link, one.off
+    for (load, point, slide), value in zip(unknowns, values, strict=True):
+        if load.force:
+            key = load.symbol, load.link, load.off
             so_far = forces[key][0].force if key in forces else 0j
-            forces[key] = replace(one, force=so_far + value * one.force), point, slide
+            forces[key] = replace(load, force=so_far + value * load.force), point, slide
         elif slide is not None:
-            couples[slide.key] = replace(one, moment=value)
+            couples[slide.key] = replace(load, moment=value)
         else:
-            cut.set_balance(one, couple := replace(one, moment=value))
+            cut.set_balance(load, couple := replace(load, moment=value))
             cut.hand_on(couple, members)  # what drives a link of the group from one still to come loads that
     polygons: dict[str, Chain] = {name: [] for name in members}
     for name in members:
         cut.lay_known(polygons[name], (name,))
-    for one, point, slide in forces.values():
+    for load, point, slide in forces.values():
         if point:
-            cut.pins[point, one.link] += one.force
-            if one.off:
-                cut.pins[point, one.off] -= one.force
+            cut.pins[point, load.link] += load.force
+            if load.off:
+                cut.pins[point, load.off] -= load.force
         elif slide is not None:
-            cut.set_slide(slide, one, couples[slide.key], members)
-            _shift_line(cut, group, one, couples[slide.key].moment)
+            cut.set_slide(slide, load, couples[slide.key], members)
+            _shift_line(cut, group, load, couples[slide.key].moment)
         else:
-            cut.set_balance(one, one)
-            cut.hand_on(one, members)
-        for force in (one, one.back):
+            cut.set_balance(load, load)
+            cut.hand_on(load, members)
+        for force in (load, load.back):
             if force.link in polygons:
                 cut.lay(polygons[force.link], replace(force, by="closing"))
     group.inner |= {name: chain for name, chain in polygons.items() if name not in cut.drawn.blocks}

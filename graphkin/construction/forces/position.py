@@ -11,17 +11,17 @@ together are the force alone, on a line at the distance h = M / F from the centr
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from graphkin.construction.forces.force_sheet import ForceVector, Inertia
+from graphkin.construction.forces.force_sheet import ForceVector, Inertia, shifted_line
 from graphkin.construction.instruments import Instrument
 from graphkin.construction.links_on_paper import travel
 from graphkin.construction.sheet import Sheet
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot, unit
+from graphkin.scene.force_names import ForceJoint, joints
 from graphkin.scene.model import Driver, LinkMass, LoadOn, SpringOn
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Element, LargerGroup, Pair, Structure, analyse
@@ -57,15 +57,13 @@ class DrawnPosition:
         return {p: tuple(n for n in names if n not in self.blocks) for p, names in self.structure.hinges.items()}
 
     @cached_property
-    def _shared(self) -> Counter[frozenset[str]]:
-        pairs = [frozenset((names[0], later)) for names in self.holders.values() for later in names[1:]]
-        pairs += [frozenset((s.a, s.b)) for s in self.structure.slides if not s.slot]
-        pairs += [frozenset(ends) for ends in self.blocks.values()]
-        return Counter(pairs)
+    def joints(self) -> tuple[ForceJoint, ...]:
+        """All joints, with the names of their forces."""
+        return joints(self.structure.scene)
 
     def between(self, first: str, second: str, point: str | None, kind: str = "F") -> Symbol:
         """The force (couple) of one link on another at a joint."""
-        several = point and self._shared[frozenset((first, second))] > 1
+        several = point and sum({joint.first, joint.second} == {first, second} for joint in self.joints) > 1
         return Symbol(kind, PointRef(point) if several and point else None, link=first, other=second)
 
     def of_pin(self, point: str, link: str) -> Symbol:
@@ -89,12 +87,6 @@ class DrawnPosition:
             of, on = self.blocks[slide.key]
             return self.between(on, of, slide.pin, kind)
         return self.between(slide.b, slide.a, slide.pin, kind)
-
-    def turning(self) -> Iterator[tuple[str, str, str]]:
-        """Every turning pair: its point, the first link, the later one."""
-        for point, names in self.holders.items():
-            for later in names[1:]:
-                yield point, names[0], later
 
     # -- places, and motion off the polygons ---------------------------------------------------------------------------
 
@@ -155,11 +147,11 @@ class DrawnPosition:
 
     def _known(self, order: str, link: str) -> list[tuple[complex, complex]]:
         """Points of a link that have an end point: place on the mechanism and end (mm)."""
-        own = self.sheet.structure.links[link].points
+        points = self.sheet.structure.links[link].points
         return [
             (self.sheet.points[PointRef(ref.point)], end)
             for ref, end in self.sheet.ends[order].items()
-            if PointRef(ref.point) in self.sheet.points and (ref.link == link or (not ref.link and ref.point in own))
+            if PointRef(ref.point) in self.sheet.points and (ref.link == link or (not ref.link and ref.point in points))
         ]
 
     def end(self, order: str, link: str, at: complex) -> complex:
@@ -170,7 +162,7 @@ class DrawnPosition:
         if not known:
             raise Unsolvable("not drawn", Problem(Phrase("link of name", name=link),
                                                   "no point of it stands in the polygons"))
-        start, end = min(known, key=lambda one: abs(one[0] - at))
+        start, end = min(known, key=lambda pair: abs(pair[0] - at))
         if abs(start - at) <= self._tiny:
             return end
         far = self.image(order, link)
@@ -265,18 +257,13 @@ def _inertia(sheet: Sheet, drawn: DrawnPosition, mass: LinkMass, hand: Instrumen
     image = drawn.end("acceleration", mass.link, centre)
     size = hand.read(abs(image))
     push = image / abs(image) * size * sheet.scales.acceleration if image else 0j
-    alpha = sheet.alpha[mass.link].value
-    force, moment = -mass.mass * push, -mass.inertia * alpha
-    found = Inertia(mass.link, mass.mass, mass.inertia, centre, image, push, alpha, force, moment)
-    if force == 0:
-        return found
-    h = moment / abs(force)
-    # the shifted force turns about the centre as the couple does
-    return replace(found, h=h, shifted=centre - 1j * unit(force) * (h * drawn.mm))
+    force, moment = -mass.mass * push, -mass.inertia * sheet.alpha[mass.link].value
+    line = shifted_line(force, centre, moment, drawn.mm) if force else ()
+    return Inertia(mass, centre, push, force, moment, *line)
 
 
 def from_outside(
-    sheet: Sheet, growing: Sheet, found: Mapping[str, Inertia], acts: Mapping[str, bool | None], with_edges: bool,
+    sheet: Sheet, growing: Sheet, pushes: Mapping[str, Inertia], acts: Mapping[str, bool | None], with_edges: bool,
     hand: Instrument,
 ) -> tuple[ForceVector, ...]:  # fmt: skip
     """All known forces, then couples, those of no size among them.
@@ -289,11 +276,11 @@ def from_outside(
     drawn, loading = DrawnPosition(sheet), sheet.scene.loading
     made: list[ForceVector] = []
     for mass in loading.masses:
-        one = found[mass.link]
-        made.append(ForceVector(Symbol("Fi", link=mass.link), mass.link, one.force, one.centre))
+        inertia, centre = pushes[mass.link], pushes[mass.link].centre
+        made.append(ForceVector(Symbol("Fi", link=mass.link), mass.link, inertia.force, centre))
         if loading.gravity:
-            made.append(ForceVector(Symbol("G", link=mass.link), mass.link, mass.mass * loading.gravity, one.centre))
-        made.append(ForceVector(Symbol("Mi", link=mass.link), mass.link, moment=one.moment))
+            made.append(ForceVector(Symbol("G", link=mass.link), mass.link, mass.mass * loading.gravity, centre))
+        made.append(ForceVector(Symbol("Mi", link=mass.link), mass.link, moment=inertia.moment))
     for load in loading.loads:
         on = with_edges if acts[load.name] is None else acts[load.name]
         symbol = Symbol("P", name=load.name, turning=not load.is_force)
@@ -304,22 +291,22 @@ def from_outside(
             made.append(ForceVector(symbol, load.link, moment=load.size if on else 0.0))
     for spring in loading.springs:
         made += _spring(drawn, spring, hand)
-    return tuple(sorted(made, key=lambda one: not one.symbol.is_vector))
+    return tuple(sorted(made, key=lambda load: not load.symbol.is_vector))
 
 
 def _spring(drawn: DrawnPosition, spring: SpringOn, hand: Instrument) -> Iterator[ForceVector]:
     """Both forces of a spring, from its length and line as they are measured on the drawn mechanism."""
     pricked = (drawn.sheet.points.get(PointRef(point)) for point in spring.points)
-    one, two = (drawn.place(*end) if z is None else z for z, end in zip(pricked, spring.ends, strict=True))
-    size = abs(two - one)
+    start, end = (drawn.place(*place) if z is None else z for z, place in zip(pricked, spring.ends, strict=True))
+    size = abs(end - start)
     if size <= COINCIDE * drawn.sheet.scene.size * drawn.mm:
         said = "its two points coincide in this position so", "move the driver off this position"
         raise Unsolvable("dead point", Problem(f"springs.{spring.name}", *said))
     length = hand.read(size) / drawn.mm
-    force = (spring.preload + spring.rate * (length - spring.free)) * unit(two - one)
+    force = (spring.preload + spring.rate * (length - spring.free)) * unit(end - start)
     symbol = Symbol("P", name=spring.name)
-    yield ForceVector(symbol, spring.links[0], force, one)
-    yield ForceVector(symbol, spring.links[1], -force, two, turned=True)
+    yield ForceVector(symbol, spring.links[0], force, start)
+    yield ForceVector(symbol, spring.links[1], -force, end, turned=True)
 
 
 def _force(sheet: Sheet, growing: Sheet, load: LoadOn) -> complex:

@@ -19,7 +19,7 @@ from graphkin.account.forces import (
     ForceStage,
     corner_at,
     corners,
-    lever_on_page,
+    lever_scale,
     spots_of,
 )
 from graphkin.account.given import given_loads
@@ -508,8 +508,8 @@ def lever_figure(
     for number, (k, state, lever) in enumerate(shown):
         body += [_loaded(page, k > 0)] * (len(forces.states) > 1)
         account = ForceAccount(sheet, forces, page.letters)
-        body += _lever(page, account, state, lever_on_page(sheet, lever)[0], str(number or ""))
-    per = lever_on_page(sheet, shown[0][2])[1] / sheet.scene.units.rates.metres
+        body += _lever(page, account, state, lever, str(number or ""))
+    per = lever_scale(sheet, shown[0][2]) / sheet.scene.units.rates.metres
     return page.drawing(
         page.at_drivers(page.term("lever")), column(*body, gap=3.0), "", title="lever",
         said=page.said("lever described")[0], metadata={"scales": {"velocity": float(f"{per:.12g}")}},
@@ -518,25 +518,27 @@ def lever_figure(
 
 def _lever(page: FigurePage, account: ForceAccount, state: ForceState, lever: Lever, tag: str) -> Iterator[Block]:
     """A lever, its scale, the moment of each force, their sum, and what balances beside the value of the polygons."""
-    box, units = Box.around(map(on_page, spots_of(lever))), page.sheet.scene.units
-    drawn = _drawn_lever(page, lever, tag)
+    per_mm, units = lever_scale(page.sheet, lever), page.sheet.scene.units
+    box, drawn = Box.around(map(on_page, spots_of(lever, per_mm))), _drawn_lever(page, lever, per_mm, tag)
     yield page.panel(box.height + 2 * LEVER_ROOM, lambda room: with_labels(
         cut_piece(moved_piece(drawn, room.centre - box.centre), room), room))
-    yield page.prose([page.scale("velocity", lever.per_mm)], 3.2)
+    yield page.prose([page.scale("velocity", per_mm)], 3.2)
     heads = [
         [word("force heads", each), units.force, f"{word('arm', each)}, mm",
          f"{word('moment about pole', each)}, {units.force}·mm"] for each in languages(page.language)
     ]  # fmt: skip
-    yield table(heads, [_row(row, units.newtons, page.letters) for row in lever.rows if row.acting.force], COLUMNS)
+    rows = [_row(row, units.newtons, per_mm, page.letters) for row in lever.rows if row.acting.force]
+    yield table(heads, rows, COLUMNS)
     total, balance = account.lever(state, lever)
     yield column(page.prose((total,)), page.prose((balance,), bold=True))
 
 
-def _drawn_lever(page: FigurePage, lever: Lever, tag: str) -> Piece:
-    """The turned polygon with the forces on it."""
+def _drawn_lever(page: FigurePage, lever: Lever, per_mm: float, tag: str) -> Piece:
+    """The turned polygon with the forces on it, at a scale (m/s for one mm)."""
     plate, letters, convention = Plate(), page.letters, page.convention
     ends: dict[complex, list[str]] = {}
-    for name, end in lever.ends.items():
+    for name, velocity in lever.ends.items():
+        end = velocity / per_mm
         point, _, link = name.partition("@")
         if abs(end) > SEEN and (not link or link in page.sheet.scene.by_name):
             written_ = letters.end("velocity", PointRef(point, link)) or letters.point(point)
@@ -551,7 +553,7 @@ def _drawn_lever(page: FigurePage, lever: Lever, tag: str) -> Piece:
     balance = replace(lever.unknown, acting=replace(sought, force=sought.force * (lever.value or 1.0)))
     for one in (*(known for known in lever.rows if known.acting.force), balance):
         found = one is balance
-        acting = _forces_at(one)
+        acting = _forces_at(one, per_mm)
         letter = force_letters(convention, one.symbol)
         turned = one.acting.turned
         named = ("−" * turned) + (as_vector(convention, letter) if one.pair is None else f"{letter}/l")
@@ -562,11 +564,12 @@ def _drawn_lever(page: FigurePage, lever: Lever, tag: str) -> Piece:
             plate.arrow("forces", f"lever-{own}{tag}", at, at + along * (LEVER_ARROW + NEXT * again), named,
                         kind=RESULTANT if found else COMPONENT, classes=("acting",),
                         colour=strokes.LINK_COLOURS[1] if found else strokes.BLACK)  # fmt: skip
-        if one.pair is None and one.arm and abs(one.arm) > SEEN and acting:
-            foot = -1j * acting[0][1] * one.arm
+        if one.pair is None and one.arm and abs(one.arm) > SEEN * per_mm and acting:
+            at, along = acting[0]
+            foot = -1j * along * one.arm / per_mm
             lines = [Line(0j, on_page(foot), strokes.DIMENSION)]
-            if abs(foot - one.acting.at) > SEEN:
-                lines.append(Line(on_page(foot), on_page(one.acting.at), strokes.DIRECTION))
+            if abs(foot - at) > SEEN:
+                lines.append(Line(on_page(foot), on_page(at), strokes.DIRECTION))
             plate.put("velocity", *lines, classes=("arm",))
             arm = force_letters(convention, Symbol("arm", name=str(one.symbol))) + "'" * turned
             plate.name(symbol(arm, 2.8), (0j, foot), colour=strokes.GREY, rank=2)
@@ -574,20 +577,20 @@ def _drawn_lever(page: FigurePage, lever: Lever, tag: str) -> Piece:
     return plate.piece
 
 
-def _forces_at(row: MomentTerm) -> list[tuple[complex, complex]]:
-    """Where a row's force or pair of forces stands, and its direction."""
+def _forces_at(row: MomentTerm, per_mm: float) -> list[tuple[complex, complex]]:
+    """Where a row's force or pair of forces stands (mm at a scale), and its direction."""
     force = row.acting.force
     if not force:
         return []
     if row.pair is None:
-        return [(row.acting.at, unit(force))] if row.symbol.is_vector else []
-    tail, tip = row.pair
+        return [(row.acting.at / per_mm, unit(force))] if row.symbol.is_vector else []
+    tail, tip = (z / per_mm for z in row.pair)
     return [(tip, unit(force)), (tail, -unit(force))]
 
 
-def _row(row: MomentTerm, newtons: float, letters: Letters) -> tuple[str, str, str, str]:
+def _row(row: MomentTerm, newtons: float, per_mm: float, letters: Letters) -> tuple[str, str, str, str]:
     """A force with its arm and moment."""
-    acting, arm = row.acting, on_paper(abs(row.arm or 0.0))
+    acting, arm = row.acting, on_paper(abs(row.arm or 0.0) / per_mm)
     size = amount(abs(acting.force) / newtons, DIGITS)
     moment = f"{'−' * (row.moment < 0)}{written(product(size, arm, carried=DIGITS))}" if row.arm else "0"
     name = f"{'−' * acting.turned}${force_letters(letters.convention, acting.symbol)}$"
