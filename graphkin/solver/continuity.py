@@ -6,7 +6,8 @@ points, and to the end of the motion.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -24,6 +25,10 @@ BEND = 0.2
 AT_END = 1e-9
 BESIDE = 0.003
 TOWARD = 0.75  # part of what is left to a dead point that is taken in one step
+EXTRAPOLATED, APART = 7, 1.5
+"""Nodes from which the end of a motion is extrapolated; each has so many times the determinant of the next at least."""
+SETTLED = 0.01
+"""Of the way from the last node to the end: so far the last two extrapolations may differ."""
 NARROW = 1e-6
 """A gap in the motion that is narrower than this (of the path) is a change point, as for groups of two links."""
 At = Callable[[float, Array], tuple[GroupSolved, Array]]
@@ -70,6 +75,7 @@ def _walk_group(at: At, place: Array, size: float, end: float, most: float) -> _
     sense = np.sign(here.determinant[0])
     t, step = 0.0, most / 2
     nodes, places, flips = [0.0], [here.place[0]], []
+    determinants = [float(here.determinant[0])]
     left, fresh = np.inf, True
     while t < end:
         step = min(step, end - t)
@@ -91,6 +97,7 @@ def _walk_group(at: At, place: Array, size: float, end: float, most: float) -> _
                 flips.append(passed[0])
                 nodes += [x for x, _ in passed[1]]
                 places += [p for _, p in passed[1]]
+                determinants = []
                 sense = -sense
             good = passed is not None
         if good:
@@ -99,6 +106,7 @@ def _walk_group(at: At, place: Array, size: float, end: float, most: float) -> _
             t, slope = t + step, new_slope
             nodes.append(t)
             places.append(there.place[0])
+            determinants.append(float(there.determinant[0]))
             # what has just been too far is not tried again at once
             step, fresh = min(most, step * (1.0 if not fresh else 2.0 if off < 0.005 else 1.2)), True
             continue
@@ -111,7 +119,41 @@ def _walk_group(at: At, place: Array, size: float, end: float, most: float) -> _
         off = float(np.max(np.abs((there.place[0] - places[-1]) / weight)))
         if end - t < AT_END or (there.residual[0] < CLOSE and off < BESIDE):
             t = end
-    return _Walk(np.array(nodes), np.array(places), None if t >= end else t, tuple(flips))
+    stop = None if t >= end else min(_singular_ahead(nodes[-len(determinants) :], determinants), end)
+    return _Walk(np.array(nodes), np.array(places), stop, tuple(flips))
+
+
+def _singular_ahead(nodes: Sequence[float], determinants: Sequence[float]) -> float:
+    """Where the determinant goes to zero beyond the last node; the last node where nothing tells it.
+
+    It goes as the root of what is left, where links turn back, as that itself, where they go away without bound, or as
+    a product of these: the parameter is smooth in a root of it, by which it is extrapolated (Neville's scheme).
+    """
+    last, chosen = float(nodes[-1]), list[tuple[float, float]]()
+    for t, determinant in zip(nodes[::-1], np.abs(determinants[::-1]).tolist(), strict=True):
+        if determinant > (APART * chosen[-1][1] if chosen else 0.0):
+            chosen.append((float(t), determinant))
+    if len(chosen) < EXTRAPOLATED:
+        return last
+    (near, less), (far, more) = chosen[EXTRAPOLATED // 2], chosen[EXTRAPOLATED - 1]
+    first = _extrapolated(chosen[:EXTRAPOLATED], 1)[1]
+    if not last <= first <= 2 * last - far:
+        return last
+    power = round(2 * math.log(more / less) / math.log((first - far) / (first - near)))
+    roots = {0: (), 2: (1, 2)}.get(power, (power,))
+    off, end = min((_extrapolated(chosen[:EXTRAPOLATED], root) for root in roots), default=(0.0, last))
+    return end if last <= end <= 2 * last - far and off < SETTLED * (end - last) + LEAST else last
+
+
+def _extrapolated(chosen: Sequence[tuple[float, float]], root: int) -> tuple[float, float]:
+    """The parameter at a determinant of zero from pairs of both, by a root of the determinant, and before it by how
+    much the last of them changes it."""
+    found, by = [t for t, _ in chosen], [determinant ** (1 / root) for _, determinant in chosen]
+    before = found[0]
+    for k in range(1, len(by)):
+        before = found[0]
+        found = [(a * y - b * x) / (y - x) for a, b, x, y in zip(found, found[1:], by, by[k:], strict=False)]
+    return abs(found[0] - before), found[0]
 
 
 def _bend(slope: Array, new_slope: Array, weight: Array) -> float:

@@ -12,6 +12,9 @@ from graphkin.solver.pose import Array
 from graphkin.structure import Dyad, LargerGroup, Pair, Structure, named_with_contact
 from graphkin.words import Phrase, Wording
 
+ROUNDING = 5e-15
+"""A driver value (rad, m) that is no more is 0."""
+
 
 def limit_why(
     structure: Structure, by: int, moved: Sequence[int], values: Sequence[float],
@@ -142,7 +145,8 @@ def _guide(pair: Pair) -> str:
 
 
 def driver_text(scene: Mechanism, driver: Driver, value: float) -> Wording:
-    """A driver value in its own unit."""
+    """A driver value in its own unit, 0 where it is nothing but rounding."""
+    value = value if abs(value) > ROUNDING else 0.0
     if driver.turns:
         return Phrase("so many degrees", value=f"{np.degrees(value):.10g}")
     return f"{value / scene.units.metres:.10g} {scene.units.length}"

@@ -19,7 +19,8 @@ from graphkin.solver.pose import Array
 from graphkin.study.quantities import Quantity, rates_of
 
 NOTHING = 5e-11
-"""A driver value this small (rad, m) is 0: no extreme of an acceleration is placed better."""
+"""A driver value this small (rad, m) is 0: no extreme of an acceleration is placed better; of a position at an end of a
+motion what is no more (rad, or of the size) is 0 too."""
 SAMPLES, LOCAL = 400, 1e-9
 """Positions over a range that ends, and how much, of the largest value there, goes beyond an extreme."""
 NEAR = np.array([1e-8, 1e-6])
@@ -28,7 +29,7 @@ GROWS = 5.0
 """A hundred times nearer to an end a rate like the root of the distance is ten times as much."""
 EQUAL = 1e-11
 """Of a value: extremes that differ by less are equal."""
-NEAR_END = 1e-5
+NEAR_END = 1e-4
 """Of the range: an extreme this near to an end of the motion is the end itself."""
 STEPS_TO_END = 2e-2
 """Of the angle that runs over the range: steps to an end that the solver does not come near enough to."""
@@ -117,8 +118,13 @@ class CurveParameter:
         return offsets if self.reach.full else 2 * np.arcsin(np.sqrt((offsets - low) / (high - low)))
 
     def end(self, curve: Curve, which: int) -> float:
-        """The value of a position at the lower or upper end of the motion, where the solver refuses it, or loses half
-        of its digits: from the curve, or from values nearer and nearer to it."""
+        """The value of a position at the lower or upper end of the motion, 0 where it is nothing but rounding."""
+        value, size = self._at_end(curve, which), self.reach.scene.size
+        return 0.0 if abs(value) <= NOTHING * (size if curve.quantity.measure == "length" else 1.0) else value
+
+    def _at_end(self, curve: Curve, which: int) -> float:
+        """There the solver refuses it, or loses half of its digits: from the curve, or from values nearer and nearer to
+        the end."""
         value = np.nan if self._away[which] else float(curve.pieces.at(self.range[which], curve.k))
         if np.isfinite(value):
             return curve.quantity.of_smooth(value)

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from types import SimpleNamespace
 from typing import Any
 
+import mpmath as mp
 import numpy as np
 import pytest
 
@@ -14,10 +15,11 @@ import graphkin
 from graphkin.api.report_text import report_text
 from graphkin.errors import CallError, Unsolvable
 from graphkin.scene import library, mechanism_of, mechanism_of_text
-from graphkin.solver import Motion, solve
+from graphkin.solver import Motion, driver_range, solve
 from graphkin.solver.continuity import At, _passed, _walk_group
 from graphkin.solver.pose import Array
 from tests import scenes
+from tests.mechanisms import redriven
 
 ROCKER = (
     scenes.FOUR_BAR.replace("length = 150", "length = 350")
@@ -165,6 +167,30 @@ def test_the_limit_of_a_larger_group_is_where_its_crank_turns_back() -> None:
         rising = solve(scene, at={"1": middle}).omega("2")[0] > 0
         low, high = (middle, high) if rising else (low, middle)
     assert limit == pytest.approx(np.degrees(solve(scene, at={"1": low}).angle("2")[0]), rel=2e-10)
+
+
+def test_the_limits_of_a_larger_group_are_exact_to_rounding() -> None:
+    def inclination(crank: mp.mpf) -> mp.mpf:
+        line = 400 - 150 * mp.expj(crank)
+        return mp.arg(line) + mp.acos((500**2 + abs(line) ** 2 - 300**2) / (2 * 500 * abs(line)))
+
+    with mp.workdps(40):
+        turning_back = [mp.findroot(lambda x: mp.diff(inclination, x), guess) for guess in (1.0, 5.0)]
+        right = [float(inclination(crank)) for crank in turning_back]
+    reach = driver_range(mechanism_of_text(scenes.FLOATING, "scene"))
+    assert right == pytest.approx(reach.value(np.array(reach.ends)).tolist(), abs=2e-15)
+
+
+def test_a_larger_group_whose_links_go_away_is_followed_to_where_its_guides_are_parallel() -> None:
+    # a bar turns against another from parallel to parallel
+    reach = driver_range(mechanism_of(redriven(7007)))
+    assert math.pi == pytest.approx(reach.ends[1] - reach.ends[0], abs=1e-12)
+
+
+def test_a_larger_group_whose_links_fall_into_one_line_ends_there_to_rounding() -> None:
+    # the scissors lie flat, and stand upright
+    reach = driver_range(mechanism_of("scissor-lift"))
+    assert [0.1, 0.9] == pytest.approx(reach.value(np.array(reach.ends)).tolist(), abs=3e-15)
 
 
 def test_a_larger_group_comes_back_to_where_it_was() -> None:

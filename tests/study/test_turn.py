@@ -406,6 +406,13 @@ def test_no_zero_and_no_extreme_is_invented_where_a_slide_is_only_not_followed_f
     assert [-far, far] == pytest.approx([e.driver for e in alpha.extremes], abs=1e-9)
 
 
+@pytest.mark.parametrize(("name", "key"), [("elliptic-trammel", "s_3/4"), ("scissor-lift", "s_8/1"),
+                                           ("scissor-lift", "theta_2")])  # fmt: skip
+def test_what_is_nought_at_an_end_of_the_motion_is_told_as_0(name: str, key: str) -> None:
+    curve = next(t for t in turn_of(name).curves if t.quantity.name == key)
+    assert 0.0 in [e.value for e in curve.extremes if e.kind == "end"]
+
+
 def test_an_extreme_a_hundredth_of_a_degree_from_the_end_of_the_motion_is_found() -> None:
     study = study_turn(driver_range(mechanism_of({
         "frame": {
