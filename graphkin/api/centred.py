@@ -370,7 +370,7 @@ def played(
         low, high = low + ENDS * (high - low), high - ENDS * (high - low)
         begin = np.arccos(np.clip(1.0 + 2.0 * low / (high - low), -1.0, 1.0))
         offsets = low + (high - low) * (1 - np.cos(begin + np.linspace(0.0, 2 * np.pi, frames + 1))) / 2
-    motion = reach.motion(offsets, fine=False)
+    motion = reach.motion(offsets, extended=False)
     names = [link.name for link in motion.scene.links]
     if not motion.ok[0]:
         return motion, {name: motion.angle(name) for name in names}

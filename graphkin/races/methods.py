@@ -122,13 +122,13 @@ def single_precision(work: Work, kinds: str) -> Callable[[Array], Array]:
     """The same formulas in numbers of 7 digits: a function of the values of the first driver."""
     ready = solver.prepare(work.structure, columns_of(work, kinds))
     code = Code(ready.dimensioned.program.graph, ready.asked, ready.fixed)
-    same = code.same(ready.given(code), np.float32)
+    invariants = code.invariants(ready.given(code), np.float32)
 
     def run(values: Array) -> Array:
         given = {} if ready.signs is not None else ready.signs_at(values)
         given |= {("cos", 0): np.cos(values), ("sin", 0): np.sin(values), ("travel", 0): values}
         out = np.empty((len(code.asked), len(values)), dtype=np.float32)
-        code.arrays(same, [given[name] for name in code.inputs], list(out))
+        code.arrays(invariants, [given[name] for name in code.inputs], list(out))
         return out
 
     return run

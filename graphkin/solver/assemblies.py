@@ -51,8 +51,9 @@ def reading(structure: Structure, poses: Mapping[str, Pose], coordinate: Coordin
     return np.atleast_1d(Posed(structure, poses, structure.slides).travel(structure.slide(name)))
 
 
-def choose_forms(structure: Structure, turned: Collection[int] = (), upto: int | None = None) -> dict[int, Array]:
-    """The form of each group at the scene's own position: by drawn or sketched points, else by the rule for its kind.
+def choose_modes(structure: Structure, turned: Collection[int] = (), upto: int | None = None) -> dict[int, Array]:
+    """The assembly mode of each group at the scene's own position: by drawn or sketched points, else by the rule for
+    its kind.
 
     Parameters
     ----------
@@ -62,7 +63,7 @@ def choose_forms(structure: Structure, turned: Collection[int] = (), upto: int |
     Returns
     -------
     dict from the element's place to the sign of a dyad (0-d array) or the places (members, 3) of a larger group, see
-    ``graphkin.solver.larger_groups.form_of``; of what rolls for each thing that it rolls on its angle or travel there
+    ``graphkin.solver.larger_groups.mode_of``; of what rolls for each thing that it rolls on its angle or travel there
     and now, whole turns included, shape (2 factors,)
 
     Raises
@@ -73,29 +74,29 @@ def choose_forms(structure: Structure, turned: Collection[int] = (), upto: int |
         the mechanism cannot be assembled here ("not assembled"), or stands in a dead point ("dead point")
     """
     drive = Drive.at(structure, own_values(structure.scene)[None])
-    forms: dict[int, Array] = {}
+    modes: dict[int, Array] = {}
     start: Mapping[str, Pose] = {}
     known: dict[int, float] = {}  # of the formulas of the groups before
     for i, element in enumerate(structure.elements[:upto]):
         if isinstance(element, Dyad):
-            forms[i], known = _choose_sign(structure, i, element, drive, forms, known, i in turned)
+            modes[i], known = _choose_sign(structure, i, element, drive, modes, known, i in turned)
         elif isinstance(element, Driven):
             if element.rolled is not None:
-                state = positions(structure, drive, {k: f[None] for k, f in forms.items()}, i, rates=False)
+                state = positions(structure, drive, {k: f[None] for k, f in modes.items()}, i, rates=False)
                 own = [reading(structure, state.poses, coordinate)[0] for coordinate, _ in element.rolled.factors]
-                forms[i] = np.repeat(own, 2)
+                modes[i] = np.repeat(own, 2)
             if structure.scene.drawn:  # one place alone, which must be the drawn one
-                state = positions(structure, drive, {k: f[None] for k, f in forms.items()}, i + 1, rates=False)
+                state = positions(structure, drive, {k: f[None] for k, f in modes.items()}, i + 1, rates=False)
                 pick(structure.scene, (element.link,), [new_places(structure, i, (element.link,), state.poses)], 0)
         elif isinstance(element, LargerGroup) and element.rolling:
-            from graphkin.solver.larger_groups import form_of
+            from graphkin.solver.larger_groups import mode_of
 
             start = start or _started(structure)
-            forms[i] = form_of(structure, element, start)
+            modes[i] = mode_of(structure, element, start)
         elif isinstance(element, LargerGroup):
-            state = positions(structure, drive, {k: f[None] for k, f in forms.items()}, i, rates=False)
-            forms[i] = _choose_place(structure, i, element, drive, state.poses)
-    return forms
+            state = positions(structure, drive, {k: f[None] for k, f in modes.items()}, i, rates=False)
+            modes[i] = _choose_place(structure, i, element, drive, state.poses)
+    return modes
 
 
 def _started(structure: Structure) -> Mapping[str, Pose]:
@@ -103,8 +104,8 @@ def _started(structure: Structure) -> Mapping[str, Pose]:
     from graphkin.solver.larger_groups import GroupSolved
 
     there = started(structure)
-    drive, forms = Drive.at(there, own_values(there.scene)[None]), choose_forms(there)
-    state = positions(there, drive, {k: f[None] for k, f in forms.items()}, rates=False)
+    drive, modes = Drive.at(there, own_values(there.scene)[None]), choose_modes(there)
+    state = positions(there, drive, {k: f[None] for k, f in modes.items()}, rates=False)
     for i, group in state.groups.items():
         dead = group.condition[0] * SINGULAR > 1 if isinstance(group, GroupSolved) else (
             abs(group.sine[0]) < state.singular[0])  # fmt: skip
@@ -116,7 +117,7 @@ def _started(structure: Structure) -> Mapping[str, Pose]:
 
 
 def _choose_sign(
-    structure: Structure, i: int, dyad: Dyad, drive: Drive, forms: Mapping[int, Array], known: Mapping[int, float],
+    structure: Structure, i: int, dyad: Dyad, drive: Drive, modes: Mapping[int, Array], known: Mapping[int, float],
     turned: bool,
 ) -> tuple[Array, dict[int, float]]:  # fmt: skip
     """The sign of a dyad, and the numbers of all formulas up to it with that sign, from those up to the one before."""
@@ -124,7 +125,7 @@ def _choose_sign(
     states: list[State] = []
     both = dict(known), dict(known)
     for sign, own in zip((1.0, -1.0), both, strict=True):
-        given = {**{k: f[None] for k, f in forms.items()}, i: np.array([sign])}
+        given = {**{k: f[None] for k, f in modes.items()}, i: np.array([sign])}
         states.append(positions(structure, drive, given, i + 1, rates=False, known=own))
     solved = states[0].groups[i]
     assert isinstance(solved, DyadSolution)
@@ -140,7 +141,7 @@ def _choose_sign(
             Problem(
                 named_with_contact(structure, dyad),
                 Phrase("they do not reach each other in the"),
-                _other_way(structure, i, drive, forms) or _nearest(structure, i, drive, forms),
+                _other_way(structure, i, drive, modes) or _nearest(structure, i, drive, modes),
             ),
         )
     if not abs(solved.sine[0]) >= states[0].singular[0]:
@@ -150,7 +151,7 @@ def _choose_sign(
     return np.array((1.0, -1.0)[index]), both[index]
 
 
-def _other_way(structure: Structure, i: int, drive: Drive, forms: Mapping[int, Array]) -> Wording:
+def _other_way(structure: Structure, i: int, drive: Drive, modes: Mapping[int, Array]) -> Wording:
     """How an earlier dyad must lie for everything up to group ``i`` to be assembled; "" where none tells it alone."""
     for k in reversed(range(i)):
         dyad = structure.elements[k]
@@ -158,7 +159,7 @@ def _other_way(structure: Structure, i: int, drive: Drive, forms: Mapping[int, A
             return ""  # where a larger group lies would be another question
         if not isinstance(dyad, Dyad) or dyad.is_two_lines:
             continue
-        given = {n: f[None] for n, f in forms.items()} | {i: np.ones(1)}
+        given = {n: f[None] for n, f in modes.items()} | {i: np.ones(1)}
         now = new_places(structure, k, dyad.links, positions(structure, drive, given, i, rates=False).poses)
         state = positions(structure, drive, given | {k: -given[k]}, i + 1, rates=False)
         met = [g.discriminant[0] >= -TOUCH for g in state.groups.values() if isinstance(g, DyadSolution)]
@@ -172,13 +173,13 @@ def _other_way(structure: Structure, i: int, drive: Drive, forms: Mapping[int, A
     return ""
 
 
-def _nearest(structure: Structure, i: int, drive: Drive, forms: Mapping[int, Array]) -> Wording:
+def _nearest(structure: Structure, i: int, drive: Drive, modes: Mapping[int, Array]) -> Wording:
     """The nearest value of the first driver at which everything up to group ``i`` can be assembled."""
     if not all(e.explicit for e in structure.elements[:i]):
         return ""
     first, value = structure.scene.drivers[0], float(drive.value[0, 0])
     wide = np.pi if first.turns else 2 * structure.scene.size
-    signs = {j: float(form) for j, form in forms.items()} | {i: 1.0}
+    signs = {j: float(mode) for j, mode in modes.items()} | {i: 1.0}
     found = assembled(Path.of_driver(structure, drive.value[0]), [*signs], value - wide, value + wide, signs)
     ends = [end for _, stretch in found for end in (stretch.low, stretch.high)]
     if not ends:

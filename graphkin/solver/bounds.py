@@ -242,7 +242,7 @@ def _reached(structure: Structure, layout: Layout) -> Array:
     that it hangs on alone, shape (columns, rows)."""
     if "reached" not in structure.kept:
         before, names = _before(structure), layout.names[: layout.members]
-        taking = layout.same != 0
+        taking = layout.constant != 0
         taking.flat[layout.entries.entries] = True
         taking = taking.reshape(layout.rows, -1, 3).any(axis=2)
         away = np.array([[other not in before[name] for other in names] for name in names])

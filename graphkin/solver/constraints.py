@@ -153,12 +153,12 @@ class Layout:
         self.turn_pairs = [pair for *_, pair in turns]
         self.driven, self.drivers = (np.array([x[k] for x in given], dtype=int) for k in (0, 1))
         self.scales = [np.array([x[k] for x in given]) for k in (2, 3, 3)]
-        self.same = np.zeros((self.rows, 3 * self.members))
+        self.constant = np.zeros((self.rows, 3 * self.members))
         """The entries of the matrix that are the same at all positions: those of turns."""
-        self.same[self.rolling_rows, 2::3] = self.rolled[:, : self.members]
+        self.constant[self.rolling_rows, 2::3] = self.rolled[:, : self.members]
         for links, sign in ((self.one, 1.0), (self.two, -1.0)):
             own = links < self.members
-            self.same[self.turn_rows[own], 3 * links[own] + 2] += sign
+            self.constant[self.turn_rows[own], 3 * links[own] + 2] += sign
 
     def _set_lines(self, structure: Structure, lines: Sequence[tuple[int, Pair, complex]]) -> None:
         """The joints of lines, and the entries of the matrix that lines make."""
@@ -357,7 +357,8 @@ class Constraints:
                 for arm, gap in zip(parts.arm, parts.gap, strict=True)]  # fmt: skip
         turns = product([axis[:, None] for axis in parts.axis], legs)
         for axis, turn in zip(parts.axis, turns, strict=True):
-            matrix = np.zeros((len(axis), *layout.same.shape)) if found else np.repeat(layout.same[None], len(axis), 0)
+            matrix = np.zeros((len(axis), *layout.constant.shape))
+            matrix += 0.0 if found else layout.constant
             x, y = axis.real, axis.imag
             entries = np.concatenate((x, -y, -x, y, turn.imag.reshape(len(axis), -1)), axis=1)
             matrix.reshape(len(axis), -1)[:, layout.entries.entries] += layout.entries.of(entries)

@@ -222,23 +222,23 @@ SWING = 0.09
 """Between two nodes no link turns by more than this (about 5 degrees)."""
 
 
-def follow_path(structure: Structure, forms: Mapping[int, Array], start: Array, end: Array) -> Path:
+def follow_path(structure: Structure, modes: Mapping[int, Array], start: Array, end: Array) -> Path:
     """Keep the assembly of every group along a straight path of driver values.
 
     Parameters
     ----------
-    forms : the assembly at the start: the sign of a dyad, the places (members, 3) of a larger group
+    modes : the assembly at the start: the sign of a dyad, the places (members, 3) of a larger group
     start, end : driver values, shape (drivers,), SI
     """
     path = Path(structure, start, end)
     grid = np.linspace(0.0, 1.0, _steps(structure, np.abs(end - start)) + 1)
     for i, element in enumerate(structure.elements):
         if isinstance(element, Dyad):
-            path = _follow_dyad(path, i, element, float(forms[i]))
+            path = _follow_dyad(path, i, element, float(modes[i]))
         elif isinstance(element, Driven) and element.rolled is not None:
-            path = _follow_rolled(path, i, element.rolled, np.asarray(forms[i]), grid)
+            path = _follow_rolled(path, i, element.rolled, np.asarray(modes[i]), grid)
         elif isinstance(element, LargerGroup):
-            path = _follow_group(path, i, np.asarray(forms[i]))
+            path = _follow_group(path, i, np.asarray(modes[i]))
         if path.limit is not None:
             grid = np.append(grid[grid < path.limit], path.limit)
         grid = _refined(path, i, grid)
@@ -254,32 +254,32 @@ def _steps(structure: Structure, span: Array) -> int:
 
 
 def _follow_dyad(path: Path, i: int, dyad: Dyad, sign: float) -> Path:
-    """A path with the form of a dyad, that goes over to the other at change points; to where it ends."""
+    """A path with the assembly mode of a dyad, that goes over to the other at change points; to where it ends."""
     found = [s for s in stretches(path.with_sign(i, sign), i, 0.0, path.reach) if s.low <= START]
     first = found[0] if found else Stretch(0.0, 0.0, (False, True))
     limit, flips = first.high if first.ends[1] else None, np.array(first.touches)
     if dyad.is_two_lines and len(flips):
         limit, flips = float(flips[0]), flips[:0]
 
-    def form(t: Array) -> Array:
+    def mode(t: Array) -> Array:
         return sign * np.where(np.searchsorted(flips, t) % 2, -1.0, 1.0)
 
-    return _passed_by(path, i, form, flips, limit)
+    return _passed_by(path, i, mode, flips, limit)
 
 
-def _passed_by(path: Path, i: int, form: Callable[[Array], Array], flips: Array, limit: float | None) -> Path:
-    """A path with a further group: its form, the change points that it passes, and where it ends the path."""
+def _passed_by(path: Path, i: int, mode: Callable[[Array], Array], flips: Array, limit: float | None) -> Path:
+    """A path with a further group: its mode, the change points that it passes, and where it ends the path."""
     end, by = (path.limit, path.by) if limit is None else (limit, i)
     passed = (*path.passed, *((i, t) for t in flips.tolist()))
     flips = np.sort(np.append(path.flips, flips))
-    return replace(path, forms={**path.forms, i: form}, flips=flips, limit=end, by=by, passed=passed)
+    return replace(path, modes={**path.modes, i: mode}, flips=flips, limit=end, by=by, passed=passed)
 
 
 def _refined(path: Path, i: int, grid: Array) -> Array:
     """More nodes where the links found so far turn fast."""
     for _ in range(20):
         t = path.off_flips(grid)
-        poses = positions(path.structure, path.drive(t), path.form(t), i + 1, rates=False).poses
+        poses = positions(path.structure, path.drive(t), path.mode(t), i + 1, rates=False).poses
         turning = [np.broadcast_to(np.nan_to_num(p.u), grid.shape) for p in poses.values()]
         swing = np.max([np.abs(np.diff(u)) for u in turning], axis=0)
         fast = np.flatnonzero((swing > SWING) & (np.diff(grid) > OFF_FLIP))
@@ -292,7 +292,7 @@ def _refined(path: Path, i: int, grid: Array) -> Array:
 def _follow_group(path: Path, i: int, place: Array) -> Path:
     def solved(t: float, start: Array) -> tuple[GroupSolved, Array]:
         t_ = path.off_flips(np.array([t]))
-        found = group_at(path.structure, path.drive(t_), {**path.form(t_), i: start[None]}, i)
+        found = group_at(path.structure, path.drive(t_), {**path.mode(t_), i: start[None]}, i)
         return found, found.slope
 
     steps = _steps(path.structure, np.abs(path.end - path.start))
@@ -301,21 +301,21 @@ def _follow_group(path: Path, i: int, place: Array) -> Path:
     return _passed_by(path, i, walk.start, np.array(walk.flips), walk.end)
 
 
-def _follow_rolled(path: Path, i: int, rolled: Rolled, form: Array, grid: Array) -> Path:
+def _follow_rolled(path: Path, i: int, rolled: Rolled, mode: Array, grid: Array) -> Path:
     """Count the turns of what a link rolls on."""
     t = path.off_flips(grid)
-    poses = positions(path.structure, path.drive(t), path.form(t), i, rates=False).poses
+    poses = positions(path.structure, path.drive(t), path.mode(t), i, rates=False).poses
     columns = []
     for k, ((kind, name), _) in enumerate(rolled.factors):
-        columns.append(np.full(len(grid), form[2 * k]))
+        columns.append(np.full(len(grid), mode[2 * k]))
         if kind == "angle":
             u = np.nan_to_num(np.broadcast_to(poses[name].u, grid.shape), nan=1.0)
             steps = np.angle(u[1:] * np.conj(u[:-1]))
-            columns.append(form[2 * k + 1] + np.concatenate(([0.0], np.cumsum(steps))))
+            columns.append(mode[2 * k + 1] + np.concatenate(([0.0], np.cumsum(steps))))
         else:
-            columns.append(np.full(len(grid), form[2 * k + 1]))
+            columns.append(np.full(len(grid), mode[2 * k + 1]))
 
     def at(t: Array) -> Array:
         return np.stack([np.interp(t, grid, column) for column in columns], axis=1)
 
-    return replace(path, forms={**path.forms, i: at})
+    return replace(path, modes={**path.modes, i: at})

@@ -95,7 +95,7 @@ def _of_group(
     group = path.structure.elements[i]
     assert isinstance(group, Dyad)
     for known, part in assembled(path, before, low, high, signs):
-        chosen = {j: float(known.forms[j](np.zeros(1))) for j in before}
+        chosen = {j: float(known.modes[j](np.zeros(1))) for j in before}
         for stretch in stretches(known.with_sign(i, 1.0), i, part.low, part.high):
             exact = known.with_sign(i, 1.0).exactly(i, stretch.low)
             assert exact is not None
@@ -144,20 +144,20 @@ def singular(structure: Structure, state: State, n: int) -> Iterator[tuple[int, 
 
 
 def without_singular(
-    structure: Structure, state: State, values: Array, forms: Mapping[int, Array], status: Array, why: Sequence[Wording]
+    structure: Structure, state: State, values: Array, modes: Mapping[int, Array], status: Array, why: Sequence[Wording]
 ) -> tuple[Array, list[Wording]]:
     """Status and reasons of positions, those told apart that are ok but for a group in a singular position.
 
     Parameters
     ----------
-    values, forms : of the drivers and assemblies that were solved, shapes (n, drivers) and (n, ...)
+    values, modes : of the drivers and assemblies that were solved, shapes (n, drivers) and (n, ...)
     status, why : as far as known
     """
     status, reasons = status.copy(), list(why)
-    _beyond_limits(structure, state, values, forms, status, reasons)
+    _beyond_limits(structure, state, values, modes, status, reasons)
     for i, dead in singular(structure, state, len(status)):
         for k in np.flatnonzero(dead & (status == "ok")):
-            own = {j: f[k : k + 1] for j, f in forms.items()}
+            own = {j: f[k : k + 1] for j, f in modes.items()}
             apart = _apart(structure, i, values[k], own)
             status[k] = "not assembled" if apart else "dead point"
             reasons[k] = apart or _dead_why(structure, i, values[k], own)
@@ -165,7 +165,7 @@ def without_singular(
 
 
 def _beyond_limits(
-    structure: Structure, state: State, values: Array, forms: Mapping[int, Array], status: Array, reasons: list[Wording]
+    structure: Structure, state: State, values: Array, modes: Mapping[int, Array], status: Array, reasons: list[Wording]
 ) -> None:
     """Positions so near to a limit of the motion that sixteen digits do not tell on which side: refused where fifty
     digits say that the links do not reach each other, put on the limit where the file leaves it open.
@@ -182,14 +182,14 @@ def _beyond_limits(
         near = np.flatnonzero((np.abs(discriminant) < CLOSE) & (status == "ok"))
         if not len(near):
             continue
-        own = {j: np.broadcast_to(f, (n, *np.shape(f)[1:]))[near] for j, f in forms.items() if j <= i}
+        own = {j: np.broadcast_to(f, (n, *np.shape(f)[1:]))[near] for j, f in modes.items() if j <= i}
         if not all(e.explicit for e in structure.elements[:i]):
             side, left_open = np.where(discriminant[near] < 0, -1, 1), np.zeros(len(near), dtype=bool)
         else:
             one = np.ones((len(near), values.shape[1]))
             side, left_open = closes(structure, i, own, Drive(values[near], one, 0 * one))
         for k, s, either in zip(near.tolist(), side.tolist(), left_open.tolist(), strict=True):
-            here = {j: f[k : k + 1] for j, f in forms.items() if j <= i}
+            here = {j: f[k : k + 1] for j, f in modes.items() if j <= i}
             if s < 0:
                 links, place = links_words(group.links), _where(structure, i, values[k], here)
                 status[k] = "not assembled"
@@ -199,7 +199,7 @@ def _beyond_limits(
                 status[k], reasons[k] = "dead point", Phrase("as far as the digits of the file tell", why=why)
 
 
-def _apart(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> Wording:
+def _apart(structure: Structure, i: int, values: Array, modes: Mapping[int, Array]) -> Wording:
     """What to say of a dyad whose guides are parallel and not one line, so that they meet nowhere; "" of any other:
     a hair further on it would lie far away."""
     group = structure.elements[i]
@@ -210,7 +210,7 @@ def _apart(structure: Structure, i: int, values: Array, forms: Mapping[int, Arra
     for k, driver in enumerate(structure.scene.drivers):
         nudged = values[None].copy()
         nudged[0, k] += HAIR * driver.span(size)
-        solved = positions(structure, Drive(nudged, one, 0 * one), forms, i + 1, rates=False).groups[i]
+        solved = positions(structure, Drive(nudged, one, 0 * one), modes, i + 1, rates=False).groups[i]
         assert isinstance(solved, DyadSolution)
         if max(abs(complex(np.ravel(pose.z)[0])) for pose in (solved.first, solved.second)) > FAR_OFF * size:
             links = links_words(group.links)
@@ -218,7 +218,7 @@ def _apart(structure: Structure, i: int, values: Array, forms: Mapping[int, Arra
     return ""
 
 
-def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> Phrase:
+def _dead_why(structure: Structure, i: int, values: Array, modes: Mapping[int, Array]) -> Phrase:
     """Why group ``i`` stands in a dead point: an infinite rate, or a velocity that is not unique."""
     from graphkin.solver.larger_groups import GroupSolved
 
@@ -226,7 +226,7 @@ def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, A
     group = structure.elements[i]
     assert isinstance(group, Dyad | LargerGroup)
     one = np.ones((1, len(scene.drivers)))
-    solved = positions(structure, Drive(values[None], one, 0 * one), forms, i + 1, fine=False).groups[i]
+    solved = positions(structure, Drive(values[None], one, 0 * one), modes, i + 1, extended=False).groups[i]
     links = group_words(structure, group)
     if isinstance(solved, GroupSolved):
         if not solved.residual[0] < OPEN:
@@ -251,7 +251,7 @@ def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, A
             ending = dyad_words(group)[2]
     end = Phrase("the velocity is not unique here the motion") if branch else Phrase("a rate is infinite here")
     if not isinstance(solved, GroupSolved):
-        where = _where(structure, i, values, forms)
+        where = _where(structure, i, values, modes)
     return Phrase("stand at a dead point", links=links, ending=ending, end=end, place=where)
 
 
@@ -265,15 +265,15 @@ def _fold_where(structure: Structure, solved: GroupSolved, values: Array) -> Wor
     place = solved.place[:, : len(solved.system.group.members)]
     way = ASIDE * solved.system.scaled(free[None, -1])
     ahead, behind = (solved.system.matrix(solved.system.at(place + side))[0] for side in (way, -way))
-    bend = float(u[:, -1] @ (ahead - behind) @ free[-1]) / (4 * ASIDE)
-    off = float(sigma[-1] ** 2 / (4 * bend * (u[:, -1] @ solved.right_side[0])))
+    second = float(u[:, -1] @ (ahead - behind) @ free[-1]) / (4 * ASIDE)
+    off = float(sigma[-1] ** 2 / (4 * second * (u[:, -1] @ solved.right_side[0])))
     return lies_at(structure, float(values[0]) + off, abs(off), about=True)
 
 
-def _where(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> Wording:
+def _where(structure: Structure, i: int, values: Array, modes: Mapping[int, Array]) -> Wording:
     """Where the dead point lies, and how far away."""
 
-    signs = {j: float(np.ravel(f)[0]) for j, f in forms.items() if j in structure.dyads and j < i}
+    signs = {j: float(np.ravel(f)[0]) for j, f in modes.items() if j in structure.dyads and j < i}
     value = float(values[0])
     point = nearest_dead_point(structure, i, signs, value)
     if point is None:

@@ -14,7 +14,7 @@ import numpy as np
 
 from graphkin.errors import SceneError, Unsolvable
 from graphkin.scene.model import Dimension, with_dimensions
-from graphkin.solver.assemblies import choose_forms
+from graphkin.solver.assemblies import choose_modes
 from graphkin.solver.driver_range import range_from
 from graphkin.solver.drivers import GivenValues, UniformGrid, own_values
 from graphkin.solver.engine import SINGULAR
@@ -49,17 +49,17 @@ class _OpenCode:
         checked = [solved.discriminant for _, solved in sorted(program.groups.items())]
         self.checks = Code(program.graph, checked, fixed, names)
         self.alone = Code(program.graph, asked, self.fixed)
-        self._same: dict[Code, list[Array] | None] = {}
+        self._invariants: dict[Code, list[Array] | None] = {}
 
     @cached_property
     def kernel(self) -> Kernel:
         return Kernel(self.alone, True, True, len(self.alone.asked), SINGULAR)
 
-    def same(self, code: Code) -> list[Array] | None:
+    def invariants(self, code: Code) -> list[Array] | None:
         """What no design changes."""
-        if code not in self._same:
-            self._same[code] = code.same(self.dimensioned.params(code.params, self.ready.given_names))
-        return self._same[code]
+        if code not in self._invariants:
+            self._invariants[code] = code.invariants(self.dimensioned.params(code.params, self.ready.given_names))
+        return self._invariants[code]
 
 
 @cache
@@ -144,14 +144,14 @@ class PreparedMechanisms:
         n = cosine.shape[1]
         out = np.empty((len(code.asked), len(which), n))
         each = max(1, TOGETHER // n)
-        same = self._code.same(code)
+        invariants = self._code.invariants(code)
         for low in range(0, len(which), each):
             some = slice(low, low + each)
             changed = [name for name in code.inputs if name in self._open]
             given = {name: np.repeat(self._open[name][which[some]], n) for name in changed}
             given["cos", 0], given["sin", 0] = np.ravel(cosine[some]), np.ravel(sine[some])
             rows = np.empty((len(code.asked), len(which[some]) * n))
-            code.arrays(same, [given[name] for name in code.inputs], list(rows))
+            code.arrays(invariants, [given[name] for name in code.inputs], list(rows))
             out[:, some] = rows.reshape(len(rows), len(which[some]), n)
         return out
 
@@ -169,19 +169,19 @@ class PreparedMechanisms:
 
     def _alone(self) -> Iterator[tuple[int, PreparedMechanism]]:
         """The other designs by their numbers, each followed by itself; without those that cannot be assembled."""
-        ready, own_forms = self.ready, self.ready.range.forms(np.zeros(1))
+        ready, own_modes = self.ready, self.ready.range.modes(np.zeros(1))
         for k in np.flatnonzero(~self.together).tolist():
             changed = {name: complex(numbers[k]) for name, numbers in self.given.items()}
             scene = with_dimensions(ready.structure.scene, changed)
             try:
                 structure = analyse(scene)
-                forms = choose_forms(structure)
+                modes = choose_modes(structure)
             except (Unsolvable, SceneError):
                 continue
             for i, dyad in structure.dyads.items():
                 if not dyad.is_two_lines:
-                    forms[i] = own_forms[i][0]
-            along = range_from(structure, forms, own_values(scene))
+                    modes[i] = own_modes[i][0]
+            along = range_from(structure, modes, own_values(scene))
             yield k, prepare(structure, ready.wanted, ready.units, ready.bounded, along)
 
     def sweep(self, n: int, fast: bool = False) -> tuple[Array, Array, Array]:

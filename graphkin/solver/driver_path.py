@@ -1,9 +1,9 @@
 """A straight path of driver values, and where groups of two links close along it: in which stretches, to which
 ends, and where on the way their two assemblies meet.
 
-A group of two links has a discriminant: positive where it can be assembled in two forms, zero where they fall
-together.  Along a path the form is kept while it stays positive.  Where it only touches zero (a change point, the
-parallelogram in line) the smooth motion goes over to the other form; where it goes below, the group ends.  A group
+A group of two links has a discriminant: positive where it can be assembled in two modes, zero where they fall
+together.  Along a path the mode is kept while it stays positive.  Where it only touches zero (a change point, the
+parallelogram in line) the smooth motion goes over to the other mode; where it goes below, the group ends.  A group
 behind others is looked for where these close, one stretch after the other, so that none is too short to be seen.
 """
 
@@ -34,7 +34,7 @@ TOUCH = 1e-12
 DOUBTFUL = 1e-9
 """Where a least value is nearer to zero, fifty digits tell whether it touches."""
 START = 1e-6
-"""Of a path: a touch as near to its start as this is the start's own: the form was chosen there."""
+"""Of a path: a touch as near to its start as this is the start's own: the mode was chosen there."""
 AT_END = 1e-9
 """Of a path: a touch as near to its end is not passed."""
 BESIDE = 1e-5
@@ -48,7 +48,7 @@ OFF_FLIP = 1e-6
 
 @dataclass(frozen=True)
 class Path:
-    """A straight path of driver values, parameter 0 .. 1, with the form of each group along it.
+    """A straight path of driver values, parameter 0 .. 1, with the assembly mode of each group along it.
 
     ``limit`` is the parameter where the motion ends (None if it does not), ``by`` the element that ends it.
     Between two ``nodes`` no link turns by more than a few degrees.
@@ -57,7 +57,7 @@ class Path:
     structure: Structure
     start: Array
     end: Array
-    forms: Mapping[int, Callable[[Array], Array]] = field(default_factory=dict)
+    modes: Mapping[int, Callable[[Array], Array]] = field(default_factory=dict)
     flips: Array = field(default_factory=lambda: np.zeros(0))
     limit: float | None = None
     by: int | None = None
@@ -82,26 +82,26 @@ class Path:
 
     def rescaled(self, by: float) -> Path:
         """The same way, its end so many times as far: nearer where the motion goes on, farther where it has ended."""
-        forms = {i: lambda t, form=form: form(np.asarray(t) * by) for i, form in self.forms.items()}
+        modes = {i: lambda t, mode=mode: mode(np.asarray(t) * by) for i, mode in self.modes.items()}
         nodes, flips = self.nodes / by, self.flips / by
         return replace(
             self,
             end=self.start + by * (self.end - self.start),
-            forms=forms,
+            modes=modes,
             flips=flips[flips < 1.0],
             limit=None if self.limit is None else self.limit / by,
             passed=tuple((i, t / by) for i, t in self.passed if t / by < 1.0),
             nodes=np.append(nodes[nodes < 1.0], 1.0) if by < 1.0 else nodes,
         )
 
-    def form(self, t: Array) -> dict[int, Array]:
-        """The form of each group at these parameters, for ``positions``."""
-        return {i: form(t) for i, form in self.forms.items()}
+    def mode(self, t: Array) -> dict[int, Array]:
+        """The assembly mode of each group at these parameters, for ``positions``."""
+        return {i: mode(t) for i, mode in self.modes.items()}
 
     def with_sign(self, i: int, sign: float) -> Path:
         """The path with a dyad in one of its assemblies."""
-        form = np.asarray(sign)
-        return replace(self, forms={**self.forms, i: lambda _: form})
+        mode = np.asarray(sign)
+        return replace(self, modes={**self.modes, i: lambda _: mode})
 
     def off_flips(self, t: Array) -> Array:
         """Parameters, those at a change point moved a little beside it: there a group tells nothing."""
@@ -110,14 +110,14 @@ class Path:
         return t
 
     def discriminant(self, i: int, t: Array) -> Array:
-        """That of a dyad which has a form, shape (n,)."""
+        """That of a dyad which has a mode, shape (n,)."""
         t = self.off_flips(t)
-        solved = positions(self.structure, self.drive(t), self.form(t), i + 1, rates=False).groups[i]
+        solved = positions(self.structure, self.drive(t), self.mode(t), i + 1, rates=False).groups[i]
         assert isinstance(solved, DyadSolution)
         return np.broadcast_to(solved.discriminant, t.shape)
 
     def exactly(self, i: int, t: float) -> ExactDiscriminant | None:
-        """That of a dyad along the path in fifty digits, the forms as they are at a parameter; None behind others than
+        """That of a dyad along the path in fifty digits, the modes as they are at a parameter; None behind others than
         dyads."""
         if not all(e.explicit for e in self.structure.elements[:i]):
             return None
@@ -126,8 +126,8 @@ class Path:
             start, end = (tuple(meant_value(d, x) for d, x in zip(drivers, values.tolist(), strict=True))
                           for values in (self.start, self.end))  # fmt: skip
             way = tuple(b - a for a, b in zip(start, end, strict=True))
-        forms = self.form(self.off_flips(np.array([t])))
-        return ExactDiscriminant(discriminant_of(self.structure, i, forms), start, way)
+        modes = self.mode(self.off_flips(np.array([t])))
+        return ExactDiscriminant(discriminant_of(self.structure, i, modes), start, way)
 
     @cached_property
     def change_points(self) -> tuple[ChangePoint, ...]:
@@ -145,9 +145,9 @@ class Path:
         return limit_why(self.structure, self.by or 0, np.flatnonzero(self.end != self.start).tolist(), end, between)
 
     @cached_property
-    def last_forms(self) -> dict[int, Array]:
-        """The form of each group at the end of the path."""
-        return {i: form[0] for i, form in self.form(np.ones(1)).items()}
+    def last_modes(self) -> dict[int, Array]:
+        """The assembly mode of each group at the end of the path."""
+        return {i: mode[0] for i, mode in self.mode(np.ones(1)).items()}
 
     def turned(self, t: Array) -> dict[str, Array]:
         """How far each link has turned from the start (rad), whole turns included, to a few degrees."""
@@ -161,7 +161,7 @@ class Path:
     def angles(self) -> dict[str, Array]:
         """The angle of each link at the nodes (rad), without jumps; in (-pi, pi] at the start, also in a dead point."""
         nodes = self.off_flips(self.nodes)
-        poses = positions(self.structure, self.drive(nodes), self.form(nodes), rates=False).poses
+        poses = positions(self.structure, self.drive(nodes), self.mode(nodes), rates=False).poses
         found: dict[str, Array] = {}
         for name, pose in poses.items():
             u = np.nan_to_num(np.broadcast_to(pose.u, nodes.shape), nan=1.0)
@@ -204,8 +204,8 @@ class ExactDiscriminant:
             least, sign = self.discriminant.signed(0, self._at(place))
             if sign >= 0:
                 return () if sign else (place,)
-            bend = (self(place + STEP) + self(place - STEP) - 2 * least) / (STEP * STEP)
-            away = (-2 * least / bend).sqrt() if bend > 0 else Decimal(0)
+            second = (self(place + STEP) + self(place - STEP) - 2 * least) / (STEP * STEP)
+            away = (-2 * least / second).sqrt() if second > 0 else Decimal(0)
         ends = (newton(self, place + side * away) for side in (-1, 1) if away)
         return tuple(end for end in ends if end is not None)
 
@@ -309,7 +309,7 @@ def assembled(
     path: Path, dyads: Sequence[int], low: float, high: float, signs: Mapping[int, float]
 ) -> Iterator[tuple[Path, Stretch]]:
     """The stretches of a path in which some dyads close one after the other, each with the path on which these have
-    their forms.
+    their modes.
 
     Parameters
     ----------

@@ -22,7 +22,7 @@ from graphkin.plane import added_up
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.search import resolve
-from graphkin.solver.assemblies import choose_forms
+from graphkin.solver.assemblies import choose_modes
 from graphkin.solver.bounds import Accuracy
 from graphkin.solver.cams import cam_angle
 from graphkin.solver.dead_points import singular, without_singular
@@ -58,28 +58,28 @@ def range_of(structure: Structure, at: Mapping[str, float] | None = None) -> Dri
     Unsolvable : the start cannot be assembled or reached
     CallError : ``at`` names no driver
     """
-    forms, own, start = choose_forms(structure), own_values(structure.scene), goal_values(structure.scene, at)
+    modes, own, start = choose_modes(structure), own_values(structure.scene), goal_values(structure.scene, at)
     if not np.array_equal(own, start):
-        path = way_to(structure, forms, start)
+        path = way_to(structure, modes, start)
         if path.limit is not None:
-            why = stopped_why(structure, forms, own, path)
+            why = stopped_why(structure, modes, own, path)
             raise Unsolvable("not assembled", Problem(structure.scene.name or "scene", why))
-        forms = path.last_forms
-    return range_from(structure, forms, start)
+        modes = path.last_modes
+    return range_from(structure, modes, start)
 
 
-def range_from(structure: Structure, forms: Mapping[int, Array], start: Array, which: int = 0) -> DriverRange:
-    """The range about driver values, shape (drivers,), at which the groups have these forms; of the first driver, or of
+def range_from(structure: Structure, modes: Mapping[int, Array], start: Array, which: int = 0) -> DriverRange:
+    """The range about driver values, shape (drivers,), at which the groups have these modes; of the first driver, or of
     another."""
-    asked = which, start.tobytes(), tuple((i, form.tobytes()) for i, form in forms.items())
+    asked = which, start.tobytes(), tuple((i, mode.tobytes()) for i, mode in modes.items())
     # strokes, loads and tables of one motion ask for the same
     if structure.kept.get("range", (None,))[0] != asked:
-        structure.kept["range"] = asked, _followed(structure, forms, start, which)
+        structure.kept["range"] = asked, _followed(structure, modes, start, which)
     found: DriverRange = structure.kept["range"][1]
     return found
 
 
-def _followed(structure: Structure, forms: Mapping[int, Array], start: Array, which: int) -> DriverRange:
+def _followed(structure: Structure, modes: Mapping[int, Array], start: Array, which: int) -> DriverRange:
     from graphkin.solver.continuity import follow_path
 
     driver = structure.scene.drivers[which]
@@ -94,11 +94,11 @@ def _followed(structure: Structure, forms: Mapping[int, Array], start: Array, wh
         end[which] += turns * wide
         for known, path in ended:
             moved = path.end - start
-            if known is forms and np.array_equal(path.start, start) and np.array_equal(np.flatnonzero(moved), [which]):
+            if known is modes and np.array_equal(path.start, start) and np.array_equal(np.flatnonzero(moved), [which]):
                 by = float((end - start)[which] / moved[which])
                 if path.reach <= by:
                     return path.rescaled(by)
-        return follow_path(structure, forms, start, end)
+        return follow_path(structure, modes, start, end)
 
     ahead = followed(1)
     if not turning:
@@ -119,7 +119,7 @@ def _followed(structure: Structure, forms: Mapping[int, Array], start: Array, wh
 def _closes(path: Path) -> bool:
     """Whether every link lies at the end of a path where it lay at its start."""
     ends = np.array([0.0, 1.0])
-    poses = positions(path.structure, path.drive(ends), path.form(ends), rates=False).poses
+    poses = positions(path.structure, path.drive(ends), path.mode(ends), rates=False).poses
     for pose in (p.spread(2) for p in poses.values()):
         moved = max(abs(pose.z[1] - pose.z[0]) / path.structure.scene.size, abs(pose.u[1] - pose.u[0]))
         # of a start in a singular position nothing is known
@@ -128,28 +128,28 @@ def _closes(path: Path) -> bool:
     return True
 
 
-def stopped_why(structure: Structure, forms: Mapping[int, Array], start: Array, path: Path) -> Phrase:
+def stopped_why(structure: Structure, modes: Mapping[int, Array], start: Array, path: Path) -> Phrase:
     """Why a way from the values of ``start`` ends, and between which values the motion runs."""
     moved = np.flatnonzero(path.end != path.start)
     if len(moved) > 1:
         return path.why_ended()
     which = int(moved[0]) if len(moved) else 0
-    whole = range_from(structure, forms, start, which)
+    whole = range_from(structure, modes, start, which)
     low, high = sorted(float(start[which] + end * whole.sense) for end in whole.ends)
     return path.why_ended((low, high))
 
 
-def way_to(structure: Structure, forms: Mapping[int, Array], goal: Array) -> Path:
+def way_to(structure: Structure, modes: Mapping[int, Array], goal: Array) -> Path:
     """The way from the scene's own position to other driver values: straight, whole turns included, else the other way
     round for drivers that turn; the straight one if none gets there."""
     from graphkin.solver.continuity import follow_path
 
     start, ended = own_values(structure.scene), list[tuple[Mapping[int, Array], Path]]()
     for end in ways(structure.scene.drivers, start.tolist(), goal.tolist(), structure.rolls):
-        path = follow_path(structure, forms, start, np.array(end))
+        path = follow_path(structure, modes, start, np.array(end))
         if path.limit is None:
             return path
-        ended.append((forms, path))
+        ended.append((modes, path))
     structure.kept["ended"] = ended
     return ended[0][1]
 
@@ -261,7 +261,7 @@ class DriverRange:
             return np.zeros(0)
 
         def since_starts(offset: Array) -> tuple[Array, Array]:
-            poses = self.motion(offset, fine=False).poses
+            poses = self.motion(offset, extended=False).poses
             since = np.stack([np.exp(1j * (cam_angle(cam, poses[cam.link].u) - start)) for cam, start in starts], 1)
             return np.concatenate([since.imag, since.real], axis=1), np.zeros((len(offset), 2 * len(starts)))
 
@@ -292,14 +292,14 @@ class DriverRange:
 
     # the assembly
 
-    def forms(self, part: Array) -> dict[int, Array]:
-        """The form of each group at parts of the range, for ``positions``; beyond its ends that at the end."""
+    def modes(self, part: Array) -> dict[int, Array]:
+        """The assembly mode of each group at parts of the range, for ``positions``; beyond its ends that at the end."""
         ahead, t, s = self._split(part)
-        forms = self.ahead.form(t)
+        modes = self.ahead.mode(t)
         if ahead.all():
-            return forms
-        other = self.behind.form(s)
-        return {i: np.where(ahead.reshape(-1, *[1] * (f.ndim - 1)), f, other[i]) for i, f in forms.items()}
+            return modes
+        other = self.behind.mode(s)
+        return {i: np.where(ahead.reshape(-1, *[1] * (f.ndim - 1)), f, other[i]) for i, f in modes.items()}
 
     def turned(self, part: Array) -> Mapping[str, Array]:
         """How far each link that is not redundant has turned since the start (rad), whole turns included, to a few
@@ -312,7 +312,7 @@ class DriverRange:
 
     @cached_property
     def _own_forms(self) -> dict[int, Array]:
-        return {i: f[0] for i, f in self.ahead.form(np.zeros(1)).items()}
+        return {i: f[0] for i, f in self.ahead.mode(np.zeros(1)).items()}
 
     @cached_property
     def change_points(self) -> tuple[ChangePoint, ...]:
@@ -326,7 +326,7 @@ class DriverRange:
     # the motion
 
     def motion(
-        self, offset: Array, unit: bool = False, fine: bool = True, rates: tuple[Array, Array] | None = None
+        self, offset: Array, unit: bool = False, extended: bool = True, rates: tuple[Array, Array] | None = None
     ) -> Motion:
         """The motion at these offsets, with status and reason at each.
 
@@ -335,14 +335,14 @@ class DriverRange:
         offset : shape (n,); over the range of an angle driver that cannot turn fully an offset may also be meant the
             other way round
         unit : rates by the first driver's own value (rate 1, second rate 0, other drivers held) instead of the scene's
-        fine : False for curves: 16 digits throughout, and no reasons where the status is not ok
+        extended : False for curves: 16 digits throughout, and no reasons where the status is not ok
         rates : of the first driver at each offset, first and second, shape (n,), instead of the scene's
         """
         offset = np.asarray(offset, dtype=float)
         n = len(offset)
         if n > BLOCK:
             parts = (slice(k, k + BLOCK) for k in range(0, n, BLOCK))
-            blocks = (self.motion(offset[k], unit, fine, rates and (rates[0][k], rates[1][k])) for k in parts)
+            blocks = (self.motion(offset[k], unit, extended, rates and (rates[0][k], rates[1][k])) for k in parts)
             part = np.clip(self._reached(offset), *self.ends) / abs(self.wide)
             return replace(joined(blocks, n), turned=self.turned(part))
         offset = self._reached(offset)
@@ -353,7 +353,7 @@ class DriverRange:
         if rates:
             drive = Drive(drive.value, *(np.zeros_like(drive.value) for _ in rates))
             drive.rate[:, 0], drive.second[:, 0] = rates
-        return self._motion(within / abs(self.wide), self.values(offset), drive, self.reaches(offset), fine)
+        return self._motion(within / abs(self.wide), self.values(offset), drive, self.reaches(offset), extended)
 
     def _reached(self, offset: Array) -> Array:
         """The offsets, a turn less where an angle driver that cannot turn fully comes there the other way round."""
@@ -388,9 +388,9 @@ class DriverRange:
             before = found if before is None else found.after(before)
             yield before
 
-    def _motion(self, part: Array, values: Array, drive: Drive, good: Array, fine: bool = True) -> Motion:
-        why = "" if good.all() or not fine else self.limit_why
-        found = motion_of(self.structure, drive, self.forms(part), self._assembled, good, why, fine)
+    def _motion(self, part: Array, values: Array, drive: Drive, good: Array, extended: bool = True) -> Motion:
+        why = "" if good.all() or not extended else self.limit_why
+        found = motion_of(self.structure, drive, self.modes(part), self._assembled, good, why, extended)
         return replace(found, values=values, turned=self.turned(part))
 
     def angle(self, motion: Motion, link: str) -> Array:
@@ -449,31 +449,31 @@ BLOCK = 16384
 def motion_of(
     structure: Structure,
     drive: Drive,
-    forms: Mapping[int, Array],
+    modes: Mapping[int, Array],
     assembled: Callable[[], tuple[Phrase, ...]],
     good: Array,
     why: Wording = "",
-    fine: bool = True,
+    extended: bool = True,
 ) -> Motion:
     """Positions in one pass over all driver values, their status, redundant links placed and checked.
 
     Parameters
     ----------
-    forms : the form of each group at each position, as for ``positions``
+    modes : the assembly mode of each group at each position, as for ``positions``
     assembled : tells the assembly in words
     good, why : which positions the motion reaches, shape (n,), and why it does not reach the others
-    fine : False leaves 16 digits where they are rough, and the reasons away
+    extended : False leaves 16 digits where they are rough, and the reasons away
     """
     n = len(drive)
     if n > BLOCK:
         blocks = (slice(first, min(first + BLOCK, n)) for first in range(0, n, BLOCK))
-        own = (({i: f[rows] if np.ndim(f) and len(f) == n else f for i, f in forms.items()}, rows) for rows in blocks)
-        return joined((motion_of(structure, drive[r], f, assembled, good[r], why, fine) for f, r in own), n)
-    state = positions(structure, drive, forms, fine=fine)
+        own = (({i: f[rows] if np.ndim(f) and len(f) == n else f for i, f in modes.items()}, rows) for rows in blocks)
+        return joined((motion_of(structure, drive[r], f, assembled, good[r], why, extended) for f, r in own), n)
+    state = positions(structure, drive, modes, extended=extended)
     status = np.where(good, "ok", "not assembled").astype("<U13")
     reasons: list[Wording] = ["" if g else why for g in good]
-    if fine:
-        status, reasons = without_singular(structure, state, drive.value, forms, status, reasons)
+    if extended:
+        status, reasons = without_singular(structure, state, drive.value, modes, status, reasons)
     else:
         for _, dead in singular(structure, state, n):
             status[dead & good] = "dead point"
@@ -626,9 +626,9 @@ def _turns(reach: DriverRange, symbol: Symbol) -> tuple[Array, Array, float]:
     """Where an output turns back over a turn of the driver: offsets and values there, the end of a stretch along which
     it stands still; and how far it gets in a turn."""
 
-    def course(offset: Array, fine: bool = False) -> Array:
+    def course(offset: Array, extended: bool = False) -> Array:
         """Value and rate by the driver's own angle, shape (n, 2)."""
-        motion = reach.motion(offset, unit=True, fine=fine)
+        motion = reach.motion(offset, unit=True, extended=extended)
         if symbol.other:
             slide = motion.slide(symbol.pair)
             return np.stack([slide.travel, slide.velocity], axis=1)
@@ -645,7 +645,7 @@ def _turns(reach: DriverRange, symbol: Symbol) -> tuple[Array, Array, float]:
         # the place of a turn is known to the last digits as that where the rate is nought
         beside = rests[np.abs(rests - turn.place) < BESIDE]
         offsets.append(turn.place if turn.at_seam or not len(beside) else float(beside[0]))
-    values = course(np.array([*offsets, 0.0, math.tau]), fine=True)[:, 0]
+    values = course(np.array([*offsets, 0.0, math.tau]), extended=True)[:, 0]
     return np.array(offsets), values[:-2], float(values[-1] - values[-2])
 
 

@@ -117,8 +117,8 @@ def _rrr(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
     over = (2.0 * sign) / area
     right_side = j.known2.v - j.known1.v + _slip(u2, j.outer2, j.inner2) - _slip(u1, j.outer1, j.inner1)
     w1, w2 = dot(right_side, to2) * over, dot(right_side, to1) * over
-    bend = j.known2.a - j.known1.a + _bent(to2, u2, j.outer2, j.inner2, w2) - _bent(to1, u1, j.outer1, j.inner1, w1)
-    al1, al2 = dot(bend, to2) * over, dot(bend, to1) * over
+    second = j.known2.a - j.known1.a + _bent(to2, u2, j.outer2, j.inner2, w2) - _bent(to1, u1, j.outer1, j.inner1, w1)
+    al1, al2 = dot(second, to2) * over, dot(second, to1) * over
     whole = 1.0 / (2.0 * (long1 * long2))
     return DyadSolution(
         j.known1.pinned(j.outer1, u1, w1, al1),
@@ -152,9 +152,9 @@ def _rrp(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
     over = 1.0 / half
     w1, dt = cross(guide.u, right_side) * over, -dot(arm1, right_side) * over
     moved = guide.along(t, dt, none)
-    bend = moved.a + 1j * al2 * arm2 + _bent(arm2, u2, j.outer2, j.inner2, w2)
-    bend = bend - j.known1.a - _bent(arm1, u1, j.outer1, j.inner1, w1)
-    al1, ddt = cross(guide.u, bend) * over, -dot(arm1, bend) * over
+    second = moved.a + 1j * al2 * arm2 + _bent(arm2, u2, j.outer2, j.inner2, w2)
+    second = second - j.known1.a - _bent(arm1, u1, j.outer1, j.inner1, w1)
+    al1, ddt = cross(guide.u, second) * over, -dot(arm1, second) * over
     return DyadSolution(
         j.known1.pinned(j.outer1, u1, w1, al1),
         guide.along(t, dt, ddt).pinned(j.outer2, u2, w2, al2),
@@ -181,8 +181,8 @@ def _rpr(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
     over = 1.0 / leg
     right_side = dline - d * dq
     ds, w = dot(right_side, line) * over, cross(d, right_side) * over
-    bend = ddline + (w * w) * line - d * (ddq + 2j * w * (ds + dq))
-    al = cross(d, bend) * over
+    second = ddline + (w * w) * line - d * (ddq + 2j * w * (ds + dq))
+    al = cross(d, second) * over
     return DyadSolution(
         j.known1.pinned(j.outer1, d * j.inner1.u.conjugate(), w - j.inner1.omega, al - j.inner1.alpha),
         j.known2.pinned(j.outer2, d * j.inner2.u.conjugate(), w - j.inner2.omega, al - j.inner2.alpha),

@@ -170,21 +170,21 @@ class State:
 def positions(
     structure: Structure,
     drive: Drive,
-    forms: Mapping[int, Array],
+    modes: Mapping[int, Array],
     upto: int | None = None,
     rates: bool = True,
-    fine: bool = True,
+    extended: bool = True,
     known: dict[int, float] | None = None,
 ) -> State:
     """Solve every element at all positions of the drivers, each position afresh.
 
     Parameters
     ----------
-    forms : the assembly of each group, by its place among the elements: for a dyad the sign, shape (n,); for a larger
+    modes : the assembly of each group, by its place among the elements: for a dyad the sign, shape (n,); for a larger
         group the poses from which Newton's method starts, shape (n, members, 3)
     upto : solve only the elements before this one
     rates : False leaves out velocity and acceleration
-    fine : False leaves 16 digits where they are rough: for curves, and on the way
+    extended : False leaves 16 digits where they are rough: for curves, and on the way
     known : at one position, numbers of the formulas that are the same as in an earlier call, by the places of their
         lines; filled, so that what comes after needs no formulas from the start again.  The state then has the last
         of the elements alone
@@ -194,14 +194,14 @@ def positions(
     State; at a position that cannot be assembled the discriminant of a group is negative and the poses mean nothing
     """
     with np.errstate(all="ignore"):
-        run = _Run(structure, drive, forms, rates, fine, known)
+        run = _Run(structure, drive, modes, rates, extended, known)
         return run.state(len(structure.elements) if upto is None else upto, whole=known is None)
 
 
-def group_at(structure: Structure, drive: Drive, forms: Mapping[int, Array], which: int) -> GroupSolved:
+def group_at(structure: Structure, drive: Drive, modes: Mapping[int, Array], which: int) -> GroupSolved:
     """A larger group alone, by its place among the elements, with its rates; see ``positions``."""
     with np.errstate(all="ignore"):
-        run = _Run(structure, drive, forms, True)
+        run = _Run(structure, drive, modes, True)
         run.follow(which + 1)
         return run.clusters[which]
 
@@ -213,14 +213,14 @@ class _Run:
         self,
         structure: Structure,
         drive: Drive,
-        forms: Mapping[int, Array],
+        modes: Mapping[int, Array],
         rates: bool,
-        fine: bool = True,
+        extended: bool = True,
         known: dict[int, float] | None = None,
     ) -> None:
         drive = drive.followed(structure)
-        self.structure, self.drive, self.forms = structure, drive, forms
-        self.rates, self.fine = rates, fine
+        self.structure, self.drive, self.modes = structure, drive, modes
+        self.rates, self.extended = rates, extended
         self.known: dict[int, float] | None = {} if known is None else known
         self.n = len(drive)
         self.clusters: dict[int, GroupSolved] = {}
@@ -248,9 +248,9 @@ class _Run:
                 given["cos", k], given["sin", k] = u.real, u.imag
             else:
                 given["travel", k] = value
-        for i, form in self.forms.items():
+        for i, mode in self.modes.items():
             if i in self.structure.dyads:
-                given["sign", i] = np.broadcast_to(form, (self.n,))
+                given["sign", i] = np.broadcast_to(mode, (self.n,))
         return given
 
     def follow(self, upto: int) -> None:
@@ -297,7 +297,7 @@ class _Run:
         state = State(poses, self.drive, dict(sorted(groups.items())), np.zeros(self.n, dtype=bool), sharp > CLEAR,
                       slack, np.where(exact, TINY, SINGULAR), self._found())  # fmt: skip
         again = exact
-        if names and explicit and self.fine and self.rates and upto == len(self.structure.elements):
+        if names and explicit and self.extended and self.rates and upto == len(self.structure.elements):
             again = exact | self._rough(state)
         if not again.any():
             return state
@@ -329,9 +329,9 @@ class _Run:
         self.slack.append(LOOKED_UP * np.abs(inputs.get("travel", np.ones(self.n)))[:, None])
 
     def _roll(self, i: int, rolled: Rolled) -> None:
-        """How far what a link rolls on has turned or gone since the scene's own position, whole turns as the form of
+        """How far what a link rolls on has turned or gone since the scene's own position, whole turns as the mode of
         the element says, and so where the link stands."""
-        program, form = self.dimensioned.program, np.broadcast_to(self.forms[i], (self.n, 2 * len(rolled.factors)))
+        program, mode = self.dimensioned.program, np.broadcast_to(self.modes[i], (self.n, 2 * len(rolled.factors)))
         asked: list[Real | Vec] = []
         for (kind, name), _ in rolled.factors:
             slide = None if kind == "angle" else self.structure.slide(name)
@@ -343,10 +343,10 @@ class _Run:
         for k, (found, (_, factor)) in enumerate(zip(self._values(("rolled", i), asked), rolled.factors, strict=True)):
             at = np.broadcast_to(found, (self.n,))
             if np.iscomplexobj(at):
-                angle, near = np.angle(at), form[:, 2 * k + 1]
+                angle, near = np.angle(at), mode[:, 2 * k + 1]
                 at = angle + 2 * np.pi * np.rint((near - angle) / (2 * np.pi))
             # by how far it has moved since the scene's own position; either may be off
-            since = form[:, 2 * k]
+            since = mode[:, 2 * k]
             value, wide = value + factor * (at - since), wide + abs(factor) * (np.abs(at) + np.abs(since))
         u = turned(value)
         parts = {"cos": u.real, "sin": u.imag} if rolled.turns else {"travel": value}
@@ -361,7 +361,7 @@ class _Run:
         values = iter(self._values(("known", i), [getattr(program.poses[n], f) for n in known for f in FIELDS]))
         poses = {n: _pose(dict(zip(FIELDS, values, strict=False))) for n in known}
         poses[self.structure.scene.frame.name] = rest()
-        solved = solve_group(self.structure, group, poses, self.drive, np.asarray(self.forms[i]), self.rates)
+        solved = solve_group(self.structure, group, poses, self.drive, np.asarray(self.modes[i]), self.rates)
         self.clusters[i] = solved
         self.slack.append(solved.rolling_residuals)
         for name in group.members:
@@ -389,7 +389,7 @@ class _Run:
         for x in asked:
             found.append(np.empty(self.n, dtype=np.complex128 if isinstance(x, Vec) else np.float64))
             out += [found[-1].real, found[-1].imag] if isinstance(x, Vec) else [found[-1]]
-        code.arrays(code.same(params), inputs, out)
+        code.arrays(code.invariants(params), inputs, out)
         return found
 
     def _given_at_first(self, name: Name) -> float:
@@ -420,27 +420,27 @@ ROUNDING = Decimal(10) ** -36
 
 
 def discriminant_of(
-    structure: Structure, i: int, forms: Mapping[int, Array], drive: Drive | None = None
+    structure: Structure, i: int, modes: Mapping[int, Array], drive: Drive | None = None
 ) -> ExtendedPrecision:
     """The discriminant of a dyad in fifty digits, behind dyads only.
 
     Parameters
     ----------
     i : the dyad, by its place among the elements
-    forms : the assembly of the groups before it
+    modes : the assembly of the groups before it
     drive : positions whose driver values are taken as they are written; the scene's own if None
     """
-    known = {**{j: form for j, form in forms.items() if j < i}, i: np.ones(1)}
+    known = {**{j: mode for j, mode in modes.items() if j < i}, i: np.ones(1)}
     own = np.array([[d.values[0] for d in structure.scene.drivers]])
     run = _Run(structure, drive or Drive.at(structure, own), known, False)
     program = run.dimensioned.program
     return run._extended(program.code(("closing", i), [program.groups[i].discriminant]))
 
 
-def closes(structure: Structure, i: int, forms: Mapping[int, Array], drive: Drive) -> tuple[Array, Array]:
+def closes(structure: Structure, i: int, modes: Mapping[int, Array], drive: Drive) -> tuple[Array, Array]:
     """Whether a dyad closes at values of the drivers as they are written: 1, -1, or 0 where it stands at its limit as
     far as can be told; and whether it is the file that leaves it open.  Shapes (n,)."""
-    discriminant = discriminant_of(structure, i, forms, drive)
+    discriminant = discriminant_of(structure, i, modes, drive)
     with working():
         told = [discriminant.with_doubt(k) for k in range(len(drive))]
     found = np.array([_sign(*one) for one in told], dtype=int)

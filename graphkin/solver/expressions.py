@@ -393,15 +393,15 @@ class Code:
     ----------
     asked : what to compute
     fixed : inputs that are the same at all positions too, and are given among the params
-    open_ : params that change too, as dimensions do from design to design, and are given among the inputs
+    varied : params that change too, as dimensions do from design to design, and are given among the inputs
     """
 
     def __init__(
-        self, graph: ExpressionGraph, asked: Sequence[Real], fixed: Container[Name] = (), open_: Container[Name] = ()
+        self, graph: ExpressionGraph, asked: Sequence[Real], fixed: Container[Name] = (), varied: Container[Name] = ()
     ) -> None:
         self.graph = graph
         self.asked = [real.at for real in asked]
-        self.fixed, self._open = fixed, open_
+        self.fixed, self._varied = fixed, varied
 
     @cached_property
     def order(self) -> list[int]:
@@ -416,7 +416,7 @@ class Code:
     @cached_property
     def _changing(self) -> set[Name]:
         inputs = {line[1] for line in (self.graph.lines[at] for at in self.order) if line[0] == "input"}
-        return {name for name in self.leaves if name in self._open or (name in inputs and name not in self.fixed)}
+        return {name for name in self.leaves if name in self._varied or (name in inputs and name not in self.fixed)}
 
     @cached_property
     def params(self) -> tuple[Any, ...]:
@@ -525,7 +525,7 @@ class Code:
     def straight_same(self) -> tuple[list[str], dict[int, str]]:
         """Assignments for what is the same at all positions, and what to write for each of its lines."""
         order = [at for at in self.order if at not in self.varying]
-        return self._straight(order, {}, set(self._same[1]))
+        return self._straight(order, {}, set(self._invariants[1]))
 
     def straight_varying(
         self, asked: Sequence[int], inputs: Mapping[Name, str], before: Mapping[int, str]
@@ -537,7 +537,7 @@ class Code:
     # many positions
 
     @cached_property
-    def _same(self) -> tuple[Callable[..., tuple[float, ...]], dict[int, int]]:
+    def _invariants(self) -> tuple[Callable[..., tuple[float, ...]], dict[int, int]]:
         """What is the same at all positions, in plain floats, as far as the rest needs it."""
         wanted: dict[int, int] = {}
         for at in self.order:
@@ -557,7 +557,7 @@ class Code:
     def _blocks(self) -> tuple[Callable[..., None], int]:
         """Function that computes one block, and how many columns it needs to work in."""
         graph = self.graph
-        wanted = self._same[1]
+        wanted = self._invariants[1]
         place = {at: f"u{k}" for at, k in wanted.items()}
         last: dict[int, int] = {}
         order = [at for at in self.order if at in self.varying]
@@ -611,25 +611,25 @@ class Code:
         text = "\n    ".join([*head, *body, *copies, "return None"])
         return defined(text, {f.__name__: f for f in _UFUNCS.values()}), count
 
-    def same(self, params: Sequence[float], dtype: DTypeLike = np.float64) -> list[Array] | None:
+    def invariants(self, params: Sequence[float], dtype: DTypeLike = np.float64) -> list[Array] | None:
         """What is the same at all positions; None where it cannot be computed."""
         try:
-            return [np.array(x, dtype=dtype) for x in self._same[0](params)]
+            return [np.array(x, dtype=dtype) for x in self._invariants[0](params)]
         except (ZeroDivisionError, OverflowError):
             return None
 
     def arrays(
-        self, same: list[Array] | None, inputs: Sequence[Array], out: Sequence[Array], block: int = BLOCK
+        self, invariants: list[Array] | None, inputs: Sequence[Array], out: Sequence[Array], block: int = BLOCK
     ) -> None:
         """Compute columns.
 
         Parameters
         ----------
-        same : as ``Code.same`` gives it
+        invariants : as ``Code.invariants`` gives them
         inputs : real arrays of shape (n,)
         out : real arrays of shape (n,), filled; where a position is singular with inf or nan
         """
-        if same is None:
+        if invariants is None:
             for column in out:
                 column[...] = np.nan
             return
@@ -638,14 +638,14 @@ class Code:
         with np.errstate(all="ignore"):
             work = np.empty((count, min(n, block)), dtype=out[0].dtype if n else float)
             if n <= block:
-                made(same, inputs, out, work)
+                made(invariants, inputs, out, work)
                 return
             rows = list(work)
             for low in range(0, n, block):
                 high = low + block
                 if high > n:
                     rows = list(work[:, : n - low])
-                made(same, [x[low:high] for x in inputs], [x[low:high] for x in out], rows)
+                made(invariants, [x[low:high] for x in inputs], [x[low:high] for x in out], rows)
 
 
 def _unpacked(letter: str, count: int, source: str) -> list[str]:

@@ -30,7 +30,7 @@ class GroupSolved:
 
     poses : its links
     place : the same as an array (n, members, 3) of x, y (m) and angle (rad, not reduced); where something rolls with
-        more rows, see ``form_of``
+        more rows, see ``mode_of``
     residual : of the constraint that is most open, no unit; infinite where nothing is known
     matrix : derivative of the constraints by the scaled unknowns, shape (n, rows, columns)
     right_side : rate of the constraints with the group held still, shape (n, rows)
@@ -103,7 +103,7 @@ def solve_group(
     rates: bool = True,
 ) -> GroupSolved:
     """Solve a group by Newton's method from given places, shape (n, members, 3); where something rolls with more rows,
-    see ``form_of``."""
+    see ``mode_of``."""
     n = len(drive)
     system, start = Constraints(structure, group, known, drive), np.asarray(start)
     start = np.broadcast_to(start, (n, *start.shape[-2:]))
@@ -139,12 +139,12 @@ def solve_group(
         second = system.scaled(solve_all(matrix, -bent))
     else:
         right_side = np.zeros((n, matrix.shape[1]))
-    form = _with_turns(system, place)
-    return GroupSolved(system, system.poses(place, rate, second), form, residual, matrix, right_side)
+    mode = _with_turns(system, place)
+    return GroupSolved(system, system.poses(place, rate, second), mode, residual, matrix, right_side)
 
 
 def _rolling_from(system: Constraints, start: Array) -> Constraints:
-    """With the turns and the sums that starting places tell, see ``form_of``."""
+    """With the turns and the sums that starting places tell, see ``mode_of``."""
     layout = system.layout
     if not len(layout.rolling_rows):
         return system
@@ -155,7 +155,7 @@ def _rolling_from(system: Constraints, start: Array) -> Constraints:
 
 
 def _with_turns(system: Constraints, place: Array) -> Array:
-    """Places of the group with the sums that rolling keeps, and the turns of the links outside, see ``form_of``."""
+    """Places of the group with the sums that rolling keeps, and the turns of the links outside, see ``mode_of``."""
     layout = system.layout
     if not len(layout.rolling_rows):
         return place
@@ -166,7 +166,7 @@ def _with_turns(system: Constraints, place: Array) -> Array:
     return np.concatenate((place, more), axis=1)
 
 
-def form_of(structure: Structure, group: LargerGroup, poses: Mapping[str, Pose]) -> Array:
+def mode_of(structure: Structure, group: LargerGroup, poses: Mapping[str, Pose]) -> Array:
     """From where Newton's method goes on from the scene's own position, shape (rows, 3): the places of the links; where
     something rolls also a row for each sum that it keeps, and one for each link outside the group that rolls with it,
     for the sake of its turns."""

@@ -18,7 +18,7 @@ import numpy as np
 from graphkin.errors import GraphkinError, Problem, Unsolvable
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef
-from graphkin.solver.assemblies import choose_forms, new_places
+from graphkin.solver.assemblies import choose_modes, new_places
 from graphkin.solver.cams import meeting_followers
 from graphkin.solver.dead_points import MOST_GROUPS, SAME, DeadPoint, dead_points, not_searched, singular
 from graphkin.solver.drivers import meant_value, own_values, working
@@ -74,13 +74,13 @@ def _diagnosis(scene: Mechanism) -> Problem | None:
         )
         try:
             structure = analyse(without)
-            forms = choose_forms(structure)
+            modes = choose_modes(structure)
         except GraphkinError:
             continue
         fits: list[Fit] = []
         for shift in (0.0, NEARBY):
             value = own_values(scene)[None] + shift * _unit(scene)
-            state = positions(structure, Drive.at(structure, value), {i: f[None] for i, f in forms.items()})
+            state = positions(structure, Drive.at(structure, value), {i: f[None] for i, f in modes.items()})
             laid = fit(without, link, state.poses)
             if laid is None or any(dead[0] for _, dead in singular(structure, state, 1)):
                 break
@@ -173,11 +173,11 @@ def _reached(structure: Structure, turned: Collection[int]) -> State | None:
     """Everything up to the last dyad, some of the guides turned round; None where something does not reach."""
     last = max(i for i, _ in _elements(structure)) + 1
     try:
-        forms = choose_forms(structure, turned, last)
+        modes = choose_modes(structure, turned, last)
     except GraphkinError:
         return None
     drive = Drive.at(structure, own_values(structure.scene)[None])
-    return positions(structure, drive, {i: f[None] for i, f in forms.items()}, last, rates=False)
+    return positions(structure, drive, {i: f[None] for i, f in modes.items()}, last, rates=False)
 
 
 STANDS = 1e-9  # of the size a radian: a point that moves by less stands still
@@ -199,8 +199,8 @@ def at_given_speed(structure: Structure) -> Structure:
     assert driver.given_speed is not None
     name, speed = driver.given_speed
     own = own_values(scene)[None]
-    forms = {i: f[None] for i, f in choose_forms(structure).items()}
-    state = positions(structure, Drive(own, np.ones((1, 1)), np.zeros((1, 1))), forms, fine=False)
+    modes = {i: f[None] for i, f in choose_modes(structure).items()}
+    state = positions(structure, Drive(own, np.ones((1, 1)), np.zeros((1, 1))), modes, extended=False)
     posed = Posed(structure, state.poses, structure.slides)
     once = abs(complex(np.ravel(posed.point(PointRef(name)).v)[0]))
     if not np.isfinite(once) or once <= STANDS * scene.size or once >= scene.size / SINGULAR:
@@ -236,10 +236,10 @@ def from_dead_point(structure: Structure) -> Structure:
                 value = point.value + way * abs(distance)
             here = _at(structure, value)
             try:
-                forms = choose_forms(here)
+                modes = choose_modes(here)
             except GraphkinError:
                 continue
-            if all(float(forms[j]) == s for j, s in point.signs.items()):
+            if all(float(modes[j]) == s for j, s in point.signs.items()):
                 known.append((point, way))
                 found += [(point, here)] if way == side else []
     what = Phrase("driver of key", key=driver.key)

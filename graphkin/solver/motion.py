@@ -263,14 +263,14 @@ class Motion:
         if not small.any():
             return value
         nothing = small & self.accuracy.clear & (large <= least)
-        open_ = np.flatnonzero(small & ~nothing & (value != 0.0))
-        if len(open_):
+        doubtful = np.flatnonzero(small & ~nothing & (value != 0.0))
+        if len(doubtful):
             few = len(self) <= BLOCK  # then the bounds of all are found once
-            of = self.bound if few else self.accuracy.rows(open_).of(())
+            of = self.bound if few else self.accuracy.rows(doubtful).of(())
             bound = dict(zip(_FIELDS, of, strict=True))[measure]
-            bound = bound[open_] if few else bound
-            slight = bound <= SLIGHT * np.broadcast_to(whole, value.shape)[open_]
-            nothing[open_] = slight & (large[open_] <= ends * bound)
+            bound = bound[doubtful] if few else bound
+            slight = bound <= SLIGHT * np.broadcast_to(whole, value.shape)[doubtful]
+            nothing[doubtful] = slight & (large[doubtful] <= ends * bound)
         return np.where(nothing, 0.0, value) + 0.0  # never -0
 
     @cached_property

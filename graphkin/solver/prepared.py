@@ -117,7 +117,7 @@ class PreparedMechanism:
             return False
         t = ahead.nodes[None]
         for _ in range(FINEST):
-            state = positions(self.structure, ahead.drive(t.ravel()), ahead.form(t.ravel()), rates=False)
+            state = positions(self.structure, ahead.drive(t.ravel()), ahead.mode(t.ravel()), rates=False)
             dyads = (g for g in state.groups.values() if isinstance(g, DyadSolution))
             sine = np.min([np.abs(np.broadcast_to(g.sine, t.size)) for g in dyads] or [np.ones(t.size)], axis=0)
             if not (sine > SINGULAR).all():
@@ -136,7 +136,7 @@ class PreparedMechanism:
         """The assembly of each group where it is the same everywhere."""
         if len(self.range.ahead.flips) or len(self.range.behind.flips) or self.by_newton:
             return None
-        return {("sign", i): float(form[0]) for i, form in self.range.forms(np.zeros(1)).items() if form.ndim == 1}
+        return {("sign", i): float(mode[0]) for i, mode in self.range.modes(np.zeros(1)).items() if mode.ndim == 1}
 
     def _reached(self, value: Array) -> Array:
         return self.range.reaches(self.range.offsets(value))
@@ -203,8 +203,8 @@ class PreparedMechanism:
         return self.given(self._code)
 
     @cached_property
-    def _same(self) -> list[Array] | None:
-        return self._code.same(self._params)
+    def _invariants(self) -> list[Array] | None:
+        return self._code.invariants(self._params)
 
     # one position
 
@@ -258,13 +258,13 @@ class PreparedMechanism:
     def whole(self) -> bool:
         return self.range.full
 
-    def _forms_at(self, value: Array) -> dict[int, Array]:
-        """The form of each group at values of the first driver; beyond its reach that at its end."""
-        return self.range.forms(self.range.offsets(value) / abs(self.range.wide))
+    def _modes_at(self, value: Array) -> dict[int, Array]:
+        """The assembly mode of each group at values of the first driver; beyond its reach that at its end."""
+        return self.range.modes(self.range.offsets(value) / abs(self.range.wide))
 
     def signs_at(self, value: Array) -> dict[Name, Array]:
         """The assembly of each group at values of the first driver, where it changes."""
-        return {("sign", i): form for i, form in self._forms_at(value).items() if form.ndim == 1}
+        return {("sign", i): mode for i, mode in self._modes_at(value).items() if mode.ndim == 1}
 
     def _from_larger_groups(self, value: Array, ok: Array) -> Mapping[Name, Array]:
         """Inputs of the formulas that come from larger groups; positions that are in none of their assemblies are no
@@ -366,7 +366,7 @@ class PreparedMechanism:
             else:
                 given["travel", 0] = steps.values
             sines = np.empty((len(self._code.asked) - count, n))
-            self._code.arrays(self._same, [given[name] for name in self._code.inputs], [*out, *sines])
+            self._code.arrays(self._invariants, [given[name] for name in self._code.inputs], [*out, *sines])
             for sine in sines:
                 ok &= np.abs(sine) >= SINGULAR
         return ok
@@ -387,7 +387,7 @@ class PreparedMechanism:
         """The mechanism at values of the first driver that the motion reaches, in 16 digits."""
         drivers = np.repeat(self.range.start[None], len(value), axis=0)
         drivers[:, 0] = value
-        return positions(self.structure, Drive.at(self.structure, drivers), self._forms_at(value), fine=False)
+        return positions(self.structure, Drive.at(self.structure, drivers), self._modes_at(value), extended=False)
 
     def sweep(self, n: int, out: Array | None = None, fast: bool = False) -> tuple[Array, Array]:
         """``columns`` at n positions of the whole range."""

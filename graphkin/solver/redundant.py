@@ -38,9 +38,9 @@ class Fit(NamedTuple):
 
     def fits_within(self, bound: ErrorBound[Array]) -> Array:
         """Whether it misses by no more than rounding may have moved the ends of both links."""
-        missed = (self.position, self.velocity, self.acceleration)
+        residuals = (self.position, self.velocity, self.acceleration)
         allowed = (FITS + MOVED * _part(b, whole) for b, whole in zip(bound.of_point, self.scale, strict=True))
-        return np.asarray(np.logical_and.reduce([m < a for m, a in zip(missed, allowed, strict=True)]))
+        return np.asarray(np.logical_and.reduce([m < a for m, a in zip(residuals, allowed, strict=True)]))
 
 
 def redundant_poses(
@@ -74,9 +74,9 @@ def redundant_poses(
         bad = ok & ~found.fits_within(bound)
         if bad.any():
             k = int(np.argmax(bad))
-            missed = float(found.position[k]) * scene.size / scene.units.metres
+            residual = float(found.position[k]) * scene.size / scene.units.metres
             how = (
-                Phrase("it misses its joints by", missed=f'{missed:.4g}', length=scene.units.length)
+                Phrase("it misses its joints by", missed=f'{residual:.4g}', length=scene.units.length)
                 if found.position[k] >= FITS
                 else Phrase("it fits here but would stop the motion")
             )
@@ -105,14 +105,14 @@ def _fit(scene: Mechanism, link: PlacedLink, poses: Mapping[str, Pose]) -> Fit |
     size = scene.size
     speed = _most([np.abs(p.v) + np.abs(p.omega) * size for p in everything])
     push = _most([np.abs(p.a) + (np.abs(p.alpha) + p.omega**2) * size for p in everything])
-    missed = [[np.abs(a.z - b.z) / size, np.abs(a.v - b.v), np.abs(a.a - b.a)] for a, b in gaps]
+    residuals = [[np.abs(a.z - b.z) / size, np.abs(a.v - b.v), np.abs(a.a - b.a)] for a, b in gaps]
     for s in slides:
         pair = slide_pair(scene, s)
         seen = poses[s.on].fixed(pair.guide.through, pair.guide.direction).inverse().of(pose)
         turn = seen.u * np.conj(s.turn)
-        missed.append([np.abs(seen.z.imag) / size, np.abs(seen.v.imag), np.abs(seen.a.imag)])
-        missed.append([np.abs(turn - 1), np.abs(seen.omega) * size, np.abs(seen.alpha) * size])
-    place, velocity, acceleration = (_most([m[k] for m in missed]) for k in range(3))
+        residuals.append([np.abs(seen.z.imag) / size, np.abs(seen.v.imag), np.abs(seen.a.imag)])
+        residuals.append([np.abs(turn - 1), np.abs(seen.omega) * size, np.abs(seen.alpha) * size])
+    place, velocity, acceleration = (_most([m[k] for m in residuals]) for k in range(3))
     scale = np.full_like(speed, size), speed, push
     return Fit(pose, place, _part(velocity, speed), _part(acceleration, push), scale)
 

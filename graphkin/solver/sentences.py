@@ -66,15 +66,15 @@ def lies_at(structure: Structure, value: float, away: float, about: bool = False
     return Phrase(key, driver=driver.key, value=driver_text(scene, driver, value), distance=distance)
 
 
-def assembly_words(structure: Structure, forms: Mapping[int, Array]) -> tuple[Phrase, ...]:
+def assembly_words(structure: Structure, modes: Mapping[int, Array]) -> tuple[Phrase, ...]:
     """For each group which assembly was taken, in the order of ``structure.groups``."""
     words: list[Phrase] = []
     for i, element in enumerate(structure.elements):
         if isinstance(element, Dyad):
             positive, negative, _ = dyad_words(element)
-            words.append(positive if float(forms[i]) > 0 else negative)
+            words.append(positive if float(modes[i]) > 0 else negative)
         elif isinstance(element, LargerGroup):
-            words.append(_place_words(structure, element, np.asarray(forms[i])))
+            words.append(_place_words(structure, element, np.asarray(modes[i])))
     return tuple(words)
 
 

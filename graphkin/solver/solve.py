@@ -15,7 +15,7 @@ import numpy as np
 from graphkin.errors import CallError, Unsolvable
 from graphkin.scene.drivers import at_time
 from graphkin.scene.model import Mechanism
-from graphkin.solver.assemblies import choose_forms
+from graphkin.solver.assemblies import choose_modes
 from graphkin.solver.bounds import Accuracy
 from graphkin.solver.driver_range import DriverRange, motion_of, range_from, range_of, stopped_why, way_to
 from graphkin.solver.drivers import goal_values, own_values
@@ -34,7 +34,7 @@ def driver_range(scene: Mechanism | Structure, at: Mapping[str, float] | None = 
 
 
 def solve(
-    scene: Mechanism | Structure, at: Mapping[str, float] | None = None, sweep: int | None = None, fine: bool = True
+    scene: Mechanism | Structure, at: Mapping[str, float] | None = None, sweep: int | None = None, extended: bool = True
 ) -> Motion:
     """Solve a scene, or its structure, analytically.
 
@@ -44,8 +44,8 @@ def solve(
     sweep : this many positions: over a full turn of the first driver, in the sense of its omega (counter-clockwise if
         it is 0), from the scene's own value (or that of ``at``) on; for a slide driver, in the same sense, spread
         evenly inside the range of travel that the motion reaches
-    fine : False leaves 16 digits where they are rough, with the bounds of each link alone, as a drawing has them; of
-        one position only
+    extended : False leaves 16 digits where they are rough, with the bounds of each link alone, as a drawing has them;
+        of one position only
 
     Returns
     -------
@@ -68,12 +68,12 @@ def solve(
     start = _start(structure, goal, sweep)
     if isinstance(start, Motion):
         return start
-    forms, passed = start
+    modes, passed = start
     if sweep is not None:
-        return range_from(structure, forms, goal).sweep(sweep)
-    drive, here = Drive.at(structure, goal[None]), {i: f[None] for i, f in forms.items()}
+        return range_from(structure, modes, goal).sweep(sweep)
+    drive, here = Drive.at(structure, goal[None]), {i: f[None] for i, f in modes.items()}
     found = motion_of(
-        structure, drive, here, partial(assembly_words, structure, forms), np.ones(1, dtype=bool), fine=fine
+        structure, drive, here, partial(assembly_words, structure, modes), np.ones(1, dtype=bool), extended=extended
     )
     return replace(found, passed=passed)
 
@@ -92,19 +92,19 @@ def sweep_in_blocks(scene: Mechanism | Structure, at: Mapping[str, float] | None
 def _start(
     structure: Structure, goal: Array, sweep: int | None
 ) -> tuple[Mapping[int, Array], tuple[ChangePoint, ...]] | Motion:
-    """The form of each group at driver values, and the change points on the way there; where they are not reached the
-    motion that says why."""
+    """The assembly mode of each group at driver values, and the change points on the way there; where they are not
+    reached the motion that says why."""
     try:
-        forms = choose_forms(structure)
+        modes = choose_modes(structure)
     except Unsolvable as stop:
         return _nowhere(structure, goal, sweep, stop.status, stop.reason)
     own = own_values(structure.scene)
     if np.array_equal(own, goal):
-        return forms, ()
-    path = way_to(structure, forms, goal)
+        return modes, ()
+    path = way_to(structure, modes, goal)
     if path.limit is not None:
-        return _nowhere(structure, goal, sweep, "not assembled", stopped_why(structure, forms, own, path))
-    return path.last_forms, path.change_points
+        return _nowhere(structure, goal, sweep, "not assembled", stopped_why(structure, modes, own, path))
+    return path.last_modes, path.change_points
 
 
 def _nowhere(structure: Structure, goal: Array, sweep: int | None, status: str, why: Wording) -> Motion:
@@ -161,10 +161,10 @@ def as_drawn(motion: Motion, structure: Structure) -> Motion:
 # -- the motion at moments in time, where drivers move by laws: their rates change from one moment to the --------------
 
 
-def over_time(of: Mechanism | Structure, times: Array, fine: bool = True) -> Motion:
+def over_time(of: Mechanism | Structure, times: Array, extended: bool = True) -> Motion:
     """The motion at moments (s) of the laws by which drivers move, from the scene's own assembly on.
 
-    ``fine`` is False for curves: 16 digits throughout, and no reasons where the status is not ok.
+    ``extended`` is False for curves: 16 digits throughout, and no reasons where the status is not ok.
 
     Raises
     ------
@@ -177,42 +177,42 @@ def over_time(of: Mechanism | Structure, times: Array, fine: bool = True) -> Mot
     value = np.array([[values[d.key] for d in scene.drivers] for _, values in moments])
     rates = np.array([[d.values[1:] for d in moved.drivers] for moved, _ in moments])
     drive = Drive(value, rates[..., 0], rates[..., 1])
-    return (_one_driver if value.shape[1] == 1 else _several_drivers)(structure, drive, fine)
+    return (_one_driver if value.shape[1] == 1 else _several_drivers)(structure, drive, extended)
 
 
-def _one_driver(structure: Structure, drive: Drive, fine: bool) -> Motion:
+def _one_driver(structure: Structure, drive: Drive, extended: bool) -> Motion:
     reach = range_of(structure)
     offset, rounds = reach.sense * (drive.value[:, 0] - reach.start[0]), np.zeros(len(drive))
     if reach.full:
         rounds = np.floor(offset / abs(reach.wide))
         offset = np.remainder(offset, abs(reach.wide))
-    along = reach.motion(offset, fine=fine, rates=(drive.rate[:, 0], drive.second[:, 0]))
+    along = reach.motion(offset, extended=extended, rates=(drive.rate[:, 0], drive.second[:, 0]))
     whole = reach.turned(np.ones(1))
     turned = {name: angle + rounds * whole[name] for name, angle in along.turned.items()}
     return replace(along, values=drive.value, turned=turned, accuracy=replace(along.accuracy, drive=drive))
 
 
-def _several_drivers(structure: Structure, drive: Drive, fine: bool) -> Motion:
+def _several_drivers(structure: Structure, drive: Drive, extended: bool) -> Motion:
     """Along the way from moment to moment; what is not reached is left out, and the way goes on from before it."""
     from graphkin.solver.continuity import follow_path
 
-    forms = choose_forms(structure)
-    assembly = partial(assembly_words, structure, forms)
+    modes = choose_modes(structure)
+    assembly = partial(assembly_words, structure, modes)
     here, found = own_values(structure.scene), []
     sums: list[dict[str, float]] = []
     good, why = np.ones(len(drive), dtype=bool), list[Wording]([""] * len(drive))
     for k, goal in enumerate(drive.value):
         if not np.array_equal(here, goal):
-            path = follow_path(structure, forms, here, goal) if k else way_to(structure, forms, goal)
+            path = follow_path(structure, modes, here, goal) if k else way_to(structure, modes, goal)
             if path.limit is None:
-                here, forms = goal, path.last_forms
+                here, modes = goal, path.last_modes
                 before = sums[-1] if sums else {}
                 sums.append({n: before.get(n, 0.0) + float(by[0]) for n, by in path.turned(np.ones(1)).items()})
             else:
                 good[k], why[k] = False, path.why_ended()
-        found.append(forms)
+        found.append(modes)
         sums[k:] = [sums[-1] if sums else {}]
-    stacked = {i: np.stack([f[i] for f in found]) for i in forms}
-    motion = motion_of(structure, drive, stacked, assembly, good, fine=fine)
+    stacked = {i: np.stack([f[i] for f in found]) for i in modes}
+    motion = motion_of(structure, drive, stacked, assembly, good, extended=extended)
     reasons = tuple(a or b for a, b in zip(motion.reasons, why, strict=True))
     return replace(motion, reasons=reasons, turned={n: np.array([s.get(n, 0.0) for s in sums]) for n in motion.poses})

@@ -222,7 +222,7 @@ class FlywheelStudy:
 
 def needed_moment(reach: DriverRange, offset: Array) -> Array:
     """What the balance comes to as a moment on the driver, in its sense positive (N m), shape (n,)."""
-    motion, moved = reach.motion(offset), reach.motion(offset, unit=True, fine=False)
+    motion, moved = reach.motion(offset), reach.motion(offset, unit=True, extended=False)
     forces = forces_of(motion)
     return np.asarray(np.sum([one.power(moved) for one in forces.balancing], axis=0))
 
@@ -351,7 +351,7 @@ def _begins_and_ends(reach: DriverRange, phase: LoadPhase) -> Iterator[float]:
 
     def part(edge: float) -> Callable[[Array], Array]:
         wanted = least + (most - least) * (edge if phase.sense > 0 else 1.0 - edge)
-        return lambda offset: reach.motion(offset, fine=False).slide(stroke).travel - wanted
+        return lambda offset: reach.motion(offset, extended=False).slide(stroke).travel - wanted
 
     speed = _speed(reach, stroke)
     for edge in (phase.start, phase.end):
@@ -362,7 +362,7 @@ def _begins_and_ends(reach: DriverRange, phase: LoadPhase) -> Iterator[float]:
 
 
 def _speed(reach: DriverRange, pair: str) -> Callable[[Array], Array]:
-    return lambda offset: reach.motion(offset, unit=True, fine=False).slide(pair).velocity
+    return lambda offset: reach.motion(offset, unit=True, extended=False).slide(pair).velocity
 
 
 def _crossings(reach: DriverRange, value: Callable[[Array], Array]) -> list[float]:

@@ -143,14 +143,14 @@ class DriverAxis(Axis):
     @cached_property
     def motion(self) -> Motion:
         """The motion at its offsets, for all curves that are drawn over it."""
-        return self.reach.motion(self.offsets, fine=False)
+        return self.reach.motion(self.offsets, extended=False)
 
     @cached_property
     def beside_ends(self) -> Motion:
         """The motion beside the start and the end of a whole range, and beside the left end of the axis."""
         high = self.reach.ends[1]
         beside = np.array([BESIDE * high, high - BESIDE * high, self.first + BESIDE * high])
-        return self.reach.motion(beside, fine=False)
+        return self.reach.motion(beside, extended=False)
 
     @property
     def ticks(self) -> Array:
@@ -168,7 +168,7 @@ class DriverAxis(Axis):
         return np.asarray(np.degrees(along if reach.sense > 0 else high - along))
 
     def values(self, quantity: Quantity, places: Array) -> Array:
-        return quantity.values(self.reach, self.reach.motion(places, fine=False))
+        return quantity.values(self.reach, self.reach.motion(places, extended=False))
 
     def shown(self, quantity: Quantity, places: Array, values: Array) -> Array:
         """Values (SI) in units of the figure; an angle of a link without a jump along the axis."""

@@ -105,7 +105,7 @@ class CurveParameter:
         """At which ends links go away without bound."""
         low, high = self.reach.ends
         parts = np.array([1e-6, 1e-4])
-        motion = self.reach.motion(np.append(low + parts * (high - low), high - parts * (high - low)), fine=False)
+        motion = self.reach.motion(np.append(low + parts * (high - low), high - parts * (high - low)), extended=False)
         far = np.max([np.abs(p.z) for p in motion.poses.values()], axis=0)
         # at an end where links only turn they come nearer to a place of theirs
         return not far[0] < 10 * far[1], not far[2] < 10 * far[3]
@@ -184,7 +184,7 @@ def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[Traced, .
     def at(parameter: Array) -> Motion:
         key = parameter.tobytes()  # positions and rates are looked at on the same pieces at first
         if key not in here:
-            here[key] = reach.motion(way.offset(parameter), fine=False)
+            here[key] = reach.motion(way.offset(parameter), extended=False)
         return here[key]
 
     def resolved(own: Sequence[Quantity], floor: Array, weight: Array | None = None) -> list[Curve]:
@@ -209,19 +209,20 @@ def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[Traced, .
 
 
 def _values(
-    reach: DriverRange, quantities: Sequence[Quantity], offsets: Sequence[Array], fine: bool = False, unit: bool = False
+    reach: DriverRange, quantities: Sequence[Quantity], offsets: Sequence[Array], extended: bool = False,
+    unit: bool = False,
 ) -> list[Array]:
     """Quantities at offsets of their own, for each as many as it has, all from one motion; with ``unit`` of a driver
     that moves at the rate 1."""
     ends = np.cumsum([0, *map(len, offsets)]).tolist()
-    motion = reach.motion(np.concatenate([*offsets, np.zeros(1)]), unit=unit, fine=fine)
+    motion = reach.motion(np.concatenate([*offsets, np.zeros(1)]), unit=unit, extended=extended)
     return [q.values(reach, motion)[a:b] for q, (a, b) in zip(quantities, pairwise(ends), strict=True)]
 
 
 def _grow(reach: DriverRange, rates: Sequence[Quantity]) -> Array:
     """Whether rates grow without bound towards the lower and the upper end, as far as is known there, shape (2, n)."""
     low, high = reach.ends
-    motion = reach.motion(low + (high - low) * np.concatenate([NEAR, 1.0 - NEAR]), fine=False)
+    motion = reach.motion(low + (high - low) * np.concatenate([NEAR, 1.0 - NEAR]), extended=False)
     nearest, next_ = np.abs([q.values(reach, motion) for q in rates]).T.reshape(2, 2, -1).swapaxes(0, 1)
     return np.asarray(~(nearest <= GROWS * next_) & np.array(reach.limited)[:, None])
 
@@ -229,7 +230,7 @@ def _grow(reach: DriverRange, rates: Sequence[Quantity]) -> Array:
 def _floor(reach: DriverRange, rates: Sequence[Quantity]) -> Array:
     """For each rate the size that such rates have in this mechanism: what is nothing beside it is zero."""
     size = reach.scene.size
-    motion = reach.motion(np.linspace(*reach.ends, 62)[1:-1], fine=False)
+    motion = reach.motion(np.linspace(*reach.ends, 62)[1:-1], extended=False)
     poses = [motion.poses[link.name] for link in reach.scene.links]
     omega = max(_usual(p.omega) for p in poses)
     speed = max(omega * size, *(_usual(p.v) for p in poses))
@@ -292,7 +293,7 @@ def _constant(way: CurveParameter, curves: Sequence[Curve]) -> set[Quantity]:
     """Quantities that do not change; of rates those that are the same wherever they are finite."""
     found = {c.quantity for c in curves if c.pieces.is_constant(c.k)}
     low, high = way.range
-    motion = way.reach.motion(way.offset(np.linspace(low, high, 34)[1:-1]), fine=False)
+    motion = way.reach.motion(way.offset(np.linspace(low, high, 34)[1:-1]), extended=False)
     for quantity in (c.quantity for c in curves if not c.quantity.is_position):
         values = quantity.smooth(way.reach, motion)[0]
         values = values[np.isfinite(values)]
@@ -328,7 +329,7 @@ def _extremes(way: CurveParameter, curves: Sequence[Curve]) -> list[tuple[Extrem
     ]
     offsets = _polished(way, curves, turns)
     # only what is printed takes all its digits
-    values = _values(reach, [c.quantity for c in curves], offsets, fine=True)
+    values = _values(reach, [c.quantity for c in curves], offsets, extended=True)
     found: list[tuple[Extreme, ...]] = []
     for curve, own, places, fine in zip(curves, turns, offsets, values, strict=True):
         ends: list[list[Extreme]] = [[], []]

@@ -49,7 +49,7 @@ class TimeAxis(Axis):
 
     @cached_property
     def motion(self) -> Motion:
-        return over_time(self.structure, self.times, fine=False)
+        return over_time(self.structure, self.times, extended=False)
 
     def at(self, places: Array) -> Array:
         return places
@@ -59,7 +59,7 @@ class TimeAxis(Axis):
         return np.asarray(quantity.values(None, self.motion), dtype=float)
 
     def values(self, quantity: Quantity, places: Array) -> Array:
-        values = np.asarray(quantity.values(None, over_time(self.structure, places, fine=False)), dtype=float)
+        values = np.asarray(quantity.values(None, over_time(self.structure, places, extended=False)), dtype=float)
         if quantity.measure != "angle":
             return values
         # whole turns as on the curve

@@ -320,11 +320,11 @@ def _together(sweep: Sweep, designs: Sequence[FollowedDesign | tuple[str, str]])
         return {}
     if ready is None or ready.signs is None:
         return {}
-    form, alike = ready.range.forms(np.zeros(1)), dict[int, Mapping[Dimension, complex]]()
+    mode, alike = ready.range.modes(np.zeros(1)), dict[int, Mapping[Dimension, complex]]()
     for number, design in enumerate(designs):
         if isinstance(design, FollowedDesign) and same_but_for_dimensions(sweep.scene, design.scene):
-            here = design.reach.forms(np.zeros(1))
-            if all(np.array_equal(here[i], form[i]) for i in form):
+            here = design.reach.modes(np.zeros(1))
+            if all(np.array_equal(here[i], mode[i]) for i in mode):
                 alike[number] = dimensions(design.scene)
     columns_of = {name: np.array([numbers[name] for numbers in alike.values()]) for name in ready.dimensions}
     given = {name: column for name, column in columns_of.items() if (column != ready.dimensions[name]).any()}

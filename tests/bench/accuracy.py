@@ -21,7 +21,7 @@ from graphkin.errors import GraphkinError
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
 from graphkin.solver import engine
-from graphkin.solver.assemblies import choose_forms
+from graphkin.solver.assemblies import choose_modes
 from graphkin.solver.bounds import most_of
 from graphkin.solver.continuity import follow_path
 from graphkin.solver.drivers import PI, meant, own_values, working
@@ -78,11 +78,11 @@ def random_scene(rng: np.random.Generator) -> Mechanism:
     return mechanism_of({"frame": {"points": points, "guides": guides}, "links": links, "driver": driver})
 
 
-def _values(rng: np.random.Generator, structure: Structure, forms: dict[int, Any], n: int) -> np.ndarray:
+def _values(rng: np.random.Generator, structure: Structure, modes: dict[int, Any], n: int) -> np.ndarray:
     """Driver values (degrees) the motion reaches: half anywhere, half 1e-1 to 1e-12 of it from its ends."""
     start = own_values(structure.scene)
-    ahead = follow_path(structure, forms, start, start + 2 * np.pi)
-    behind = follow_path(structure, forms, start, start - 2 * np.pi)
+    ahead = follow_path(structure, modes, start, start + 2 * np.pi)
+    behind = follow_path(structure, modes, start, start - 2 * np.pi)
     low, high = (-behind.reach, ahead.reach) if ahead.limit is not None else (0.0, 1.0)
     share = rng.uniform(low, high, n)
     near = 10.0 ** rng.uniform(-12, -1, n) * (high - low)
@@ -106,18 +106,18 @@ def measure(positions: int, seed: int, refine: bool = False, each: int = EACH) -
             try:
                 scene = random_scene(rng)
                 structure = analyse(scene)
-                forms = choose_forms(structure)
-                values = _values(rng, structure, forms, each)
+                modes = choose_modes(structure)
+                values = _values(rng, structure, modes, each)
             except GraphkinError:
                 continue
-            _hold(structure, forms, values, tally)
+            _hold(structure, modes, values, tally)
     return tally
 
 
-def _hold(structure: Structure, forms: dict[int, Any], values: np.ndarray, tally: Tally) -> None:
+def _hold(structure: Structure, modes: dict[int, Any], values: np.ndarray, tally: Tally) -> None:
     drive = Drive.at(structure, np.radians(values)[:, None])
-    state = engine.positions(structure, drive, forms)
-    program_row = _exact_rows(structure, drive, forms, values)
+    state = engine.positions(structure, drive, modes)
+    program_row = _exact_rows(structure, drive, modes, values)
     names = [n for n in structure.links if n != structure.scene.frame.name]
     sines = [np.broadcast_to(g.sine, values.shape) for g in state.groups.values()]
     told = most_of(state.bounds(structure, np.ones(len(values), dtype=bool)).values())
@@ -174,9 +174,9 @@ class _Exact:
             return ax - al * ry - w * w * rx, ay + al * rx - w * w * ry
 
 
-def _exact_rows(structure: Structure, drive: Drive, forms: dict[int, Any], degrees: np.ndarray) -> Any:
+def _exact_rows(structure: Structure, drive: Drive, modes: dict[int, Any], degrees: np.ndarray) -> Any:
     """Function of the number of a position to its links in 50 digits, with the driver at just these degrees."""
-    run = engine._Run(structure, drive, forms, True)
+    run = engine._Run(structure, drive, modes, True)
     program = run.dimensioned.program
     names = [n for n in structure.links if n != structure.scene.frame.name]
     asked = [getattr(program.poses[n], f) for n in names for f in FIELDS]

@@ -18,7 +18,7 @@ from graphkin.errors import GraphkinError
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.scene.pairs import PlacedGuide
-from graphkin.solver.assemblies import choose_forms
+from graphkin.solver.assemblies import choose_modes
 from graphkin.solver.bounds import most_of
 from graphkin.solver.continuity import Path, follow_path
 from graphkin.solver.dead_points import singular
@@ -166,12 +166,12 @@ def measure_larger(positions_: int, seed: int, each: int = 20) -> Tally:
     while tally.looked_at < positions_:
         try:
             structure = analyse(random_larger(rng))
-            forms = choose_forms(structure)
-            path, t = _some(rng, structure, forms, each)
+            modes = choose_modes(structure)
+            path, t = _some(rng, structure, modes, each)
         except GraphkinError:
             continue
         drive = Drive.at(structure, path.values(t))
-        state = positions(structure, drive, path.form(t))
+        state = positions(structure, drive, path.mode(t))
         told = most_of(state.bounds(structure, np.ones(len(t), dtype=bool)).values())
         for k, off in _offs(structure, drive, state, tally):
             bounds = [float(b[k]) for b in told]
@@ -180,11 +180,11 @@ def measure_larger(positions_: int, seed: int, each: int = 20) -> Tally:
 
 
 def _some(
-    rng: np.random.Generator, structure: Structure, forms: dict[int, Any], n: int
+    rng: np.random.Generator, structure: Structure, modes: dict[int, Any], n: int
 ) -> tuple[Path, np.ndarray]:
     """A path from the scene's own position, and parameters on it: half anywhere, half near its end."""
     start = own_values(structure.scene)
-    path = follow_path(structure, forms, start, start + math.copysign(2 * np.pi, rng.random() - 0.5))
+    path = follow_path(structure, modes, start, start + math.copysign(2 * np.pi, rng.random() - 0.5))
     near = path.reach * (1 - 10.0 ** rng.uniform(-12, -1, n))
     close = (rng.random(n) < 0.5) & (path.limit is not None)
     return path, np.where(close, near, rng.uniform(0, path.reach, n))

@@ -8,7 +8,7 @@ import pytest
 from graphkin.scene import mechanism_of_text
 from graphkin.solver import driver_range, solve, structure_of
 from graphkin.solver import larger_groups as group
-from graphkin.solver.assemblies import choose_forms
+from graphkin.solver.assemblies import choose_modes
 from graphkin.solver.drivers import own_values
 from graphkin.solver.engine import positions
 from graphkin.solver.pose import Drive
@@ -18,8 +18,8 @@ from tests import scenes
 @pytest.mark.parametrize("text", [scenes.TRIAD, scenes.FLOATING, scenes.MOVED_PARALLELOGRAM])
 def test_an_ordinary_position_is_certified_with_room_to_spare(text: str) -> None:
     structure = structure_of(mechanism_of_text(text, "scene"))
-    forms = {i: f[None] for i, f in choose_forms(structure).items()}
-    state = positions(structure, Drive.at(structure, own_values(structure.scene)[None]), forms)
+    modes = {i: f[None] for i, f in choose_modes(structure).items()}
+    state = positions(structure, Drive.at(structure, own_values(structure.scene)[None]), modes)
     assert [g.certificate[0] < 1e-6 for g in state.groups.values()] == [True]
 
 

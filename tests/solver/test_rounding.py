@@ -9,7 +9,7 @@ import pytest
 
 from graphkin.scene import mechanism_of
 from graphkin.solver import structure_of
-from graphkin.solver.assemblies import choose_forms
+from graphkin.solver.assemblies import choose_modes
 from graphkin.solver.drivers import cos_sin, meant, working
 from graphkin.solver.engine import discriminant_of
 from tests.mechanisms import random_scene
@@ -60,7 +60,7 @@ def test_no_change_of_all_open_numbers_together_moves_a_discriminant_farther_tha
     chance = random.Random(seed)
     kinds = [chance.choice(["RRR", "RRP", "RPR"]) for _ in range(3)]
     structure = structure_of(mechanism_of(random_scene(seed, tuple(kinds), "crank")))
-    signs = choose_forms(structure)
+    signs = choose_modes(structure)
     told = 0
     with working():
         for i in structure.dyads:

@@ -375,7 +375,7 @@ def test_zeros_over_a_limited_range_are_the_changes_of_sign(angle: float, alpha:
     study = study_turn(driver_range(mechanism_of(stephenson_three(angle=angle, alpha=alpha))))
     low, high = study.reach.ends
     offset = low + (high - low) * np.sin(np.linspace(0, np.pi / 2, 2001)[1:-1]) ** 2
-    motion = study.reach.motion(offset, fine=False)
+    motion = study.reach.motion(offset, extended=False)
     for one in study.curves:
         if one.constant is None and one.quantity.kind in ("omega", "alpha"):
             values = one.quantity.values(study.reach, motion)
