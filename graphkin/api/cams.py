@@ -69,8 +69,8 @@ class CamMade:
     @property
     def _rate(self) -> float:
         """How fast the degree of the law grows (rad/s), where the cam is driven steadily about the frame; else 0."""
-        own = (d for d in self.mechanism.drivers if d.key == self.cam.link)
-        driver = next(own, None)
+        drivers = (d for d in self.mechanism.drivers if d.key == self.cam.link)
+        driver = next(drivers, None)
         if driver is None or driver.relative_to != self.mechanism.frame.name or driver.second or driver.law is not None:
             return 0.0
         return self.cam.sense * driver.rate
@@ -127,7 +127,7 @@ class CamMade:
 
     def _rates(self) -> list[Phrase]:
         """The greatest velocity and acceleration: at the cam's own speed, or by its angle."""
-        turns, found = self._rate, []
+        turns, phrases = self._rate, []
         units = self.mechanism.units
         for key, most, order in (("velocity", self.study.velocity, 1), ("acceleration", self.study.acceleration, 2)):
             value = most.value * (turns**order or 1.0)
@@ -139,8 +139,8 @@ class CamMade:
             if order == 2 and any(jump.order == 1 for jump in self.study.jumps):
                 key = "acceleration beside impacts"
             size = Neutral(f"{true_minus(f'{value:.6g}')} {name}")
-            found.append(Phrase(f"cam {key}", size=size, place=_place(most)))
-        return found
+            phrases.append(Phrase(f"cam {key}", size=size, place=_place(most)))
+        return phrases
 
     def sentences(self, language: str) -> list[str]:
         return [say(phrase, language) for phrase in self.phrases()]
@@ -151,8 +151,8 @@ class CamMade:
         metres, study = self.mechanism.units.metres, self.study
         lift = 1.0 if self._swings else metres
 
-        def at(one: AtDegree | None, per: float = 1.0) -> dict[str, float] | None:
-            return None if one is None else {"value": one.value / per, "degree": math.degrees(one.degree)}
+        def at(extreme: AtDegree | None, per: float = 1.0) -> dict[str, float] | None:
+            return None if extreme is None else {"value": extreme.value / per, "degree": math.degrees(extreme.degree)}
 
         return {
             "follower": self.cam.follower,
@@ -199,7 +199,7 @@ def _degrees(angle: float) -> str:
 
 def cam_made(scene: Mechanism) -> tuple[CamMade, ...]:
     """The cams of a scene."""
-    return tuple(CamMade(scene, one) for one in scene.cams)
+    return tuple(CamMade(scene, cam) for cam in scene.cams)
 
 
 def cam_table(scene: Mechanism, step: float = STEP, discs: Sequence[DiscCam] = ()) -> Table:
@@ -214,22 +214,22 @@ def cam_table(scene: Mechanism, step: float = STEP, discs: Sequence[DiscCam] = (
     count = max(1, round(360.0 / step))
     degree = np.arange(count) * (360.0 / count)
     # a degree is a rotation of the law, whatever way the cam turns
-    found: list[tuple[str, bool, bool, CamAt | DiscCourse]] = [
-        (one.link, isinstance(one.motion, SwingingFollower), one.flat, cam_at(one, np.radians(degree)))
-        for one in scene.cams
+    courses: list[tuple[str, bool, bool, CamAt | DiscCourse]] = [
+        (cam.link, isinstance(cam.motion, SwingingFollower), cam.flat, cam_at(cam, np.radians(degree)))
+        for cam in scene.cams
     ]
-    found += [
+    courses += [
         (disc.link, disc.swings, disc.pitch is None, disc_course(structure_of(scene), disc, np.radians(degree)))
         for disc in discs
     ]
     parts: list[list[Array]] = []
-    for _, swings, flat, at in found:
+    for _, swings, flat, at in courses:
         pitch = np.full(count, complex(np.nan, np.nan)) if flat or at.pitch is None else at.pitch / metres
         lift, profile = at.lift / (math.radians(1.0) if swings else metres), at.profile / metres
         parts.append([degree, lift, pitch.real, pitch.imag, profile.real, profile.imag, np.degrees(at.pressure)])
     names = ("angle_deg", "lift", "pitch_x", "pitch_y", "profile_x", "profile_y", "pressure_deg")
     joined = (np.concatenate(columns) for columns in zip(*parts, strict=True))
-    links = [link for link, *_ in found for _ in range(count)]
+    links = [link for link, *_ in courses for _ in range(count)]
     return Table((text_column("cam", links), *(Column(n, v) for n, v in zip(names, joined, strict=True))))
 
 
@@ -250,15 +250,15 @@ class Cams(OfScene, Result):
     @property
     def ok(self) -> bool:
         """Whether every cam keeps what is allowed, can be cut, and is drawn as it is computed."""
-        return all(one.ok for one in self.made)
+        return all(cam.ok for cam in self.made)
 
     @property
     def _links(self) -> str:
-        return ", ".join([*(one.cam.link for one in self.made), *(disc.link for disc in self.discs)])
+        return ", ".join([*(made.cam.link for made in self.made), *(disc.link for disc in self.discs)])
 
     def __getitem__(self, name: str) -> CamMade | Array:
         """A cam by its link, or a column of the table.  Raises CallError for an unknown one."""
-        return next((one for one in self.made if one.cam.link == name), None) or self.table[name]
+        return next((made for made in self.made if made.cam.link == name), None) or self.table[name]
 
     @property
     def data(self) -> dict[str, Json]:
@@ -285,8 +285,8 @@ class Cams(OfScene, Result):
 
     def sentences(self, language: str) -> list[str]:
         """What is to be said of all of them."""
-        told = [sentence for one in self.made for sentence in one.sentences(language)]
-        return told + [say(phrase, language) for disc in self.discs for phrase in self._disc_notes(disc)]
+        sentences = [sentence for made in self.made for sentence in made.sentences(language)]
+        return sentences + [say(phrase, language) for disc in self.discs for phrase in self._disc_notes(disc)]
 
     def _disc_notes(self, disc: DiscCam) -> Iterator[Phrase]:
         unit, metres = self.mechanism.units.length, self.mechanism.units.metres
@@ -314,7 +314,7 @@ class Cams(OfScene, Result):
     def figures(self) -> dict[str, Drawing]:
         """Each cam by inversion: "cam", and "cam-3" of a further one of link 3."""
         spoken = self.language or self.mechanism.question.sheet.language
-        return {"cam" if i == 0 else f"cam-{one.cam.link}": one.figure(spoken) for i, one in enumerate(self.made)}
+        return {"cam" if i == 0 else f"cam-{made.cam.link}": made.figure(spoken) for i, made in enumerate(self.made)}
 
     @property
     def tables(self) -> Mapping[str, Table]:
@@ -328,7 +328,7 @@ class Cams(OfScene, Result):
             from graphkin.drawing.write.dxf import outline_dxf
 
             pages |= {f"profile-{disc.link}.dxf": outline_dxf(*disc.outline) for disc in self.discs}
-            pages |= {f"profile-{one.cam.link}.dxf": one.profile_dxf() for one in self.made}
+            pages |= {f"profile-{made.cam.link}.dxf": made.profile_dxf() for made in self.made}
         return pages
 
     def __repr__(self) -> str:

@@ -65,7 +65,7 @@ class Designed(Result):
         """Whether every length drawn agrees with the exact one, and a turn confirms what was asked; a position that
         belongs to the other assembly of the links is told, and no fault."""
         either = isinstance(self.given.task, BarPositionsTask | FunctionTask)
-        return all(row.ok for row in self.rows) and (either or all(one.ok for one in self.confirmed))
+        return all(row.ok for row in self.rows) and (either or all(result.ok for result in self.confirmed))
 
     def __getitem__(self, name: str) -> FoundLength:
         """A length by its name.  Raises CallError for one that there is not."""
@@ -94,8 +94,8 @@ class Designed(Result):
             return Confirmed(Phrase(key, args), asked, found, abs(found - asked) <= CONFIRMS * size, unit)
 
         if isinstance(task, BarPositionsTask | FunctionTask):
-            return [row(key, asked, asked + (math.nan if own is None else math.remainder(degrees(own) - asked, 360.0)),
-                        360.0, name) for key, name, asked, own in self._directions(task)]  # fmt: skip
+            return [row(key, asked, asked + (math.nan if bar is None else math.remainder(degrees(bar) - asked, 360.0)),
+                        360.0, name) for key, name, asked, bar in self._directions(task)]  # fmt: skip
         name = {GuideBarTask: "stroke_5/0", SliderCrankTask: "stroke_3/0"}.get(type(task), "swing_3")
         output = range_of(structure_of(mechanism_of(self.scene))).extremes(Symbol.parse(name))
         if isinstance(task, LimitsTask):
@@ -118,16 +118,17 @@ class Designed(Result):
         places, turned = self.found.places, self.found.turned
         if isinstance(task, FunctionTask):
             for crank, rocker in task.pairs:
-                own = self._solved(crank + 180.0 * ("AB" in turned), "D", "C")
-                yield "design pair value", f"{crank:.6g}", rocker, own and own * direction(180.0 * ("CD" in turned))
+                solved = self._solved(crank + 180.0 * ("AB" in turned), "D", "C")
+                back = direction(180.0 * ("CD" in turned))
+                yield "design pair value", f"{crank:.6g}", rocker, solved and solved * back
             return
         first, second = ("M", "N") if "M" in places else ("B", "C")
         # the turn from MN to the bar BC
         turn = unit((places["C"] - places["B"]) / (places["N"] - places["M"])) if first == "M" else 1.0
         for i, bar in enumerate(task.positions, 1):
             place = bar.B if first == "B" else task.positions[0].moved(places["M"], bar)
-            own = self._solved(degrees(place - places["A"]), first, second)
-            yield "design position value", str(i), degrees(bar.C - bar.B), own and own * turn
+            solved = self._solved(degrees(place - places["A"]), first, second)
+            yield "design position value", str(i), degrees(bar.C - bar.B), solved and solved * turn
 
     def _solved(self, crank: float, first: str, second: str) -> complex | None:
         """The way from a point to another with the crank at an angle (degrees), by the motion that leads there; None
@@ -140,8 +141,8 @@ class Designed(Result):
             motion = solve(self.scene, at=crank).motion
         except Unsolvable:
             return None
-        one, other = (complex(np.broadcast_to(motion.point(name).z, 1)[0]) for name in (first, second))
-        return other - one if motion.ok[0] else None
+        start, end = (complex(np.broadcast_to(motion.point(name).z, 1)[0]) for name in (first, second))
+        return end - start if motion.ok[0] else None
 
     @property
     def _language(self) -> str:
@@ -153,8 +154,8 @@ class Designed(Result):
         """The datum that might be chosen otherwise, and the best for the transmission; None where there is none."""
         from graphkin.solver.synthesis import choice
 
-        found = choice(self.given.task)
-        return found if found is not None and 1.002 * found.low < found.best < 0.998 * found.high else None
+        free = choice(self.given.task)
+        return free if free is not None and 1.002 * free.low < free.best < 0.998 * free.high else None
 
     @property
     def data(self) -> dict[str, Json]:
@@ -173,9 +174,9 @@ class Designed(Result):
                 for row in self.rows
             ],
             "confirmed": [
-                {"what": say(one.what, self._language), "asked": one.asked,
-                 "found": one.found if math.isfinite(one.found) else None, "ok": one.ok}
-                for one in self.confirmed
+                {"what": say(result.what, self._language), "asked": result.asked,
+                 "found": result.found if math.isfinite(result.found) else None, "ok": result.ok}
+                for result in self.confirmed
             ],
         }  # fmt: skip
         if self.found.turned:
@@ -206,7 +207,7 @@ class Designed(Result):
     def phrases(self) -> list[Phrase]:
         """What is to be said of the result."""
         made = [Phrase("turned bar", (name,)) for name in self.found.turned]
-        made += [Phrase("other assembly", (one.what,)) for one in self.confirmed if not one.ok]
+        made += [Phrase("other assembly", (result.what,)) for result in self.confirmed if not result.ok]
         if self.found.least is not None:
             made.append(Phrase("least angle is", (Neutral(f"{self.found.least:.2f}°"),)))
         free = self.choice
@@ -243,8 +244,8 @@ class Designed(Result):
         return {"scene.toml": toml_text(self.scene.to_dict()).encode()}
 
     def __repr__(self) -> str:
-        told = ", ".join(f"{name} {length:.6g}" for name, length in self.found.lengths.items())
-        return f"<Designed {self.given.name}: {told}>"
+        lengths = ", ".join(f"{name} {length:.6g}" for name, length in self.found.lengths.items())
+        return f"<Designed {self.given.name}: {lengths}>"
 
 
 def design(
@@ -282,14 +283,14 @@ def design(
     known_words(formats, language, None, instrument, known_languages=ON_SHEETS)
     whole_number("seed", seed, 0, MOST_SEED)
     given = design_of(file)
-    found = synthesise(given.task)
+    synthesis = synthesise(given.task)
     tools = given.sheet.tools
-    natural = construct(given.task, max(found.lengths.values()) / 100.0)
+    natural = construct(given.task, max(synthesis.lengths.values()) / 100.0)
     scale = design_scale(given, natural)
     hand: Instrument = EXACT if instrument == "exact" else cad() if instrument == "cad" else pencil(tools, seed)
     sheet = construct(given.task, scale, hand)
-    rows = compare_lengths(sheet, found.lengths, hand, tools)
-    made = Designed(given, found, sheet, rows, language)
+    rows = compare_lengths(sheet, synthesis.lengths, hand, tools)
+    made = Designed(given, synthesis, sheet, rows, language)
     if out is not None:
         made.write(out, formats)
     return made

@@ -125,14 +125,14 @@ def centre_lines(train: Iterable[Mesh], links: Mapping[str, PlacedLink], ground:
 
 def _laid(mesh: Mesh, heights: dict[str, float], links: Mapping[str, PlacedLink]) -> bool:
     """Lay a pair's axes on a line where they fit; False where they stand there at other distances."""
-    one, two = mesh.axes
-    if not two:
-        return one in heights
+    first, second = mesh.axes
+    if not second:
+        return first in heights
     held = links[mesh.carrier].points
-    far = abs(held[two] - held[one])
-    if one in heights and two in heights:
-        return abs(abs(heights[two] - heights[one]) - far) <= ALIKE * far
-    known, new = (one, two) if one in heights else (two, one)
+    far = abs(held[second] - held[first])
+    if first in heights and second in heights:
+        return abs(abs(heights[second] - heights[first]) - far) <= ALIKE * far
+    known, new = (first, second) if first in heights else (second, first)
     base = heights[known]
     near = next((p for p in heights if p in held and p != known and held[p] != held[known]), None)
     if near is not None:
@@ -154,13 +154,13 @@ def _line(
     at: dict[str, dict[str, None]] = {}
     spots = []
     for mesh in members:
-        one, two = mesh.axes
+        first, second = mesh.axes
         for axis, wheel in zip(mesh.axes, mesh.wheels, strict=True):
             if axis:
                 at.setdefault(axis, {}).update(dict.fromkeys((wheel, mesh.carrier)))
         part, rest = mesh.parts
-        reach = float(part) if rest is None else (heights[two] - heights[one]) * float(part / (part + rest))
-        spots.append(Spot(mesh.name, heights[one] + reach, mesh.wheels, True))
+        reach = float(part) if rest is None else (heights[second] - heights[first]) * float(part / (part + rest))
+        spots.append(Spot(mesh.name, heights[first] + reach, mesh.wheels, True))
     axes = [Spot(p, heights[p], tuple(names), False) for p, names in at.items()]
     fixed = [s for s in (*axes, *spots) if ground in s.links]
     start = (*fixed, *(s for s in axes if s.name in links[ground].points), axes[0])[0]
@@ -215,8 +215,8 @@ class TrainPlan:
 
     def line(self, link: str) -> Step | None:
         """The line of a link from which its rate is read, else its first."""
-        own = [step for (_, name), step in self.lines.items() if name == link]
-        return next((step for step in own if step.reason == "plan"), own[0] if own else None)
+        steps = [step for (_, name), step in self.lines.items() if name == link]
+        return next((step for step in steps if step.reason == "plan"), steps[0] if steps else None)
 
     def leads(self, wanted: Coordinate) -> bool:
         """Whether a rate, or the speed of a sliding pair, is found."""
@@ -240,8 +240,8 @@ class TrainPlan:
         grown = True
         while grown:
             grown = False
-            for one, other, value in self.turns:
-                for link, known, rate in ((one, other, value), (other, one, -value)):
+            for first, second, value in self.turns:
+                for link, known, rate in ((first, second, value), (second, first, -value)):
                     if known in self.rates and link not in self.rates:
                         self.rates[link] = self.rates[known] + rate
                         grown = True
@@ -312,19 +312,19 @@ class TrainPlan:
         """The rates assumed in each trial: none turns in the first, then each in turn, as fast as the fastest known."""
         fastest = max((abs(r) for r in self.rates.values()), default=0.0) or 1.0
         first = dict.fromkeys(names, 0.0)
-        return [first, *({**first, own: fastest} for own in names)]
+        return [first, *({**first, name: fastest} for name in names)]
 
     def by_trial(self, hand: Instrument, names: Sequence[str]) -> TrainPlan:
         """This plan drawn with some rates that are found by proportion from trials."""
         if not names:
             return self.drawn(hand, {})
         trials = self.trials(names)
-        gaps = [self.drawn(hand, one).gaps for one in trials]
-        found = tuple(map(float, divide([[*one.values()] for one in trials], gaps)))
+        gaps = [self.drawn(hand, assumed).gaps for assumed in trials]
+        values = tuple(map(float, divide([[*assumed.values()] for assumed in trials], gaps)))
         apart = tuple(tuple(map(float, row)) for row in gaps)
-        rates = tuple((Symbol(self.rate, link=name), rate) for name, rate in zip(names, found, strict=True))
+        rates = tuple((Symbol(self.rate, link=name), rate) for name, rate in zip(names, values, strict=True))
         trial = Superposed(rates, (), apart)
-        return replace(self.drawn(hand, dict(zip(names, found, strict=True))), trial=trial)
+        return replace(self.drawn(hand, dict(zip(names, values, strict=True))), trial=trial)
 
     def to_assume(self, wanted: Coordinate) -> list[str] | None:
         """Links whose rates have to be assumed, so that the trials find them and with them what is wanted; None where
@@ -337,9 +337,9 @@ class TrainPlan:
             # of these one place is known
             free = [link for i, line in enumerate(self.on) for link in line.links if link not in plan.rates
                     and any((i, s.name) in plan.velocities for s in line.spots_of(link))]  # fmt: skip
-            for one in dict.fromkeys(free):
-                if self._closes([*names, one], wanted):
-                    return [*names, one]
+            for assumed in dict.fromkeys(free):
+                if self._closes([*names, assumed], wanted):
+                    return [*names, assumed]
             if not free:
                 break
             names.append(free[0])
@@ -347,8 +347,8 @@ class TrainPlan:
 
     def _closes(self, names: Sequence[str], wanted: Coordinate) -> bool:
         """Whether what the trials leave open finds the rates assumed, and these what is wanted."""
-        first, *others = (self.drawn(EXACT, one) for one in self.trials(names))
-        slopes = np.array([one.gaps for one in others]) - np.array(first.gaps)
+        first, *others = (self.drawn(EXACT, plan) for plan in self.trials(names))
+        slopes = np.array([plan.gaps for plan in others]) - np.array(first.gaps)
         most = float(np.abs(slopes).max(initial=0.0))
         return most > 0.0 and bool(np.linalg.matrix_rank(slopes, 1e-9 * most) == len(names)) and first.leads(wanted)
 
@@ -415,8 +415,8 @@ def rolled(
     for k, train in enumerate(trains(meshes, scene.frame.name)):
         on = centre_lines(train, links, scene.frame.name)
         slides = [mesh.slide for mesh in train if mesh.slide]
-        own = {n for line in on for n in line.links} if kind == "angle" else slides
-        inside = sorted(alike.intersection(own), key=lambda n: n != name)
+        members = {n for line in on for n in line.links} if kind == "angle" else slides
+        inside = sorted(alike.intersection(members), key=lambda n: n != name)
         if not inside:
             continue
         plan, had = drawn.get((order, k)), drawn.get((order, k))
@@ -429,9 +429,9 @@ def rolled(
                 continue
         steps = [] if plan is had else list(_steps(scene, plan, had))
         made = {**drawn, (order, k): plan}
-        found = plan.travels[inside[0]] if kind == "travel" else plan.line(inside[0])
-        assert found is not None
-        return made, found.value, found.mm, steps
+        step = plan.travels[inside[0]] if kind == "travel" else plan.line(inside[0])
+        assert step is not None
+        return made, step.value, step.mm, steps
     raise Unsolvable("not drawn", Problem(Phrase("link of name", name=name),
                                           "no velocity plan leads to what rolls here"))
 

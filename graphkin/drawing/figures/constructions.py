@@ -100,7 +100,7 @@ def _content(sheet: DesignSheet) -> Box:
     box = Box.around(map(on_page, near))
     circles = [Box.around((on_page(s.places[0]),)).grown(s.size)
                for s in sheet.strokes if s.kind == "circle" and len(s.places) == 1]  # fmt: skip
-    for most, more in (*((FAR, Box.around((on_page(z),))) for z in far), *((WHOLE, one) for one in circles)):
+    for most, more in (*((FAR, Box.around((on_page(z),))) for z in far), *((WHOLE, circle) for circle in circles)):
         wider = box.joined(more)
         if max(wider.width, wider.height) <= most * max(box.width, box.height):
             box = wider
@@ -120,17 +120,18 @@ def design_figure(
     language : "en", "zh" or "both"
     """
     unit, every = design.units.length, languages(language)
-    told = [phrase for phrase, _ in sheet.steps]
+    phrases = [phrase for phrase, _ in sheet.steps]
     parts = [
-        _construction(sheet), *(steps(enumerate((step_words(one, each) for one in told), 1)) for each in every),
+        _construction(sheet),
+        *(steps(enumerate((step_words(phrase, each) for phrase in phrases), 1)) for each in every),
         _tables(design, sheet.scale, rows, confirmed, language),
     ]  # fmt: skip
-    spoken = " ".join(as_plain(rich_text(one, every[0])) + "." for one in told)
-    found = "; ".join(f"{row.symbol} = {row.measured:.6g} {unit}" for row in rows)
+    spoken = " ".join(as_plain(rich_text(phrase, every[0])) + "." for phrase in phrases)
+    lengths = "; ".join(f"{row.symbol} = {row.measured:.6g} {unit}" for row in rows)
     facts = {"kind": design.task.kind, "units": {"length": unit, "paper": "mm"}, "instrument": sheet.hand.name}
     return worked_page(
         (design.title_in(each) or design.name for each in every), asked_words(design, language), parts, notes,
-        _design_scale(design, sheet), title="design figure", said=f"{spoken} {found}", language=language,
+        _design_scale(design, sheet), title="design figure", said=f"{spoken} {lengths}", language=language,
         metadata=_design_facts(design, sheet) | facts,
     )  # fmt: skip
 
@@ -200,32 +201,32 @@ def _draw(plate: Plate, made: Sequence[DesignStroke], step: int, room: Box) -> N
     """The strokes of one step, cut at the room that there is: help lines, and over them the mechanism with its
     points."""
     lines: list[Primitive] = []
-    for one in made:
-        at, *others = one.places
-        if one.kind in _LINES:
-            cut = cut_to((Line(on_page(a), on_page(b), _LINES[one.kind]) for a, b in pairwise(one.places)), room)
-            if one.kind not in ("given", "mechanism"):
+    for stroke in made:
+        at, *others = stroke.places
+        if stroke.kind in _LINES:
+            cut = cut_to((Line(on_page(a), on_page(b), _LINES[stroke.kind]) for a, b in pairwise(stroke.places)), room)
+            if stroke.kind not in ("given", "mechanism"):
                 lines += cut
                 continue
             for line in cut:
                 plate.put("mechanism", line, step=step)
-        elif one.kind == "circle":
-            lines += _arcs(at, one.size, others, room)
-        elif one.kind == "angle":
+        elif stroke.kind == "circle":
+            lines += _arcs(at, stroke.size, others, room)
+        elif stroke.kind == "angle":
             first, second = (cmath.phase(z - at) for z in others)
             second += TURN * (second < first)
             radius, middle = min(12.0, 0.4 * abs(others[0] - at)), (first + second) / 2
             lines.append(Arc(on_page(at), radius, first, second, strokes.DIMENSION))
-            said = f"${one.name}$ = {number(one.size)}°" if one.name else f"{number(one.size)}°"
+            said = f"${stroke.name}$ = {number(stroke.size)}°" if stroke.name else f"{number(stroke.size)}°"
             plate.name(rich(said, 2.8), at + (radius + 1.0) * cmath.rect(1.0, middle), toward=(middle,), rank=1)
         elif room.distance(on_page(at)) == 0.0:
-            pivot, radius = one.kind == "pivot", 0.9 if one.name else 0.5
+            pivot, radius = stroke.kind == "pivot", 0.9 if stroke.name else 0.5
             shape = symbols.fixed_pivot(on_page(at)) if pivot else symbols.turning_pair(on_page(at), radius=radius)
-            own = f"point-{one.name}" if one.name else ""
-            plate.put("mechanism", *shape, id=own, classes=("point",), step=step)
-            if own:
-                letter = _NAME.sub(r"\1_{\2}", one.name)
-                plate.name(rich(f"${letter}$"), at, f"label-{own}", step=step)
+            id = f"point-{stroke.name}" if stroke.name else ""
+            plate.put("mechanism", *shape, id=id, classes=("point",), step=step)
+            if id:
+                letter = _NAME.sub(r"\1_{\2}", stroke.name)
+                plate.name(rich(f"${letter}$"), at, f"label-{id}", step=step)
     if lines:
         plate.put("construction", *lines, classes=("strokes",), step=step)
 
@@ -260,16 +261,16 @@ def _tables(
     lengths = table(
         [[word("length found", each), word("on paper", each), f"{word('measured', each)} ({unit})",
           f"{word('exact', each)} ({unit})"] for each in every],
-        [[one.symbol if one.symbol == "ram" else f"${one.symbol}$", on_paper(one.on_paper),
-          written(product(on_paper(one.on_paper), per)), number(one.exact)] for one in rows],
+        [[length.symbol if length.symbol == "ram" else f"${length.symbol}$", on_paper(length.on_paper),
+          written(product(on_paper(length.on_paper), per)), number(length.exact)] for length in rows],
         (26.0, 24.0, 28.0, 28.0), layer="answers",
     )  # fmt: skip
     if not confirmed:
         return lengths
     turned = table(
         [[word(key, each) for key in ("confirmed", "given wish", "by the turn")] for each in every],
-        [[" ".join(dict.fromkeys(say(one.what, each) for each in every)), one.shown(one.asked), one.shown(one.found)]
-         for one in confirmed], (34.0, 20.0, 22.0), layer="answers",
+        [[" ".join(dict.fromkeys(say(value.what, each) for each in every)), value.shown(value.asked),
+          value.shown(value.found)] for value in confirmed], (34.0, 20.0, 22.0), layer="answers",
     )  # fmt: skip
     return row(lengths, turned, gap=4.0)
 
@@ -352,12 +353,12 @@ def scaled_cam(scene: Mechanism, cam: LawCam) -> CamSheet:
     return cam_sheet(cam, fitting_scale(Extent.around(far, 1.0), room, natural.scale / per) * per)
 
 
-def cam_figure(scene: Mechanism, sheet: CamSheet, told: Sequence[Phrase], language: str) -> Drawing:
+def cam_figure(scene: Mechanism, sheet: CamSheet, notes: Sequence[Phrase], language: str) -> Drawing:
     """Draw a cam on a page of its own.
 
     Parameters
     ----------
-    told : what is found of it
+    notes : what is found of it
     language : "en", "zh" or "both"
     """
     first, every = languages(language)[0], languages(language)
@@ -366,12 +367,12 @@ def cam_figure(scene: Mechanism, sheet: CamSheet, told: Sequence[Phrase], langua
         *(steps(enumerate((say(step, each) for step in sheet.steps), 1)) for each in every),
         _table(scene, sheet, language),
     ]  # fmt: skip
-    spoken = " ".join([*(say(step, first) + "." for step in sheet.steps), *(say(found, first) for found in told)])
+    spoken = " ".join([*(say(step, first) + "." for step in sheet.steps), *(say(note, first) for note in notes)])
     facts = {"units": {"length": scene.units.length, "paper": "mm"},
              "scales": {"length": sheet.scale / scene.units.metres}, "instrument": "exact"}  # fmt: skip
     return worked_page(
         (scene.question.title_in(each) or scene.name for each in every), _given(scene, sheet.cam, language), parts,
-        told, _scale(scene, sheet), title="cam figure", said=spoken, language=language,
+        notes, _scale(scene, sheet), title="cam figure", said=spoken, language=language,
         metadata=_facts(scene, sheet) | facts,
     )  # fmt: skip
 
@@ -393,14 +394,14 @@ def cam_pictures(scene: Mechanism, sheet: CamSheet, language: str, begun: bool =
 
 def cam_given(scene: Mechanism, cam: LawCam, language: str) -> str:
     """What is given of a cam, the pieces of its law among it, in one language."""
-    unit, told = _unit(scene, cam), []
+    unit, pieces = _unit(scene, cam), []
     for piece in cam.law.pieces:
         said = f"{number(math.degrees(piece.start))}°–{number(math.degrees(piece.end))}°"
-        way = _lift(scene, cam, piece.high - piece.low)
-        told.append(f"{said} {_law(piece.by, language)}"
-                    + (f" {'+' if way > 0 else '−'}{number(abs(way))}{unit}" if piece.by else ""))  # fmt: skip
+        lift = _lift(scene, cam, piece.high - piece.low)
+        pieces.append(f"{said} {_law(piece.by, language)}"
+                      + (f" {'+' if lift > 0 else '−'}{number(abs(lift))}{unit}" if piece.by else ""))  # fmt: skip
     comma = word("list comma", language)
-    return f"{_given(scene, cam, language)}{'；' if comma == '，' else '; '}{comma.join(told)}"
+    return f"{_given(scene, cam, language)}{'；' if comma == '，' else '; '}{comma.join(pieces)}"
 
 
 def _law(by: str, language: str) -> str:
@@ -437,9 +438,9 @@ def _diagram(scene: Mechanism, sheet: CamSheet, language: str, begun: bool = Fal
     """The displacement diagram; only ``begun``, its axes with the pieces of the law."""
     cam, law = sheet.cam, sheet.cam.law
     span, low = _lift(scene, cam, law.greatest - law.least) or 1.0, _lift(scene, cam, law.least)
-    own = (law.greatest - law.least) / sheet.scale
-    same = isinstance(cam.motion, SlidingFollower) and HIGH[0] <= own <= HIGH[1]
-    per = span / own if same else fitting_scale(Extent(span, span), (HIGH[1], HIGH[1]), 1.0)
+    rise = (law.greatest - law.least) / sheet.scale
+    same = isinstance(cam.motion, SlidingFollower) and HIGH[0] <= rise <= HIGH[1]
+    per = span / rise if same else fitting_scale(Extent(span, span), (HIGH[1], HIGH[1]), 1.0)
     left, floor = 5.0, span / per + 6.0
     origin, top = complex(left, floor), complex(left, floor - span / per)
 
@@ -533,11 +534,11 @@ def _cam(scene: Mechanism, sheet: CamSheet, begun: bool = False) -> Block:
 
 def _shown(sheet: CamSheet) -> list[CamStation]:
     """The divisions that are drawn: neighbours keep a millimetre and a half from each other at the base circle."""
-    found: list[CamStation] = []
+    shown: list[CamStation] = []
     for d in sheet.divisions:
-        if all(abs(d.base - other.base) >= 1.5 for other in found):
-            found.append(d)
-    return found
+        if all(abs(d.base - other.base) >= 1.5 for other in shown):
+            shown.append(d)
+    return shown
 
 
 def _face(d: CamStation, half: float, stroke: Stroke) -> Line:
@@ -589,7 +590,7 @@ def cams_figure(
     language : "en", "zh" or "both"; the scene's own if None
     convention : says nothing here, since the letters of cams are those of all books
     """
-    pages = [cam_figure(scene, sheet, told, language or scene.question.sheet.language) for sheet, told in cams]
+    pages = [cam_figure(scene, sheet, notes, language or scene.question.sheet.language) for sheet, notes in cams]
     return replace(pages[0], further=tuple(pages[1:])) if pages else None
 
 
