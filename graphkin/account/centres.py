@@ -63,21 +63,21 @@ def velocity_sentences(centres: Centres) -> tuple[Phrase, ...]:
     point; distances are those of the figure (mm).
     """
     rates: dict[str, _Rate] = {}
-    told: dict[str, Phrase] = {}
+    of_links: dict[str, Phrase] = {}
     moving = centres.turning
     largest = max((abs(t.omega) for t in moving.values()), default=0.0)
-    for turning in sorted(moving.values(), key=lambda one: len(one.chain)):
+    for turning in sorted(moving.values(), key=lambda t: len(t.chain)):
         off = centres.velocity_error(Symbol("omega", link=turning.link))
         nothing = abs(turning.omega) <= max(STILL * largest, min(off, SURE * largest))  # but rounding
         if len(turning.chain) > 1:
-            rates[turning.link], told[turning.link] = _of_link(centres, rates, turning, nothing)
+            rates[turning.link], of_links[turning.link] = _of_link(centres, rates, turning, nothing)
         else:
             rates[turning.link] = _Rate("0" if nothing else amount(turning.omega))
-    links = [told[name] for name in moving if name in told]
+    links = [of_links[name] for name in moving if name in of_links]
     speeds = {s: abs(centres.velocity(s) or 0.0) for s in points_asked(centres)}
     least = STILL * max(speeds.values(), default=0.0)
     points = [_of_point(centres, rates, s) for s, speed in speeds.items() if speed > least]
-    slidings = (_of_sliding(centres, rates, *one) for one in _pins_on_guides(centres))
+    slidings = (_of_sliding(centres, rates, *pin) for pin in _pins_on_guides(centres))
     return (*links, *(p for p in (*points, *slidings) if p is not None))
 
 
@@ -97,9 +97,9 @@ class _Rate(NamedTuple):
         return Decimal(self.written).adjusted() - self.carried
 
 
-def _apart(one: complex, other: complex) -> str:
+def _apart(first: complex, second: complex) -> str:
     """A distance on the figure (mm); of places that fall together but for rounding, none."""
-    mm = abs(one - other)
+    mm = abs(first - second)
     return on_paper(mm if mm > TOGETHER else 0.0)
 
 
@@ -114,18 +114,18 @@ def _of_link(
 ) -> tuple[_Rate, Phrase]:
     """The rate of a link, worked out from the rate before it and the distances as they are written (0 where it is
     ``nothing`` but rounding), and the sentence that says so."""
-    own, its, common = _three(centres, turning)
+    new, its, common = _three(centres, turning)
     known, sign = rates[turning.chain[-2]], "-" * (turning.omega < 0.0)
-    args = turning.link, turning.chain[-2], common.pair, its.pair, own.pair
-    if own.point is None:  # it only translates
+    args = turning.link, turning.chain[-2], common.pair, its.pair, new.pair
+    if new.point is None:  # it only translates
         return _Rate("0" if nothing else amount(turning.omega)), Phrase("centre slides", args)
     if common.point is None:  # it turns as the other does
         return _Rate("0") if nothing else known, Phrase("centre turns alike", args)
-    near, far = _apart(own.point, common.point), None if its.point is None else _apart(common.point, its.point)
+    near, far = _apart(new.point, common.point), None if its.point is None else _apart(common.point, its.point)
     if nothing or near == "0":
         rate = _Rate("0" if nothing else amount(turning.omega, MOST))
     else:
-        over = amount(abs(turning.omega) * abs(common.point - own.point))
+        over = amount(abs(turning.omega) * abs(common.point - new.point))
         carried = written.figures(near)
         if far is not None:
             over, carried = written.product(known.size, far), min(known.carried, written.figures(far, near))
@@ -133,7 +133,7 @@ def _of_link(
         rate = _Rate(sign * (value != "0") + value, min(carried, MOST))
     if far is None or its.point is None:
         return rate, Phrase("centre from slider", (*args, near, rate.size))
-    same = dot(its.point - common.point, own.point - common.point) >= 0.0
+    same = dot(its.point - common.point, new.point - common.point) >= 0.0
     key = "centre same sense" if same else "centre opposite sense"
     return rate, Phrase(key, (*args, far, near, true_minus(rate.written)))
 
@@ -191,17 +191,18 @@ def _of_sliding(
     if not {pinned, guiding} <= set(rates) or not {pinned, guiding} <= set(centres.names):
         return None
     centre = centres.of(pinned, guiding)
-    one, other = rates[pinned], rates[guiding]
-    apart = written.difference(one.written, other.written)
+    pinned_rate, guide_rate = rates[pinned], rates[guiding]
+    apart = written.difference(pinned_rate.written, guide_rate.written)
     # what the difference carries; None where they turn alike as far as the figure tells
-    last = max((rate.last for rate in (one, other) if Decimal(rate.written)), default=0)
+    last = max((rate.last for rate in (pinned_rate, guide_rate) if Decimal(rate.written)), default=0)
     carried = Decimal(apart).adjusted() - last if Decimal(apart) else 0
     if centre.point is None or carried < 1:
         return None
     length = _apart(centres.point(point), centre.point)
     symbol = Symbol("v", PointRef(point, guiding), PointRef(point, sliding))
-    second = f"({other.written})" if other.written.startswith("-") else other.written
+    second = f"({guide_rate.written})" if guide_rate.written.startswith("-") else guide_rate.written
+    first = true_minus(pinned_rate.written)
     return Phrase("centre sliding", (
-        symbol, pinned, guiding, centre.pair, PointRef(point), true_minus(one.written), true_minus(second), length,
+        symbol, pinned, guiding, centre.pair, PointRef(point), first, true_minus(second), length,
         *_speed(centres, apart, length, min(carried, written.figures(length))),
     ))  # fmt: skip

@@ -57,7 +57,7 @@ def projections(loop: Loop, block: LoopBlock, scene: Mechanism) -> tuple[str, st
 def _projection(loop: Loop, block: LoopBlock, scene: Mechanism, function: str) -> str:
     terms, known, metres = [], 0.0, scene.units.metres
     for arrow in loop.arrows:
-        turns, slides = (one in block.unknowns for one in (("angle", loop.ties[arrow.link]), ("travel", arrow.slide)))
+        turns, slides = ("angle", loop.ties[arrow.link]) in block.unknowns, ("travel", arrow.slide) in block.unknowns
         part = arrow.vector.real if function == "cos" else arrow.vector.imag
         if not turns and not slides:
             known += part / metres
@@ -89,26 +89,26 @@ def _angle(arrow: Arrow) -> tuple[str, str]:
     return "+", f"({name} {'−' if degrees < 0 else '+'} {number(abs(degrees), 6)}°)"
 
 
-def root(found: Root, loop: Loop, scene: Mechanism, language: str) -> str:
+def root(solution: Root, scene: Mechanism, language: str) -> str:
     """The closed-form root with the sign of its assembly."""
     metres = scene.units.metres
-    sign = "+" if found.sign >= 0 else "−"
-    kind, of = found.unknown
+    sign = "+" if solution.sign >= 0 else "−"
+    kind, of = solution.unknown
     name = f"$θ_{{{of}}}$" if kind == "angle" else f"$s_{{{of.replace('/', '')}}}$"
 
     def shown(value: float, power: int) -> str:
         return number(value / metres**power if abs(value) > ROUNDING * scene.size**power else 0.0, MORE)
 
-    if found.key == "loop root angle":
-        a, b, c = (shown(x, 2) for x in found.numbers)
-        angle = number(math.degrees(found.value), 7)
-        return say(Phrase(found.key, unknown=name, A=a, B=b, C=c, sign=sign, value=angle), language)
-    value = number(found.value / metres if abs(found.value) > ROUNDING * scene.size else 0.0, 7)
-    if found.key == "loop root lines":
-        return say(Phrase(found.key, unknown=name, value=value, unit=scene.units.length), language)
-    middle, rest = (shown(x, power) for power, x in enumerate(found.numbers[:2], 1))
+    if solution.key == "loop root angle":
+        a, b, c = (shown(x, 2) for x in solution.numbers)
+        angle = number(math.degrees(solution.value), 7)
+        return say(Phrase(solution.key, unknown=name, A=a, B=b, C=c, sign=sign, value=angle), language)
+    value = number(solution.value / metres if abs(solution.value) > ROUNDING * scene.size else 0.0, 7)
+    if solution.key == "loop root lines":
+        return say(Phrase(solution.key, unknown=name, value=value, unit=scene.units.length), language)
+    middle, rest = (shown(x, power) for power, x in enumerate(solution.numbers[:2], 1))
     numbers = {"middle": middle, "sign": sign, "rest": rest, "value": value}
-    return say(Phrase(found.key, unknown=name, **numbers, unit=scene.units.length), language)
+    return say(Phrase(solution.key, unknown=name, **numbers, unit=scene.units.length), language)
 
 
 def _plain_name(unknown: Coordinate) -> str:
@@ -137,18 +137,18 @@ def _in_units(block: LoopBlock, scene: Mechanism) -> LoopBlock:
 
 def matrices(block: LoopBlock, scene: Mechanism) -> Iterator[MatrixEquation]:
     """The velocity and the acceleration equation of loops that are solved together, with this position's numbers."""
-    length, told = scene.units.rates.length, _in_units(block, scene)
+    length, in_units = scene.units.rates.length, _in_units(block, scene)
     weights = [1.0 if kind == "travel" else scene.size / scene.units.rates.metres for kind, _ in block.unknowns]
-    rows = tuple(tuple(number(x, 6) for x in row) for row in _clean(told.matrix.tolist()))
-    for key, right, found, letters, after in (
-        ("loop velocities", told.velocity, told.rates, ("ω", "v"), ("rad/s", f"{length}/s")),
-        ("loop accelerations", told.acceleration, told.second_rates, ("α", "a"), ("rad/s²", f"{length}/s²")),
+    rows = tuple(tuple(number(x, 6) for x in row) for row in _clean(in_units.matrix.tolist()))
+    for key, right, values, letters, after in (
+        ("loop velocities", in_units.velocity, in_units.rates, ("ω", "v"), ("rad/s", f"{length}/s")),
+        ("loop accelerations", in_units.acceleration, in_units.second_rates, ("α", "a"), ("rad/s²", f"{length}/s²")),
     ):
         travels = [kind == "travel" for kind, _ in block.unknowns]
         indices = (name.replace("/", "") for _, name in block.unknowns)
         names = [f"{letters[t]}_{{{index}}}" for t, index in zip(travels, indices, strict=True)]
-        most = max(map(abs, (*right, *np.multiply(weights, found))), default=0.0)
-        kept = [x if w * abs(x) > ROUNDING * most else 0.0 for w, x in zip(weights, found, strict=True)]
+        most = max(map(abs, (*right, *np.multiply(weights, values))), default=0.0)
+        kept = [x if w * abs(x) > ROUNDING * most else 0.0 for w, x in zip(weights, values, strict=True)]
         solution = [f"${n}$ = {number(x, 7)} {after[t]}" for n, t, x in zip(names, travels, kept, strict=True)]
         (column,) = _clean([right.tolist()])
         yield MatrixEquation(key, rows, tuple(names), tuple(number(x, 6) for x in column), tuple(solution))
@@ -181,24 +181,24 @@ def as_latex(markup: str) -> str:
     return re.sub(r"\b(cos|sin)\b", r"\\\1", text)
 
 
-def matrix_lines(one: MatrixEquation) -> list[str]:
+def matrix_lines(matrix: MatrixEquation) -> list[str]:
     """A matrix equation in lines for a terminal."""
-    wide = [max(len(row[k]) for row in one.rows) for k in range(len(one.unknowns))]
-    names = [as_plain(n) for n in one.unknowns]
+    wide = [max(len(row[k]) for row in matrix.rows) for k in range(len(matrix.unknowns))]
+    names = [as_plain(n) for n in matrix.unknowns]
     high = max(map(len, names))
-    right = max(map(len, one.right))
+    right = max(map(len, matrix.right))
     lines = []
-    for k, row in enumerate(one.rows):
+    for k, row in enumerate(matrix.rows):
         cells = "  ".join(cell.rjust(w) for cell, w in zip(row, wide, strict=True))
-        equals = "=" if k == (len(one.rows) - 1) // 2 else " "
-        lines.append(f"  | {cells} |  | {names[k].ljust(high)} |  {equals}  | {one.right[k].rjust(right)} |")
+        equals = "=" if k == (len(matrix.rows) - 1) // 2 else " "
+        lines.append(f"  | {cells} |  | {names[k].ljust(high)} |  {equals}  | {matrix.right[k].rjust(right)} |")
     return lines
 
 
-def matrix_latex(one: MatrixEquation) -> str:
+def matrix_latex(matrix: MatrixEquation) -> str:
     """A matrix equation as LaTeX."""
-    rows = r" \\ ".join(" & ".join(map(as_latex, row)) for row in one.rows)
-    names, right = (r" \\ ".join(map(as_latex, column)) for column in (one.unknowns, one.right))
+    rows = r" \\ ".join(" & ".join(map(as_latex, row)) for row in matrix.rows)
+    names, right = (r" \\ ".join(map(as_latex, column)) for column in (matrix.unknowns, matrix.right))
     return " ".join(rf"\begin{{bmatrix}} {part} \end{{bmatrix}}" if part != "=" else "="
                     for part in (rows, names, "=", right))  # fmt: skip
 
@@ -221,52 +221,52 @@ class LoopText:
         return [self._block(block) for block in self.blocks]
 
     def _block(self, block: LoopBlock) -> dict[str, Json]:
-        metres, told = self.scene.units.metres, _in_units(block, self.scene)
+        metres, in_units = self.scene.units.metres, _in_units(block, self.scene)
 
         def plain(unknown: Coordinate, value: float) -> float:
             return value / metres if unknown[0] == "travel" else value
 
         loops = [
             {
-                "name": one.name, "links": list(one.links), "points": list(one.points),
+                "name": loop.name, "links": list(loop.links), "points": list(loop.points),
                 "arrows": [
                     {"link": a.link, "from": a.names[0], "to": a.names[1],
                      "vector": [a.vector.real / metres, a.vector.imag / metres],
                      **({"slide": a.slide, "travel": a.travel / metres} if a.slide else {})}
-                    for a in one.arrows
+                    for a in loop.arrows
                 ],
-                "gap": abs(one.gap) / metres,
-                **({"root": {"of": _plain_name(one.root.unknown), "sign": one.root.sign,
-                             "value": plain(one.root.unknown, one.root.value)}} if one.root else {}),
+                "gap": abs(loop.gap) / metres,
+                **({"root": {"of": _plain_name(loop.root.unknown), "sign": loop.root.sign,
+                             "value": plain(loop.root.unknown, loop.root.value)}} if loop.root else {}),
             }
-            for one in block.loops
+            for loop in block.loops
         ]  # fmt: skip
         return {
             "loops": loops, "unknowns": [*map(_plain_name, block.unknowns)],
-            "values": [*map(plain, block.unknowns, block.values)], "matrix": told.matrix.tolist(),
-            "velocity": told.velocity.tolist(), "rates": list(told.rates),
-            "acceleration": told.acceleration.tolist(), "second_rates": list(told.second_rates),
+            "values": [*map(plain, block.unknowns, block.values)], "matrix": in_units.matrix.tolist(),
+            "velocity": in_units.velocity.tolist(), "rates": list(in_units.rates),
+            "acceleration": in_units.acceleration.tolist(), "second_rates": list(in_units.second_rates),
         }  # fmt: skip
 
     @property
     def plain(self) -> str:
         """The loops as lines of text."""
         units, letters = self.scene.units, self.scene.question.sheet.convention
-        told = Phrase("explained unit", length=units.length, velocity=units.of("velocity").text)
-        lines = [say(told, self.language), ""] if self.blocks else []
+        units_named = Phrase("explained unit", length=units.length, velocity=units.of("velocity").text)
+        lines = [say(units_named, self.language), ""] if self.blocks else []
         for block in self.blocks:
-            for one in block.loops:
-                links, sum_ = ", ".join(one.links), equation(one, letters)
-                head = Phrase("loop heading", loop=one.name, links=links, equation=sum_)
-                x, y = projections(one, block, self.scene)
+            for loop in block.loops:
+                links, sum_ = ", ".join(loop.links), equation(loop, letters)
+                head = Phrase("loop heading", loop=loop.name, links=links, equation=sum_)
+                x, y = projections(loop, block, self.scene)
                 lines += [as_plain(say(head, self.language)), f"  x: {as_plain(x)}", f"  y: {as_plain(y)}"]
-                if one.root is not None:
-                    lines.append(f"  {as_plain(root(one.root, one, self.scene, self.language))}")
-                longest = max(abs(arrow.vector) for arrow in one.arrows)
-                if abs(one.gap) <= ROUNDED * longest:
+                if loop.root is not None:
+                    lines.append(f"  {as_plain(root(loop.root, self.scene, self.language))}")
+                longest = max(abs(arrow.vector) for arrow in loop.arrows)
+                if abs(loop.gap) <= ROUNDED * longest:
                     lines.append(f"  {word('loop closes', self.language)}")
                 else:
-                    gap = f"{abs(one.gap) / self.scene.units.metres:.1e}"
+                    gap = f"{abs(loop.gap) / self.scene.units.metres:.1e}"
                     lines.append(f"  {say(Phrase('loop gap', gap=gap, unit=self.scene.units.length), self.language)}")
             for matrix in matrices(block, self.scene):
                 lines += [f"  {word(matrix.key, self.language)}", *matrix_lines(matrix)]
@@ -280,8 +280,8 @@ class LoopText:
         lines: list[str] = []
         letters = self.scene.question.sheet.convention
         for block in self.blocks:
-            for one in block.loops:
-                lines += [as_latex(equation(one, letters)), *map(as_latex, projections(one, block, self.scene))]
+            for loop in block.loops:
+                lines += [as_latex(equation(loop, letters)), *map(as_latex, projections(loop, block, self.scene))]
             lines += [matrix_latex(matrix) for matrix in matrices(block, self.scene)]
         return "\n".join(rf"\[ {line} \]" for line in lines)
 

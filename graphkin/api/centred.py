@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str, str]], list[str]]:
     """All centres of a position in words, in the language of the result: heads and rows of the table, and sentences
     below it."""
-    language, found, scene = centred.spoken, centred.centres, centred.mechanism
+    language, centres, scene = centred.spoken, centred.centres, centred.mechanism
     convention = centred.convention or scene.question.sheet.convention
     letter = "P" if convention in ("chinese", "russian") else "I"
 
@@ -55,14 +55,14 @@ def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str,
         return f"{letter}{a}{',' if len(a + b) > 2 else ''}{b}"
 
     rows = []
-    for centre in found.found:
-        place = ", ".join(f"{x:.6g}" for x in place_of(found, centre) or ())
+    for centre in centres.found:
+        place = ", ".join(f"{x:.6g}" for x in place_of(centres, centre) or ())
         if place:
             place = f"∞ ({place})" if centre.point is None else f"{place} {scene.units.length}"
-        how = say(how_found(found, centre, name), language, name)
+        how = say(how_found(centres, centre, name), language, name)
         rows.append((str(centre.number or ""), name(centre.pair), place, how))
-    why = [say(c.why, language, str) for c in found.indeterminate if c.why]
-    told = [as_plain(rich_text(said, language, name)) for said in velocity_sentences(found)]
+    why = [say(c.why, language, str) for c in centres.indeterminate if c.why]
+    velocities = [as_plain(rich_text(said, language, name)) for said in velocity_sentences(centres)]
     off = [name(p) for p, apart in centred.compared.items() if apart is not None and apart[0] > apart[1]]
     off += [str(v.symbol) for v in centred.velocities if v.ok is False]
     near = [v.too_near(language) for v in centred.velocities if v.ok is None]
@@ -70,7 +70,7 @@ def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str,
     verdict = Phrase("check failed", readings=", ".join(off)) if off else Phrase("centres checked", (count,))
     heads = ["", *(word(key, language) for key in ("centre", "place", "how found"))]
     head = [*why, *[""] * bool(why), word("velocities by centres", language)]
-    return heads, rows, [*head, *told, *near, say(verdict, language)]
+    return heads, rows, [*head, *velocities, *near, say(verdict, language)]
 
 
 MOST_PLAYED = 6  # links all of whose centres are played
@@ -129,7 +129,7 @@ def velocities_by_centres(centres: Centres, motion: Motion) -> tuple[SpeedByCent
     exact = {s: complex(motion.value(s)[0]) for s in dict.fromkeys((*symbols, *every))}
     largest = {kind: max((abs(x) for s, x in exact.items() if s.kind == kind), default=0.0) for kind in ("v", "omega")}
     largest["omega"] = max(largest["omega"], largest["v"] / size)
-    found = []
+    speeds = []
     for symbol in symbols:
         value = centres.velocity(symbol)
         wanted = exact[symbol] if symbol.is_vector else exact[symbol].real
@@ -142,8 +142,8 @@ def velocities_by_centres(centres: Centres, motion: Motion) -> tuple[SpeedByCent
             rounded = float(motion.rough[0][0]) / (1.0 if symbol.is_vector else size)
             tolerance = max(TOLERANCE * most, rounded, SAFETY * centres.velocity_error(symbol))
             ok = None if tolerance > FAIR * most else abs(value - wanted) <= tolerance
-        found.append(SpeedByCentres(symbol, "", value, wanted, chain, tolerance, most, ok))
-    return tuple(found)
+        speeds.append(SpeedByCentres(symbol, "", value, wanted, chain, tolerance, most, ok))
+    return tuple(speeds)
 
 
 @dataclass(frozen=True, repr=False)
@@ -165,8 +165,8 @@ class PlacedCentre:
         if self.place is None:
             return f"<centre {self.pair}: {self.kind}>"
         where = f"({self.place.real:.6g}, {self.place.imag:.6g})"
-        told = f"at infinity, in the direction {where}" if self.far else f"at {where} {self.unit}"
-        return f"<centre {self.pair}: {self.kind}, {told}>"
+        place = f"at infinity, in the direction {where}" if self.far else f"at {where} {self.unit}"
+        return f"<centre {self.pair}: {self.kind}, {place}>"
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -199,7 +199,7 @@ class Centred(OfScene, Result):
 
     @cached_property
     def errors(self) -> dict[LinkPair, float | None]:
-        return {pair: found and found[0] for pair, found in self.compared.items()}
+        return {pair: off and off[0] for pair, off in self.compared.items()}
 
     @cached_property
     def compared(self) -> dict[LinkPair, tuple[float, float] | None]:
@@ -217,7 +217,7 @@ class Centred(OfScene, Result):
     @property
     def ok(self) -> bool:
         """Whether all centres and all velocities through them agree with the analytic solver."""
-        near = all(found is None or found[0] <= found[1] for found in self.compared.values())
+        near = all(off is None or off[0] <= off[1] for off in self.compared.values())
         return near and all(v.ok is not False for v in self.velocities)
 
     @cached_property
@@ -264,8 +264,8 @@ class Centred(OfScene, Result):
         # what stands for a cam at one position is none of the links that move
         standing = {slot.bar for slot in self.mechanism.slots if slot.bar not in whole.by_name}
         pairs = [p for p in self.centres.table if (few or frame in p) and not standing.intersection(p)]
-        own = {d.key: float(v) for d, v in zip(self.mechanism.drivers, self.motion.values[0], strict=True)}
-        (motion, turned), mm = played(self.mechanism, own), self.centres.mm
+        values = {d.key: float(v) for d, v in zip(self.mechanism.drivers, self.motion.values[0], strict=True)}
+        (motion, turned), mm = played(self.mechanism, values), self.centres.mm
         moving = [p for p in motion.scene.holders if p not in motion.scene.frame.points]
         origins = {name: np.asarray(motion.poses[name].z * mm, np.complex128) for name in turned}
         points = {p: np.asarray(motion.position(p) * mm, np.complex128) for p in moving}
@@ -295,10 +295,10 @@ class Centred(OfScene, Result):
 
         rows = []
         for pair, centre in self.centres.table.items():
-            told = centre.way or " x ".join(" ".join(line) for line in _crossing(centre)) or centre.joint
+            by = centre.way or " x ".join(" ".join(line) for line in _crossing(centre)) or centre.joint
             x, y = place_of(self.centres, centre) or (None, None)
             where = (x, y, None, None) if centre.point is not None else (None, None, x, y)
-            rows.append((_name(pair), centre.kind, centre.number or None, *where, told, self.errors[pair]))
+            rows.append((_name(pair), centre.kind, centre.number or None, *where, by, self.errors[pair]))
         heads = ("pair", "kind", "number", "x", "y", "direction_x", "direction_y", "by", "error")
         length = self.mechanism.units.length
         units = {"x": length, "y": length, "error": "rad"}
@@ -512,8 +512,8 @@ class Centroded(OfScene, Result):
         """Both curves over the turn and the driver's value in the file's units, the moving one in the link's axes."""
         from graphkin.table import Column, Table
 
-        length, own = self.mechanism.units.of("length"), self.mechanism.unit_of(self.mechanism.drivers[0])
-        columns = [Column("driver", own.of(self.motion.values[:, 0]), own.text, form=".12g")]
+        length, unit = self.mechanism.units.of("length"), self.mechanism.unit_of(self.mechanism.drivers[0])
+        columns = [Column("driver", unit.of(self.motion.values[:, 0]), unit.text, form=".12g")]
         for name, curve in (("fixed", self.curves.fixed), ("moving", self.curves.moving)):
             places = np.where(np.isfinite(curve), curve, complex(np.nan, np.nan))
             parts = zip("xy", (places.real, places.imag), strict=True)

@@ -238,7 +238,7 @@ def course_design(
         sources, data = drawn_schemes(scene, variants, seed, find)
     course = {name: scheme_of(name, source, find, count) for name, source in sources.items()}
     if students is None:
-        dealt = [(Student(scheme=name), driver_values(one.scene, at)) for name, one in course.items()]
+        dealt = [(Student(scheme=name), driver_values(scheme.scene, at)) for name, scheme in course.items()]
         dealt = [(replace(who, place=at if isinstance(at, str) else ""), values) for who, values in dealt]
     else:
         dealt = [(who, course[scheme_name(course, who)].values(who.place)) for who in dealt_out(students, course)]
@@ -246,19 +246,19 @@ def course_design(
     lines, agrees, shared = [], True, dict[str, dict[str, Figures]]()
     lesson = None
     for k, (who, values) in enumerate(dealt):
-        one = course[scheme_name(course, who)]
-        motion = solved_here(one.scene, values)
-        what = paper_plan(motion.structure, values, asked_symbols(one.scene, find))
+        scheme = course[scheme_name(course, who)]
+        motion = solved_here(scheme.scene, values)
+        what = paper_plan(motion.structure, values, asked_symbols(scheme.scene, find))
         lesson = lesson_of(what, motion, spoken, letters)
         agrees = agrees and lesson.report.ok
-        if one.name not in shared:
-            shared[one.name] = _figures(one.scene, spoken, letters)
-        asked = asked_in_tables(one.scene, find)
-        stands = lesson.sheet.drivers[one.scene.drivers[0].key]
-        place = one.places[who.place] if who.place in one.places else read_at("", stands, lesson, asked)
+        if scheme.name not in shared:
+            shared[scheme.name] = _figures(scheme.scene, spoken, letters)
+        asked = asked_in_tables(scheme.scene, find)
+        stands = lesson.sheet.drivers[scheme.scene.drivers[0].key]
+        place = scheme.places[who.place] if who.place in scheme.places else read_at("", stands, lesson, asked)
         lines.append(ClassRow(who, place))
-        figures = shared[one.name] | {"loops": _drawn(one.scene, "loops", spoken, letters, place.driver)}
-        document = _report(lesson, who, one, stands, data, asked, figures)
+        figures = shared[scheme.name] | {"loops": _drawn(scheme.scene, "loops", spoken, letters, place.driver)}
+        document = _report(lesson, who, scheme, stands, data, asked, figures)
         stem = "report" if len(dealt) == 1 and students is None and not data else _stem(k, len(dealt), who)
         content |= papers_as(formats, {stem: document})
         if progress is not None:
@@ -301,7 +301,7 @@ def _drawn(
 def _figures(scene: Mechanism, language: str, convention: str) -> dict[str, Figures]:
     """Figures that all students of a scheme share."""
     paper = paper_of(scene)
-    found = {name: _drawn(scene, name, language, convention) for name in ("structure", "positions")}
+    figures = {name: _drawn(scene, name, language, convention) for name in ("structure", "positions")}
     pages_of: list[Picture | Plate] = []
     for page in sweep(scene, language=languages(language)[0]).figures.values():
         if isinstance(page, ChartPage):
@@ -309,7 +309,7 @@ def _figures(scene: Mechanism, language: str, convention: str) -> dict[str, Figu
             pages_of.append(plate(page.content("svg", text="outlines"), size, paper, f"{page.title}. {page.desc}"))
         else:
             pages_of.append(on_paper(page, paper))
-    return found | {"diagrams": tuple(pages_of)}
+    return figures | {"diagrams": tuple(pages_of)}
 
 
 # -- schemes, and which of them each student draws ---------------------------------------------------------------------
@@ -387,7 +387,7 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
             problems.append(Problem(where, "there is no scheme", did_you_mean(who.scheme, course), scheme=who.scheme))
             continue
         known = course[scheme_name(course, who)].places if who.scheme or len(course) == 1 else None
-        all_known = dict.fromkeys(n for one in course.values() for n in one.places) if known is None else known
+        all_known = dict.fromkeys(n for scheme in course.values() for n in scheme.places) if known is None else known
         if who.place and who.place not in all_known:
             problems.append(Problem(where, "there is no position", did_you_mean(who.place, all_known), at=who.place))
             continue
@@ -396,7 +396,7 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
         listed.append(who)
     if problems:
         raise CallError(*problems)
-    free = {name: [p for p, v in one.places.items() if v.read] for name, one in course.items()}
+    free = {name: [p for p, v in scheme.places.items() if v.read] for name, scheme in course.items()}
     if not any(free.values()):
         raise CallError.of("positions", "none of them can be drawn", "give others in positions")
     taken: dict[str, list[str]] = {}
@@ -409,10 +409,10 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
             name = min(free, key=lambda n: len(taken.get(n, ())) // max(1, len(free[n])))
             who = replace(who, scheme=name)
         if not who.place:
-            own = taken.setdefault(who.scheme, [])
+            places_taken = taken.setdefault(who.scheme, [])
             places = free[scheme_name(course, who)]
-            who = replace(who, place=min(places, key=own.count))
-            own.append(who.place)
+            who = replace(who, place=min(places, key=places_taken.count))
+            places_taken.append(who.place)
         yield who
 
 
@@ -460,14 +460,14 @@ def _report(
     figures : "structure", "positions", "loops" and "diagrams", where they could be drawn
     """
     language, driver = lesson.language, scheme.scene.unit_of(scheme.scene.drivers[0])
-    told = said("course place", language, driver.said(stands))
+    driver_value = said("course place", language, driver.said(stands))
     task = Heading(said("course task", language), 2, fresh=True)
-    blocks: list[Block] = [*_cover(lesson, student, told), task, *given_words(lesson)]
+    blocks: list[Block] = [*_cover(lesson, student, driver_value), task, *given_words(lesson)]
     if data:
         blocks.append(Together((Heading(said("course data", language)), *_data(data, student, language))))
     for name in ("structure", "positions"):
         blocks += _headed(f"course {name}", figures[name], language)
-    place = said("course position", language, in_markup(student.place)) if student.place else told
+    place = said("course position", language, in_markup(student.place)) if student.place else driver_value
     heads = zip(said("course drawn", language), place, strict=True)
     blocks.append(Heading(tuple((each, text + word("colon", each) + more) for (each, text), (_, more) in heads)))
     blocks += [_lower(block) for block in solution_blocks(lesson)]
@@ -481,9 +481,9 @@ def _report(
     )  # fmt: skip
     blocks += _headed("course loops", figures["loops"], language)
     places = tuple(scheme.places.values())
-    own = frozenset(i for i, place in enumerate(places) if place.name == student.place)
+    bold = frozenset(i for i, place in enumerate(places) if place.name == student.place)
     first, *others = _value_tables(lesson, (said("course place head", language),), [(p.name,) for p in places],
-                                   places, asked, driver.written, own)  # fmt: skip
+                                   places, asked, driver.written, bold)  # fmt: skip
     blocks.append(Together((Heading(said("course all positions", language)), first)))
     blocks += [*others, Paragraph(said("course all words", language), small=True)]
     blocks += _headed("course diagrams", figures["diagrams"], language)
@@ -498,10 +498,10 @@ def class_document(lesson: Lesson, rows: Sequence[ClassRow], asked: Sequence[Sym
     cells: list[tuple[str, ...]] = [(row.student.name or "–",) for row in rows]
     more = (("course id head", "id"), ("course scheme head", "scheme"), ("course place head", "place"))
     for key, name in more:
-        found = [getattr(row.student, name) for row in rows]
-        if any(found):
+        column = [getattr(row.student, name) for row in rows]
+        if any(column):
             keys.append(key)
-            cells = [(*before, own or "–") for before, own in zip(cells, found, strict=True)]
+            cells = [(*before, own or "–") for before, own in zip(cells, column, strict=True)]
     plain = [tuple(in_markup(cell) for cell in line) for line in cells]
     tables = _value_tables(lesson, said_each(language, keys), plain, [row.values for row in rows], asked, unit)
     blocks: tuple[Block, ...] = (
@@ -541,21 +541,21 @@ def _letters(head: str) -> str:
     >>> _letters("l_O2A (mm)"), _letters("n2 (r/min)"), _letters("driver.angle")
     ('$l_{O2A}$ (mm)', '$n_{2}$ (r/min)', 'driver.angle')
     """
-    found = re.match(r"([^\W\d_])(?:_([^\W_]+)|(\d+))(?=\s|$)", head)
-    if found is None:
+    parted = re.match(r"([^\W\d_])(?:_([^\W_]+)|(\d+))(?=\s|$)", head)
+    if parted is None:
         return in_markup(head)
-    return f"${found[1]}_{{{found[2] or found[3]}}}${in_markup(head[found.end():])}"
+    return f"${parted[1]}_{{{parted[2] or parted[3]}}}${in_markup(head[parted.end():])}"
 
 
 def _data(data: tuple[tuple[str, ...], ...], student: Student, language: str) -> Iterable[TableBlock]:
     """The data of the schemes, split where they are many, the student's own row in bold."""
     heads, *rows = data
-    own = frozenset(i for i, row in enumerate(rows) if row[0] == student.scheme)
+    bold = frozenset(i for i, row in enumerate(rows) if row[0] == student.scheme)
     for k in range(1, len(heads), MOST_VALUES):
         part = slice(k, k + MOST_VALUES)
         names = (said("course scheme head", language), *((("en", _letters(head)),) for head in heads[part]))
         lines = tuple(tuple(map(in_markup, (row[0], *row[part]))) for row in rows)
-        yield TableBlock(names, lines, "l" + "r" * len(heads[part]), own)
+        yield TableBlock(names, lines, "l" + "r" * len(heads[part]), bold)
 
 
 def _headed(key: str, pictures: Sequence[Picture | Plate], language: str) -> Iterable[Block]:
@@ -570,9 +570,9 @@ def _lower(block: Block) -> Block:
     if isinstance(block, Heading):
         return replace(block, level=3, fresh=False)
     if isinstance(block, Together):
-        return replace(block, blocks=tuple(_lower(one) for one in block.blocks))  # type: ignore[misc]
+        return replace(block, blocks=tuple(_lower(inner) for inner in block.blocks))  # type: ignore[misc]
     if isinstance(block, Beside):
-        return replace(block, blocks=tuple(_lower(one) for one in block.blocks))  # type: ignore[misc]
+        return replace(block, blocks=tuple(_lower(inner) for inner in block.blocks))  # type: ignore[misc]
     return block
 
 
@@ -595,9 +595,9 @@ def _value_tables(
         part = asked[k : k + MOST_VALUES]
         columns = tuple((("en", f"${lesson.letters.vector(s)}$ {lesson.unit(s)}"),) for s in part)
         rows = tuple(
-            (*own, number(place.driver, DIGITS),
+            (*named, number(place.driver, DIGITS),
              *(number(place.read[s], DIGITS) if s in place.read else "–" for s in part))
-            for own, place in zip(cells, places, strict=True)
+            for named, place in zip(cells, places, strict=True)
         )  # fmt: skip
         align = "l" * len(heads) + "r" * (1 + len(part))
         tables.append(TableBlock((*heads, driver, *columns), rows, align, bold))

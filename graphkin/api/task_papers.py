@@ -80,7 +80,7 @@ def _papers(
     def results_in(heading: str, keys: Sequence[str], rows: Sequence[Result], roomy: bool = False) -> Together:
         return Together((Heading(said(heading, language), 2), table_of(language, rows, keys, roomy=roomy)))
 
-    asked = [Paragraph(finished(one)) for one in given]
+    asked = [Paragraph(finished(sentence)) for sentence in given]
     blank = [{key: cells[key] for key in ("quantity", "unit")} for cells in results]
     problem = document(
         "problem sheet",
@@ -95,15 +95,15 @@ def _papers(
         "worked solution",
         *asked,
         *(StepItem(i, finished(words), parted=parted) for i, words in enumerate(steps, 1)),
-        *(Picture(bare_picture(figure), numbered(i, told), floats=i < len(whole))
-          for i, (told, figure) in enumerate(whole.items(), 1)),
+        *(Picture(bare_picture(figure), numbered(i, caption), floats=i < len(whole))
+          for i, (caption, figure) in enumerate(whole.items(), 1)),
         results_in("results", ("quantity", "measured", "exact", "unit"), results),
-        *(Paragraph(finished(one)) for one in notes),
+        *(Paragraph(finished(sentence)) for sentence in notes),
     )  # fmt: skip
     key = document(
         "answer key",
         table_of(language, results, ("quantity", "value", "accept", "unit")),
-        *(Paragraph(finished(one), small=True) for one in notes),
+        *(Paragraph(finished(sentence), small=True) for sentence in notes),
     )
     return papers_as(formats, {f"{prefix}problem": problem, f"{prefix}solution": solution, f"{prefix}key": key})
 
@@ -159,11 +159,12 @@ def write_design_papers(
 def _notes(designed: Designed, language: str) -> list[Said]:
     """What a turn of the found mechanism confirms, and what else is said of it."""
     made: list[Said] = []
-    known = [one for one in designed.confirmed if math.isfinite(one.found)]
+    known = [value for value in designed.confirmed if math.isfinite(value.found)]
 
     def told(each: str) -> str:
         mark = word("colon", each)
-        return word("list comma", each).join(f"{say(one.what, each)}{mark}{one.shown(one.found)}" for one in known)
+        values = (f"{say(value.what, each)}{mark}{value.shown(value.found)}" for value in known)
+        return word("list comma", each).join(values)
 
     if known:
         made.append(in_each(language, lambda each: labelled("confirmed", told(each), each)))
@@ -173,8 +174,8 @@ def _notes(designed: Designed, language: str) -> list[Said]:
 
 def _by_sentence(spoken: Mapping[str, Sequence[str]]) -> list[Said]:
     """Sentences of each language, put together one by one."""
-    told = ([(each, in_markup(text)) for text in texts] for each, texts in spoken.items())
-    return [tuple(pairs) for pairs in zip(*told, strict=True)]
+    sentences = ([(each, in_markup(text)) for text in texts] for each, texts in spoken.items())
+    return [tuple(pairs) for pairs in zip(*sentences, strict=True)]
 
 
 def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str = "cam-") -> Mapping[str, bytes]:

@@ -303,8 +303,8 @@ def _placed(scene: Mechanism, sheet: Sheet) -> Centres:
         if len(held) >= 2 and link.points[held[0]] != link.points[held[1]]:
             here, there = so_far.point(held[0]), so_far.point(held[1])
             axis = (there - here) / ((link.points[held[1]] - link.points[held[0]]) * so_far.mm)
-            own = link.points[held[0]] * so_far.mm
-            poses = {**poses, link.name: Pose(here - axis * own, axis / abs(axis))}
+            local = link.points[held[0]] * so_far.mm
+            poses = {**poses, link.name: Pose(here - axis * local, axis / abs(axis))}
     return Centres(scene, sheet, poses)
 
 
@@ -313,14 +313,14 @@ def measured(sheet: Sheet) -> dict[str, LinkMotion]:
     per_mm = sheet.scales.velocity / sheet.scales.length
     ends = sheet.ends["velocity"]
     ground = sheet.scene.frame.name
-    found = {ground: LinkMotion(0j, 0j, 0.0)}
+    motions = {ground: LinkMotion(0j, 0j, 0.0)}
     for name, rate in sheet.omega.items():
         points = sheet.structure.links[name].points
         for ref, end in ends.items():
             if name != ground and (ref.link == name or (not ref.link and ref.point in points)):
-                found[name] = LinkMotion(sheet.points[PointRef(ref.point)], end * per_mm, rate.value)
+                motions[name] = LinkMotion(sheet.points[PointRef(ref.point)], end * per_mm, rate.value)
                 break
-    return found
+    return motions
 
 
 # -- what joints give --------------------------------------------------------------------------------------------------
@@ -526,9 +526,9 @@ def _otherwise(diagram: CircleDiagram, motions: Mapping[str, LinkMotion], larges
     why = Phrase("centre few lines", (*pair, count)) if count < 2 else Phrase("centre lines together", pair)
     if not motions.keys() >= {*pair}:
         return Centre(pair, "undetermined", why=why)
-    one, two = motions[pair[0]], motions[pair[1]]
+    first, second = motions[pair[0]], motions[pair[1]]
     chart, at = diagram.links.chart, diagram.links.chart.middle
-    place, strength = chart.pole(at, one.of(at) - two.of(at), one.omega - two.omega)
+    place, strength = chart.pole(at, first.of(at) - second.of(at), first.omega - second.omega)
     if abs(strength) <= AT_REST * largest:
         return Centre(pair, "undetermined", why=Phrase("centre no motion", pair))
     error = MEASURED * max(1.0, SLOW * largest / abs(strength))
@@ -591,16 +591,16 @@ def _driven(centres: Centres, driver: Driver) -> dict[str, Turning]:
     if once == 0.0:
         return {}
     strength = driver.values[1] / once
-    own = Turning(a, strength, strength * centre.place[2], (a,), abs(strength / once) * centre.error * reach)
+    first = Turning(a, strength, strength * centre.place[2], (a,), abs(strength / once) * centre.error * reach)
     if b == frame:
-        return {a: own}
-    back = Turning(b, -own.strength, -own.omega, (b,), own.error)
+        return {a: first}
+    back = Turning(b, -first.strength, -first.omega, (b,), first.error)
     if a == frame:
         return {b: back}
     # two moving links: the difference of their motions is known
-    found = (_carried(turning, centre, centres.of(other, frame), centres.of(turning.link, frame), turning.chain)
-             for turning, other in ((own, b), (back, a)))  # fmt: skip
-    return {turning.link: turning for turning in found if turning is not None}
+    carried = (_carried(turning, centre, centres.of(other, frame), centres.of(turning.link, frame), turning.chain)
+             for turning, other in ((first, b), (back, a)))  # fmt: skip
+    return {turning.link: turning for turning in carried if turning is not None}
 
 
 def _carried(

@@ -93,8 +93,8 @@ def pivots(**named: complex) -> list[DesignStroke]:
     return [DesignStroke("pivot", (at,), name=name) for name, at in named.items()]
 
 
-def _not_drawn(what: str, found: str, wanted: str) -> Unsolvable:
-    return Unsolvable("not drawn", Problem(what, Phrase(found), Phrase(wanted)))
+def _not_drawn(what: str, finding: str, wanted: str) -> Unsolvable:
+    return Unsolvable("not drawn", Problem(what, Phrase(finding), Phrase(wanted)))
 
 
 @dataclass
@@ -157,10 +157,10 @@ class DesignSheet:
 
     def cut(self, what: str, p: complex, d: complex, centre: complex, radius: float) -> tuple[complex, complex]:
         """Where a line cuts a circle, the one further along d first.  Raises Unsolvable where it does not."""
-        found = cross_line_arc(p, d, centre, radius)
-        if found is None:
+        crossings = cross_line_arc(p, d, centre, radius)
+        if crossings is None:
             raise _not_drawn(what, "the line does not reach the circle", "other data")
-        return self.hand.point(found[0]), self.hand.point(found[1])
+        return self.hand.point(crossings[0]), self.hand.point(crossings[1])
 
     def bisector(self, a: complex, b: complex) -> tuple[complex, complex]:
         """A point and the direction of the perpendicular bisector, drawn by two pairs of compass arcs."""
@@ -409,42 +409,42 @@ def _(task: FunctionTask, paper: DesignSheet) -> None:
     A = hand.point(0j)
     D = paper.lay_off(A, 1 + 0j, frame)
     phi, psi = ([hand.angle(direction(pair[i])) for pair in task.pairs] for i in (0, 1))
-    rays = [line("direction", at, at + 0.6 * frame * way) for at, ways in ((A, phi), (D, psi)) for way in ways]
+    rays = [line("direction", at, at + 0.6 * frame * ray) for at, ways in ((A, phi), (D, psi)) for ray in ways]
     paper.do("design pairs", (_mm(frame),), line("given", A, D), *pivots(A=A, D=D), *rays)
     trials = [_trials(paper, A, D, frame, phi, psi, other) for other in (1, 2)]
     # one unit of the diagram, so that what was tried fits beside the mechanism
-    one = frame / max(1.0, *(max(abs(z.real), abs(z.imag)) for ends in trials for z in ends))
-    (p, q), (r, s) = ([hand.point(one * z) for z in ends] for ends in trials)
+    per_one = frame / max(1.0, *(max(abs(z.real), abs(z.imag)) for ends in trials for z in ends))
+    (p, q), (r, s) = ([hand.point(per_one * z) for z in ends] for ends in trials)
     crossing = paper.meet("AB", p, unit(q - p), r, unit(s - r))
     corner = complex(2.2 * frame, 0.0)
-    strokes = [line("direction", corner, corner + way * max(0.3 * frame, 1.1 * z))
-               for way, z in ((1, crossing.real), (1j, crossing.imag))]  # fmt: skip
+    strokes = [line("direction", corner, corner + ray * max(0.3 * frame, 1.1 * z))
+               for ray, z in ((1, crossing.real), (1j, crossing.imag))]  # fmt: skip
     strokes += dots(*(corner + z for z in (p, q, r, s)))
     for a, b in ((p, q), (r, s)):
         first, _, last = sorted((a, b, crossing), key=lambda z: (z.real, z.imag))
         strokes.append(line("construction", corner + first, corner + last))
-    paper.do("design reciprocals", (_mm(one),), *strokes, *points(Q=corner + crossing))
+    paper.do("design reciprocals", (_mm(per_one),), *strokes, *points(Q=corner + crossing))
     across, upward = hand.read_signed(crossing.real), hand.read_signed(crossing.imag)
-    if min(abs(across), abs(upward)) < 1e-9 * one:
+    if min(abs(across), abs(upward)) < 1e-9 * per_one:
         raise _not_drawn("design.pairs", "they ask for a bar without end", "other angles")
-    crank, rocker = frame * one / across, frame * one / upward
+    crank, rocker = frame * per_one / across, frame * per_one / upward
     paper.turned += [name for name, mm in (("AB", crank), ("CD", rocker)) if mm < 0]
     B = hand.point(A + hand.length(abs(crank)) * math.copysign(1.0, crank) * phi[0])
     C = hand.point(D + hand.length(abs(rocker)) * math.copysign(1.0, rocker) * psi[0])
-    paper.do("design reckoned", _reckoned(frame, one, across, upward), *points(B=B, C=C))
+    paper.do("design reckoned", _reckoned(frame, per_one, across, upward), *points(B=B, C=C))
     _chain(paper, "CD", A=A, B=B, C=C, D=D)
 
 
-def _reckoned(frame: float, one: float, across: float, upward: float) -> tuple[str, ...]:
+def _reckoned(frame: float, per_one: float, across: float, upward: float) -> tuple[str, ...]:
     """The coordinates of Q, crank and rocker, and the unit (mm): with as many decimals as the quotients want that are
     to be true as they are written."""
-    lengths = [abs(frame * one / side) for side in (across, upward)]
+    lengths = [abs(frame * per_one / side) for side in (across, upward)]
     for decimals in DECIMALS:
-        base, unit, *sides = (round(value, decimals) for value in (frame, one, across, upward))
-        told = [_mm(length) for length in lengths]
-        if all(_mm(abs(base * unit / side)) == text for side, text in zip(sides, told, strict=True) if side):
+        base, unit, *sides = (round(value, decimals) for value in (frame, per_one, across, upward))
+        written = [_mm(length) for length in lengths]
+        if all(_mm(abs(base * unit / side)) == text for side, text in zip(sides, written, strict=True) if side):
             break
-    return (*tuple(f"{side:.{decimals}f}" for side in sides), *told, f"{unit:.{decimals}f}")
+    return (*tuple(f"{side:.{decimals}f}" for side in sides), *written, f"{unit:.{decimals}f}")
 
 
 def _trials(
@@ -452,7 +452,7 @@ def _trials(
 ) -> tuple[complex, complex]:
     """Two points of a line in the diagram of reciprocals: frame over crank, frame over rocker."""
     back = psi[0] / psi[other]
-    found = []
+    cranks = []
     for share in (0.4, 0.9, 0.65, 0.3, 1.3):
         crank = paper.hand.length(share * frame)
         B, moved = A + crank * phi[0], paper.hand.point(D + (A + crank * phi[other] - D) * back)
@@ -464,14 +464,14 @@ def _trials(
         level = dot(p - D, normal)
         if abs(level) < 1e-6 * frame:
             continue
-        found.append((crank, frame * dot(psi[0], normal) / level, B, moved, p))
-        if len(found) == 2:
+        cranks.append((crank, frame * dot(psi[0], normal) / level, B, moved, p))
+        if len(cranks) == 2:
             break
-    if len(found) < 2:
+    if len(cranks) < 2:
         raise _not_drawn("design.pairs", "no trial crank tells the pairs apart", "other pairs")
     strokes: list[DesignStroke] = []
     ends = []
-    for crank, reciprocal, B, moved, p in found:
+    for crank, reciprocal, B, moved, p in cranks:
         strokes += [*dots(B, moved), line("construction", B, moved)]
         at = D + psi[0] * (frame / reciprocal) if abs(reciprocal) > 1e-9 else None
         if at is not None and abs(at - D) < 3 * frame:

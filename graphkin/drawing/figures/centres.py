@@ -101,12 +101,12 @@ def circle_diagram(centres: Centres, middle: complex, radius: float) -> Group:
     thin = Stroke(0.18, (), strokes.GREY)
     outline = (Arc(middle, radius, k * math.pi, (k + 1) * math.pi, thin) for k in (0, 1))
     knots: list[Primitive] = []
-    for name, way in ways.items():
+    for name, spoke in ways.items():
         colour, runs = colour_of_link(centres.scene, name), plain(name, 3.5, bold=True)
         box = text_box(Text(0j, runs, "middle", colour))
-        there = middle + (radius + 2.2 + max(box.width, box.height) / 2) * way
+        there = middle + (radius + 2.2 + max(box.width, box.height) / 2) * spoke
         foot = there - 1j * (box.top + box.bottom) / 2
-        knots += [Circle(middle + radius * way, 1.1, colour),
+        knots += [Circle(middle + radius * spoke, 1.1, colour),
                   Text(foot, runs, "middle", colour, f"label-circle-{name}", ("label",))]  # fmt: skip
     whole = (*outline, *lines, *numbers, *knots)
     return Group(whole, id="circle-diagram", classes=("circle-diagram",))
@@ -218,12 +218,12 @@ def _off(centre: Centre, inside: Box) -> bool:
 def _grouped(some: Iterable[Centre], alike: Callable[[Centre, Centre], bool]) -> list[list[Centre]]:
     """Centres in groups, each with the first of a group that it is like."""
     groups: list[list[Centre]] = []
-    for one in some:
-        home = next((group for group in groups if alike(group[0], one)), None)
+    for centre in some:
+        home = next((group for group in groups if alike(group[0], centre)), None)
         if home is None:
-            groups.append([one])
+            groups.append([centre])
         else:
-            home.append(one)
+            home.append(centre)
     return groups
 
 
@@ -272,18 +272,18 @@ def _lines(centres: Centres, centre: Centre, panel: Box) -> Iterator[Line]:
             low, high = min([*shares, end]), max([*shares, end])
             low, high = (low - BEYOND if end == low else low), (high + BEYOND if end == high else high)
             ends = [panel.clip(base + low * along, base + high * along)]
-        yield from (Line(*one, strokes.OF_CENTRES) for one in ends if one is not None and one[0] != one[1])
+        yield from (Line(*chord, strokes.OF_CENTRES) for chord in ends if chord is not None and chord[0] != chord[1])
 
 
 def _leads_through(centres: Centres, relation: CentreRelation) -> Iterator[complex]:
     """The places (mm, y up) that a line leads through: those of its two centres, or of the pin whose path it is square
     to."""
-    for one in relation.through:
-        if not isinstance(one, str):
-            point = centres.of(*one).point
+    for held in relation.through:
+        if not isinstance(held, str):
+            point = centres.of(*held).point
             if point is not None:
                 yield point
-        elif (name := one.split("/")[0]) in centres.scene.holders:
+        elif (name := held.split("/")[0]) in centres.scene.holders:
             yield centres.point(name)
 
 
@@ -302,16 +302,16 @@ def _pointer(inside: Box, solid: Sequence[tuple[complex, complex]], centre: Cent
     for sense in (1, -1) if centre.point is None else (1,):
         for aside in asides:
             start = middle + 1j * towards(middle, sense) * aside
-            way = towards(start, sense)
+            aim = towards(start, sense)
             for back in (0.0, 4.0, 10.0):
                 off = 0.12 * abs(aside) + 0.5 * back + 3.0 * (sense < 0)
                 if best is not None and off >= best[0]:
                     continue
-                chord = inside.clip(start, start + 1e4 * way)
+                chord = inside.clip(start, start + 1e4 * aim)
                 if chord is None or abs(chord[1] - chord[0]) < ARROW + back:
                     continue
-                tip = chord[1] - back * way
-                tail = tip - ARROW * way
+                tip = chord[1] - back * aim
+                tail = tip - ARROW * aim
                 gaps = distances(tail + (tip - tail) * np.arange(4) / 3, drawn).min(axis=0)
                 cost = off + float(np.maximum(0.0, 7.0 - gaps).sum())  # how much is drawn near it
                 if best is None or cost < best[0]:
@@ -400,9 +400,9 @@ def _legend(centres: Centres, language: str) -> Iterator[Block]:
         "by Kennedy": lambda c: c.kind == "found" and not c.way, "otherwise": lambda c: bool(c.way),
     }  # fmt: skip
     for kind, holds in kinds.items():
-        one = next((c for c in centres.found if holds(c)), None)
-        if one is not None:
-            mark = Block(Piece({"centres": mark_of(one, frame, 3.0 + 2.0j)}), 0.0, 8.0)
+        first = next((c for c in centres.found if holds(c)), None)
+        if first is not None:
+            mark = Block(Piece({"centres": mark_of(first, frame, 3.0 + 2.0j)}), 0.0, 8.0)
             yield row(mark, prose((term(kind, language),), SIDE - 8.0, classes=LEGEND))
 
 
@@ -417,20 +417,20 @@ def _report(centres: Centres, letters: Letters, language: str, width: float) -> 
     for each in languages(language):
         for centre in centres.indeterminate:
             by = Phrase(f"centre {centre.way}", (centre.pair, ", ".join(centres.kept))) if centre.way else None
-            told = [as_markup(_rich(one, each, letters)) for one in (centre.why, by) if one is not None]
-            lines.append(word("sentence joint", each).join(told))
+            sentences = [as_markup(_rich(one, each, letters)) for one in (centre.why, by) if one is not None]
+            lines.append(word("sentence joint", each).join(sentences))
     spoken = velocity_sentences(centres)
     head = [term("velocities by centres", language)] if spoken else []
-    found = [said for phrase in spoken for said in _in_all(phrase, language, letters)]
+    velocities = [said for phrase in spoken for said in _in_all(phrase, language, letters)]
     return column(prose(lines, width, 3.0, classes=TOLD), prose(head, width, 3.2, bold=True, classes=TOLD),
-                  prose(found, width, 3.0, classes=TOLD))  # fmt: skip
+                  prose(velocities, width, 3.0, classes=TOLD))  # fmt: skip
 
 
 def _in_all(phrase: Phrase, language: str, letters: Letters) -> tuple[str, ...]:
     """A sentence in each language of a sheet: its formulas and symbols once, with the further languages in brief."""
-    told = [as_markup(_rich(phrase, each, letters)) for each in languages(language)]
+    sentences = [as_markup(_rich(phrase, each, letters)) for each in languages(language)]
     brief = [word(f"{phrase.key} briefly", each, "") for each in languages(language)[1:]]
-    return (" ".join((told[0], *brief)),) if brief and all(brief) else tuple(dict.fromkeys(told))
+    return (" ".join((sentences[0], *brief)),) if brief and all(brief) else tuple(dict.fromkeys(sentences))
 
 
 def _rich(phrase: Phrase, language: str, letters: Letters) -> RichText:
@@ -496,7 +496,7 @@ def _overlapping(named: Piece) -> set[str]:
     ids = {a for a, b in permutations(texts, 2) if texts[a].overlaps(texts[b])}
     return ids | {
         name.id for leader, name in pairwise(written) if isinstance(leader, Line) and isinstance(name, Text)
-        and any(one.clip(leader.start, leader.end) and one.distance(leader.start) > 0.0 for one in joints)
+        and any(joint.clip(leader.start, leader.end) and joint.distance(leader.start) > 0.0 for joint in joints)
     }  # fmt: skip
 
 
@@ -528,11 +528,11 @@ def _centre_by_centre(
     page = FigurePage(small.sheet, "centres", language, letters, WIDTH)
     for i in range(0, len(some), COLUMNS * ROWS):
         pictures, said = [], [figure_title(small.sheet, "lines of centres", language)]
-        for centre in (small.of(*one.pair) for one in some[i : i + COLUMNS * ROWS]):
-            told = f"${letters.centre(centre.pair)}$ = {_lines_of(centre, letters)}"
-            said.append(f"{centre.number}. {_bare(told)}")
+        for centre in (small.of(*crowded.pair) for crowded in some[i : i + COLUMNS * ROWS]):
+            equation = f"${letters.centre(centre.pair)}$ = {_lines_of(centre, letters)}"
+            said.append(f"{centre.number}. {_bare(equation)}")
             picture = panel(*PICTURE, partial(_picture, small, centre, behind, letters))
-            pictures.append(column(numbered(centre.number, told, PICTURE[0], LETTER), framed(picture), gap=0.6))
+            pictures.append(column(numbered(centre.number, equation, PICTURE[0], LETTER), framed(picture), gap=0.6))
         yield page.drawing(
             page.term("lines of centres"), column(*rows(pictures, WIDTH, BETWEEN), gap=BETWEEN),
             page.scale("mechanism"), title="lines of centres", said="\n".join(said),

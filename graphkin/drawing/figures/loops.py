@@ -72,19 +72,19 @@ def _loop(page: FigurePage, block: LoopBlock, loop: Loop, scale: float) -> Block
     height = max(PANEL[1] if len(block.loops) == 1 else 30.0, box.height + 2 * ROOM)
     polygon = panel(PANEL[0], height, lambda room: with_labels(moved_piece(piece, room.centre - box.centre), room))
     width = page.width - PANEL[0] - BESIDE
-    told = [prose((line,), width, bold=bold) for line, bold in _lines(page, loop, block)]
-    found = [
-        part for one in (matrices(block, page.sheet.scene) if loop is block.loops[-1] else ())
-        for part in (prose((page.term(one.key),), width, bold=True), _matrix(one, width),
-                     prose((",  ".join(one.solution),), width))
+    lines = [prose((line,), width, bold=bold) for line, bold in _lines(page, loop, block)]
+    solved = [
+        part for matrix in (matrices(block, page.sheet.scene) if loop is block.loops[-1] else ())
+        for part in (prose((page.term(matrix.key),), width, bold=True), _matrix(matrix, width),
+                     prose((",  ".join(matrix.solution),), width))
     ]  # fmt: skip
-    return row(polygon, column(column(*told), column(*found, gap=1.2), gap=1.0), gap=BESIDE)
+    return row(polygon, column(column(*lines), column(*solved, gap=1.2), gap=1.0), gap=BESIDE)
 
 
 def _scale(blocks: Iterable[LoopBlock]) -> float:
     """m for one mm of paper, of the series 1-2-2.5-5, at which the largest loop fits its panel."""
     least = 1e-12
-    for loop in (one for block in blocks for one in block.loops):
+    for loop in (loop for block in blocks for loop in block.loops):
         box = Box.around(_corners(loop, 1.0))
         least = max(least, box.width / (PANEL[0] - 1.5 * ROOM), box.height / (1.6 * PANEL[1] - 2 * ROOM))
     return next_of_series(least)
@@ -179,25 +179,25 @@ def _lines(page: FigurePage, loop: Loop, block: LoopBlock) -> Iterator[tuple[str
     gap = _gap(page.sheet, loop)
     if gap is not None:
         size = Neutral(f"{number(gap / scene.units.metres, 4)} {scene.units.length}")
-        told = Phrase("loop open", loop=loop.name, gap=size)
-        yield from ((text, False) for text in in_all(told, page.language))
+        gap_named = Phrase("loop open", loop=loop.name, gap=size)
+        yield from ((text, False) for text in in_all(gap_named, page.language))
     if loop.root is not None:
-        yield root(loop.root, loop, scene, languages(page.language)[0]), False
+        yield root(loop.root, scene, languages(page.language)[0]), False
 
 
-def _matrix(one: MatrixEquation, room: float) -> Block:
+def _matrix(matrix: MatrixEquation, room: float) -> Block:
     """A matrix equation with its brackets, as large as it fits a width (mm)."""
     size = SIZE
     while True:
-        columns = [[rich(cells[k], size) for cells in one.rows] for k in range(len(one.unknowns))]
-        names, right = [symbol(n, size) for n in one.unknowns], [rich(r, size) for r in one.right]
+        columns = [[rich(cells[k], size) for cells in matrix.rows] for k in range(len(matrix.unknowns))]
+        names, right = [symbol(n, size) for n in matrix.unknowns], [rich(r, size) for r in matrix.right]
         widths = [max(map(runs_width, cells)) for cells in columns]
         whole = added_up(widths) + 2.6 * len(widths) + max(map(runs_width, names)) + max(map(runs_width, right)) + 16.0
         if whole <= room or size <= 1.6:
             break
         size -= 0.2
     step = 1.5 * size
-    height = step * len(one.rows) + 0.6
+    height = step * len(matrix.rows) + 0.6
     drawn: list[Primitive] = []
 
     def bracket(x: float, sense: float) -> None:
@@ -231,7 +231,7 @@ def _matrix(one: MatrixEquation, room: float) -> Block:
 def _described(page: FigurePage, blocks: Sequence[LoopBlock]) -> str:
     said = []
     for each in languages(page.language):
-        for loop in (one for block in blocks for one in block.loops):
+        for loop in (loop for block in blocks for loop in block.loops):
             points = ", ".join(loop.points)
             said.append(say(Phrase("loop heading", loop=loop.name, links=", ".join(loop.links), equation=points), each))
     return ". ".join(said)

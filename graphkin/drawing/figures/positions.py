@@ -86,10 +86,10 @@ def positions_figure(shown: Shown, *, language: str | None = None, convention: s
     sheet = shown.own
     page = FigurePage.of(sheet, "positions", language, convention)
     letters = page.letters
-    numbered = [_position(one, letters, NUMBERED, f"position-{name}") for name, one in shown.numbered.items()]
+    numbered = [_position(position, letters, NUMBERED, f"position-{name}") for name, position in shown.numbered.items()]
     limits = [
-        _position(one, letters, LIMIT, f"limit-{pair.replace('/', '-')}-{end}")
-        for pair, both in shown.limits.items() for end, one in zip(("low", "high"), both, strict=True)
+        _position(position, letters, LIMIT, f"limit-{pair.replace('/', '-')}-{end}")
+        for pair, both in shown.limits.items() for end, position in zip(("low", "high"), both, strict=True)
     ]  # fmt: skip
     least = []
     if shown.least is not None and "gamma" in shown.marks:
@@ -102,12 +102,12 @@ def positions_figure(shown: Shown, *, language: str | None = None, convention: s
     whole = joined((drawn, _dimensions(shown, drawn), _numbers(shown)))
     box = ink_box(whole.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     page = page.wide_enough(box.width + 2 * ROOM)
-    told = _measured_lines(shown, page)
+    lines = _measured_lines(shown, page)
     figure = page.panel(
         box.height + 2 * ROOM, lambda room: with_labels(moved_piece(whole, room.centre - box.centre), room))
     return page.drawing(
-        page.term("positions"), column(page.prose(told, 3.0), figure, gap=GAP), page.scale("mechanism"),
-        title="positions", said=". ".join(text.replace("$", "") for text in (page.term("positions"), *told)),
+        page.term("positions"), column(page.prose(lines, 3.0), figure, gap=GAP), page.scale("mechanism"),
+        title="positions", said=". ".join(text.replace("$", "") for text in (page.term("positions"), *lines)),
     )  # fmt: skip
 
 
@@ -116,10 +116,10 @@ def _position(sheet: Sheet, letters: Letters, stroke: Stroke, id: str) -> Piece:
     here = MechanismOnPaper(sheet, letters)
     parts: list[Primitive] = []
     for shape in here.shapes:
-        own = stroke.coloured(here.colour(shape.link))
-        parts += [Polygon(tuple(map(on_page, shape.corners)), "", own)] if shape.corners else []
-        parts += [Line(on_page(a), on_page(b), own) for a, b in shape.bars]
-    for b in (one for one in here.sliders if not one.slide.slot):
+        pen = stroke.coloured(here.colour(shape.link))
+        parts += [Polygon(tuple(map(on_page, shape.corners)), "", pen)] if shape.corners else []
+        parts += [Line(on_page(a), on_page(b), pen) for a, b in shape.bars]
+    for b in (slider for slider in here.sliders if not slider.slide.slot):
         half, across = b.along * BLOCK_LENGTH * 0.35, 1j * b.along * BLOCK_WIDTH * 0.35
         corners = (b.at + half + across, b.at + half - across, b.at - half - across, b.at - half + across)
         parts.append(Polygon(tuple(map(on_page, corners)), "", strokes.DIMENSION.coloured(here.colour(b.slide.a))))
@@ -135,8 +135,8 @@ def _crank_end(sheet: Sheet) -> tuple[complex, complex] | None:
         return None
     link = sheet.structure.links[driver.link]
     pivot = next((p for p in link.points if p in sheet.scene.frame.points), None)
-    own = sheet.scene.whole.by_name[driver.link].points  # of a cam none of what stands for it
-    far = [p for p in own if p != pivot and len(sheet.scene.holders[p]) > 1]
+    points = sheet.scene.whole.by_name[driver.link].points  # of a cam none of what stands for it
+    far = [p for p in points if p != pivot and len(sheet.scene.holders[p]) > 1]
     if pivot is None or not far:
         return None
     return sheet.points[PointRef(pivot)], sheet.points[PointRef(far[0])]
@@ -166,9 +166,9 @@ def _dimensions(shown: Shown, drawn: Piece) -> Piece:
         if taken is not None:
             parts += taken
             continue
-        *lines, told = choices[0]
-        assert isinstance(told, Text)
-        labels.append(Label(replace(told, anchor="start", id=f"label-{id}", classes=("label",)), _mark(lines)))
+        *lines, text = choices[0]
+        assert isinstance(text, Text)
+        labels.append(Label(replace(text, anchor="start", id=f"label-{id}", classes=("label",)), _mark(lines)))
         parts += lines
     return Piece({"answers": tuple(parts)} if parts else {}, tuple(labels))
 
@@ -217,15 +217,16 @@ def _crank(shown: Shown) -> Iterator[_Wanted]:
     crank = _limits_of_crank(shown)
     if crank is None:
         return
-    lag, pivot, one, two = crank
-    radius, start = abs(one), cmath.phase(one)
+    lag, pivot, first, second = crank
+    radius, start = abs(first), cmath.phase(first)
     sense = -1.0 if shown.own.scene.drivers[0].values[1] < 0 else 1.0
-    for name, from_, to, sizes in (("out", one, two, WITHIN), ("back", two, one, (WITHIN[1], WITHIN[0], *WITHIN[2:]))):
-        begin, way = cmath.phase(from_), (sense * (cmath.phase(to) - cmath.phase(from_))) % math.tau
-        if radius > 8.0 and way < math.tau - 0.05:
-            written = rich(f"{number(math.degrees(way), 5)}°", 2.4)
-            yield name, True, _arcs(pivot, [size * radius for size in sizes], begin, begin + sense * way, written)
-    turn = math.remainder(cmath.phase(-two) - start, math.tau)
+    back = WITHIN[1], WITHIN[0], *WITHIN[2:]
+    for name, from_, to, sizes in (("out", first, second, WITHIN), ("back", second, first, back)):
+        begin, swept = cmath.phase(from_), (sense * (cmath.phase(to) - cmath.phase(from_))) % math.tau
+        if radius > 8.0 and swept < math.tau - 0.05:
+            written = rich(f"{number(math.degrees(swept), 5)}°", 2.4)
+            yield name, True, _arcs(pivot, [size * radius for size in sizes], begin, begin + sense * swept, written)
+    turn = math.remainder(cmath.phase(-second) - start, math.tau)
     if abs(turn) > 0.02:  # after the longer arcs, which could not go round its number
         shown_lag = rich(f"$θ$ = {number(math.degrees(lag), 5)}°", 2.8)
         yield "theta", True, _arcs(pivot, [size * radius for size in AROUND], start, start + turn, shown_lag)
@@ -237,7 +238,7 @@ def _strokes(shown: Shown) -> Iterator[_Wanted]:
     for pair, (low, high) in shown.limits.items() if "stroke" in shown.marks else ():
         stroke = shown.measured.get(("stroke", pair))
         if "/" in pair and stroke is not None:
-            a, b = (on_page(one.poses[pair.split("/")[0]].origin) for one in (low, high))
+            a, b = (on_page(position.poses[pair.split("/")[0]].origin) for position in (low, high))
             words = rich(f"$H$ = {number(stroke / metres, 6)} {unit}", 2.8)
             if abs(b - a) > 1.0:
                 yield f"stroke-{pair.replace('/', '-')}", False, [dimension(a, b, offset, words) for offset in OFFSETS]

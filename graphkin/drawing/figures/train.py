@@ -74,9 +74,10 @@ def _page(page: FigurePage, plan: TrainPlan) -> Drawing:
     if page.convention in ("us", "british"):
         times, head = (1, "1 mm") if page.convention == "us" else (10, "1 cm")
         angular = f"{head} = {number(times * plan.turning)} {unit}"
-    told = page.scale("mechanism", plan.length), page.scale(plan.order, plan.speed), angular
+    written_scales = page.scale("mechanism", plan.length), page.scale(plan.order, plan.speed), angular
     return page.drawing(
-        page.at_drivers(page.term(name)), body, ",  ".join(told), title=name, said=page.said("plan described")[0],
+        page.at_drivers(page.term(name)), body, ",  ".join(written_scales), title=name,
+        said=page.said("plan described")[0],
         metadata={"scales": {key: float(f"{value:.12g}") for key, value in scales.items()}},
     )  # fmt: skip
 
@@ -207,10 +208,10 @@ def _planes(line: CentreLine) -> tuple[Mapping[str, int], Mapping[str, int], int
     rims: dict[tuple[str, str, float], int] = {}
     for mesh in line.meshes:
         pitch = line.spot(mesh.name).height
-        own = [(wheel, axis, round(abs(pitch - line.spot(axis).height), 12))
+        rims_here = [(wheel, axis, round(abs(pitch - line.spot(axis).height), 12))
                for wheel, axis in zip(mesh.wheels, mesh.axes, strict=True) if axis]  # fmt: skip
-        of[mesh.name] = next((rims[rim] for rim in own if rim in rims), len(set(of.values())))
-        rims.update(dict.fromkeys(own, of[mesh.name]))
+        of[mesh.name] = next((rims[rim] for rim in rims_here if rim in rims), len(set(of.values())))
+        rims.update(dict.fromkeys(rims_here, of[mesh.name]))
     first = len(set(of.values()))
     upright = [name for mesh in line.meshes for name in (
         *(wheel for wheel, part in zip(mesh.wheels, mesh.parts, strict=True) if _ring(mesh, part)), mesh.carrier)]
@@ -240,10 +241,10 @@ def scheme(scene: Mechanism, line: CentreLine, mm: float, width: float) -> Piece
         shapes.setdefault(link, []).extend(Line(on_page(a), on_page(b), stroke) for a, b in pairwise(places))
 
     def bar(link: str, plane: int, low: float, high: float) -> None:
-        ends, own = (at(plane, low), at(plane, high)), f"label-plan-wheel-{link}"
+        ends, id = (at(plane, low), at(plane, high)), f"label-plan-wheel-{link}"
         draw(link, *ends)
-        if link in scene.by_name and all(label.text.id != own for label in plate.labels):
-            plate.name(plain(link, 3.2, bold=True), ends, own, colour=strokes.colour_of_link(scene, link))
+        if link in scene.by_name and all(label.text.id != id for label in plate.labels):
+            plate.name(plain(link, 3.2, bold=True), ends, id, colour=strokes.colour_of_link(scene, link))
 
     def fixed(link: str, z: complex, away: float) -> None:
         """The frame at a place: above it (1), below it (-1), or a bearing to its right (0)."""
@@ -286,8 +287,8 @@ def scheme(scene: Mechanism, line: CentreLine, mm: float, width: float) -> Piece
     for axis in dict.fromkeys(axis for mesh in line.meshes for axis in mesh.axes if axis):
         plate.line("mechanism", complex(0.0, heights[axis]), complex(count * step, heights[axis]), AXIS)
     _shafts(plate, scene, line, on_axis, at, heights)
-    for link, own in shapes.items():
-        plate.put("mechanism", *own, id=f"plan-link-{link.replace('/', '-')}", classes=("link",))
+    for link, lines in shapes.items():
+        plate.put("mechanism", *lines, id=f"plan-link-{link.replace('/', '-')}", classes=("link",))
     return plate.piece
 
 
@@ -306,11 +307,11 @@ def _shafts(
             shaft(link, axis, min(planes), max(planes))
     for mesh in line.meshes:
         for wheel, axis in zip(mesh.wheels, mesh.axes, strict=True):
-            own, held = on_axis.get((wheel, axis), set()), on_axis.get((mesh.carrier, axis), set())
+            planes_here, held = on_axis.get((wheel, axis), set()), on_axis.get((mesh.carrier, axis), set())
             # where several links turn about an axis one in another, shafts would hide each other
-            if axis and own and held and not (len(line.spot(axis).links) > 2 and axis == line.still):
-                shaft(mesh.carrier, axis, max(own), max(held))
-                plate.circle("mechanism", at(max(own), heights[axis]), 0.9, strokes.WHITE, strokes.OUTLINE)
+            if axis and planes_here and held and not (len(line.spot(axis).links) > 2 and axis == line.still):
+                shaft(mesh.carrier, axis, max(planes_here), max(held))
+                plate.circle("mechanism", at(max(planes_here), heights[axis]), 0.9, strokes.WHITE, strokes.OUTLINE)
 
 
 FIGURES = (
