@@ -84,12 +84,12 @@ class TurnOfCrank:
             here = turn.near(value, guess)
             return None if here is None else here.poses
 
-        found = [start, *(LimitPosition(*at) for at in walk(near, start.poses, start.value, end, pace))]
-        if found[-1].value < end:
-            raise Unsolvable("no whole turn", _short(why, driver.link, found[-1].value))
-        if moved(start.poses, found[-1].poses) > CLOSED:
+        positions = [start, *(LimitPosition(*at) for at in walk(near, start.poses, start.value, end, pace))]
+        if positions[-1].value < end:
+            raise Unsolvable("no whole turn", _short(why, driver.link, positions[-1].value))
+        if moved(start.poses, positions[-1].poses) > CLOSED:
             raise Unsolvable("no whole turn", Problem(why, "the motion does not repeat after one turn"))
-        return replace(turn, positions=tuple(found))
+        return replace(turn, positions=tuple(positions))
 
     def near(self, value: float, guess: Poses) -> LimitPosition | None:
         """The position at a crank's value, near to where it is expected; None where nothing fits there."""
@@ -119,10 +119,10 @@ class TurnOfCrank:
         before = height[-2], *height
         tops = [k for k in range(len(height) - 1) if height[k] >= max(before[k], height[k + 1])]
         best, swing = max(height[k] for k in tops), max(travels) - min(travels)
-        found = [self._refined(output, k, travels[k]) for k in tops if height[k] > best - 0.02 * swing]
-        most = max(sign * value for _, value in found)
-        equal = [one for one in found if sign * one[1] > most - EQUAL * swing]
-        return min(equal, key=lambda one: (one[0].value + EQUAL) % math.tau)
+        extremes = [self._refined(output, k, travels[k]) for k in tops if height[k] > best - 0.02 * swing]
+        most = max(sign * value for _, value in extremes)
+        equal = [extreme for extreme in extremes if sign * extreme[1] > most - EQUAL * swing]
+        return min(equal, key=lambda extreme: (extreme[0].value + EQUAL) % math.tau)
 
     def _refined(self, output: Pair | str, k: int, roughly: float) -> tuple[LimitPosition, float]:
         """The place where a curve through the positions about the k-th is at rest."""
@@ -168,17 +168,17 @@ def limits_asked(
     """
     if structure.scene.instead_of is not None:
         return _follower_limits(structure.scene.instead_of, asked, values)
-    found: dict[str, Limits] = {}
+    limits: dict[str, Limits] = {}
     turn: TurnOfCrank | None = None
     for symbol in asked:
-        if symbol.scope != "turn" or symbol.pair in found:
+        if symbol.scope != "turn" or symbol.pair in limits:
             continue
         output = sliding_pair(structure.slides, symbol) if symbol.other else symbol.link
         if not {n for e in elements for n in e.members} <= poses.keys():
             continue
         turn = turn or TurnOfCrank.of(structure, elements, values, poses, str(symbol))
-        found[symbol.pair] = turn.limits(output, str(symbol))
-    return found
+        limits[symbol.pair] = turn.limits(output, str(symbol))
+    return limits
 
 
 def _follower_limits(scene: Mechanism, asked: Sequence[Symbol], values: Mapping[str, float]) -> dict[str, Limits]:
@@ -188,10 +188,10 @@ def _follower_limits(scene: Mechanism, asked: Sequence[Symbol], values: Mapping[
     ------
     Unsolvable : of what is no follower of the driven cam
     """
-    found: dict[str, Limits] = {}
+    limits: dict[str, Limits] = {}
     structure, driver = analyse(scene), scene.drivers[0]
     for symbol in asked:
-        if symbol.scope != "turn" or symbol.pair in found:
+        if symbol.scope != "turn" or symbol.pair in limits:
             continue
         cam = next((c for c in scene.cams if symbol.pair in (c.follower, getattr(c.motion, "pair", ""))), None)
         if cam is None or driver.key != cam.link or not driver.turns_about(scene.frame.name):
@@ -204,8 +204,8 @@ def _follower_limits(scene: Mechanism, asked: Sequence[Symbol], values: Mapping[
             ends.append(LimitPosition(value, poses))
         backwards = isinstance(cam.motion, SwingingFollower) and cam.motion.side < 0
         low, high = ends[::-1] if backwards else ends
-        found[symbol.pair] = Limits(low, high, cam.law.greatest - cam.law.least)
-    return found
+        limits[symbol.pair] = Limits(low, high, cam.law.greatest - cam.law.least)
+    return limits
 
 
 def limits_on_paper(

@@ -74,7 +74,7 @@ class ReducedMechanism:
     def opened(self, known: PlacedLinks, values: Sequence[float]) -> PlacedLinks:
         """The board before the group is drawn, the trial drivers at values (rad, or travel in the mechanism's size)."""
         here = {d.key: v * d.span(self.structure.scene.size) for d, v in zip(self.trial, values, strict=True)}
-        here |= {key: known.values[own] + more for key, (own, more) in self.held.items()}
+        here |= {key: known.values[driver] + more for key, (driver, more) in self.held.items()}
         return replace(known, values={**known.values, **here}, poses=dict(known.poses), pricked=dict(known.pricked))
 
     def values(self, poses: Poses, mm: float) -> list[float]:
@@ -95,9 +95,9 @@ def reduced_mechanisms(structure: Structure, group: LargerGroup, more_than: int 
     known = {structure.scene.frame.name, *(n for e in before for n in e.members)}
     rolling = len(group.rolling)
     for count in range(max(more_than + 1, rolling), rolling + MOST_REMOVED + 1):
-        found = list(islice(_reduced(structure, group, known, count), MOST_KEPT if count > 1 else None))
-        if found:
-            return found
+        reduced = list(islice(_reduced(structure, group, known, count), MOST_KEPT if count > 1 else None))
+        if reduced:
+            return reduced
     links = Phrase("links", links=", ".join(group.links))
     raise Unsolvable("not drawn", Problem(links, Phrase("nothing can be left out so that only")))
 
@@ -106,7 +106,7 @@ def _reduced(structure: Structure, group: LargerGroup, known: set[str], count: i
     scene = structure.scene
     rails = (tuple(structure.slide(n) for kind, n in r.terms if kind == "travel") for r in group.rolling)
     rolling = tuple(RemovedConstraint("", slides=s, rolling=r) for r, s in zip(group.rolling, rails, strict=True))
-    own = {d.key: d for d in scene.drivers}
+    as_given = {d.key: d for d in scene.drivers}
     driven = {n for d in scene.drivers if d.turns for n in d.links}
     # what the driver moves is rather left in its place
     removable = sorted(_removable(structure, group, driven), key=lambda r: r.left_out in driven)
@@ -121,7 +121,8 @@ def _reduced(structure: Structure, group: LargerGroup, known: set[str], count: i
         if len({d.key for d in drivers.values()}) < len(drivers):
             continue
         opened = without(unrolled(scene, [r.rolling.name for r in removed if r.rolling]), gone)
-        held = {new.key: (key, new.values[0] - own[key].values[0]) for key, new in drivers.items() if new != own[key]}
+        moved = ((key, as_given[key], new) for key, new in drivers.items() if new != as_given[key])
+        held = {new.key: (key, new.values[0] - old.values[0]) for key, old, new in moved}
         members = [m for m in group.members if m not in gone]
         for trial in combinations(list(_trials(structure, group, gone, known)), count):
             elements = regrouped(replace(opened, drivers=(*drivers.values(), *trial)), known, members)
@@ -275,33 +276,34 @@ class RemovedConstraint:
 
     def coordinates(self, poses: Poses, mm: float) -> dict[str, float]:
         """The angles within a turn and the travel of what rolls (rad, m), by the names of the coordinates."""
-        found = {}
+        values = {}
         for kind, name in self.rolling.terms if self.rolling else ():
             value = cmath.phase(poses[name].axis) if kind == "angle" else travel(self.slides[0], poses, mm) / mm
-            found[f"{kind} {name}"] = value
-        return found
+            values[f"{kind} {name}"] = value
+        return values
 
     def placed(self, paper: PlacedLinks) -> Pose | None:
         """Where the link left out lies, where it fits: a bar by its two hinges, a block by its hinge and the direction
         of its guide, a link that slides on two where both put it."""
         poses = paper.poses
         if self.kind == "guides":
-            (p, to_p), (q, to_q) = ([self._slid(slide, poses, way, paper.mm).origin for way in (0.0, paper.mm)]
+            (p, to_p), (q, to_q) = ([self._slid(slide, poses, mm, paper.mm).origin for mm in (0.0, paper.mm)]
                                     for slide in self.slides)  # fmt: skip
             at_both = cross_lines(p, to_p - p, q, to_q - q)
             return None if at_both is None else Pose(at_both, self._slid(self.slides[0], poses).axis)
-        (own, at), *other = self._hinges(paper)
-        axis = self._slid(self.slides[0], poses).axis if self.slides else unit((other[0][1] - at) / (other[0][0] - own))
-        return Pose(at - axis * own, axis)
+        (local, at), *other = self._hinges(paper)
+        bar = None if self.slides else unit((other[0][1] - at) / (other[0][0] - local))
+        axis = bar or self._slid(self.slides[0], poses).axis
+        return Pose(at - axis * local, axis)
 
     def _hinges(self, paper: PlacedLinks) -> list[tuple[complex, complex]]:
         """Of each hinge its place (mm) on the link left out, in its axes, and where the other link has it on paper."""
-        own, lying = paper.links[self.left_out].points, ((p, paper.poses[n], paper.links[n]) for p, n in self.ends)
-        return [(own[p] * paper.mm, pose.origin + pose.axis * link.points[p] * paper.mm) for p, pose, link in lying]
+        points, lying = paper.links[self.left_out].points, ((p, paper.poses[n], paper.links[n]) for p, n in self.ends)
+        return [(points[p] * paper.mm, pose.origin + pose.axis * link.points[p] * paper.mm) for p, pose, link in lying]
 
-    def _slid(self, slide: Pair, poses: Poses, way: float = 0.0, mm: float = 1.0) -> Pose:
+    def _slid(self, slide: Pair, poses: Poses, moved: float = 0.0, mm: float = 1.0) -> Pose:
         """The link left out as a sliding pair puts it, at a travel (mm)."""
-        return across(slide, self.left_out, poses[slide.other(self.left_out)], way, mm)
+        return across(slide, self.left_out, poses[slide.other(self.left_out)], moved, mm)
 
     @property
     def other_side(self) -> str:

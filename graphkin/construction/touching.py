@@ -69,10 +69,10 @@ class Touching:
                 normal = self.poses[pair.face].axis * guide.direction * pair.normal_to_face
                 at = first - normal * pair.round[0].radius * self.mm
                 return Touch(pair.name, pair.links, at, normal, means, centres)
-            one, two = pair.round
-            way = centres[two.link][1] - first
-            at = first + way * (one.radius / (one.radius + two.radius))
-            return Touch(pair.name, pair.links, at, way / abs(way), means, centres)
+            first_disc, second_disc = pair.round
+            line = centres[second_disc.link][1] - first
+            at = first + line * (first_disc.radius / (first_disc.radius + second_disc.radius))
+            return Touch(pair.name, pair.links, at, line / abs(line), means, centres)
         axes = zip(pair.wheels, pair.axes, strict=True)
         centres = {wheel: (letter, self.place(pair.carrier, letter)) for wheel, letter in axes if letter}
         wheel, other = pair.wheels
@@ -82,11 +82,11 @@ class Touching:
             along, start = pose.axis * rack.direction, pose.place(rack.through * self.mm)
             at = start + along * dot(axis - start, along)
             return Touch(pair.name, pair.wheels, at, 1j * along, "meshes", centres)
-        way = centres[other][1] - axis
+        line = centres[other][1] - axis
         held = self.scene.by_name[pair.carrier].points
         normal = self.poses[pair.carrier].axis * (held[pair.axes[1]] - held[pair.axes[0]])
         share = pair.teeth[0] / (pair.teeth[0] + teeth)
-        return Touch(pair.name, pair.wheels, axis + way * share, normal / abs(normal), "meshes", centres)
+        return Touch(pair.name, pair.wheels, axis + line * share, normal / abs(normal), "meshes", centres)
 
     def contacts(self) -> Iterator[tuple[PlacedContact, Touch]]:
         """The contacts both of whose links stand on paper."""
@@ -138,11 +138,11 @@ class Touching:
     def outermost(self, of: Collection[str] | None = None) -> list[complex]:
         """The four outermost places of each round outline and each pitch circle, ``of`` some links or of all."""
         names = self.poses.keys() if of is None else self.poses.keys() & of
-        found = [(c, abs(radius)) for wheel, c, radius in self.pitch_circles() if wheel in names]
+        circles = [(c, abs(radius)) for wheel, c, radius in self.pitch_circles() if wheel in names]
         for link in (self.scene.frame, *self.scene.links):
             if link.name in names:
-                found += [(self.place(link.name, d.centre), abs(d.radius) * self.mm) for d in link.discs]
-        return [centre + radius * way for centre, radius in found for way in (1, 1j, -1, -1j)]
+                circles += [(self.place(link.name, d.centre), abs(d.radius) * self.mm) for d in link.discs]
+        return [centre + radius * side for centre, radius in circles for side in (1, 1j, -1, -1j)]
 
 
 def _free(name: str, taken: set[str]) -> str:
@@ -227,20 +227,20 @@ def station(cam: LawCam, degree: float, lift: Lift | None = None) -> CamStation:
 @lru_cache(maxsize=64)
 def outline(cam: LawCam) -> tuple[complex, ...]:
     """The profile in the cam's own axes, point by point over a turn (m); both sides of each seam."""
-    found: list[complex] = []
+    profile: list[complex] = []
     for part in cam.law.parts:
         count = max(2, math.ceil(POINTS * (part.end - part.start) / TURN))
         for k in range(count + 1):
             degree = part.start + (part.end - part.start) * k / count
-            found.append(station(cam, degree, part.at(degree)).contact)
-    return tuple(found)
+            profile.append(station(cam, degree, part.at(degree)).contact)
+    return tuple(profile)
 
 
 def outlines_on_paper(scene: Mechanism, poses: Mapping[str, Pose], mm: float) -> Mapping[str, tuple[complex, ...]]:
     """The profile of each cam that stands on paper, by its link; ``mm`` of paper for one m."""
-    found = {}
+    outlines = {}
     for cam in scene.cams:
         if cam.link in poses:
             pose = poses[cam.link]
-            found[cam.link] = tuple(pose.origin + pose.axis * z * mm for z in outline(cam))
-    return found
+            outlines[cam.link] = tuple(pose.origin + pose.axis * z * mm for z in outline(cam))
+    return outlines

@@ -76,14 +76,14 @@ class Bodies:
         """A body by a name that a scene may have, which is returned; of the frame all points come together.  Keys of no
         point are left out."""
         made = FRAME if name == FRAME else _fresh(_link_name(name), {*self.bodies, FRAME})
-        own = self.bodies.setdefault(made, [])
-        own += [p for p in dict.fromkeys(self.names[k] for k in keys if k in self.names) if p not in own]
+        points = self.bodies.setdefault(made, [])
+        points += [p for p in dict.fromkeys(self.names[k] for k in keys if k in self.names) if p not in points]
         return made
 
     def holder(self, keys: Iterable[str], but: str | None = None) -> str | None:
         """The first body that has these points, but for one."""
         points = {self.names[key] for key in keys}
-        return next((name for name, own in self.bodies.items() if name != but and points <= {*own}), None)
+        return next((name for name, held in self.bodies.items() if name != but and points <= {*held}), None)
 
     def slide_on(self, key: str, line: tuple[str, str], otherwise: str) -> None:
         """A pin at a point runs on the line through two others; where no body has these, ``otherwise`` is lost."""
@@ -92,8 +92,8 @@ class Bodies:
         if on is None or body is None:
             self.lost.append(otherwise)
             return
-        one, two = map(self.place, line)
-        self.slides.append(BodySlide(body, self.names[key], on, one, cmath.phase(two - one), turns=True))
+        start, end = map(self.place, line)
+        self.slides.append(BodySlide(body, self.names[key], on, start, cmath.phase(end - start), turns=True))
 
     def turn(self, keys: Iterable[str], rate: float, otherwise: str = "") -> None:
         """What has these points turns at a rate (rad/s); where nothing that moves has them, ``otherwise`` is lost."""
@@ -129,7 +129,7 @@ class Bodies:
                 pins[line.point] = {"of": line.body, "in": ref}
             else:
                 links[line.body] |= self._on(line, ref, links[line.body])
-        joints = {p for p in self.places if sum(p in own for own in self.bodies.values()) > 1}
+        joints = {p for p in self.places if sum(p in points for points in self.bodies.values()) > 1}
         joints |= {line.point for line in self.slides}
         fixed = self.bodies.get(FRAME, [])
         sketch = {p: _pair(z) for p, z in self.places.items() if p in joints and p not in fixed}
@@ -146,13 +146,13 @@ class Bodies:
     def with_pins(self) -> Bodies:
         """The same with pins in slots instead of blocks that only have one pin, and two points of its body on every
         line that bodies slide on: for programs that know no others."""
-        made = Bodies(self.title, dict(self.places), {n: list(own) for n, own in self.bodies.items()}, [],
+        made = Bodies(self.title, dict(self.places), {n: list(points) for n, points in self.bodies.items()}, [],
                       list(self.drives), self.unit, self.left, self.lost)  # fmt: skip
         guides, driven = {s.on for s in self.slides}, {d.body for d in self.drives if d.point}
         for slide in self.slides:
             block = slide.body
             alone = [s for s in self.slides if s.body == block] == [slide] and len(self.bodies[block]) == 1
-            others = [n for n, own in made.bodies.items() if n not in (block, slide.on) and slide.point in own]
+            others = [n for n, points in made.bodies.items() if n not in (block, slide.on) and slide.point in points]
             if slide.turns:
                 made.slides.append(slide)
             elif alone and others and block not in guides | driven:
@@ -162,20 +162,20 @@ class Bodies:
                 self.lost.append(f"slide of {block} on {slide.on} (it keeps its angle)")
         size = max((abs(a - b) for a in self.places.values() for b in self.places.values()), default=0.0) or 1.0
         for k, slide in enumerate(made.slides):
-            way, own = cmath.rect(size, slide.angle), made.bodies.setdefault(slide.on, [])
-            foot = slide.through + way * ((self.places[slide.point] - slide.through) / way).real
-            own += [made.point(f"Slot{k}a", foot - way), made.point(f"Slot{k}b", foot + way)]
+            along, points = cmath.rect(size, slide.angle), made.bodies.setdefault(slide.on, [])
+            foot = slide.through + along * ((self.places[slide.point] - slide.through) / along).real
+            points += [made.point(f"Slot{k}a", foot - along), made.point(f"Slot{k}b", foot + along)]
         return made
 
     def _tidy(self) -> None:
         """A body of one point that only hangs on another is that other's pin; one with none is nothing."""
-        for name in [n for n, own in self.bodies.items() if not own and n != FRAME]:
+        for name in [n for n, points in self.bodies.items() if not points and n != FRAME]:
             del self.bodies[name]
             self.lost += [f"slide of {s.body} on {s.on}" for s in self.slides if name in (s.body, s.on)]
             self.slides = [s for s in self.slides if name not in (s.body, s.on)]
         sliding = {s.body for s in self.slides} | {s.on for s in self.slides}
-        for name, own in list(self.bodies.items()):
-            if name != FRAME and len(own) == 1 and name not in sliding:
+        for name, points in list(self.bodies.items()):
+            if name != FRAME and len(points) == 1 and name not in sliding:
                 del self.bodies[name]
                 self.left.append(f"link {name} (it has one point only)")
         self.lost += [f"driver of {d.body}" for d in self.drives if d.body not in self.bodies]
@@ -186,28 +186,28 @@ class Bodies:
         lines: dict[str, dict[str, BodySlide]] = {}
         refs = []
         for slide in self.slides:
-            own = lines.setdefault(slide.on, {})
-            name = f"s{len(own) + 1}"
-            own[name] = slide
+            names = lines.setdefault(slide.on, {})
+            name = f"s{len(names) + 1}"
+            names[name] = slide
             refs.append((slide, f"{slide.on}.{name}"))
         return lines, refs
 
     def _axis(self, name: str) -> tuple[complex, complex]:
         """Origin and direction of a body's own axes."""
-        own, _ = self._ordered(name)
-        origin = self.places[own[0]] if own else 0j
-        if len(own) > 1:
-            way = self.places[own[1]] - origin
-            return origin, way / abs(way)
+        ends, _ = self._ordered(name)
+        origin = self.places[ends[0]] if ends else 0j
+        if len(ends) > 1:
+            along = self.places[ends[1]] - origin
+            return origin, along / abs(along)
         line = next((s for s in self.slides if s.body == name and not s.turns), None)
         return origin, cmath.rect(1.0, line.angle) if line is not None else 1 + 0j
 
     def _ordered(self, name: str) -> tuple[list[str], list[str]]:
         """The points of a body that give its own axes (first the one that slides, then one that lies elsewhere, if
         there is one), and the others."""
-        own = list(self.bodies[name])
-        first = next((s.point for s in self.slides if s.body == name and not s.turns), own[0] if own else "")
-        rest = [p for p in own if p != first]
+        points = list(self.bodies[name])
+        first = next((s.point for s in self.slides if s.body == name and not s.turns), points[0] if points else "")
+        rest = [p for p in points if p != first]
         size = max((abs(self.places[p] - self.places[first]) for p in rest), default=0.0)
         second = next((p for p in rest if abs(self.places[p] - self.places[first]) > SAME * size), None)
         if second is None:
@@ -215,11 +215,11 @@ class Bodies:
         return [first, second], [p for p in rest if p != second]
 
     def _link(self, name: str, lines: dict[str, BodySlide]) -> dict[str, Json]:
-        own, further = self._ordered(name)
+        ends, further = self._ordered(name)
         origin, axis = self._axis(name)
-        table: dict[str, Json] = {"points": own}
-        if len(own) > 1:
-            table["length"] = number(abs(self.places[own[1]] - origin))
+        table: dict[str, Json] = {"points": ends}
+        if len(ends) > 1:
+            table["length"] = number(abs(self.places[ends[1]] - origin))
         if further:
             table["at"] = {p: _pair((self.places[p] - origin) / axis) for p in further}
         if lines:

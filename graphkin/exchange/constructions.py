@@ -72,10 +72,10 @@ class _Construction:
         changed = True
         while changed:
             changed = False
-            for i, one in enumerate(bodies):
+            for i, body in enumerate(bodies):
                 for k in range(len(bodies) - 1, i, -1):
-                    if len(set(one) & set(bodies[k])) > 1:
-                        one += [p for p in bodies.pop(k) if p not in one]
+                    if len(set(body) & set(bodies[k])) > 1:
+                        body += [p for p in bodies.pop(k) if p not in body]
                         changed = True
             for triangle in combinations(bodies, 3):
                 whole = list(dict.fromkeys(p for bar in triangle for p in bar))
@@ -88,7 +88,7 @@ class _Construction:
 
 def _closed(a: list[str], b: list[str], c: list[str]) -> bool:
     """Whether three bars meet in three points."""
-    shared = [set(one) & set(other) for one, other in ((a, b), (a, c), (b, c))]
+    shared = [set(bar) & set(other) for bar, other in ((a, b), (a, c), (b, c))]
     return all(len(points) == 1 for points in shared) and len(set().union(*shared)) == 3
 
 
@@ -165,15 +165,15 @@ def _follow(
         made.moving.add(out)
         made.bars += [[*given, out]]
     elif name not in ("Slider", "Locus", "Distance", "Angle", "Length", "Text"):
-        found = {p for p in got if p in points}
-        (made.made.lost if found else made.made.left).append(f"{name} {', '.join(filter(None, got))}")
-        made.moving |= found
+        moved = {p for p in got if p in points}
+        (made.made.lost if moved else made.made.left).append(f"{name} {', '.join(filter(None, got))}")
+        made.moving |= moved
 
 
 def _arguments(command: ElementTree.Element, tag: str) -> list[str]:
     """The inputs or the outputs of a command, a0, a1, ..., in their order."""
-    found = command.find(tag)
-    given = found.attrib if found is not None else {}
+    element = command.find(tag)
+    given = element.attrib if element is not None else {}
     return [given[key] for key in sorted(given, key=lambda key: int(re.sub(r"\D", "", key) or 0))]
 
 
@@ -214,21 +214,21 @@ def construct_linkage(bodies: Bodies, joints: Sequence[Tables]) -> None:
             continue
         if not first or (not second and kind != "crank"):
             raise ValueError(Phrase("joint refers to no other", name=label))
-        one = bodies.place(first)
+        start = bodies.place(first)
         if kind == "crank":
-            way = here - one if joint.get("x") is not None else complex(float(joint["distance"]))
-            bodies.point(label, one + float(joint.get("distance", abs(way))) * way / abs(way))
+            crank = here - start if joint.get("x") is not None else complex(float(joint["distance"]))
+            bodies.point(label, start + float(joint.get("distance", abs(crank))) * crank / abs(crank))
             made.bars.append([first, label])
             made.driven.append((first, label, float(joint.get("angle", STEP))))
         elif kind == "fixed":
-            turn = cmath.phase(bodies.place(second) - one) + float(joint["angle"])
-            bodies.point(label, one + cmath.rect(float(joint["distance"]), turn))
+            turn = cmath.phase(bodies.place(second) - start) + float(joint["angle"])
+            bodies.point(label, start + cmath.rect(float(joint["distance"]), turn))
             if {first, second} <= set(fixed):
                 fixed.append(label)
                 continue
             made.bars.append([first, second, label])
         elif kind in ("revolute", "pivot"):
-            both = cross_arcs(one, float(joint["distance0"]), bodies.place(second), float(joint["distance1"]))
+            both = cross_arcs(start, float(joint["distance0"]), bodies.place(second), float(joint["distance1"]))
             if both is None:
                 raise ValueError(Phrase("the bars of do not meet", name=label))
             bodies.point(label, min(both, key=lambda z: abs(z - here)))

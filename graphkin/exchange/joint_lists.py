@@ -208,12 +208,12 @@ def _block(made: Bodies, ends: list[str], joints: dict[str, _SharedJoint], links
         return
     angle, through, on = line.angle, line.place, FRAME
     if not line.grounded:
-        one, two = map(made.place, line.ends)
-        angle, through, on = cmath.phase(two - one), one, links[line.carrier]
+        start, end = map(made.place, line.ends)
+        angle, through, on = cmath.phase(end - start), start, links[line.carrier]
     else:
         angle = _exact(angle)
     point = made.names[pin.id]
-    holders = [n for n, own in made.bodies.items() if n not in (FRAME, on) and point in own]
+    holders = [n for n, points in made.bodies.items() if n not in (FRAME, on) and point in points]
     block = holders[0] if pin.welded and holders else made.body("".join(ends), [pin.id])
     made.slides.append(BodySlide(block, point, on, through, angle))
     if line.driven:
@@ -276,9 +276,9 @@ def _inside(text: str, begin: int, title: str) -> tuple[str, int]:
 def _first_crank(made: Bodies) -> list[tuple[str, str]]:
     """The first bar about a fixed pivot, where nothing says what drives."""
     points = list(made.places)
-    for name, own in made.bodies.items():
-        fixed = [p for p in own if p in made.bodies[FRAME]]
-        free = [p for p in own if p not in made.bodies[FRAME]]
+    for name, held in made.bodies.items():
+        fixed = [p for p in held if p in made.bodies[FRAME]]
+        free = [p for p in held if p not in made.bodies[FRAME]]
         if name != FRAME and fixed and free:
             return [(str(points.index(fixed[0])), str(points.index(free[0])))]
     return []
@@ -294,13 +294,13 @@ def write_pyslvs(bodies: Bodies) -> str:
         joints.append(f"J[{kind}{turned}, P[{number(place.real)!r}, {number(place.imag)!r}], L[{links}]]")
 
     for point, place in bodies.places.items():
-        own = [n for n, points in bodies.bodies.items() if point in points]
+        holders = [n for n, points in bodies.bodies.items() if point in points]
         slot = next((s for s in bodies.slides if s.point == point and s.turns), None)
         kept = [s for s in bodies.slides if s.point == point and not s.turns]
         if slot is not None:
-            joint("RP", place, [slot.on, *(n for n in own if n != slot.on)], slot.angle)
-        elif len(own) > 1 or not kept:
-            joint("R", place, own)
+            joint("RP", place, [slot.on, *(n for n in holders if n != slot.on)], slot.angle)
+        elif len(holders) > 1 or not kept:
+            joint("R", place, holders)
         for slide in kept:
             joint("P", place, [slide.on, slide.body], slide.angle)
     bodies.left += [f"unit of length {bodies.unit}"] if bodies.unit != "mm" else []

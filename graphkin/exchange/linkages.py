@@ -49,17 +49,17 @@ def read_linkage2(text: str, title: str) -> Bodies:
     made.body(FRAME, [key for key, node in nodes.items() if node.get("anchor") == "true"])
     names: dict[str, list[str]] = {}
     for element in elements:
-        own = [c.get("id", "") for c in element if c.tag == "connector" and c.get("id") in made.names]
+        keys = [c.get("id", "") for c in element if c.tag == "connector" and c.get("id") in made.names]
         label = element.get("name") or f"L{element.get('id', '')}"
         if element.get("gear") == "true":
             made.lost.append(f"gear {label}")
-        if all(nodes[k].get("anchor") == "true" for k in own) and own:
+        if all(nodes[k].get("anchor") == "true" for k in keys) and keys:
             continue  # part of the frame
-        if element.get("actuator") == "true" and len(own) == 2:
-            _cylinder(made, element, label, own)
+        if element.get("actuator") == "true" and len(keys) == 2:
+            _cylinder(made, element, label, keys)
             continue
-        name = made.body(label, own)
-        for key in own:
+        name = made.body(label, keys)
+        for key in keys:
             names.setdefault(key, []).append(name)
     made.lost += [f"{r.get('type', 'gears')} ratio" for ratios in root if ratios.tag == "ratios" for r in ratios]
     made.lost += [f"fastening of {n.get('name') or n.get('id')}" for n in (*nodes.values(), *elements) if _fastened(n)]
@@ -92,17 +92,17 @@ def _fastened(node: ElementTree.Element) -> bool:
     )
 
 
-def _slider(made: Bodies, node: ElementTree.Element, own: list[str], names: dict[str, list[str]]) -> None:
+def _slider(made: Bodies, node: ElementTree.Element, holders: list[str], names: dict[str, list[str]]) -> None:
     """A connector that runs on the straight line between two others, which lie on one body."""
     limits = [c.get("id", "") for c in node if c.tag == "slidelimit"][:2]
     label = node.get("name") or node.get("id")
-    if len(limits) < 2 or any(k not in made.names for k in limits) or not own:
+    if len(limits) < 2 or any(k not in made.names for k in limits) or not holders:
         made.lost.append(f"slider {label} (it has no two limits)")
         return
     if _number(node, "slideradius"):
         made.lost.append(f"slider {label} (its slot is round)")
         return
-    one, two = map(made.place, limits)
+    start, end = map(made.place, limits)
     fixed = all(made.names[k] in made.bodies[FRAME] for k in limits)
     shared = [n for n in names.get(limits[0], []) if n in names.get(limits[1], [])]
     if not fixed and not shared:
@@ -113,15 +113,15 @@ def _slider(made: Bodies, node: ElementTree.Element, own: list[str], names: dict
     if point in made.bodies.get(on, []):
         made.lost.append(f"slider {label} (it is a point of the link that guides it)")
         return
-    made.slides.append(BodySlide(own[0], point, on, one, cmath.phase(two - one), turns=True))
+    made.slides.append(BodySlide(holders[0], point, on, start, cmath.phase(end - start), turns=True))
 
 
 def _cylinder(made: Bodies, element: ElementTree.Element, label: str, ends: list[str]) -> None:
     """A bar whose length is driven: a cylinder about its first end, and a rod that slides in it."""
-    one, two = map(made.place, ends)
+    start, end = map(made.place, ends)
     cylinder, rod = made.body(f"{label}c", ends[:1]), made.body(f"{label}r", ends[1:])
-    made.slides.append(BodySlide(rod, made.names[ends[1]], cylinder, one, cmath.phase(two - one)))
-    throw = _number(element, "throw") or abs(two - one)
+    made.slides.append(BodySlide(rod, made.names[ends[1]], cylinder, start, cmath.phase(end - start)))
+    throw = _number(element, "throw") or abs(end - start)
     # out and in again once a cycle
     made.drives.append(BodyDrive(rod, 2 * throw * _number(element, "cpm", RPM) / 60, made.names[ends[1]]))
 
@@ -157,9 +157,9 @@ def write_linkage2(bodies: Bodies) -> str:
         node = ElementTree.SubElement(root, "connector", here)
         for end in ends.get(point, ()):
             ElementTree.SubElement(node, "slidelimit", id=ids[end])
-    for k, (name, own) in enumerate(bodies.bodies.items()):  # the frame too, or its points would be of no link
+    for k, (name, points) in enumerate(bodies.bodies.items()):  # the frame too, or its points would be of no link
         element = ElementTree.SubElement(root, "element", id=str(k), name=name, layer="4", linesize="1")
-        for point in own:
+        for point in points:
             ElementTree.SubElement(element, "connector", id=ids[point])
     ElementTree.indent(root, "\t")
     return ElementTree.tostring(root, encoding="unicode") + "\n"
@@ -210,8 +210,8 @@ def _mechanism(made: Bodies, data: Tables) -> None:
         if link.get("type") == "ground":
             continue
         joints = link.get("joints", ())
-        own = [*joints, *(t["id"] for t in trackers if {t["ref_joint1_id"], t["ref_joint2_id"]} <= {*joints})]
-        name = made.body(str(link.get("name") or link["id"]), own)
+        keys = [*joints, *(t["id"] for t in trackers if {t["ref_joint1_id"], t["ref_joint2_id"]} <= {*joints})]
+        name = made.body(str(link.get("name") or link["id"]), keys)
         if "driver" in str(link.get("type")):
             made.drives.append(BodyDrive(name, float(link.get("angular_velocity", STEP))))
             if link["type"] == "arc_driver":
@@ -219,7 +219,7 @@ def _mechanism(made: Bodies, data: Tables) -> None:
     for key, joint in sliding.items():
         line = complex(*map(float, joint.get("line_point", (0, 0))))
         axis = complex(*map(float, joint.get("axis", (1, 0))))
-        holders = [n for n, own in made.bodies.items() if n != FRAME and made.names[key] in own]
+        holders = [n for n, keys in made.bodies.items() if n != FRAME and made.names[key] in keys]
         if holders:
             made.slides.append(BodySlide(holders[0], made.names[key], FRAME, line, cmath.phase(axis), turns=True))
         else:
@@ -249,17 +249,17 @@ def write_pylinkage(bodies: Bodies) -> str:
     bodies.left += [f"unit of length {bodies.unit}"] if bodies.unit != "mm" else []
     driven = {d.body: d for d in bodies.drives if not d.point}
     bodies.lost += [f"driver of {d.body}" for d in bodies.drives if d.point]
-    for name, own in bodies.bodies.items():
-        if name == FRAME or (len(own) < 2 and name not in driven):
+    for name, points in bodies.bodies.items():
+        if name == FRAME or (len(points) < 2 and name not in driven):
             continue
-        link: OwnTables = {"id": name, "type": "link", "joints": own}
-        pivot = next((p for p in own if p in fixed), None)
-        if name in driven and (pivot is None or len(own) < 2):
+        link: OwnTables = {"id": name, "type": "link", "joints": points}
+        pivot = next((p for p in points if p in fixed), None)
+        if name in driven and (pivot is None or len(points) < 2):
             bodies.lost.append(f"driver of {name} (it has no two points)")
         elif name in driven and pivot is not None:
-            way = next(bodies.places[p] - bodies.places[pivot] for p in own if p != pivot)
+            crank = next(bodies.places[p] - bodies.places[pivot] for p in points if p != pivot)
             link |= {"type": "driver", "motor_joint": pivot, "angular_velocity": number(driven[name].rate),
-                     "initial_angle": cmath.phase(way)}  # fmt: skip
+                     "initial_angle": cmath.phase(crank)}  # fmt: skip
         links.append(link)
     data = {"name": bodies.title, "joints": joints, "links": links, "ground": "ground"}
     return json.dumps(data, indent=2, ensure_ascii=False) + "\n"

@@ -43,16 +43,16 @@ def spelling_of(scene: Mechanism) -> Spelling:
 
 def asked(reading: Reading) -> tuple[Symbol, ...]:
     """The symbols of ``find``, each once, in its order; what is wrong with them is noted."""
-    found = [_symbol(path_name(("find", text)), text, reading) for text in reading.file.find or ()]
-    reading.wrong(*(s for s in found if isinstance(s, Problem)))
-    return tuple(dict.fromkeys(s for s in found if isinstance(s, Symbol)))
+    symbols = [_symbol(path_name(("find", text)), text, reading) for text in reading.file.find or ()]
+    reading.wrong(*(s for s in symbols if isinstance(s, Problem)))
+    return tuple(dict.fromkeys(s for s in symbols if isinstance(s, Symbol)))
 
 
 def stated_values(reading: Reading) -> tuple[StatedValues, ...]:
     """All values that somebody states: ``[printed]``, ``[[printed_rows]]``, and the file of ``[printed_table]``; what
     is wrong with them is noted."""
     file, positions = reading.file, reading.positions
-    found = []
+    stated = []
 
     def how(table: str, by: object) -> Literal["drawing", "computation"] | None:
         if by not in BY:
@@ -63,7 +63,7 @@ def stated_values(reading: Reading) -> tuple[StatedValues, ...]:
     usual = how("printed", file.printed.get("by", "drawing")) or "drawing"
     values = _values("printed", file.printed, reading)
     if values:
-        found.append(StatedValues(None, values, usual))
+        stated.append(StatedValues(None, values, usual))
     for number, row in enumerate(file.printed_rows, 1):
         where, at = f"printed_rows.{number}", row.get("at")
         if not isinstance(at, int | float | str):
@@ -74,10 +74,10 @@ def stated_values(reading: Reading) -> tuple[StatedValues, ...]:
             wanted = did_you_mean(at, positions) if positions else unnamed
             reading.say(f"{where}.at", "there is no position", wanted, at=at)
         elif by := how(where, row.get("by", usual)):
-            found.append(StatedValues(at, _values(where, row, reading), by))
+            stated.append(StatedValues(at, _values(where, row, reading), by))
     if file.printed_table is not None:
-        found.append(StatedValues(None, {}, file.printed_table.by, file.printed_table.file))
-    return tuple(found)
+        stated.append(StatedValues(None, {}, file.printed_table.by, file.printed_table.file))
+    return tuple(stated)
 
 
 def _values(table: str, values: Mapping[str, Stated], reading: Reading) -> dict[Symbol, Printed]:
@@ -85,7 +85,7 @@ def _values(table: str, values: Mapping[str, Stated], reading: Reading) -> dict[
 
     A name that is no symbol may be one as people spell it, with a unit (``ω₃``, ``"v_B (m/s)"``).
     """
-    found: dict[Symbol, Printed] = {}
+    printed: dict[Symbol, Printed] = {}
     for text, value in values.items():
         if text in ("by", "at"):
             continue
@@ -100,17 +100,17 @@ def _values(table: str, values: Mapping[str, Stated], reading: Reading) -> dict[
             symbol = symbol if meant is None else _symbol(where, str(meant), reading)
         if isinstance(symbol, Problem):
             reading.wrong(symbol)
-        elif symbol in found:
+        elif symbol in printed:
             reading.say(where, "is given twice", "give it once", symbol=symbol)
         elif not isinstance(value, int | float | str) and not symbol.is_vector:
             reading.say(where, "found two numbers", "it is one number no vector")
         else:
             try:
-                found[symbol] = _printed(symbol, value, unit, reading.units)
+                printed[symbol] = _printed(symbol, value, unit, reading.units)
             except ValueError as error:
                 like = "-1220 mm/s" if symbol.is_vector else "2.82 cw"
                 reading.say(where, error.args[0], "write a number its digits as printed 1.0", example=like)
-    return found
+    return printed
 
 
 def _printed(symbol: Symbol, value: Stated, unit: str, units: Units) -> Printed:

@@ -97,20 +97,20 @@ class Reading:
     @cached_property
     def points(self) -> Mapping[str, tuple[str, ...]]:
         """The points of each link, the frame's included."""
-        own = {name: (*link.points, *link.at, *sorted(self.lost_names("links", name, "at")))
+        names = {name: (*link.points, *link.at, *sorted(self.lost_names("links", name, "at")))
                for name, link in self.links.items()}  # fmt: skip
-        own |= dict.fromkeys(self.lost_names("links"), ())
-        own.setdefault(self.frame.name, (*self.frame.points, *sorted(self.lost_names("frame", "points"))))
-        return {name: tuple(dict.fromkeys(points)) for name, points in own.items()}
+        names |= dict.fromkeys(self.lost_names("links"), ())
+        names.setdefault(self.frame.name, (*self.frame.points, *sorted(self.lost_names("frame", "points"))))
+        return {name: tuple(dict.fromkeys(points)) for name, points in names.items()}
 
     @cached_property
     def guides(self) -> Mapping[str, frozenset[str]]:
         """The names of the guides of each link, the frame's included."""
-        own = {name: frozenset(link.guides) | self.lost_names("links", name, "guides")
+        names = {name: frozenset(link.guides) | self.lost_names("links", name, "guides")
                for name, link in self.links.items()}  # fmt: skip
-        own |= dict.fromkeys(self.lost_names("links"), frozenset[str]())
-        own.setdefault(self.frame.name, frozenset(self.frame.guides) | self.lost_names("frame", "guides"))
-        return own
+        names |= dict.fromkeys(self.lost_names("links"), frozenset[str]())
+        names.setdefault(self.frame.name, frozenset(self.frame.guides) | self.lost_names("frame", "guides"))
+        return names
 
     @cached_property
     def contacts(self) -> frozenset[str]:
@@ -122,8 +122,8 @@ class Reading:
         """The links of which a wrong entry was taken out that may have held names, so that a name not found there is no
         second problem; "" stands for all links."""
         harmless = {"length", "on", "angle_on", "redundant"}
-        own = {str(p[1]) for p in self.lost if p[0] == "links" and len(p) == 3 and p[2] not in harmless}
-        unsure = self.lost_names("links") | own
+        damaged = {str(p[1]) for p in self.lost if p[0] == "links" and len(p) == 3 and p[2] not in harmless}
+        unsure = self.lost_names("links") | damaged
         if self.lost_under("frame", "name") or any(p[0] == "frame" and len(p) == 2 for p in self.lost):
             unsure |= {self.frame.name}
         return frozenset(unsure | {""} if unsure else unsure)
@@ -163,17 +163,17 @@ class Reading:
 
     def no_point(self, where: str, point: str) -> Problem | None:
         """The problem of a point that no link has."""
-        everywhere = {p for own in self.points.values() for p in own} | self.contacts
+        everywhere = {p for points in self.points.values() for p in points} | self.contacts
         if point in everywhere or "" in self.unsure:
             return None
         return Problem(where, "no link has a point", did_you_mean(point, everywhere), point=point)
 
     def no_point_of(self, where: str, link: str, point: str) -> Problem | None:
         """The problem of a point that this link does not have."""
-        own = self.points.get(link, ())
-        if point in own or link in self.unsure:
+        points = self.points.get(link, ())
+        if point in points or link in self.unsure:
             return None
-        return Problem(where, "is nowhere placed on link", did_you_mean(point, own), point=point, link=link)
+        return Problem(where, "is nowhere placed on link", did_you_mean(point, points), point=point, link=link)
 
     def no_guide(self, where: str, ref: str) -> Problem | None:
         """The problem of a guide LINK or LINK.GUIDE that does not exist."""
@@ -181,8 +181,8 @@ class Reading:
         missing = self.no_link(where, link)
         if missing or not guide or link in self.unsure or guide in self.guides.get(link, ()):
             return missing
-        own = self.guides.get(link, frozenset())
-        hint = did_you_mean(guide, own) if own else Phrase("its own axis is the guide", link=link)
+        guides = self.guides.get(link, frozenset())
+        hint = did_you_mean(guide, guides) if guides else Phrase("its own axis is the guide", link=link)
         return Problem(where, "link has no guide", hint, link=link, guide=guide)
 
 
@@ -195,19 +195,19 @@ def check_own_points(reading: Reading) -> None:
     if frame in reading.links:
         say("frame.name", "the frame is named as a moving link", "give the frame a name of its own", frame=frame)
     for name, link in reading.links.items():
-        where, own = f"links.{name}", link.points
-        if len(own) > 2:
-            say(f"{where}.points", "found names", Phrase("two at most place in at x y", name=own[2], other=own[2]),
-                count=len(own), name=", ".join(own[:6]))
-        twice = sorted({p for p in own if own.count(p) > 1})
+        where, points = f"links.{name}", link.points
+        if len(points) > 2:
+            wanted = Phrase("two at most place in at x y", name=points[2], other=points[2])
+            say(f"{where}.points", "found names", wanted, count=len(points), name=", ".join(points[:6]))
+        twice = sorted({p for p in points if points.count(p) > 1})
         if twice:
             say(f"{where}.points", "stands there twice", "a bar has two different points", name=twice[0])
-        if link.length is not None and len(own) < 2 and name not in reading.unsure:
-            key = "found with own points" if len(own) != 1 else "found with own point"
-            say(f"{where}.length", Phrase(key, length=f"{link.length:g}", count=len(own)),
+        if link.length is not None and len(points) < 2 and name not in reading.unsure:
+            key = "found with own points" if len(points) != 1 else "found with own point"
+            say(f"{where}.length", Phrase(key, length=f"{link.length:g}", count=len(points)),
                 "a length needs two names in points")
         lost = name in reading.unsure or reading.lost_under("links", name, "on")
-        if not own and link.on is None and not lost:
+        if not points and link.on is None and not lost:
             say(where, "has neither points nor on so nothing places", "write points a b or on for a")
 
 
@@ -360,7 +360,7 @@ def islands(reading: Reading) -> list[tuple[str, ...]]:
         near[meant[a]].add(meant[b])
         near[meant[b]].add(meant[a])
     for name, points in known.items():
-        near[name] |= {other for other, own in known.items() if other != name and not {*own}.isdisjoint(points)}
+        near[name] |= {other for other, others in known.items() if other != name and not {*others}.isdisjoint(points)}
     apart: list[tuple[str, ...]] = []
     seen: set[str] = set()
     for start in (reading.frame.name, *known):
@@ -484,8 +484,8 @@ def with_bars(reading: Reading) -> Reading:
                 reading.say(f"links.{name}.points", "is missing", "name the point of the block that runs")
             elif centres[key]:
                 # along the guide's sense, turned back by angle_on, lies the own x axis: the centre is to the left of it
-                way = 1j * direction(-angle) * (arcs[key].r or 0.0)
-                at[centres[key]] = [way.real, way.imag]
+                to_centre = 1j * direction(-angle) * (arcs[key].r or 0.0)
+                at[centres[key]] = [to_centre.real, to_centre.imag]
                 note(key, name, link.points[0], block=True)
         return without_arcs(name, replace(link, at=at))
 
@@ -500,7 +500,7 @@ def _centre(
 ) -> str:
     """The point in the centre of a circular slot, "" where there is none; what is wrong is noted.  For a place a new
     point is ``given``."""
-    name, own = key[0], points[key[0]]
+    name, names = key[0], points[key[0]]
     body = "frame" if name == reading.frame.name and name not in reading.links else f"links.{name}"
     where = f"{body}.guides.{key[1]}"
     both = [k for k in ("through", "angle", "toward") if getattr(arc, k) is not None]
@@ -514,10 +514,10 @@ def _centre(
     if not isinstance(arc.centre, str):
         point = _free("M", {p for each in points.values() for p in each})
         given[point] = list(arc.centre)
-        own.add(point)
+        names.add(point)
         return point
-    if arc.centre not in own and not reading.lost_under(*where.split(".")[:2]):
-        reading.say(f"{where}.centre", "link has no point of name and centre", did_you_mean(arc.centre, sorted(own)),
+    if arc.centre not in names and not reading.lost_under(*where.split(".")[:2]):
+        reading.say(f"{where}.centre", "link has no point of name and centre", did_you_mean(arc.centre, sorted(names)),
                     name=name, centre=arc.centre)
         return ""
     return arc.centre

@@ -222,12 +222,12 @@ def _read(raw: Tables, name: str) -> Design:
         problems.append(Problem("links", found, "this is a scene a design file has"))
     if given.get("design") is None:
         problems.append(Problem("design", "is missing", "a design file has a table design with"))
-    own, wrong, _ = DESIGN.checked(given)
-    task = _task(own.design, problems) if own.design else None
+    tables, wrong, _ = DESIGN.checked(given)
+    task = _task(tables.design, problems) if tables.design else None
     problems += wrong
     if problems or task is None:
         raise SceneError(*problems)
-    return Design(**vars(own), task=task, name=name)
+    return Design(**vars(tables), task=task, name=name)
 
 
 def _task(raw: OwnTables, problems: list[Problem]) -> DesignTask | None:
@@ -277,16 +277,16 @@ def _bar_positions(task: BarPositionsTask, problems: list[Problem]) -> BarPositi
     if len(problems) > before:
         return None
     placed = [bar if bar.angle is None else BarPlace(bar.B, bar.B + length * direction(bar.angle)) for bar in bars]
-    own = abs(placed[0].C - placed[0].B)
-    if not by_angle and length and abs(own - length) > SAME_BAR * length:
-        wanted = Phrase("b and c of position 1 lie apart", value=f"{own:.6g}")
+    first_length = abs(placed[0].C - placed[0].B)
+    if not by_angle and length and abs(first_length - length) > SAME_BAR * length:
+        wanted = Phrase("b and c of position 1 lie apart", value=f"{first_length:.6g}")
         say("BC", Phrase("found value", value=f"{length:.6g}"), wanted)
     for i, place in enumerate(placed, 1):
         here = abs(place.C - place.B)
         if here < SMALLEST:
             say(f"positions.{i}", "b and c lie at one place", "a bar has a length")
-        elif abs(here - own) > SAME_BAR * own:
-            say(f"positions.{i}", "the bar is long", "in position 1", value=f"{here:.6g}", name=f"{own:.6g}")
+        elif abs(here - first_length) > SAME_BAR * first_length:
+            say(f"positions.{i}", "the bar is long", "in position 1", value=f"{here:.6g}", name=f"{first_length:.6g}")
     first, second, third = placed
     angles = tuple(degrees(place.C - place.B) for place in placed)
     return None if len(problems) > before else replace(task, positions=(first, second, third), angles=angles)

@@ -31,7 +31,7 @@ def drives(reading: Reading) -> dict[str, model.Driver]:
 
     The value of one that is to be taken from the drawn points, or from a named position, is not a number.
     """
-    found: dict[str, model.Driver] = {}
+    drivers: dict[str, model.Driver] = {}
     tables = reading.drivers
     several = "driver" not in tables
     for i, (where, driver) in enumerate(tables.items()):
@@ -47,7 +47,7 @@ def drives(reading: Reading) -> dict[str, model.Driver]:
             name, base = _pair_of(where, driver, reading, lost), ""
         law = _law(where, driver, reading)
         reading.wrong(*_origin_problems(where, driver, reading),
-                      *_driven_twice(where, name, base, found), *_too_slow(where, driver))
+                      *_driven_twice(where, name, base, drivers), *_too_slow(where, driver))
         if len(reading.problems) > before or lost & {"angle", "travel", "law", "time"}:
             continue
         si = in_si(driver, reading.units)
@@ -62,14 +62,14 @@ def drives(reading: Reading) -> dict[str, model.Driver]:
             rpm = None if si.rpm is None else sign * si.rpm
             speed = (si.of, sign * si.speed) if si.speed is not None and si.of is not None else None
             position = "" if si.position is None else str(si.position)
-            found[where] = model.Driver(
+            drivers[where] = model.Driver(
                 name, base, value, omega + 0.0, sign * si.alpha + 0.0, "", dead, position, rpm, speed, law
             )
         else:
             ends = {pair.key: (pair.link, pair.on) for pair in reading.slides}
             sliding, on = ends.get(name, (name, ""))  # of a pin in a slot its block
-            found[where] = model.Driver(sliding, on, value, si.velocity or 0.0, si.acceleration, name, dead, law=law)
-    return found
+            drivers[where] = model.Driver(sliding, on, value, si.velocity or 0.0, si.acceleration, name, dead, law=law)
+    return drivers
 
 
 def _law(where: str, driver: Driver | DrivenSlide, reading: Reading) -> MotionLaw | None:
@@ -209,9 +209,9 @@ def _pair_of(where: str, driver: DrivenSlide, reading: Reading, lost: set[str]) 
     return meant
 
 
-def _driven_twice(where: str, name: str, base: str, found: Mapping[str, model.Driver]) -> list[Problem]:
+def _driven_twice(where: str, name: str, base: str, before: Mapping[str, model.Driver]) -> list[Problem]:
     """What a driver does that another does already; ``base`` is "" of a travel."""
-    for place, other in found.items():
+    for place, other in before.items():
         if other.key == name:
             what = Phrase("link of name", name=name) if base else name
             again = base and not (other.turns and other.relative_to == base)

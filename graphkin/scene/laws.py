@@ -238,10 +238,10 @@ class MotionLaw:
         """Value, rate, second and third rate at a moment (s); before and after it stands still."""
         part = next((part for part in reversed(self.parts) if part.start <= time), self.parts[0])
         if self.pieces[0].start <= time <= self.duration:
-            found = part.at(time)
-            wide, way = part.end - part.start, max(abs(part.high - part.low), abs(part.low), abs(part.high))
-            rates = (x if abs(x) > NOTHING * way / wide**k else 0.0 for k, x in enumerate(found[1:], 1))
-            return Lift(found.lift, *rates)
+            lift = part.at(time)
+            wide, largest = part.end - part.start, max(abs(part.high - part.low), abs(part.low), abs(part.high))
+            rates = (x if abs(x) > NOTHING * largest / wide**k else 0.0 for k, x in enumerate(lift[1:], 1))
+            return Lift(lift.lift, *rates)
         return Lift(part.low if time < part.start else part.high, 0.0, 0.0, 0.0)
 
     @cached_property

@@ -324,8 +324,8 @@ class Question:
     @property
     def printed(self) -> dict[Symbol, float | complex]:
         """What is printed of this position, by symbol in SI: a float, or a complex number for two components."""
-        here = (own for own in self.stated if own.at is None)
-        return {symbol: printed.value for own in here for symbol, printed in own.values.items()}
+        here = (stated for stated in self.stated if stated.at is None)
+        return {symbol: printed.value for stated in here for symbol, printed in stated.values.items()}
 
     def title_in(self, language: str) -> str:
         """The title in a language: the Chinese one where there is one, else the one there is."""
@@ -424,15 +424,15 @@ driver k ("value", k), ("rate", k), ("second", k)."""
 
 def dimensions(mechanism: Mechanism) -> dict[Dimension, complex]:
     """The numbers of a mechanism by name (SI)."""
-    found: dict[Dimension, complex] = {}
+    numbers: dict[Dimension, complex] = {}
     for link in (mechanism.frame, *mechanism.links):
-        found |= {("point", link.name, point): z for point, z in link.points.items()}
+        numbers |= {("point", link.name, point): z for point, z in link.points.items()}
         for name, guide in link.guides.items():
-            found["through", link.name, name], found["direction", link.name, name] = guide.through, guide.direction
-    found |= {("turn", pair.key): pair.turn for pair in mechanism.slidings}
+            numbers["through", link.name, name], numbers["direction", link.name, name] = guide.through, guide.direction
+    numbers |= {("turn", pair.key): pair.turn for pair in mechanism.slidings}
     for k, driver in enumerate(mechanism.drivers):
-        found |= {(what, k): complex(x) for what, x in zip(("value", "rate", "second"), driver.values, strict=True)}
-    return found
+        numbers |= {(what, k): complex(x) for what, x in zip(("value", "rate", "second"), driver.values, strict=True)}
+    return numbers
 
 
 def with_dimensions(mechanism: Mechanism, changed: Mapping[Dimension, complex]) -> Mechanism:
@@ -465,15 +465,15 @@ _MOVING = ("frame", "links", "slides", "drivers", "cams", "contacts", "gears", "
 """The parts of a mechanism on which its motion depends."""
 
 
-def changed_beside(one: Mechanism, other: Mechanism) -> tuple[str, ...]:
+def changed_beside(before: Mechanism, after: Mechanism) -> tuple[str, ...]:
     """The parts in which two mechanisms move otherwise for something else than these numbers: where a cam stands, the
     radius of a disc, teeth."""
-    own = dimensions(one)
-    alike = [with_dimensions(mechanism, own) for mechanism in (one, other)]
+    numbers = dimensions(before)
+    alike = [with_dimensions(mechanism, numbers) for mechanism in (before, after)]
     return tuple(part for part in _MOVING if getattr(alike[0], part) != getattr(alike[1], part))
 
 
-def same_but_for_dimensions(one: Mechanism, other: Mechanism) -> bool:
+def same_but_for_dimensions(before: Mechanism, after: Mechanism) -> bool:
     """Whether two mechanisms differ in nothing but these numbers, and in what was drawn."""
-    own = dimensions(one)
-    return with_dimensions(one, own) == with_dimensions(other, own)
+    numbers = dimensions(before)
+    return with_dimensions(before, numbers) == with_dimensions(after, numbers)

@@ -68,11 +68,11 @@ def _polar(where: str, entry: Polar, local: Places) -> complex | Problem | None:
     if entry.toward is not None:
         if entry.toward not in local:
             return None
-        way = local[entry.toward] - start
-        if way == 0:
+        arm = local[entry.toward] - start
+        if arm == 0:
             return Problem(f"{where}.toward", "lies at itself", "name a point that lies elsewhere", toward=entry.toward,
                            origin=entry.origin)
-        sense = way / abs(way)
+        sense = arm / abs(arm)
     return start + entry.r * sense * direction(entry.angle)
 
 
@@ -122,15 +122,15 @@ def _guide_of(
         aim = body.in_own_axes(places[entry.toward])
     if aim is None:
         return None
-    way = aim - through
-    if abs(way) <= tolerance:
+    arm = aim - through
+    if abs(arm) <= tolerance:
         return Problem(f"{where}.toward", "lies where the guide goes through", "name a point that lies elsewhere",
                        toward=entry.toward)
-    sense = way / abs(way)
+    sense = arm / abs(arm)
     if entry.angle is None:
         return PlacedGuide(name, through, sense)
     given = direction(entry.angle)
-    if abs(given - sense) * abs(way) > tolerance:
+    if abs(given - sense) * abs(arm) > tolerance:
         return Problem(f"{where}.angle", "found deg but toward it is deg", "leave one of the two out or correct",
                        angle=f"{entry.angle:g}", toward=entry.toward, degrees=f"{degrees(sense):.8g}")
     return PlacedGuide(name, through, given)
@@ -151,20 +151,20 @@ def bodies_of(reading: Reading, drawn: Places) -> dict[str, Placement]:
     bodies: dict[str, Placement] = {}
     for name, table in reading.links.items():
         si = in_si(table, reading.units)
-        own = tuple(si.points) if len(set(si.points)) == len(si.points) <= 2 else tuple(si.points[:1])
-        body = Placement(name, f"links.{name}", own, si.at, si.guides)
-        body.local |= dict.fromkeys(own[:1], 0j)
-        if len(own) == 2:
+        ends = tuple(si.points) if len(set(si.points)) == len(si.points) <= 2 else tuple(si.points[:1])
+        body = Placement(name, f"links.{name}", ends, si.at, si.guides)
+        body.local |= dict.fromkeys(ends[:1], 0j)
+        if len(ends) == 2:
             body.length = si.length
-            if body.length is None and own[0] in given and own[1] in given:
-                body.length = abs(given[own[1]] - given[own[0]])
+            if body.length is None and ends[0] in given and ends[1] in given:
+                body.length = abs(given[ends[1]] - given[ends[0]])
                 if body.length == 0.0:
                     reading.say(body.where, "and are given at the same place", "a bar has two points apart",
-                                name=own[0], other=own[1])
+                                name=ends[0], other=ends[1])
             if body.length is not None:
-                body.local[own[1]] = complex(body.length)
+                body.local[ends[1]] = complex(body.length)
             elif not reading.lost_under("links", name, "length") and not reading.lost_under("drawn"):
-                undrawn = " and ".join(p for p in own if p not in given)
+                undrawn = " and ".join(p for p in ends if p not in given)
                 reading.say(f"{body.where}.length", "is missing", "write length or give in drawn", undrawn=undrawn)
         bodies[name] = body
     frame = Placement(reading.frame.name, "frame", (), {}, in_si(reading.frame, reading.units).guides)
@@ -175,24 +175,24 @@ def bodies_of(reading: Reading, drawn: Places) -> dict[str, Placement]:
 def _fixed(reading: Reading) -> dict[str, complex]:
     """The places of the frame's points (m), those given from others too."""
     given = in_si(reading.frame, reading.units).points
-    found: dict[str, complex] = {}
+    places: dict[str, complex] = {}
     left = dict(given)
     while left:
-        where = {p: _place_of(f"frame.points.{p}", entry, reading.metres, found) for p, entry in left.items()}
+        where = {p: _place_of(f"frame.points.{p}", entry, reading.metres, places) for p, entry in left.items()}
         placed = {p: z for p, z in where.items() if z is not None}
         reading.problems.extend(z for z in placed.values() if isinstance(z, Problem))
         if not placed:
             for point, entry in left.items():
-                missing = next(p for p in references(entry) if p not in found)
+                missing = next(p for p in references(entry) if p not in places)
                 said, wanted = Phrase("the frame has no point", missing=missing), did_you_mean(missing, given)
                 if missing in given:
                     said = Phrase("has no place yet", missing=missing)
                     wanted = Phrase("the points are placed from one another")
                 reading.say(f"frame.points.{point}", said, wanted)
             placed = dict.fromkeys(left, 0j)
-        found |= {p: 0j if isinstance(z, Problem) else z for p, z in placed.items()}
+        places |= {p: 0j if isinstance(z, Problem) else z for p, z in placed.items()}
         left = {p: entry for p, entry in left.items() if p not in placed}
-    return {p: found[p] for p in given}
+    return {p: places[p] for p in given}
 
 
 # -- the position as far as the file says it ---------------------------------------------------------------------------
@@ -296,7 +296,7 @@ def drawn_position(reading: Reading, drivers: Collection[Driver]) -> DrawnPositi
 
     Those of the drivers whose value is not known yet have none.
     """
-    told = [d for d in drivers if not math.isnan(d.value)]
+    given = [d for d in drivers if not math.isnan(d.value)]
     drawn = {point: complex(*place) * reading.metres for point, place in reading.file.drawn.items()}
     bodies = bodies_of(reading, drawn)
     referred = {pair.on for pair in reading.slides}
@@ -304,8 +304,8 @@ def drawn_position(reading: Reading, drivers: Collection[Driver]) -> DrawnPositi
     for other in sorted(referred):  # links that were taken out for something wrong are placed nowhere
         bodies.setdefault(other, Placement(other, f"links.{other}", (), {}, {}, guides={}))
     position = DrawnPosition(
-        reading, bodies, drawn, tuple((*d.links, cmath.rect(1.0, d.value)) for d in told if d.turns),
-        {d.key: d.value for d in told if not d.turns},
+        reading, bodies, drawn, tuple((*d.links, cmath.rect(1.0, d.value)) for d in given if d.turns),
+        {d.key: d.value for d in given if not d.turns},
     )  # fmt: skip
     _find(position)
     return position
@@ -330,14 +330,14 @@ def _place_points(position: DrawnPosition, body: Placement) -> None:
     for point, entry in body.at.items():
         if point in body.local or point in body.failed:
             continue
-        found = _place_of(f"{body.where}.at.{point}", entry, position.reading.metres, body.local)
+        place = _place_of(f"{body.where}.at.{point}", entry, position.reading.metres, body.local)
         if entry == "drawn" and point in position.given:
-            found = body.in_own_axes(position.given[point])
-        if isinstance(found, Problem):
-            position.reading.problems.append(found)
+            place = body.in_own_axes(position.given[point])
+        if isinstance(place, Problem):
+            position.reading.problems.append(place)
             body.failed.add(point)
-        elif found is not None:
-            body.local[point] = found
+        elif place is not None:
+            body.local[point] = place
             position.news = True
 
 
@@ -346,33 +346,33 @@ def _place_guides(position: DrawnPosition, body: Placement) -> None:
         if name in body.guides or f".{name}" in body.failed:
             continue
         where = f"{body.where}.guides.{name}"
-        found = _guide_of(where, name, entry, body, position.places, position.tolerance)
-        if isinstance(found, Problem):
-            position.reading.problems.append(found)
+        guide = _guide_of(where, name, entry, body, position.places, position.tolerance)
+        if isinstance(guide, Problem):
+            position.reading.problems.append(guide)
             body.failed.add(f".{name}")
-        elif found is not None:
-            body.guides[name] = found
+        elif guide is not None:
+            body.guides[name] = guide
             position.news = True
 
 
 def _turn_by_points(position: DrawnPosition, body: Placement) -> None:
     if body.turn is not None:
         return
-    own = body.own
-    if len(own) == 2 and all(p in position.places for p in own):
-        way = position.places[own[1]] - position.places[own[0]]
-        if abs(way) > position.tolerance:
-            position.set_turn(body, way / abs(way), abs(way))
+    ends = body.own
+    if len(ends) == 2 and all(p in position.places for p in ends):
+        arm = position.places[ends[1]] - position.places[ends[0]]
+        if abs(arm) > position.tolerance:
+            position.set_turn(body, arm / abs(arm), abs(arm))
         return
     placed = [p for p in body.local if p in position.places]
     pairs = ((p, q) for i, q in enumerate(placed) for p in placed[:i])
     far = max(pairs, key=lambda pq: abs(body.local[pq[1]] - body.local[pq[0]]), default=None)
     if far:
         local = body.local[far[1]] - body.local[far[0]]
-        way = position.places[far[1]] - position.places[far[0]]
-        if min(abs(local), abs(way)) > position.tolerance:
-            turn = way / local
-            position.set_turn(body, turn / abs(turn), abs(way))
+        arm = position.places[far[1]] - position.places[far[0]]
+        if min(abs(local), abs(arm)) > position.tolerance:
+            turn = arm / local
+            position.set_turn(body, turn / abs(turn), abs(arm))
 
 
 def _move_by_points(position: DrawnPosition, body: Placement) -> None:
@@ -425,12 +425,12 @@ def _turn_to_positive_side(position: DrawnPosition) -> bool:
         centre = position.places.get(rail.own[0]) if rail.own else None
         if centre is None:
             continue
-        k, way = guide.through / guide.direction, place - centre
-        if abs(way) <= max(abs(k.imag), position.tolerance):
+        k, arm = guide.through / guide.direction, place - centre
+        if abs(arm) <= max(abs(k.imag), position.tolerance):
             continue
-        s = math.sqrt((abs(way) - k.imag) * (abs(way) + k.imag)) - k.real
-        sense = way / (k + s)
-        position.set_turn(rail, sense / abs(sense) / guide.direction, abs(way))
+        s = math.sqrt((abs(arm) - k.imag) * (abs(arm) + k.imag)) - k.real
+        sense = arm / (k + s)
+        position.set_turn(rail, sense / abs(sense) / guide.direction, abs(arm))
         return True
     return False
 
@@ -448,9 +448,9 @@ def _turn_to_drawn_point(position: DrawnPosition) -> bool:
         aims = [p for p, e in body.at.items() if e == "drawn"] + [g.toward for g in body.rails.values() if g.toward]
         ways = [position.places[p] - position.places[body.own[0]] for p in aims
                 if p in position.places and body.own[0] in position.places]
-        way = next((w for w in ways if abs(w) > position.tolerance), None)
-        if way is not None:
-            position.set_turn(body, way / abs(way), abs(way))
+        arm = next((w for w in ways if abs(w) > position.tolerance), None)
+        if arm is not None:
+            position.set_turn(body, arm / abs(arm), abs(arm))
             return True
     return False
 
@@ -495,12 +495,12 @@ def starts_of(position: DrawnPosition, contacts: Iterable[PlacedContact]) -> dic
         if contact.flat:
             place = position.places.get(contact.round[0].centre)
             travels[contact.block] = _along(bodies[contact.face], contact.guide, place)
-    told = dict[str, float]()
+    starts = dict[str, float]()
     for name, link in position.reading.links.items():
         if link.start is not None:
             key = next((pair.key for pair in slides if pair.link == name), name)
-            told[key] = link.start * position.reading.metres if key != name else math.radians(link.start)
-    return {**seen, **{key: travel for key, travel in travels.items() if travel is not None}, **told}
+            starts[key] = link.start * position.reading.metres if key != name else math.radians(link.start)
+    return {**seen, **{key: travel for key, travel in travels.items() if travel is not None}, **starts}
 
 
 # -- whether what is given agrees --------------------------------------------------------------------------------------
@@ -512,9 +512,9 @@ def check_placed_twice(position: DrawnPosition) -> None:
         for point in body.own:
             local = _place_of(body.where, body.at.get(point), position.reading.metres, body.local)
             if isinstance(local, complex) and point in body.local:
-                own = body.local[point]
-                if abs(local - own) > position.tolerance:
-                    places = {"pair": position.pair(local), "other": position.pair(own)}
+                place_as_end = body.local[point]
+                if abs(local - place_as_end) > position.tolerance:
+                    places = {"pair": position.pair(local), "other": position.pair(place_as_end)}
                     found = Phrase("puts it at but as an own point", **places)
                     position.reading.say(f"{body.where}.at.{point}", found, "leave one of the two out or correct")
         for point, place in body.local.items() if body.where == "frame" else ():
@@ -593,13 +593,13 @@ def _reach(body: Placement, local: complex) -> float:
 
 def _check_points(position: DrawnPosition, body: Placement) -> None:
     """Note points of one link whose places in the link and in the world differ."""
-    own, given = body.own, position.given
-    if len(own) == 2 and body.length is not None and all(p in given for p in own):
-        drawn = abs(given[own[1]] - given[own[0]])
+    ends, given = body.own, position.given
+    if len(ends) == 2 and body.length is not None and all(p in given for p in ends):
+        drawn = abs(given[ends[1]] - given[ends[0]])
         if abs(drawn - body.length) > position.tolerance:
             position.reading.say(f"links.{body.name}.length", "found but and are given apart",
-                                 "one of the two is wrong", length=position.number(body.length), name=own[0],
-                                 other=own[1], value=position.number(drawn))
+                                 "one of the two is wrong", length=position.number(body.length), name=ends[0],
+                                 other=ends[1], value=position.number(drawn))
             return
     for point, local in body.local.items():
         place = body.world(local)
@@ -619,16 +619,16 @@ def check_contacts(contacts: Iterable[PlacedContact], position: DrawnPosition) -
         if len(known) < len(c.round):
             continue
         if not c.flat:
-            found, wanted = abs(known[1] - known[0]), abs(c.round[0].radius + c.round[1].radius)
+            distance, wanted = abs(known[1] - known[0]), abs(c.round[0].radius + c.round[1].radius)
             key = "puts the centres apart"
         else:
             body, guide = position.bodies[c.face], position.bodies[c.face].guides.get(c.guide)
             local = body.in_own_axes(known[0])
             if guide is None or local is None:
                 continue
-            found, wanted = dot(local - guide.through, guide.direction * c.normal_to_face), c.round[0].radius
+            distance, wanted = dot(local - guide.through, guide.direction * c.normal_to_face), c.round[0].radius
             key = "puts the centre to the left of the face" if c.left else "puts the centre to the right of the face"
-        if abs(found - wanted) > position.tolerance:
-            drawn = Phrase(key, distance=position.number(found), given=position.number(wanted))
+        if abs(distance - wanted) > position.tolerance:
+            drawn = Phrase(key, distance=position.number(distance), given=position.number(wanted))
             position.reading.say(f"contacts.{c.name}", "what is drawn", "correct a place a radius or the side",
                                  value=drawn)

@@ -151,7 +151,7 @@ def _check_texts(reading: Reading) -> None:
 
 def _check_forces(made: Mechanism) -> None:
     """Raises SceneError for symbols of forces that the mechanism does not have."""
-    wanted = [("find", made.question.find), *(("printed", tuple(own.values)) for own in made.question.stated)]
+    wanted = [("find", made.question.find), *(("printed", tuple(stated.values)) for stated in made.question.stated)]
     wrong = (no_force(made, path_name((table, str(symbol))), symbol) for table, symbols in wanted for symbol in symbols)
     problems = [problem for problem in wrong if problem is not None]
     if problems:

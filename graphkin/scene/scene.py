@@ -296,8 +296,8 @@ class Scene(SceneTables):
     @property
     def mechanism(self) -> Mechanism:
         """What the scene says: everything placed, in SI units."""
-        found: Mechanism = vars(self)["_mechanism"]
-        return found
+        mechanism: Mechanism = vars(self)["_mechanism"]
+        return mechanism
 
     def replace(self, key: str, value: object) -> Scene:
         """The scene with one entry replaced, checked anew.

@@ -104,14 +104,14 @@ def entries(table: FileTable) -> dict[str, object]:
     >>> entries(Link(points=["A", "B"], length=120))
     {'points': ['A', 'B'], 'length': 120}
     """
-    found = {}
+    written = {}
     for each in keys_of(table):
         value = getattr(table, each.name)
         usual = each.default_factory() if each.default_factory is not MISSING else each.default
         empty = usual in ({}, ()) and isinstance(value, Mapping | list | tuple) and not value
         if not empty and not (type(value) is type(usual) and value == usual):
-            found[key_of(each)] = value
-    return found
+            written[key_of(each)] = value
+    return written
 
 
 # -- units -------------------------------------------------------------------------------------------------------------
@@ -355,8 +355,8 @@ class Form(Generic[AnyTable]):
             try:
                 return self._rules.validate_python(raw), list(problems.values()), frozenset(gone)
             except ValidationError as error:
-                found = error.errors(include_url=False)
-            for item in sorted(found, key=lambda e: e["type"] != UNKNOWN):
+                errors = error.errors(include_url=False)
+            for item in sorted(errors, key=lambda e: e["type"] != UNKNOWN):
                 loc: KeyPath = tuple(item["loc"])
                 path = _written_path(loc)
                 missing = item["type"] == "missing"

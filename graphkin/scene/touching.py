@@ -38,7 +38,7 @@ Discs = Mapping[tuple[str, str], PlacedDisc]
 
 def discs_of(reading: Reading) -> dict[tuple[str, str], PlacedDisc]:
     """Every round outline by its link and its name; what is wrong with them is noted."""
-    found: dict[tuple[str, str], PlacedDisc] = {}
+    discs: dict[tuple[str, str], PlacedDisc] = {}
     for where, link, body in reading.bodies:
         for name, disc in body.discs.items():
             here = f"{where}.discs.{name}"
@@ -49,8 +49,8 @@ def discs_of(reading: Reading) -> dict[tuple[str, str], PlacedDisc]:
             if disc.r == 0:
                 reading.say(f"{here}.r", "found 0", "write a radius a negative one is a")
             else:
-                found[link, name] = PlacedDisc(link, name, disc.centre, disc.r * reading.metres)
-    return found
+                discs[link, name] = PlacedDisc(link, name, disc.centre, disc.r * reading.metres)
+    return discs
 
 
 Side = tuple[str, PlacedDisc | None, str]
@@ -59,7 +59,7 @@ Side = tuple[str, PlacedDisc | None, str]
 
 def contacts_of(reading: Reading, discs: Discs) -> tuple[PlacedContact, ...]:
     """The contacts of a file; what is wrong with them is noted."""
-    found: list[PlacedContact] = []
+    contacts: list[PlacedContact] = []
     blocks: set[str] = set()
     for name, contact in reading.file.contacts.items():
         where = f"contacts.{name}"
@@ -69,12 +69,12 @@ def contacts_of(reading: Reading, discs: Discs) -> tuple[PlacedContact, ...]:
         known = [side for side in sides if side is not None]
         if len(known) < 2:
             continue
-        one, two = known
-        if not reading.wrong(*_contact_problems(where, contact, one, two)):
-            placed = _contact(name, contact, one, two, reading)
-            found.append(replace(placed, again=placed.flat and placed.block in blocks))
-            blocks.add(found[-1].block)
-    return tuple(found)
+        first, second = known
+        if not reading.wrong(*_contact_problems(where, contact, first, second)):
+            placed = _contact(name, contact, first, second, reading)
+            contacts.append(replace(placed, again=placed.flat and placed.block in blocks))
+            blocks.add(contacts[-1].block)
+    return tuple(contacts)
 
 
 def _side(where: str, ref: str, reading: Reading, discs: Discs) -> Side | None:
@@ -99,13 +99,13 @@ def _side(where: str, ref: str, reading: Reading, discs: Discs) -> Side | None:
     return None
 
 
-def _contact_problems(where: str, contact: Contact, one: Side, two: Side) -> Iterator[Problem]:
+def _contact_problems(where: str, contact: Contact, first: Side, second: Side) -> Iterator[Problem]:
     """What is wrong with two sides that there are."""
     refs, between, side = " and ".join(contact.between), f"{where}.between", f"{where}.side"
-    if one[0] == two[0]:
-        yield Problem(between, "are outlines of the same link", "name two links", refs=refs, link=one[0])
+    if first[0] == second[0]:
+        yield Problem(between, "are outlines of the same link", "name two links", refs=refs, link=first[0])
         return
-    discs = [disc for _, disc, _ in (one, two) if disc is not None]
+    discs = [disc for _, disc, _ in (first, second) if disc is not None]
     if not discs:
         yield Problem(between, "are two guides", "one of them at least is a disc", refs=refs)
         return
@@ -131,9 +131,9 @@ def _contact_problems(where: str, contact: Contact, one: Side, two: Side) -> Ite
         yield Problem(side, "both radii are equal", "inside one must be smaller than the other")
 
 
-def _contact(name: str, contact: Contact, one: Side, two: Side, reading: Reading) -> PlacedContact:
+def _contact(name: str, contact: Contact, side: Side, other_side: Side, reading: Reading) -> PlacedContact:
     """A contact of two sides, radii with the signs with which they meet."""
-    (link, first, guide), (other, second, other_guide) = one, two
+    (link, first, guide), (other, second, other_guide) = side, other_side
     carrier = ""
     if first and second:
         if contact.side == "inside" and first.radius > 0 and second.radius > 0:
@@ -155,8 +155,8 @@ def _contact(name: str, contact: Contact, one: Side, two: Side, reading: Reading
 
 def gears_of(reading: Reading) -> tuple[PlacedGear, ...]:
     """The wheels with teeth of a file, with their carriers; what is wrong with them is noted."""
-    found = (_gear(f"gears.{name}", name, gear, reading) for name, gear in reading.file.gears.items())
-    return tuple(placed for placed in found if placed is not None)
+    gears = (_gear(f"gears.{name}", name, gear, reading) for name, gear in reading.file.gears.items())
+    return tuple(placed for placed in gears if placed is not None)
 
 
 def _gear(where: str, name: str, gear: Gear, reading: Reading) -> PlacedGear | None:
@@ -235,10 +235,10 @@ def wrong_distances(
     for c in contacts:
         where = f"contacts.{c.name}"
         if not c.flat and c.carrier:
-            one, two = c.round
-            held = abs(points[c.carrier][two.centre] - points[c.carrier][one.centre])
-            wanted = abs(one.radius + two.radius)
-            if abs(held - wanted) > AGREE * max(abs(one.radius), abs(two.radius)):
+            first, second = c.round
+            held = abs(points[c.carrier][second.centre] - points[c.carrier][first.centre])
+            wanted = abs(first.radius + second.radius)
+            if abs(held - wanted) > AGREE * max(abs(first.radius), abs(second.radius)):
                 apart = {"held": f"{held / reading.metres:.10g}", "wanted": f"{wanted / reading.metres:.10g}"}
                 reading.say(where, Phrase("link holds the centres apart the radii make", carrier=c.carrier, **apart),
                             "correct a radius or the distance")
@@ -294,7 +294,7 @@ def cams_of(reading: Reading, lines: Mapping[str, Line], drawn: Mapping[str, com
     drawn : roughly where points of moving links lie (m)
     """
     moved: dict[str, str] = {}
-    found = []
+    cams = []
     for name, cam in reading.file.cams.items():
         other = moved.setdefault(cam.follower, name)
         if other != name:
@@ -302,8 +302,8 @@ def cams_of(reading: Reading, lines: Mapping[str, Line], drawn: Mapping[str, com
                         follower=cam.follower, other=other)
         placed = _cam(name, cam, reading, lines, drawn)
         if placed is not None:
-            found.append(placed)
-    return tuple(found)
+            cams.append(placed)
+    return tuple(cams)
 
 
 def _cam(
@@ -430,7 +430,7 @@ def follower_law(where: str, pieces: Sequence[LawPiece], unit: float, reading: R
     where : its place in the file
     unit : one unit of the lifts in the file in SI (m, or rad of a follower that swings)
     """
-    found: list[LiftPiece] = []
+    lifts: list[LiftPiece] = []
     start = low = most = 0.0
     before = len(reading.problems)
     for i, piece in enumerate(pieces, 1):
@@ -447,7 +447,7 @@ def follower_law(where: str, pieces: Sequence[LawPiece], unit: float, reading: R
             reading.say(here, "ends at deg", "the law ends at 360", start=f"{piece.to:g}")
         most = max(most, abs(high), abs(low))
         high = 0.0 if abs(high) < 1e-9 * most else high
-        found.append(LiftPiece(math.radians(start), math.radians(piece.to), low * unit, high * unit, form_of(piece.by)))
+        lifts.append(LiftPiece(math.radians(start), math.radians(piece.to), low * unit, high * unit, form_of(piece.by)))
         start, low = piece.to, high
     if not pieces:
         reading.say(where, "is empty", "write to 60 rise 28 by harmonic")
@@ -456,4 +456,4 @@ def follower_law(where: str, pieces: Sequence[LawPiece], unit: float, reading: R
     if len(reading.problems) == before and low != 0.0:
         reading.say(where, "does not come back a turn leaves the", "all that rises falls again",
                     least=f"{abs(low):.9g}", way="up" if low > 0 else "down")
-    return FollowerLaw(tuple(found)) if len(reading.problems) == before else None
+    return FollowerLaw(tuple(lifts)) if len(reading.problems) == before else None

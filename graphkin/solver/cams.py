@@ -103,8 +103,8 @@ def cam_with(cam: LawCam, degree: Array, lift: Lift) -> CamAt:
             leaning_rate = turn / size**2 + 1.0 - course.turning
             radius_rate = (size**3 * cross(tangent, course.jerk) - 3.0 * size * dot(tangent, bend) * turn) / turn**2
     leaning = np.angle(normal * np.conj(way))
-    found = (s0, lift.slope, u, point, normal, contact, way, radius, leaning, leaning_rate, radius_rate)
-    return CamAt(*map(np.asarray, found))
+    columns = (s0, lift.slope, u, point, normal, contact, way, radius, leaning, leaning_rate, radius_rate)
+    return CamAt(*map(np.asarray, columns))
 
 
 def slip_of(cam: LawCam, at: CamAt, omega: Array) -> Array:
@@ -127,13 +127,13 @@ def lifts(law: FollowerLaw, angle: Array) -> Lift:
     near = np.abs(within - seams[nearest]) < SEAM
     within = np.where(near, seams[nearest] % TURN, within)
     which = np.searchsorted(seams, within, side="right") - 1
-    found = np.empty((4, len(within)))
+    rates = np.empty((4, len(within)))
     for k, part in enumerate(law.parts):
         rows = which == k
         if rows.any():
             for order, values in enumerate(part.at(within[rows], np)):
-                found[order, rows] = values
-    return Lift(*found)
+                rates[order, rows] = values
+    return Lift(*rates)
 
 
 def greatest_jerk(law: FollowerLaw) -> float:
@@ -253,17 +253,17 @@ def _pressures(cam: LawCam) -> tuple[AtDegree | None, AtDegree | None]:
     """The greatest pressure angles of rise and fall."""
 
     def most(parts: Sequence[LiftPiece]) -> AtDegree | None:
-        found = (a for p in parts for a in _extremes(cam, p, "pressure", "leaning_rate"))
-        return max(found, key=attrgetter("value"), default=None)
+        extremes = (a for p in parts for a in _extremes(cam, p, "pressure", "leaning_rate"))
+        return max(extremes, key=attrgetter("value"), default=None)
 
     return most([p for p in cam.law.parts if p.high > p.low]), most([p for p in cam.law.parts if p.high < p.low])
 
 
 def _judged(cam: LawCam, rise: AtDegree | None, fall: AtDegree | None) -> tuple[bool | None, bool | None]:
-    found: list[bool | None] = []
+    judged: list[bool | None] = []
     for most, allowed in zip((rise, fall), cam.allowed, strict=True):
-        found.append(None if allowed is None or most is None else most.value <= allowed * (1 + SAME))
-    return found[0], found[1]
+        judged.append(None if allowed is None or most is None else most.value <= allowed * (1 + SAME))
+    return judged[0], judged[1]
 
 
 NEAREST = 1e-7
@@ -296,16 +296,16 @@ def least_base(cam: LawCam) -> float | None:
 
 def _greatest(law: FollowerLaw, order: int) -> AtDegree:
     """The first or second derivative where it is greatest in size: the first place of several as great."""
-    found = [AtDegree(*extreme) for part in law.parts for extreme in part.extremes(order)]
-    most = max(abs(at.value) for at in found)
-    return next(at for at in found if abs(at.value) >= most * (1 - SAME))
+    extremes = [AtDegree(*extreme) for part in law.parts for extreme in part.extremes(order)]
+    most = max(abs(at.value) for at in extremes)
+    return next(at for at in extremes if abs(at.value) >= most * (1 - SAME))
 
 
 def _extremes(cam: LawCam, part: LiftPiece, of: str, rate: str) -> Iterator[AtDegree]:
     """A field of the cam at the ends of a part and where its rate, another field, goes through zero."""
     def at(field: str, degree: Array) -> Array:
-        found = getattr(cam_with(cam, degree, part.at(degree, np)), field)
-        return np.asarray(np.broadcast_to(found, degree.shape))
+        values = getattr(cam_with(cam, degree, part.at(degree, np)), field)
+        return np.asarray(np.broadcast_to(values, degree.shape))
 
     def changing(degree: Array) -> tuple[Array, Array]:
         return at(rate, degree)[:, None], np.zeros((len(degree), 1))

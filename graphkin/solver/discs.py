@@ -66,11 +66,11 @@ def disc_cams(structure: Structure) -> tuple[DiscCam, ...]:
     Unsolvable : the driver makes no whole turn
     """
     scene = structure.scene
-    found = [(c, *sides) for c in scene.contacts if (sides := _sides(scene, c)) is not None]
-    if not found:
+    cams = [(c, *sides) for c in scene.contacts if (sides := _sides(scene, c)) is not None]
+    if not cams:
         return ()
     reach = range_of(structure)
-    return tuple(_measured(reach, *one) for one in found)
+    return tuple(_measured(reach, *cam) for cam in cams)
 
 
 def _sides(scene: Mechanism, contact: PlacedContact) -> tuple[int, str] | None:
@@ -127,19 +127,19 @@ def disc_course(structure: Structure, disc: DiscCam, angle: Array) -> DiscCourse
     side, of = sides
     motion = reach.motion(reach.offsets(angle), unit=True)
     axis = next(scene.frame.points[p] for p in scene.by_name[disc.link].points if p in scene.frame.points)
-    own, place = np.conj(motion.poses[disc.link].u), motion.position(contact.name)
+    back, place = np.conj(motion.poses[disc.link].u), motion.position(contact.name)
     if disc.swings:
         value = reach.angle(motion, disc.follower)
         pivot = next(p for p in scene.by_name[disc.follower].points if p in scene.frame.points)
-        way = 1j * (place - scene.frame.points[pivot])
+        motion_of_follower = 1j * (place - scene.frame.points[pivot])
     else:
         value = motion.slide(of).travel
         pair = next(s for s in scene.slidings if s.key == of)
-        way = np.full(len(angle), scene.frame.guides[pair.guide].direction)
+        motion_of_follower = np.full(len(angle), scene.frame.guides[pair.guide].direction)
     other = contact.discs[1 - side]
-    pitch = None if other is None else (motion.position(other.centre, disc.follower) - axis) * own
-    pressure = _between(contact_motion(motion, contact).normal, way)
-    return DiscCourse(np.abs(value - disc.lowest), (place - axis) * own, pitch, pressure)
+    pitch = None if other is None else (motion.position(other.centre, disc.follower) - axis) * back
+    pressure = _between(contact_motion(motion, contact).normal, motion_of_follower)
+    return DiscCourse(np.abs(value - disc.lowest), (place - axis) * back, pitch, pressure)
 
 
 def _pressures(reach: DriverRange, contact: PlacedContact, follower: str, offset: Array) -> Array:

@@ -227,14 +227,14 @@ def components(needs: Mapping[N, Sequence[N]]) -> list[tuple[N, ...]]:
     for node, needed in needs.items():
         for other in needed:
             users[other].append(node)
-    found: list[tuple[N, ...]] = []
+    parts: list[tuple[N, ...]] = []
     while finished:
         root, _ = finished.popitem()
         together = reached([root], lambda node: [user for user in users[node] if user in finished])
-        found.append(tuple(together))
+        parts.append(tuple(together))
         for node in together:
             finished.pop(node, None)
-    return found[::-1]
+    return parts[::-1]
 
 
 def _in_order(
@@ -302,15 +302,15 @@ def _touches(structure: Structure, relation: RollingRelation, inside: set[str], 
 
 def _pairs(structure: Structure, members: list[str], known: set[str]) -> list[Pair]:
     """All pairs that hold the members: to known links, or among themselves."""
-    found: list[Pair] = []
+    pairs: list[Pair] = []
     inside, rank = set(members), _ranks(structure)
     for point, names in structure.hinges.items():
         if inside.isdisjoint(names):
             continue
         mine = sorted(inside.intersection(names), key=rank)
         base = [n for n in names if n in known]
-        found += [Pair(point, n, base[0]) for n in mine] if base else [Pair(point, b, a) for a, b in pairwise(mine)]
-    return found + [s for s in structure.slides if inside.intersection(s.links) and {*s.links} <= inside | known]
+        pairs += [Pair(point, n, base[0]) for n in mine] if base else [Pair(point, b, a) for a, b in pairwise(mine)]
+    return pairs + [s for s in structure.slides if inside.intersection(s.links) and {*s.links} <= inside | known]
 
 
 def _bodies(
@@ -396,14 +396,14 @@ def _order(members: list[str], pairs: list[Pair]) -> int:
 
 def _triangles(structure: Structure, group: LargerGroup, taken: set[str]) -> tuple[DrivenTriangle, ...]:
     """The driven triangles of a larger group; ``taken`` are the keys of drivers, which no other may bear."""
-    found: list[DrivenTriangle] = []
+    triangles: list[DrivenTriangle] = []
     for driver in group.drivers:
         for triangle in _closed_by(structure, group, driver):
             if triangle.equivalent.key not in taken:
                 taken.add(triangle.equivalent.key)
-                found.append(triangle)
+                triangles.append(triangle)
                 break
-    return tuple(found)
+    return tuple(triangles)
 
 
 def _closed_by(structure: Structure, group: LargerGroup, driver: Driver) -> Iterator[DrivenTriangle]:
@@ -440,8 +440,8 @@ def _closed_by(structure: Structure, group: LargerGroup, driver: Driver) -> Iter
 def _in_parts(structure: Structure) -> Structure:
     """Larger groups that driven triangles turn into dyads, told as such: of class II."""
     taken = {d.key for d in structure.drivers}
-    found = {group: _triangles(structure, group, taken) for group in structure.larger_groups}
-    instead = {t.driver: t.equivalent for triangles in found.values() for t in triangles}
+    triangles_of = {group: _triangles(structure, group, taken) for group in structure.larger_groups}
+    instead = {t.driver: t.equivalent for triangles in triangles_of.values() for t in triangles}
     if not instead:
         return structure
     try:
@@ -450,11 +450,11 @@ def _in_parts(structure: Structure) -> Structure:
         return structure
     elements: list[Element] = []
     for e in structure.elements:
-        if isinstance(e, LargerGroup) and found[e]:
+        if isinstance(e, LargerGroup) and triangles_of[e]:
             inside = [part for part in opened.elements if set(part.members) & set(e.members)]
             parts = tuple(part for part in inside if isinstance(part, Driven | Dyad))
             if len(parts) == len(inside):
-                e = replace(e, order=2, triangles=found[e], parts=parts)
+                e = replace(e, order=2, triangles=triangles_of[e], parts=parts)
         elements.append(e)
     return replace(structure, elements=tuple(elements))
 
@@ -466,8 +466,8 @@ def _with_starts(structure: Structure) -> Structure:
         return structure
     for drivers in start_drivers(structure, groups):
         left = list(drivers)
-        told = {g: replace(g, starts=tuple(left.pop(0) for _ in g.rolling)) for g in groups}
-        whole = replace(structure, elements=tuple(told.get(e, e) for e in structure.elements))  # type: ignore[arg-type]
+        with_starts = {g: replace(g, starts=tuple(left.pop(0) for _ in g.rolling)) for g in groups}
+        whole = replace(structure, elements=tuple(with_starts.get(e, e) for e in structure.elements))  # type: ignore[arg-type]
         try:
             started(whole)
         except Unsolvable:
@@ -523,23 +523,23 @@ def regrouped(scene: Mechanism, known: Iterable[str], members: Iterable[str]) ->
 
 def _wrong_count(structure: Structure) -> Problem:
     scene, mobility = structure.scene, structure.mobility
-    found, names = len(scene.drivers), ", ".join(d.key for d in scene.drivers)
+    given, names = len(scene.drivers), ", ".join(d.key for d in scene.drivers)
     higher = f" - {mobility.higher}" if mobility.higher else ""
     count = f"F = 3*{mobility.links} - 2*{mobility.lower}{higher} = {mobility.value}"
     wanted: list[Wording] = [Phrase("a mechanism of mobility needs as many drivers", mobility=mobility.value)]
-    if found > mobility.value > 0:
+    if given > mobility.value > 0:
         wanted = [Phrase("too many drivers a mechanism of mobility takes", names=names, mobility=mobility.value)]
     idle = [link.name for link in scene.links if link.redundant]
-    if idle and mobility.value > found:
+    if idle and mobility.value > given:
         wanted.append(Phrase(about("marked redundant is not counted", idle), links=", ".join(idle)))
-    if found == 0:
+    if given == 0:
         wanted.append(Phrase("write in the file driver with"))
     if mobility.value <= 0:
         loop = _sliding_loop(structure)
         more = Phrase("gruebler's count fails here links slide on each", loop=", ".join(loop)) if loop else None
         wanted = [more or Phrase("it is a structure no driver can move")]
-    counted = Phrase("drivers counted" if found > 1 else "driver counted", count=found)
-    drivers = counted if found else Phrase("no driver")
+    counted = Phrase("drivers counted" if given > 1 else "driver counted", count=given)
+    drivers = counted if given else Phrase("no driver")
     return Problem(Phrase("status mobility"), "but given", clauses(wanted), count=count, drivers=drivers)
 
 
@@ -567,8 +567,8 @@ def _wrong_part(structure: Structure, unknowns: list[list[Unknown]], given: Mapp
     every = ((n, a) for n in _nodes(structure) for a in ("xyt" if n[0] == "link" else "xy"))
     free = reached((u for u in every if u not in owner), lambda u: [given[i] for i in users.get(u, []) if i in given])
 
-    def names(found: Iterable[Unknown]) -> str:
-        links = {name for (kind, name), _ in found if kind == "link"}
+    def names(unknowns_there: Iterable[Unknown]) -> str:
+        links = {name for (kind, name), _ in unknowns_there if kind == "link"}
         return ", ".join(sorted(links, key=_ranks(structure))) or "none"
 
     loop = _sliding_loop(structure)
@@ -627,7 +627,7 @@ def driven_by(scene: Mechanism, link: str) -> Structure:
     Unsolvable : so driven it is no mechanism
     """
     frame, where = scene.frame, Phrase("driver of driver", driver=link)
-    known = [one.name for one in scene.links]
+    known = [body.name for body in scene.links]
     if link not in known:
         raise CallError.of(where, "there is no link", did_you_mean(link, known), name=link)
     slide = next((s.key for s in scene.slidings if s.link == link and s.on == frame.name), "")

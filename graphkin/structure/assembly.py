@@ -35,7 +35,7 @@ def pick(
 
     if scene.drawn:
         off = [[(abs(z - scene.drawn[p]), p) for p, z in c.items() if p in scene.drawn] for c in candidates]
-        (miss, point), nearest = min((max(one, default=(0.0, "")), i) for i, one in enumerate(off))
+        (miss, point), nearest = min((max(misses, default=(0.0, "")), i) for i, misses in enumerate(off))
         if miss > 1e-6 * scene.size:
             raise SceneError.of(f"drawn.{point}", "drawn at but what is given for links",
                                 "what is given twice must agree to 1e-6", place=shown(scene.drawn[point]),

@@ -108,19 +108,19 @@ def _turning(structure: Structure) -> Turning:
     def rank(name: str) -> tuple[bool, bool, int, str]:
         return name != frame, name in blocks, order.get(name, len(order)), name
 
-    found: dict[str, tuple[str, float, float]] = {}
+    turning: dict[str, tuple[str, float, float]] = {}
     for name in sorted(structure.links, key=rank):
-        grown = name not in found
-        found.setdefault(name, (name, 0.0, 0.0))
+        grown = name not in turning
+        turning.setdefault(name, (name, 0.0, 0.0))
         while grown:
             grown = False
             for a, b, rate, second in joins:
                 for here, there, sign in ((a, b, 1.0), (b, a, -1.0)):
-                    if here in found and there not in found:
-                        first, omega, alpha = found[here]
-                        found[there] = first, omega + sign * rate, alpha + sign * second
+                    if here in turning and there not in turning:
+                        first, omega, alpha = turning[here]
+                        turning[there] = first, omega + sign * rate, alpha + sign * second
                         grown = True
-    return found
+    return turning
 
 
 def loops_of(structure: Structure) -> tuple[Loop, ...]:
@@ -176,14 +176,14 @@ Edge = tuple[str, Pair, str]
 
 def _found(structure: Structure) -> list[Loop]:
     known: list[Edge] = []
-    found: list[Loop] = []
+    loops: list[Loop] = []
     for element in structure.elements:
         joints = element.joints if isinstance(element, Dyad) else ()
         edges = [(pair.a, pair, pair.b) for pair in (*element.pairs, *(joint.pair for joint in joints))]
         for cycle in () if isinstance(element, Driven) else _cycles(structure, element, edges, known):
-            found.append(Loop(_roman(len(found) + 1), _arrows(structure, cycle), element.links))
+            loops.append(Loop(_roman(len(loops) + 1), _arrows(structure, cycle), element.links))
         known += edges
-    return found
+    return loops
 
 
 def _roman(number: int) -> str:
@@ -259,16 +259,16 @@ def _place(structure: Structure, link: str, pair: Pair) -> tuple[complex, str]:
 
 
 def _arrows(structure: Structure, cycle: Sequence[Edge]) -> tuple[Arrow, ...]:
-    found: list[Arrow] = []
+    arrows: list[Arrow] = []
     for (_, into, link), (_, out, _) in zip(cycle, (*cycle[1:], cycle[0]), strict=True):
         if not into.turns and link == into.b:  # from what slides back to the guide's origin
-            found.append(_travel(structure, into, -1.0))
-        (start, one), (end, two) = _place(structure, link, into), _place(structure, link, out)
+            arrows.append(_travel(structure, into, -1.0))
+        (start, tail), (end, tip) = _place(structure, link, into), _place(structure, link, out)
         if abs(end - start) > 1e-12 * structure.scene.size:
-            found.append(Arrow(link, end - start, (one, two)))
+            arrows.append(Arrow(link, end - start, (tail, tip)))
         if not out.turns and link == out.b:
-            found.append(_travel(structure, out, 1.0))
-    return _named(found)
+            arrows.append(_travel(structure, out, 1.0))
+    return _named(arrows)
 
 
 def _travel(structure: Structure, slide: Pair, sign: float) -> Arrow:
@@ -292,17 +292,17 @@ def _chosen(structure: Structure) -> list[Loop]:
     loops = []
     for name, points in structure.scene.question.loops.items():
         ends = zip(points, (*points[1:], points[0]), strict=True)
-        arrows = [arrow for one, two in ends for arrow in _between(structure, name, one, two)]
+        arrows = [arrow for tail, tip in ends for arrow in _between(structure, name, tail, tip)]
         loops.append(Loop(name, _named(arrows)))
     return loops
 
 
-def _between(structure: Structure, name: str, one: str, two: str) -> list[Arrow]:
+def _between(structure: Structure, name: str, tail: str, tip: str) -> list[Arrow]:
     """The arrows from a point to the next of a chosen loop."""
     for link, body in structure.links.items():
-        if one in body.points and two in body.points:
-            return [Arrow(link, body.points[two] - body.points[one], (one, two))]
-    for start, end, sign in ((one, two, 1.0), (two, one, -1.0)):
+        if tail in body.points and tip in body.points:
+            return [Arrow(link, body.points[tip] - body.points[tail], (tail, tip))]
+    for start, end, sign in ((tail, tip, 1.0), (tip, tail, -1.0)):
         for slide in structure.slides:
             points = structure.links[slide.b].points
             if slide.pin == end and start in points:
@@ -312,7 +312,7 @@ def _between(structure: Structure, name: str, one: str, two: str) -> list[Arrow]
                 made = [Arrow(slide.b, z, (a, b) if sign > 0 else (b, a), key) for z, a, b, key in legs]
                 return made if sign > 0 else made[::-1]
     raise CallError.of(f"loops.{name}", "no link and no guide joins and", "name the points in the order in which",
-                       name=one, other=two)
+                       name=tail, other=tip)
 
 
 # -- in numbers --------------------------------------------------------------------------------------------------------
@@ -399,8 +399,8 @@ def _solved(
     acceleration = _components(_right_side(loops, turning, now, 2))
     second = np.linalg.solve(matrix, acceleration)
     values = tuple(travels[name] if kind == "travel" else cmath.phase(axes[name]) for kind, name in unknowns)
-    told = tuple(replace(loop, root=_root(loop, axes)) for loop in loops)
-    return LoopBlock(told, unknowns, values, matrix, velocity, acceleration,
+    with_roots = tuple(replace(loop, root=_root(loop, axes)) for loop in loops)
+    return LoopBlock(with_roots, unknowns, values, matrix, velocity, acceleration,
                      tuple(map(float, rates)), tuple(map(float, second)))  # fmt: skip
 
 

@@ -221,12 +221,12 @@ class Dyad:
     is_slider_on_bar: bool = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        one, two, outer = self.first, self.second, (self.outer_first, self.outer_second)
-        members, drivers = one.links + two.links, tuple(joint.driver for joint in one.joints + two.joints)
+        first, second, outer = self.first, self.second, (self.outer_first, self.outer_second)
+        members, drivers = first.links + second.links, tuple(joint.driver for joint in first.joints + second.joints)
         hung = {name for pair in outer for name in pair.links}.union(*(driver.through for driver in drivers))
         self.__dict__.update(
-            bodies=(one, two), members=members, pairs=(outer[0], self.inner, outer[1]), outer=outer,
-            joints=one.joints + two.joints, drivers=drivers, outside=frozenset(hung.difference(members)),
+            bodies=(first, second), members=members, pairs=(outer[0], self.inner, outer[1]), outer=outer,
+            joints=first.joints + second.joints, drivers=drivers, outside=frozenset(hung.difference(members)),
             is_two_lines=self.kind in ("PRP", "RPP"), is_slider_on_bar=self.kind == "RPR",
         )  # fmt: skip
 
@@ -354,7 +354,7 @@ class Structure:
         """Driver values by key (rad, m), with those of what follows them."""
         drivers = self.scene.drivers
         moved = [values.get(d.key, d.values[0]) - d.values[0] for d in drivers]
-        followed = {f.key: f.values[0] + added_up(r * way for r, way in zip(f.ratios, moved, strict=True))
+        followed = {f.key: f.values[0] + added_up(r * change for r, change in zip(f.ratios, moved, strict=True))
                     for f in self.followers}  # fmt: skip
         return {**values, **followed}
 
@@ -393,13 +393,13 @@ N = TypeVar("N", bound=Hashable)
 
 def reached(start: Iterable[N], onward: Callable[[N], Iterable[N]]) -> dict[N, None]:
     """What can be reached from some nodes, these included."""
-    found = dict.fromkeys(start)
-    queue = list(found)
+    nodes = dict.fromkeys(start)
+    queue = list(nodes)
     while queue:
-        fresh = [node for node in dict.fromkeys(onward(queue.pop())) if node not in found]
-        found.update(dict.fromkeys(fresh))
+        fresh = [node for node in dict.fromkeys(onward(queue.pop())) if node not in nodes]
+        nodes.update(dict.fromkeys(fresh))
         queue += fresh
-    return found
+    return nodes
 
 
 def driver_pair(driver: Driver, links: Mapping[str, PlacedLink], slides: tuple[Pair, ...]) -> Pair | None:
@@ -499,21 +499,21 @@ def _links_for(structure: Structure, symbol: Symbol) -> set[str]:
     if symbol.link:
         # of a pin in a slot the block that stands for it
         return {name for name in (symbol.link, symbol.other, symbol.pair) if name in structure.links} or {symbol.link}
-    found: set[str] = set()
+    links: set[str] = set()
     for ref in (symbol.of, symbol.to):
         if ref is None:
             continue
         centre = None if ref.point in structure.scene.holders else centre_links(ref.point, structure.scene.by_name)
         if centre is not None:
-            found.update(centre)
+            links.update(centre)
             continue
         holders = [n for n, link in structure.links.items() if ref.point in link.points]
         if not holders or (ref.link and ref.link not in structure.links):
             wanted = did_you_mean(ref.point, structure.scene.holders)
             raise CallError.of(str(symbol), "names no point of a link here", wanted, ref=ref)
         if ref.link:
-            found.add(ref.link)
+            links.add(ref.link)
         if not ref.link or ref.point not in structure.links[ref.link].points:
             # the pin itself must be placed too: by the first link of the order of solution that has it
-            found.add(min(holders, key=lambda n: structure.place_of.get(n, -1)))
-    return found
+            links.add(min(holders, key=lambda n: structure.place_of.get(n, -1)))
+    return links

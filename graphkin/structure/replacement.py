@@ -29,23 +29,23 @@ from graphkin.words import Phrase
 def replacing_link(contact: PlacedContact, links: Mapping[str, PlacedLink]) -> tuple[PlacedLink, Pair | None]:
     """The link that stands for a contact, and for a flat face the sliding pair.  The point of contact is a point of it.
     Where another link holds both centres of a rolling pair, it is that link with the point of contact."""
-    one = contact.round[0]
+    disc = contact.round[0]
     if contact.flat:
         face = links[contact.face].guides[contact.guide]
-        along = replace(face, through=face.through + contact.normal_to_face * face.direction * one.radius)
-        places = {one.centre: 0j, contact.name: -contact.normal_to_face * one.radius}
-        block = PlacedLink(contact.block, places, (one.centre,), OWN_AXIS)
-        return block, Pair(contact.block, contact.block, contact.face, along, 1 + 0j, one.centre, True)
-    two = contact.round[1]
-    part = one.radius / (one.radius + two.radius)
+        along = replace(face, through=face.through + contact.normal_to_face * face.direction * disc.radius)
+        places = {disc.centre: 0j, contact.name: -contact.normal_to_face * disc.radius}
+        block = PlacedLink(contact.block, places, (disc.centre,), OWN_AXIS)
+        return block, Pair(contact.block, contact.block, contact.face, along, 1 + 0j, disc.centre, True)
+    other = contact.round[1]
+    part = disc.radius / (disc.radius + other.radius)
     if contact.carrier:
         held = links[contact.carrier]
-        a, b = held.points[one.centre], held.points[two.centre]
+        a, b = held.points[disc.centre], held.points[other.centre]
         return replace(held, points={**held.points, contact.name: a + (b - a) * part}), None
-    far = abs(one.radius + two.radius)
-    at = far * one.radius / (one.radius + two.radius)
-    places = {one.centre: 0j, two.centre: complex(far), contact.name: complex(at)}
-    return PlacedLink(contact.block, places, (one.centre, two.centre), OWN_AXIS), None
+    far = abs(disc.radius + other.radius)
+    at = far * disc.radius / (disc.radius + other.radius)
+    places = {disc.centre: 0j, other.centre: complex(far), contact.name: complex(at)}
+    return PlacedLink(contact.block, places, (disc.centre, other.centre), OWN_AXIS), None
 
 
 def pins_on_circles(scene: Mechanism, poses: Poses, values: Mapping[str, float]) -> Mechanism:

@@ -53,49 +53,49 @@ def meshes_of(
     scene: Mechanism, contacts: Iterable[PlacedContact], gears: Iterable[PlacedGear], links: Mapping[str, PlacedLink]
 ) -> tuple[Mesh, ...]:
     """Everything that rolls."""
-    found = []
+    meshes = []
     for contact in contacts:
         if contact.rolling and contact.flat:
             (disc,) = contact.round
             r = Fraction(-disc.radius if contact.left else disc.radius)
             axes, wheels = (disc.centre, ""), (disc.link, contact.face)
-            found.append(Mesh(contact.name, wheels, contact.block, axes, (r, None), contact.block, -1))
+            meshes.append(Mesh(contact.name, wheels, contact.block, axes, (r, None), contact.block, -1))
         elif contact.rolling:
-            one, two = contact.round
-            parts = Fraction(one.radius), Fraction(two.radius)
+            first, second = contact.round
+            parts = Fraction(first.radius), Fraction(second.radius)
             carrier = contact.carrier or contact.block
-            found.append(Mesh(contact.name, contact.links, carrier, (one.centre, two.centre), parts))
+            meshes.append(Mesh(contact.name, contact.links, carrier, (first.centre, second.centre), parts))
     for gear in gears:
         if gear.teeth[1] is not None:
             teeth = Fraction(gear.teeth[0]), Fraction(gear.teeth[1])
-            found.append(Mesh(gear.name, gear.wheels, gear.carrier, gear.axes, teeth))
+            meshes.append(Mesh(gear.name, gear.wheels, gear.carrier, gear.axes, teeth))
             continue
         height, _, _ = rack_place(
             gear, scene.slidings, {n: k.points for n, k in links.items()}, {n: k.guides for n, k in links.items()}
         )
         sense = 1 if next(s for s in scene.slidings if s.key == gear.slide).link == gear.wheels[1] else -1
         parts_ = Fraction(height), None
-        found.append(Mesh(gear.name, gear.wheels, gear.carrier, (gear.axes[0], ""), parts_, gear.slide, sense))
-    return tuple(found)
+        meshes.append(Mesh(gear.name, gear.wheels, gear.carrier, (gear.axes[0], ""), parts_, gear.slide, sense))
+    return tuple(meshes)
 
 
 def relations_of(scene: Mechanism, meshes: Iterable[Mesh]) -> tuple[RollingRelation, ...]:
     """The relations of everything that rolls."""
-    found = []
+    relations = []
     for mesh in meshes:
-        one, two = mesh.parts
+        part, other_part = mesh.parts
         # a block turns as its face does
         carrier = ("angle", mesh.carrier if mesh.carrier in scene.by_name else mesh.wheels[1])
         wheel, other = ("angle", mesh.wheels[0]), ("angle", mesh.wheels[1])
-        rolled: tuple[tuple[Coordinate, Fraction], ...] = ((wheel, one), (other, two or Fraction(0)))
-        if two is None:
-            rolled = (("travel", mesh.slide), Fraction(mesh.sense)), (wheel, one)
+        rolled: tuple[tuple[Coordinate, Fraction], ...] = ((wheel, part), (other, other_part or Fraction(0)))
+        if other_part is None:
+            rolled = (("travel", mesh.slide), Fraction(mesh.sense)), (wheel, part)
         terms: dict[Coordinate, Fraction] = {}
-        for coordinate, factor in (*rolled, (carrier, -one - (two or 0))):
+        for coordinate, factor in (*rolled, (carrier, -part - (other_part or 0))):
             terms[coordinate] = terms.get(coordinate, Fraction(0)) + factor
         terms = {c: f for c, f in terms.items() if f and c != ("angle", scene.frame.name)}
-        found.append(RollingRelation(mesh.name, terms, mesh.links))
-    return tuple(found)
+        relations.append(RollingRelation(mesh.name, terms, mesh.links))
+    return tuple(relations)
 
 
 Unknown = Coordinate | int
@@ -114,8 +114,8 @@ def _add(rows: Rows, terms: Mapping[Coordinate, Fraction] | Mapping[Unknown, Fra
     if lead is None:
         return False
     row = {k: f / rest[lead] for k, f in rest.items()}
-    for other, own in rows.items():
-        rows[other] = _less(own, own.get(lead, Fraction(0)), row)
+    for other, before in rows.items():
+        rows[other] = _less(before, before.get(lead, Fraction(0)), row)
     rows[lead] = row
     return True
 
@@ -141,8 +141,8 @@ def followers_of(
     left, between coordinates that also depend on lengths."""
     frame, count = scene.frame.name, len(scene.drivers)
 
-    def turned(one: str, two: str) -> Row:
-        return {("angle", name): Fraction(sign) for name, sign in ((one, 1), (two, -1)) if name != frame}
+    def turned(link: str, base: str) -> Row:
+        return {("angle", name): Fraction(sign) for name, sign in ((link, 1), (base, -1)) if name != frame}
 
     base: Rows = {}
     for s in slides:
@@ -186,12 +186,12 @@ def drawn_angle(scene: Mechanism, link: PlacedLink) -> float | None:
 
 def rolled_by(scene: Mechanism, relation: RollingRelation, member: str, pair: Pair) -> Rolled | None:
     """What moves a link that one pair joins to known links, by a relation to them; None where it does not."""
-    own: Coordinate = ("angle", member) if pair.turns else ("travel", pair.key)
-    if own not in relation.terms or (own[0] == "travel" and ("angle", member) in relation.terms):
+    coordinate: Coordinate = ("angle", member) if pair.turns else ("travel", pair.key)
+    if coordinate not in relation.terms or (coordinate[0] == "travel" and ("angle", member) in relation.terms):
         return None
-    factor = relation.terms[own]
-    others = tuple((c, float(-f / factor)) for c, f in relation.terms.items() if c != own)
-    return Rolled(relation.name, own, scene.starts.get(own[1], 0.0), others, relation.links)
+    factor = relation.terms[coordinate]
+    others = tuple((c, float(-f / factor)) for c, f in relation.terms.items() if c != coordinate)
+    return Rolled(relation.name, coordinate, scene.starts.get(coordinate[1], 0.0), others, relation.links)
 
 
 MOST = 200  # choices that are looked at
@@ -226,7 +226,7 @@ def _of(structure: Structure, group: LargerGroup, relation: RollingRelation) -> 
     """What can be given for a relation, and how well it is told: as the start of what rolls, of another link of the
     group, by a sketched bar, not at all."""
     scene, inside = structure.scene, set(group.members)
-    found: list[tuple[int, Driver]] = []
+    ranked: list[tuple[int, Driver]] = []
     others = [("angle", n) for n in group.links if ("angle", n) not in relation.terms and n in scene.starts]
     for coordinate in (*reversed(list(relation.terms)), *others):
         kind, name = coordinate
@@ -234,12 +234,12 @@ def _of(structure: Structure, group: LargerGroup, relation: RollingRelation) -> 
         if kind == "travel":
             slide = structure.slide(name)
             if start is not None and inside.intersection(slide.links):
-                found.append((1, Driver(slide.a, slide.b, start, 0.0, 0.0, name)))
+                ranked.append((1, Driver(slide.a, slide.b, start, 0.0, 0.0, name)))
         elif name in inside and name in scene.by_name:
             drawn = None if start is not None else drawn_angle(scene, structure.links[name])
             rank = (0 if coordinate in relation.terms else 1) if start is not None else 2 if drawn is not None else 3
-            found.append((rank, _turned(structure, name, start if start is not None else drawn or 0.0)))
-    return found
+            ranked.append((rank, _turned(structure, name, start if start is not None else drawn or 0.0)))
+    return ranked
 
 
 def _turned(structure: Structure, name: str, angle: float) -> Driver:

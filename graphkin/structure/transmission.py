@@ -79,8 +79,8 @@ def joint_between(structure: Structure, a: str, b: str, symbol: Symbol) -> Trans
     """The joint that two links share.  Raises CallError where they share none that has a transmission angle."""
     blocks = {p.key: {p.of, p.key} for p in structure.scene.pins}
     for dyad in structure.dyads.values():
-        one, two = ({n for link in body.links for n in blocks.get(link, {link})} for body in dyad.bodies)
-        if (a in one and b in two) or (b in one and a in two):
+        first, second = ({n for link in body.links for n in blocks.get(link, {link})} for body in dyad.bodies)
+        if (a in first and b in second) or (b in first and a in second):
             return joint_of_dyad(structure, dyad)
     links = structure.links
     shared = [p for p in links[a].points if p in links[b].points]
@@ -95,9 +95,9 @@ def joint_between(structure: Structure, a: str, b: str, symbol: Symbol) -> Trans
 def _arm(structure: Structure, name: str, point: str) -> Way | None:
     """The path's normal of a point of a link: along its bar, or square to the guide on which it slides."""
     link = structure.links[name]
-    own = [p for p in (*link.bar, *link.points) if p != point and link.points[p] != link.points[point]]
-    if own:
-        return (name, link.points[own[0]]), (name, link.points[point])
+    others = [p for p in (*link.bar, *link.points) if p != point and link.points[p] != link.points[point]]
+    if others:
+        return (name, link.points[others[0]]), (name, link.points[point])
     slide = next((s for s in structure.slides if s.a == name), None)
     return ((slide.b, 0j), (slide.b, 1j * slide.guide.direction)) if slide else None
 
