@@ -110,7 +110,7 @@ def _answers(
     # numbers are driver values, unless all of them are names of positions
     positions = scene.question.positions
     by_name = positions is not None and bool(places) and places <= set(positions.names)
-    found = []
+    answers = []
     for line, cells in rows:
         told, at = {role: cells[i] for role, i in roles.items()}, None
         if text := told.get("at", ""):
@@ -125,10 +125,10 @@ def _answers(
             if sheet.heads[i] not in silent.get(line, ()):
                 told_ways = [cells[k] for k, of in ways.items() if of == symbol]
                 made[symbol] = _cell(scene, symbol, unit, cells[i], told_ways, sheet.sign)
-        found.append(Answers(person, at, made, variant=told.get("variant", ""), id=told.get("id", ""), marks=marks))
+        answers.append(Answers(person, at, made, variant=told.get("variant", ""), id=told.get("id", ""), marks=marks))
     if problems:
         raise CallError(*problems[:50])
-    return tuple(found), tuple(sheet.heads[i] for i in others)
+    return tuple(answers), tuple(sheet.heads[i] for i in others)
 
 
 def _cell(scene: Mechanism, symbol: Symbol, unit: str, text: str, ways: Sequence[str], sign: str) -> Cell:

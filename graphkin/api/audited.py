@@ -114,13 +114,13 @@ class Audited(OfScene, Result):
     def data(self) -> dict[str, Json]:
         """The object that ``graphkin audit --json`` prints; values in scene units."""
         values = [row for who, judged in self.people for row in rows_of(self.mechanism, who, judged, "en")]
-        found: dict[str, Json] = {"ok": self.ok, "values": values}
+        said: dict[str, Json] = {"ok": self.ok, "values": values}
         if self.is_class:
-            found["people"] = list(people_of(self.people, self.scheme, "en"))
-            found["quantities"] = list(quantities_of(self.people, "en"))
+            said["people"] = list(people_of(self.people, self.scheme, "en"))
+            said["quantities"] = list(quantities_of(self.people, "en"))
         if self.scans:
-            found["scans"] = {scan.diagram: self._scan(scan) for scan in self.scans}
-        return {**found, **({"unused": list(self.unused)} if self.unused else {})}
+            said["scans"] = {scan.diagram: self._scan(scan) for scan in self.scans}
+        return {**said, **({"unused": list(self.unused)} if self.unused else {})}
 
     def _scan(self, judged: JudgedScan) -> dict[str, Json]:
         lines: list[dict[str, Json]] = [
@@ -188,8 +188,8 @@ class Audited(OfScene, Result):
         that nobody gave."""
         judged = [j for _, own in self.people for j in own]
         symbol = named({str(j.printed.symbol): j.printed.symbol for j in judged}, name, Phrase("no value of this name"))
-        found = (j for j in judged if j.printed.symbol == symbol)
-        return tuple(JudgedValue.of(self.mechanism, one, self.language) for one in found)
+        values = (j for j in judged if j.printed.symbol == symbol)
+        return tuple(JudgedValue.of(self.mechanism, value, self.language) for value in values)
 
     @cached_property
     def table(self) -> Table:
@@ -340,20 +340,20 @@ def _problems(
     if variants is None:
         raise CallError.of("variant", "the answers name variants", "give the folder of the problem set variants",
                            named=', '.join(named)[:80])
-    found: dict[str, SceneLike] = {}
+    scenes: dict[str, SceneLike] = {}
     if isinstance(variants, Mapping):
-        found = {str(name): one for name, one in variants.items()}
+        scenes = {str(name): one for name, one in variants.items()}
     else:
         folder = path_of(variants)
-        found = {path.stem.rpartition("-")[2]: path for path in sorted(folder.rglob("*-*.toml"))}
-    plain = {name.lstrip("0") or "0": name for name in found}
+        scenes = {path.stem.rpartition("-")[2]: path for path in sorted(folder.rglob("*-*.toml"))}
+    plain = {name.lstrip("0") or "0": name for name in scenes}
     problems = []
-    made = {"": scene, **{name: as_scene(one) for name, one in found.items()}}
+    made = {"": scene, **{name: as_scene(one) for name, one in scenes.items()}}
     for name in named:
-        key = name if name in found else plain.get(name.lstrip("0") or "0")
+        key = name if name in scenes else plain.get(name.lstrip("0") or "0")
         if key is None:
             problems.append(Problem(Phrase("variant of name", name=name), "is not in the set",
-                                    did_you_mean(name, found)))
+                                    did_you_mean(name, scenes)))
         else:
             made[name] = made[key]
     if problems:
@@ -365,12 +365,12 @@ def _others_values(problems: Mapping[str, Mechanism], own: str) -> ValuesElsewhe
     """Exact values of the other problems of a set, by their names."""
     @cache
     def values(symbol: Symbol) -> tuple[tuple[str, Value], ...]:
-        found: list[tuple[str, Value]] = []
+        others: list[tuple[str, Value]] = []
         for name, scene in problems.items():
             if name and scene is not problems[own]:
                 value = exact_values(solver.solve(scene), [symbol])(symbol)
-                found.append((name, value))
-        return tuple(found)
+                others.append((name, value))
+        return tuple(others)
 
     return values
 
@@ -394,16 +394,16 @@ def _with_signs(people: Sequence[Answers]) -> tuple[Answers, ...]:
 
 def _stated(scene: Mechanism) -> tuple[Answers, ...]:
     """What a scene's own tables state, a row for each position."""
-    found: list[Answers] = []
+    answers: list[Answers] = []
     for own in scene.question.stated:
         if own.file:
             rows, _ = as_answers(scene, own.file)
-            found += [replace(row, person="", by=own.by) for row in rows]
+            answers += [replace(row, person="", by=own.by) for row in rows]
             continue
         for place in dict.fromkeys(symbol.at for symbol in own.values):
             there = (replace(p, symbol=s.here) for s, p in own.values.items() if s.at == place)
-            found.append(Answers("", place or own.at, {p.symbol: p for p in there}, own.by))
-    return tuple(found)
+            answers.append(Answers("", place or own.at, {p.symbol: p for p in there}, own.by))
+    return tuple(answers)
 
 
 def _over_places(scene: Mechanism, table: Sequence[Answers], at: At) -> Motion:
@@ -411,8 +411,8 @@ def _over_places(scene: Mechanism, table: Sequence[Answers], at: At) -> Motion:
     reach = driver_range(structure_of(scene))
     driver = scene.drivers[0]
     places = [(driver_values(scene, at if who.at is None else who.at) or {}).get(driver.key) for who in table]
-    own = driver.values[0]
-    motion = reach.motion(reach.offsets(np.array([own if place is None else place for place in places])))
+    here = driver.values[0]
+    motion = reach.motion(reach.offsets(np.array([here if place is None else place for place in places])))
     if not motion.ok.all():
         k = int(np.argmin(motion.ok))
         where = Phrase("driver at", key=driver.key, where=scene.unit_of(driver).said(float(motion.values[k, 0])))
@@ -445,8 +445,8 @@ def evidence_at(
     motion = solved_here(scene, values)
     what = plan(motion.structure, values, [symbol for symbol in asked if symbol.scope != "cycle"])
     predicted = predict(what, "pencil", scene.question.sheet.tools)
-    found = Evidence.of(what, motion, predicted, asked)
-    return replace(found, elsewhere=_elsewhere(scene, values), variants=variants, motion=motion)
+    evidence = Evidence.of(what, motion, predicted, asked)
+    return replace(evidence, elsewhere=_elsewhere(scene, values), variants=variants, motion=motion)
 
 
 def _elsewhere(scene: Mechanism, values: dict[str, float] | None) -> ValuesElsewhere:
@@ -460,16 +460,16 @@ def _elsewhere(scene: Mechanism, values: dict[str, float] | None) -> ValuesElsew
         return solver.solve(scene, values, POSITIONS), solver.solve(scene, from_zero, POSITIONS)
 
     def table(symbol: Symbol) -> list[tuple[str, complex | float]]:
-        found: list[tuple[str, complex | float]] = []
+        rows: list[tuple[str, complex | float]] = []
         if symbol.scope in ("turn", "cycle") or symbol.kind == "arm":  # the lever has its arms at one position
-            return found
+            return rows
         for motion in motions():
             for i, value in enumerate(solver.value_of(motion, symbol)):
                 if motion.ok[i]:
                     driver, at = scene.drivers[0], float(motion.values[i, 0])
                     name = f"{driver.key} = {scene.unit_of(driver).said(at)}"
-                    found.append((name, complex(value) if symbol.is_vector else float(value.real)))
-        return found
+                    rows.append((name, complex(value) if symbol.is_vector else float(value.real)))
+        return rows
 
     return table
 
@@ -572,9 +572,9 @@ def _counted(verdicts: Iterable[str]) -> dict[str, Json]:
 def quantities_of(people: Sequence[Person], language: str) -> Iterator[dict[str, Json]]:
     """For each quantity: the verdicts of the class counted, and the commonest slip with how many made it."""
     verdicts = [_verdicts(who, judged) for who, judged in people]
-    for symbol in dict.fromkeys(symbol for own in verdicts for symbol in own):
-        own = [j for _, judged in people for j in judged if j.printed.symbol == symbol]
-        slips: Counter[Phrase] = Counter(j.looks_like for j in own if j.verdict == "wrong" and j.looks_like)
+    for symbol in dict.fromkeys(symbol for values in verdicts for symbol in values):
+        values = [j for _, judged in people for j in judged if j.printed.symbol == symbol]
+        slips: Counter[Phrase] = Counter(j.looks_like for j in values if j.verdict == "wrong" and j.looks_like)
         row: dict[str, Json] = {"symbol": str(symbol), **_counted(of[symbol] for of in verdicts if symbol in of)}
         if slips:
             phrase, made = slips.most_common(1)[0]
@@ -590,7 +590,7 @@ def rows_of(scene: Mechanism, who: Answers, judged: Sequence[Judged], language: 
     """The rows of one person, answered or not."""
     lead: Row = {k: v for k, v in (("person", who.person), ("id", who.id), ("variant", who.variant)) if v}
     lead |= {"at": who.at} if who.at is not None else {}
-    values = {one.printed.symbol: _value(scene, one, language) for one in judged}
+    values = {value.printed.symbol: _value(scene, value, language) for value in judged}
     for symbol, cell in who.cells.items():
         yield lead | (values[symbol] if symbol in values else _unread(scene, symbol, cell, language))
 

@@ -118,11 +118,11 @@ class Handout(OfScene, Result):
         from graphkin.api.cams import cam_made
         from graphkin.api.task_papers import cam_papers
 
-        found: dict[str, bytes] = {}
-        for i, one in enumerate(cam_made(self.mechanism)):
-            prefix = f"cam-{one.cam.link}-" if i else "cam-"
-            found |= cam_papers(one, self.formats, self.lesson.language, prefix)
-        return found
+        papers: dict[str, bytes] = {}
+        for i, made in enumerate(cam_made(self.mechanism)):
+            prefix = f"cam-{made.cam.link}-" if i else "cam-"
+            papers |= cam_papers(made, self.formats, self.lesson.language, prefix)
+        return papers
 
     def _page(self, worked: Sequence[Block]) -> str:
         """The solution to step through, with the positions of the driver and the mechanism in motion."""

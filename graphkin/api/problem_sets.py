@@ -85,11 +85,11 @@ class ProblemSet(OfScene, Result):
         """All answers, remarks and failures, for programs."""
         variants: list[dict[str, Json]] = [
             {
-                "name": one.name,
-                "answers": [{"symbol": a.symbol, "value": a.value, "tolerance": a.tolerance} for a in one.answers],
-                **({"remarks": list(one.remarks)} if one.remarks else {}),
+                "name": variant.name,
+                "answers": [{"symbol": a.symbol, "value": a.value, "tolerance": a.tolerance} for a in variant.answers],
+                **({"remarks": list(variant.remarks)} if variant.remarks else {}),
             }
-            for one in self.variants if not one.why
+            for variant in self.variants if not variant.why
         ]  # fmt: skip
         failures = [{"name": f.name, "why": f.why} for f in self.failures]
         return {"ok": self.ok, "variants": variants, "failures": failures, "unused": list(self.unused)}
@@ -100,10 +100,10 @@ class ProblemSet(OfScene, Result):
         units = {a.symbol: a.unit for answers in self.answers.values() for a in answers}
         symbols = list(units) or [str(s) for s in asked_of(self.mechanism)]
         rows: list[tuple[object, ...]] = []
-        for one in sorted(self.variants, key=lambda one: bool(one.why)):
-            known = {a.symbol: (a.value, a.tolerance) for a in one.answers if not one.why}
-            said = f"failed: {one.why}" if one.why else "; ".join(one.remarks)
-            rows.append((one.name, *(x for s in symbols for x in known.get(s, (None, None))), said))
+        for variant in sorted(self.variants, key=lambda variant: bool(variant.why)):
+            known = {a.symbol: (a.value, a.tolerance) for a in variant.answers if not variant.why}
+            said = f"failed: {variant.why}" if variant.why else "; ".join(variant.remarks)
+            rows.append((variant.name, *(x for s in symbols for x in known.get(s, (None, None))), said))
         heads = ("name", *(c for s in symbols for c in (s, f"{s} +-")), "remarks")
         beside = ("", *(units.get(s, "") for s in symbols for _ in range(2)), "")
         return Table.of(heads, rows, ("", *[".6g"] * (2 * len(symbols)), ""), beside)
@@ -185,8 +185,8 @@ def problem_set(
         stem = f"{name}-{variant.name}"
         scene_file = {f"{stem}.toml": toml_text(variant.source).encode()}
         # what a platform reads as a folder has the variant in its name
-        own = {n if "/" in n else f"{stem}-{safe_name(n)}": f for n, f in files.items()}
-        return [str(path.relative_to(folder)) for path in write_files(folder, {**scene_file, **own})]
+        renamed = {n if "/" in n else f"{stem}-{safe_name(n)}": f for n, f in files.items()}
+        return [str(path.relative_to(folder)) for path in write_files(folder, {**scene_file, **renamed})]
 
     def finish(variants: Sequence[Variant]) -> None:
         if folder is not None:
@@ -253,9 +253,9 @@ def _reach(scene: Mechanism) -> tuple[float, float] | None:
     structure = structure_of(scene)
     if not structure.scene.drivers[0].turns:
         return None
-    found = driver_range(structure)
-    low, high = sorted(np.degrees(found.value(np.array(found.ends))).tolist())
-    return None if found.full or high - low > MOST_OF_A_TURN else (low, high)
+    reach = driver_range(structure)
+    low, high = sorted(np.degrees(reach.value(np.array(reach.ends))).tolist())
+    return None if reach.full or high - low > MOST_OF_A_TURN else (low, high)
 
 
 def _data_of(source: Tables, rows: str | os.PathLike[str]) -> tuple[Rows, Columns]:

@@ -60,9 +60,9 @@ def report_text(checked: Checked, language: str) -> str:
     lines.append(word("readings", language))
     head = (word("quantity", language), word("on paper", language), word("measured", language), word("exact", language))
     lines.append(f"{head[0]:<16}{head[1]:>12}{head[2]:>16}{head[3]:>16}")
-    for symbol, length, found, true, own_unit, ok in reading_words(checked):
+    for symbol, length, read, true, own_unit, ok in reading_words(checked):
         mark = {True: "", False: "  !", None: "  ?"}[ok]
-        lines.append(f"{symbol:<16}{length:>12}{found:>16}{true:>16} {own_unit}{mark}".rstrip())
+        lines.append(f"{symbol:<16}{length:>12}{read:>16}{true:>16} {own_unit}{mark}".rstrip())
     lines += ["", *lever_lines(checked, language), *contact_lines(checked, language)]
     if checked.at_contacts is not None:
         steps = (s for s in checked.at_contacts.sheet.steps if s.diagram in ("velocity", "acceleration"))
@@ -96,7 +96,7 @@ def _forces(checked: Checked, language: str) -> list[str]:
 
 def lever_lines(checked: Checked, language: str) -> list[str]:
     """What balances by Zhukovsky's lever, beside what the polygons give."""
-    found = []
+    lines = []
     units = checked.mechanism.units
     rows = {str(row.symbol): row for row in checked.report.rows}
     for number, state in enumerate(checked.forces.states if checked.forces else ()):
@@ -109,8 +109,8 @@ def lever_lines(checked: Checked, language: str) -> list[str]:
             unit = f"{units.force} m" if moment else units.force
             values = lever.value if moment else abs(lever.value), row.measured if moment else abs(row.measured)
             by_lever, by_polygons = (f"{amount(float(v.real) / units.newtons, MOST)} {unit}" for v in values)
-            found.append(say(Phrase("lever balance", (f"{row.symbol} = {by_lever}", by_polygons)), language))
-    return list(dict.fromkeys(found))
+            lines.append(say(Phrase("lever balance", (f"{row.symbol} = {by_lever}", by_polygons)), language))
+    return list(dict.fromkeys(lines))
 
 
 def _held_still(sheet: Sheet, language: str) -> list[str]:
@@ -211,13 +211,13 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
     scene = turn.scene
     driver, colon = scene.drivers[0], word("colon", language)
     lines: list[str] = []
-    own = turn.ranges[0]
-    if own.whole:
+    reach = turn.ranges[0]
+    if reach.whole:
         said = word("full turn", language)
         if turn.reach.turns > 1:
             said += "; " + say(Phrase("turns to close", turns=turn.reach.turns), language)
     else:
-        said = _between(scene, own.low, own.high, own.open_low, own.open_high)
+        said = _between(scene, reach.low, reach.high, reach.open_low, reach.open_high)
     lines.append(f"{word('range', language)} {driver.key}{colon}{said}")
     lines += ["  " + say(one, language) for one in passed_words(scene, turn.reach.change_points)]
     for other in turn.ranges[1:]:
@@ -252,11 +252,11 @@ def _forces_of_turn(turn: TurnStudy, language: str) -> list[str]:
     from graphkin.study.force_diagrams import force_extremes  # it loads the drawing board
 
     try:
-        found = force_extremes(turn.reach)
+        ranges = force_extremes(turn.reach)
     except Unsolvable as stop:
         return [word("forces", language) + word("colon", language) + say(stop.reason, language)]
     lines = []
-    for name, (quantity, extremes) in found.items():
+    for name, (quantity, extremes) in ranges.items():
         unit = quantity.unit(scene)
         parts = [
             f"{word('greatest' if e.kind == 'max' else 'least', language)} {unit.of(e.value):.6g} @ {_at(scene, e)}"
@@ -268,17 +268,17 @@ def _forces_of_turn(turn: TurnStudy, language: str) -> list[str]:
 
 def _flywheel(turn: TurnStudy, language: str) -> list[str]:
     """The flywheel that the scene asks for, or why it has none."""
-    found, units = turn.flywheel, turn.scene.units
-    if found is None:
+    flywheel, units = turn.flywheel, turn.scene.units
+    if flywheel is None:
         return []
     head = word("flywheel", language) + word("colon", language)
-    if isinstance(found, Unsolvable):
-        return [head + found.why]
+    if isinstance(flywheel, Unsolvable):
+        return [head + flywheel.why]
     moment, inertia = units.of("moment"), units.of("inertia")
     said = [
-        say(Phrase("driving moment is", moment=f"{moment.of(found.driving):.8g} {moment.text}"), language),
-        say(Phrase("excess work is", work=f"{moment.of(found.excess):.8g} {moment.text}"), language),
-        f"J_F = {inertia.of(found.inertia):.8g} {inertia.text} (δ = {found.delta:g})",
+        say(Phrase("driving moment is", moment=f"{moment.of(flywheel.driving):.8g} {moment.text}"), language),
+        say(Phrase("excess work is", work=f"{moment.of(flywheel.excess):.8g} {moment.text}"), language),
+        f"J_F = {inertia.of(flywheel.inertia):.8g} {inertia.text} (δ = {flywheel.delta:g})",
     ]
     return [head + "; ".join(said)]
 

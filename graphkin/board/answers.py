@@ -86,11 +86,11 @@ def _problems(desk: Desk, error: GraphkinError, message: object) -> Answer:
     text = message.get("text") if isinstance(message, Mapping) else ""
     text = text if isinstance(text, str) else ""
     spoken, lines = language_of(message), isinstance(error, SceneError) or text != ""
-    found: list[dict[str, Json]] = [
+    problems: list[dict[str, Json]] = [
         {"text": problem.text(spoken), "line": line_of(problem, text) if lines else 0}
         for problem in error.problems[:100]
     ]
-    return {"problems": found, "kind": type(error).__name__, **_draft_of(desk, text, message)}
+    return {"problems": problems, "kind": type(error).__name__, **_draft_of(desk, text, message)}
 
 
 def _draft_of(desk: Desk, text: str, message: object) -> Answer:
@@ -100,18 +100,18 @@ def _draft_of(desk: Desk, text: str, message: object) -> Answer:
         made = parsed(text)
     except SceneError:
         return {}
-    told: Answer = {"draft": building.draft(made), "form": made}
+    shown: Answer = {"draft": building.draft(made), "form": made}
     trial = building.trial_driver(made)
     try:
         made = pictures.with_own_files(parsed(text), desk.shelf.folder)
         scene = resolved({**made, "driver": trial} if trial else made, "scene")[1]
         count = 0 if trial else len(scene.drivers)
         spoken = language if language in LANGUAGES else scene.question.sheet.language
-        told["mobility"] = pictures.mobility_text(scene, spoken, count)
-        told["freedom"] = mobility_of(scene).value
+        shown["mobility"] = pictures.mobility_text(scene, spoken, count)
+        shown["freedom"] = mobility_of(scene).value
     except GraphkinError:
         pass
-    return told
+    return shown
 
 
 # -- the questions --------------------------------------------------------------------------------------------------
@@ -199,8 +199,8 @@ def _refused(key: str, value: object) -> Problem:
 
 
 def _show(desk: Desk, asked: Message) -> Answer:
-    told = pictures.shown(asked.scene(desk), asked.at, asked.options, asked.quick)
-    return told if asked.quick else {**told, "form": parsed(asked.text)}
+    shown = pictures.shown(asked.scene(desk), asked.at, asked.options, asked.quick)
+    return shown if asked.quick else {**shown, "form": parsed(asked.text)}
 
 
 def _pull(desk: Desk, asked: Message) -> Answer:
@@ -230,8 +230,8 @@ def _build(desk: Desk, asked: Message) -> Answer:
 def _keep(desk: Desk, asked: Message) -> Answer:
     """The position shown, written into the scene as its own, with its sketch."""
     scene = asked.scene(desk)
-    told = pictures.shown(scene, asked.at, FigureOptions(("mechanism",)), quick=True)
-    at, points = told["at"], told["points"]
+    shown = pictures.shown(scene, asked.at, FigureOptions(("mechanism",)), quick=True)
+    at, points = shown["at"], shown["points"]
     assert isinstance(at, dict)
     assert isinstance(points, dict)
     changes: Answer = {}
@@ -248,10 +248,10 @@ def _keep(desk: Desk, asked: Message) -> Answer:
 
 
 def _complete(desk: Desk, asked: Message) -> Answer:
-    language, found = asked.spoken, completions(asked.text, asked.line, asked.column)
-    said = (say(key["detail"], language) for key in found)
+    language, keys = asked.spoken, completions(asked.text, asked.line, asked.column)
+    said = (say(key["detail"], language) for key in keys)
     details = (as_sentence(detail) if language == LANGUAGES[0] else detail for detail in said)
-    labels = (str(key["label"]) for key in found)
+    labels = (str(key["label"]) for key in keys)
     return {"options": [{"label": label, "detail": detail} for label, detail in zip(labels, details, strict=True)]}
 
 
@@ -270,9 +270,9 @@ def _open(desk: Desk, asked: Message) -> Answer:
 
 
 def _shelf(desk: Desk, asked: Message) -> Answer:
-    found = desk.shelf.listing()
+    scenes = desk.shelf.listing()
     writes = desk.shelf.folder is not None
-    return {"scenes": found, "new": sorted(NEW), "writes": writes, "only": desk.shelf.only}
+    return {"scenes": scenes, "new": sorted(NEW), "writes": writes, "only": desk.shelf.only}
 
 
 def _thumbnail(desk: Desk, asked: Message) -> Answer:
@@ -300,8 +300,8 @@ def _diagrams(desk: Desk, asked: Message) -> Answer:
 def _race(desk: Desk, asked: Message) -> Answer:
     from graphkin.api.studied import speed_accuracy
 
-    found = speed_accuracy(asked.scene(desk), repeats=1, language=asked.options.language)
-    return {"figures": {name: figure.content("svg").decode() for name, figure in found.figures.items()}}
+    charts = speed_accuracy(asked.scene(desk), repeats=1, language=asked.options.language)
+    return {"figures": {name: figure.content("svg").decode() for name, figure in charts.figures.items()}}
 
 
 _TYPES = {"svg": "image/svg+xml", "pdf": "application/pdf", "png": "image/png", "dxf": "image/vnd.dxf",

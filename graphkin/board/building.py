@@ -52,8 +52,8 @@ def built(text: str, step: Step) -> str:
 
 
 def _tables(made: Tables, name: str) -> OwnTables:
-    found = made.get(name)
-    return dict(found) if isinstance(found, Mapping) else {}
+    table = made.get(name)
+    return dict(table) if isinstance(table, Mapping) else {}
 
 
 def _frame(made: Tables) -> tuple[str, OwnTables]:
@@ -74,8 +74,8 @@ def draft(made: Tables) -> OwnTables:
     links = {}
     for name, link in _tables(made, "links").items():
         if isinstance(link, Mapping):
-            own = [p for p in (*_list(link.get("points")), *_tables(link, "at")) if p in points]
-            links[str(name)] = {"points": own, "block": "on" in link and len(own) < 2}
+            ends = [p for p in (*_list(link.get("points")), *_tables(link, "at")) if p in points]
+            links[str(name)] = {"points": ends, "block": "on" in link and len(ends) < 2}
     guides = []
     for guide in _tables(_tables(made, "frame"), "guides").values():
         through = guide.get("through") if isinstance(guide, Mapping) else None
@@ -110,11 +110,11 @@ def next_link(made: Tables) -> str:
 
 
 def _points(made: Tables) -> set[str]:
-    found = {*_tables(made, "sketch"), *_tables(made, "drawn"), *_tables(made, "pins"), *_frame(made)[1]}
+    points = {*_tables(made, "sketch"), *_tables(made, "drawn"), *_tables(made, "pins"), *_frame(made)[1]}
     for link in _tables(made, "links").values():
         if isinstance(link, Mapping):
-            found |= {str(p) for p in (*_list(link.get("points")), *_tables(link, "at"))}
-    return found
+            points |= {str(p) for p in (*_list(link.get("points")), *_tables(link, "at"))}
+    return points
 
 
 def _at(step: Step, key: str) -> list[float]:
@@ -176,11 +176,11 @@ def _bar(made: Tables, step: Step) -> OwnTables:
 def _point_on(made: Tables, step: Step) -> OwnTables:
     """A further point of a link, in its own axes."""
     name, place = _link_of(made, step, "link"), _at(step, "at")
-    own = _list(made["links"][name].get("points"))
+    ends = _list(made["links"][name].get("points"))
     spots = draft(made)["points"]
-    if len(own) < 2 or any(p not in spots for p in own):
+    if len(ends) < 2 or any(p not in spots for p in ends):
         raise CallError.of(Phrase("link of name", name=name), "has no axis of its own", "give it two points first")
-    origin, end = (complex(*spots[p]) for p in own)
+    origin, end = (complex(*spots[p]) for p in ends)
     along = (end - origin) / abs(end - origin)
     z = (complex(*place) - origin) / along
     letter = _free_letter(made, set())
@@ -230,20 +230,20 @@ def _drive(made: Tables, step: Step) -> OwnTables:
     """A link that drives: its angle is that of the sketch."""
     name = _link_of(made, step, "link")
     link, spots = made["links"][name], draft(made)["points"]
-    own = [p for p in _list(link.get("points")) if p in spots]
+    ends = [p for p in _list(link.get("points")) if p in spots]
     fixed, _ = _frame(made)
-    if len(own) < 2:
+    if len(ends) < 2:
         on = link.get("on")
-        if not own or not isinstance(on, str) or not on.startswith(f"{fixed}."):
+        if not ends or not isinstance(on, str) or not on.startswith(f"{fixed}."):
             raise CallError.of(Phrase("link of name", name=name), "has no axis that could be driven",
                                "drive a bar or a slider")
         guide = _tables(made["frame"], "guides").get(on.partition(".")[2], {})
         through = guide.get("through", [0.0, 0.0])
         start = complex(*spots.get(through, (0, 0))) if isinstance(through, str) else complex(*through)
         turn = math.radians(guide.get("angle", 0.0))
-        travel = (complex(*spots[own[0]]) - start) * complex(math.cos(turn), -math.sin(turn))
+        travel = (complex(*spots[ends[0]]) - start) * complex(math.cos(turn), -math.sin(turn))
         return {"driver": {"slide": name, "travel": _round(travel.real), "velocity": float(step.get("speed") or 100.0)}}
-    z = complex(*spots[own[1]]) - complex(*spots[own[0]])
+    z = complex(*spots[ends[1]]) - complex(*spots[ends[0]])
     angle = math.degrees(math.atan2(z.imag, z.real))
     return {"driver": {"link": name, "angle": _round(angle), "omega": float(step.get("speed") or 10.0)}}
 
@@ -295,15 +295,15 @@ def trial_driver(made: Tables) -> OwnTables | None:
 def movable(scene: Mechanism) -> dict[str, str]:
     """What pulling each point does: it is of the "frame", it turns or shifts the "driver", or it changes "lengths";
     points of which none is true are left out."""
-    found = dict.fromkeys(scene.frame.points, "frame")
+    kinds = dict.fromkeys(scene.frame.points, "frame")
     for link in scene.links:
         for point in link.points:
-            if point not in found and (link.length is not None or point not in link.bar):
-                found[point] = "lengths"
+            if point not in kinds and (link.length is not None or point not in link.bar):
+                kinds[point] = "lengths"
     for driver in scene.drivers:
         for point in _driven(scene, driver):
-            found[point] = "driver"
-    return found
+            kinds[point] = "driver"
+    return kinds
 
 
 def _driven(scene: Mechanism, driver: Driver) -> list[str]:
@@ -363,8 +363,8 @@ def pulled(
 def _as_drawn(motion: Motion, point: str, to: complex) -> OwnTables:
     """The place of a point that the file gives as drawn, which holds at the scene's own position."""
     scene = motion.scene
-    own = [driver.values[0] for driver in scene.drivers]
-    if any(abs(v - o) > 1e-9 * max(1.0, abs(o)) for v, o in zip(motion.values[0], own, strict=True)):
+    values = [driver.values[0] for driver in scene.drivers]
+    if any(abs(v - o) > 1e-9 * max(1.0, abs(o)) for v, o in zip(motion.values[0], values, strict=True)):
         raise CallError.of(Phrase("point", point=point), "is given as drawn at the scene's own",
                            "go back to that position to pull it")
     return _entry(scene, f"drawn.{point}", None, {}, point, to)
@@ -441,8 +441,8 @@ def _of_link(raw: Tables, motion: Motion, name: str, point: str, to: complex) ->
     known = next((p for p in link.points if p != point), None)
     if entry is None or known is None:
         return {}
-    own = (to - complex(motion.position(known, name)[0])) / axis + link.points[known]
-    return _entry(scene, f"links.{name}.at.{point}", entry, link.points, point, own)
+    local = (to - complex(motion.position(known, name)[0])) / axis + link.points[known]
+    return _entry(scene, f"links.{name}.at.{point}", entry, link.points, point, local)
 
 
 def _length(scene: Mechanism, value: float) -> float:

@@ -86,9 +86,9 @@ def with_own_files(made: OwnTables, folder: Path | None) -> OwnTables:
 
 def mobility_text(scene: Mechanism, language: str, drivers: int | None = None) -> str:
     """The mobility with its numbers, as it is told everywhere; ``drivers`` where the scene's own are only a trial."""
-    found, count = mobility_of(scene), len(scene.drivers) if drivers is None else drivers
-    numbers = {"links": found.links, "lower": found.lower, "higher": found.higher, "mobility": found.value}
-    key = "page freedom" if not count else "explained count" if found.value == count else "explained miscount"
+    mobility, count = mobility_of(scene), len(scene.drivers) if drivers is None else drivers
+    numbers = {"links": mobility.links, "lower": mobility.lower, "higher": mobility.higher, "mobility": mobility.value}
+    key = "page freedom" if not count else "explained count" if mobility.value == count else "explained miscount"
     return plain_said(Phrase(key, **numbers, drivers=count), language)
 
 
@@ -271,18 +271,18 @@ def _last(scene: Mechanism, at: Mapping[str, float]) -> dict[str, float]:
 
 def _figures(drawn: Drawn) -> dict[str, str]:
     """The figures as elements of the page, which has their letters; a figure that cannot be drawn says why."""
-    found = {}
+    figures = {}
     for name in drawn.wanted:
         try:
             made = drawn_figure(drawn, name)
         except GraphkinError as error:
-            found[name] = f"<p>{words_html(in_markup(_said(error, _spoken(drawn.language, drawn.mechanism))))}</p>"
+            figures[name] = f"<p>{words_html(in_markup(_said(error, _spoken(drawn.language, drawn.mechanism))))}</p>"
             continue
         if made is not None:
-            found[name] = svg_element(made, named=True)
+            figures[name] = svg_element(made, named=True)
             for number, page in enumerate(made.further, 2):
-                found[f"{name}-{number}"] = svg_element(page, named=True)
-    return found
+                figures[f"{name}-{number}"] = svg_element(page, named=True)
+    return figures
 
 
 def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:

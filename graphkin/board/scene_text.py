@@ -133,7 +133,7 @@ def places(text: str) -> dict[str, int]:
     >>> places('[links.1]\\npoints = ["A", "B"]\\nlength = 150')
     {'links.1': 1, 'links.1.points': 2, 'links.1.length': 3}
     """
-    found: dict[str, int] = {}
+    lines: dict[str, int] = {}
     head: tuple[str, ...] = ()
     counts: dict[str, int] = {}
     for number, line in enumerate(text.splitlines(), 1):
@@ -144,28 +144,28 @@ def places(text: str) -> dict[str, int]:
                 counts[name] = counts.get(name, 0) + 1
                 if counts[name] > 1:
                     head = (*head, str(counts[name]))
-            found.setdefault(".".join(head), number)
+            lines.setdefault(".".join(head), number)
             continue
         if entry := _ENTRY.match(line):
             path = (*head, *_parts(entry[2]))
-            found.setdefault(".".join(path), number)
+            lines.setdefault(".".join(path), number)
             opened = line.find("{", entry.end())
             if opened >= 0:
-                _inside(line[opened:], path, number, found)
-    return found
+                _inside(line[opened:], path, number, lines)
+    return lines
 
 
 def _parts(name: str) -> tuple[str, ...]:
     return tuple(part.strip().strip("\"'") for part in re.findall(_KEY, name))
 
 
-def _inside(line: str, path: tuple[str, ...], number: int, found: dict[str, int]) -> None:
+def _inside(line: str, path: tuple[str, ...], number: int, lines: dict[str, int]) -> None:
     """Keys of tables in braces, which stand on one line."""
     stack = [path]
     for piece in re.finditer(rf"({_KEY}(?:\s*\.\s*{_KEY})*)\s*=\s*(\{{)?|[{{}}]|\"[^\"]*\"", line):
         if piece[1]:
             inner = (*stack[-1], *_parts(piece[1]))
-            found.setdefault(".".join(inner), number)
+            lines.setdefault(".".join(inner), number)
             if piece[2]:
                 stack.append(inner)
         elif piece[0] == "}" and len(stack) > 1:
@@ -252,16 +252,16 @@ def _names(text: str, key: str, quoted: bool) -> list[str]:
     frame = frame if isinstance(frame, dict) else {}
     fixed = str(frame.get("name", "0"))
     if key in ("points", "from", "through", "toward"):
-        found = {p for link in links.values() for p in link.get("points", ()) if isinstance(p, str)}
-        found |= set(frame.get("points") or {}) | {p for link in links.values() for p in link.get("at") or {}}
+        names = {p for link in links.values() for p in link.get("points", ()) if isinstance(p, str)}
+        names |= set(frame.get("points") or {}) | {p for link in links.values() for p in link.get("at") or {}}
     elif key in ("on", "in"):
-        found = set(links) | {f"{fixed}.{g}" for g in frame.get("guides") or {}}
-        found |= {f"{name}.{g}" for name, link in links.items() for g in link.get("guides") or {}}
+        names = set(links) | {f"{fixed}.{g}" for g in frame.get("guides") or {}}
+        names |= {f"{name}.{g}" for name, link in links.items() for g in link.get("guides") or {}}
     elif key in ("link", "of", "relative_to"):
-        found = set(links)
+        names = set(links)
     elif key == "length" and "units" in text:
-        found = {"mm", "cm", "m", "in", "ft"}
+        names = {"mm", "cm", "m", "in", "ft"}
     else:
-        found = {"convention": {"chinese", "us", "british", "russian"}, "language": {"en", "zh"},
+        names = {"convention": {"chinese", "us", "british", "russian"}, "language": {"en", "zh"},
                  "sense": {"clockwise", "counter-clockwise"}}.get(key, set())
-    return sorted(found if quoted else {f'"{name}"' for name in found})
+    return sorted(names if quoted else {f'"{name}"' for name in names})

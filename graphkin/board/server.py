@@ -143,8 +143,8 @@ def application(desk: Desk, address: Address) -> Starlette:
         try:
             while True:
                 text = await socket.receive_text()
-                told = await run_in_threadpool(_answered, desk, text)
-                await socket.send_text(told)
+                answered = await run_in_threadpool(_answered, desk, text)
+                await socket.send_text(answered)
         except (WebSocketDisconnect, KeyError, RuntimeError):  # KeyError: bytes instead of a text
             return
 

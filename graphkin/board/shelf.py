@@ -63,8 +63,8 @@ class Shelf:
 
     def listing(self) -> list[dict[str, Json]]:
         """All that can be opened: own files first, then the scenes that come along."""
-        own: list[dict[str, Json]] = [{"name": name, "own": True} for name in self.files()]
-        return own + [{"name": name, "own": False} for name in library()]
+        files: list[dict[str, Json]] = [{"name": name, "own": True} for name in self.files()]
+        return files + [{"name": name, "own": False} for name in library()]
 
     def text(self, name: str) -> str:
         """The text of a scene.  Raises SceneError, CallError for one that is not here."""

@@ -57,9 +57,9 @@ def judge(case: Evidence, stated: Sequence[Printed]) -> tuple[Judged, ...]:
     """Judge the values of one person."""
     first = [_judged(case, p) for p in stated]
     wrong = [j.printed.symbol for j in first if j.verdict == "wrong"]
-    own = {p.symbol: p.value for p in stated}
+    values = {p.symbol: p.value for p in stated}
     return tuple(
-        explained(case, j, own, wrong) if j.verdict == "wrong" and j.looks_like is None else j for j in first
+        explained(case, j, values, wrong) if j.verdict == "wrong" and j.looks_like is None else j for j in first
     )
 
 
@@ -96,9 +96,9 @@ def _turned(case: Evidence, judged: Judged, right: Value) -> Judged | None:
     true = cmath.phase(complex(right))
     drawn = judged.bound / abs(right) if math.isfinite(judged.bound) else math.pi
     reach = max(LEAST_TURN, min(drawn, math.pi / 6))
-    told = [(printed.direction, reach + printed.room * (1 + 1e-9), printed.either)]
-    told += [(_angle_of(case, line), reach, not line.directed) for line in printed.lines]
-    for angle, room, either in told:
+    directions = [(printed.direction, reach + printed.room * (1 + 1e-9), printed.either)]
+    directions += [(_angle_of(case, line), reach, not line.directed) for line in printed.lines]
+    for angle, room, either in directions:
         if angle is None or _near(true - angle, room, either):
             continue
         ways = (("slip turned back", math.pi), ("slip mirrored", -2 * true), ("slip mirrored", math.pi - 2 * true),
@@ -138,10 +138,10 @@ def explained(
     judged = replace(judged, line=case.held(symbol).line)
     chance = CHANCE / max(abs(judged.printed.value), abs(judged.exact), judged.printed.step)
     others = [s for s in wrong if s != symbol and case.before(s, symbol)]
-    found = [*_weighed(case, judged), *(_following(case, judged, own, others, chance) if others else ())]
-    best = max((one for one in found if one[1] > chance), key=lambda w: w[1], default=None)
+    suspects = [*_weighed(case, judged), *(_following(case, judged, own, others, chance) if others else ())]
+    best = max((one for one in suspects if one[1] > chance), key=lambda w: w[1], default=None)
     if best is None and drawn:
-        every = Suspects((*case.suspects(symbol).all, *(s for s, _ in found if s.follows_from)))
+        every = Suspects((*case.suspects(symbol).all, *(s for s, _ in suspects if s.follows_from)))
         best = judged.drawn_badly(every)
     if best is None:
         return judged
@@ -161,11 +161,11 @@ def _following(
 
     for value in filter(moved, case.following(own, symbol)):
         follows = Suspects((Suspect(Phrase("slip follows"), value, 0.5),))
-        for one, weight in judged.weighed(follows):
+        for suspect, weight in judged.weighed(follows):
             if weight > chance:
                 names = tuple(s for s in others if any(map(moved, case.following({s: own[s]}, symbol))))
                 phrase = Phrase("slip follows", (", ".join(map(str, names)),))
-                yield from [(replace(one, phrase=phrase, follows_from=names), weight)] if names else ()
+                yield from [(replace(suspect, phrase=phrase, follows_from=names), weight)] if names else ()
 
 
 # -- tables, by their digits -------------------------------------------------------------------------------------------
@@ -223,9 +223,9 @@ def _looked_into(case: Evidence, judged: Sequence[Judged], by: str) -> list[Judg
             j if j.verdict == "right" or j.looks_like else _by_digits(j, by, case.held(j.printed.symbol).bound)
             for j in judged
         ]
-    own = {j.printed.symbol: j.printed.value for j in judged}
+    values = {j.printed.symbol: j.printed.value for j in judged}
     wrong = [j.printed.symbol for j in judged if j.verdict == "wrong"]
-    return [explained(case, j, own, wrong, by == "drawing") if _unexplained(j) else j for j in judged]
+    return [explained(case, j, values, wrong, by == "drawing") if _unexplained(j) else j for j in judged]
 
 
 def _nearest(row: int, count: int) -> int:
@@ -243,10 +243,10 @@ def _signed_columns(motion: Motion, rows: Sequence[Row]) -> set[Symbol]:
             if printed.symbol.is_vector and len(printed.texts) == 1:
                 places.setdefault(printed.symbol, []).append(row)
     signed = set()
-    for symbol, own in places.items():
+    for symbol, numbers in places.items():
         lines = senses_along(motion, symbol)
         if lines is not None:
-            along = (value_of(motion, symbol) * lines.conjugate()).real[own]
+            along = (value_of(motion, symbol) * lines.conjugate()).real[numbers]
             if not (along.min() < 0.0 < along.max()):
                 signed.add(symbol)
     return signed
@@ -293,7 +293,7 @@ def computing_errors(motion: Motion, symbols: Sequence[Symbol]) -> dict[Symbol, 
     reach = np.max([none, *(np.abs(p.z) + none for p in motions)], axis=0)
     rate = max((_rounded_off(d.rate) for d in motion.scene.drivers if d.turns and d.rpm), default=0)
     first, second = COMPUTED_SHARE + rate, COMPUTED_SHARE + 2 * rate
-    found = {}
+    bounds = {}
     for symbol in symbols:
         arm = _reach_of(motion, symbol.link)
         errors = {
@@ -302,10 +302,11 @@ def computing_errors(motion: Motion, symbols: Sequence[Symbol]) -> dict[Symbol, 
             "angular acceleration": second * acceleration / arm if arm else none,
         }  # fmt: skip
         if symbol.scope in ("motion", "position") and symbol.measure in errors:
-            own = {"velocity": first, "angular velocity": first, "acceleration": second, "angular acceleration": second}
+            rates = {"velocity": first, "angular velocity": first, "acceleration": second,
+                     "angular acceleration": second}  # fmt: skip
             size = np.abs(value_of(motion, symbol))
-            found[symbol] = np.maximum(errors[symbol.measure], own.get(symbol.measure, COMPUTED_SHARE) * size)
-    return found
+            bounds[symbol] = np.maximum(errors[symbol.measure], rates.get(symbol.measure, COMPUTED_SHARE) * size)
+    return bounds
 
 
 def _rounded_off(rate: float) -> float:

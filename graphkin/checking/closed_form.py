@@ -106,5 +106,5 @@ def predict_cam(sheet: CamSheet, name: str, tools: Tools) -> Sequence[Mapping[st
         # a normal has no sense
         return {"lift": again.lift, "pressure": math.remainder(again.leaning - drawn.pressure, math.pi)}
 
-    found = (deviations(partial(read, drawn), name, tools) for drawn in sheet.divisions)
-    return [one or {"lift": math.inf, "pressure": math.inf} for one in found]
+    spreads = (deviations(partial(read, drawn), name, tools) for drawn in sheet.divisions)
+    return [spread or {"lift": math.inf, "pressure": math.inf} for spread in spreads]

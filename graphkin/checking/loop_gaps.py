@@ -28,14 +28,14 @@ def places_of_loops(sheet: Sheet) -> tuple[dict[str, complex], dict[str, float]]
 def loop_gaps(sheet: Sheet, stated: Mapping[Symbol, complex | float]) -> dict[Symbol, tuple[str, float]]:
     """For each stated angle of a link or travel of a sliding pair the loop that gives it, by its name, and how far that
     stays open (m) with everything that is stated in place of what is drawn."""
-    own = {symbol: coordinate for symbol in stated if (coordinate := _of_loop(symbol)) is not None}
-    found: dict[Symbol, tuple[str, float]] = {}
-    for loop in loops_of(sheet.structure) if own else ():
+    coordinates = {symbol: coordinate for symbol in stated if (coordinate := _of_loop(symbol)) is not None}
+    gaps: dict[Symbol, tuple[str, float]] = {}
+    for loop in loops_of(sheet.structure) if coordinates else ():
         vectors = stated_arrows(sheet, loop, stated)
-        for symbol, coordinate in own.items():
+        for symbol, coordinate in coordinates.items():
             if vectors and _gives(loop, coordinate):
-                found.setdefault(symbol, (loop.name, abs(added_up(vectors, 0j))))
-    return found
+                gaps.setdefault(symbol, (loop.name, abs(added_up(vectors, 0j))))
+    return gaps
 
 
 def stated_arrows(sheet: Sheet, loop: Loop, stated: Mapping[Symbol, complex | float]) -> tuple[complex, ...]:

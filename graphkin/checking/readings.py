@@ -39,31 +39,31 @@ def read_off(
     >>> round(b3.on_paper, 3)
     107.578
     """
-    found: dict[Symbol, Reading] = {}
+    readings: dict[Symbol, Reading] = {}
     twins = _one_vector(sheet) if instrument is not EXACT else {}
     for diagram, rate, kind in (("velocity", sheet.omega, "omega"), ("acceleration", sheet.alpha, "alpha")):
         name: DiagramName = "velocity" if diagram == "velocity" else "acceleration"
         for symbol, vector in sheet.vectors(name).items():
-            twin = found.get(twins.get(symbol, symbol))
-            found[symbol] = replace(twin, symbol=symbol) if twin else _vector(sheet, name, vector, instrument)
+            twin = readings.get(twins.get(symbol, symbol))
+            readings[symbol] = replace(twin, symbol=symbol) if twin else _vector(sheet, name, vector, instrument)
         for link, r in rate.items():
             if link == sheet.scene.frame.name or "/" in link:
                 continue
             symbol = Symbol(kind, link=link)
-            found[symbol] = Reading(symbol, r.mm, r.value, name)
-    found |= _measured(sheet, (*sheet.asked, *asked), instrument)
+            readings[symbol] = Reading(symbol, r.mm, r.value, name)
+    readings |= _measured(sheet, (*sheet.asked, *asked), instrument)
     if sheet.has_forces:
         from graphkin.construction.forces import force_readings, readings_of
 
-        told = force_readings(sheet, instrument) if forces is None else readings_of(sheet, forces, instrument)
-        found |= {reading.symbol: reading for reading in told}
+        loads = force_readings(sheet, instrument) if forces is None else readings_of(sheet, forces, instrument)
+        readings |= {reading.symbol: reading for reading in loads}
         for symbol in (*sheet.asked, *asked):
-            same = _as_drawn(symbol, found)
-            if same is not None and symbol not in found:
-                found[symbol] = replace(same, symbol=symbol, value=-same.value)
+            same = _as_drawn(symbol, readings)
+            if same is not None and symbol not in readings:
+                readings[symbol] = replace(same, symbol=symbol, value=-same.value)
     if not asked:
-        return tuple(found.values())
-    return tuple(found[s] for s in asked if s in found)
+        return tuple(readings.values())
+    return tuple(readings[s] for s in asked if s in readings)
 
 
 def _one_vector(sheet: Sheet) -> dict[Symbol, Symbol]:
@@ -78,15 +78,15 @@ def _measured(sheet: Sheet, asked: Sequence[Symbol], instrument: Instrument) -> 
     if not asked:
         return {}
     places = _centres(sheet, instrument)
-    found = {symbol: _position(sheet, symbol, instrument, places) for symbol in asked}
-    return {s: Reading(s, *measured, "mechanism") for s, measured in found.items() if measured is not None}
+    lengths = {symbol: _position(sheet, symbol, instrument, places) for symbol in asked}
+    return {s: Reading(s, *measured, "mechanism") for s, measured in lengths.items() if measured is not None}
 
 
-def _as_drawn(symbol: Symbol, found: Mapping[Symbol, Reading]) -> Reading | None:
+def _as_drawn(symbol: Symbol, readings: Mapping[Symbol, Reading]) -> Reading | None:
     """The reading of a joint force or couple that is asked for from its other side."""
     if symbol.scope != "force" or not symbol.other:
         return None
-    return found.get(replace(symbol, link=symbol.other, other=symbol.link))
+    return readings.get(replace(symbol, link=symbol.other, other=symbol.link))
 
 
 def _centres(sheet: Sheet, instrument: Instrument) -> Callable[[str], complex | None]:
@@ -105,9 +105,9 @@ def _centres(sheet: Sheet, instrument: Instrument) -> Callable[[str], complex | 
             return None
         centre = centres[0].of(*pair)
         if centre.point is None:
-            found = Phrase("lies at infinity here") if centre.place is not None else Phrase("has no place here")
+            why = Phrase("lies at infinity here") if centre.place is not None else Phrase("has no place here")
             raise Unsolvable("not drawn", Problem(name, "the instant centre of links", pair=" and ".join(pair),
-                                                  value=found))
+                                                  value=why))
         return centre.point
 
     return place
@@ -158,7 +158,7 @@ def _position(sheet: Sheet, symbol: Symbol, instrument: Instrument, place: Place
         joint_between(sheet.structure, symbol.link, symbol.other, symbol)
         if symbol.kind == "gamma" else joint_of_follower(sheet.structure, symbol.link, symbol)
     )  # fmt: skip
-    if any(link not in sheet.poses for way in (joint.first, joint.second) for link, _ in way):
+    if any(link not in sheet.poses for side in (joint.first, joint.second) for link, _ in side):
         return None
     first, second = joint.directions(lambda link, place: sheet.poses[link].place(place / sheet.scales.length))
     across = instrument.read_direction(first.conjugate() * second / abs(first * second))

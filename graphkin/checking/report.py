@@ -297,8 +297,8 @@ def _written(scene: Mechanism, symbol: Symbol, value: complex | float) -> str:
     """A value in the units of a file, a vector by its size and its direction."""
     own = symbol.unit(scene.units)
     size, unit = own.of(abs(value) if symbol.is_vector else float(value.real)), own.written
-    way = f" at {math.degrees(cmath.phase(value)):.4g}°" if symbol.is_vector and value else ""
-    return f"{size:.6g}{f' {unit}' if unit else ''}{way}"
+    direction = f" at {math.degrees(cmath.phase(value)):.4g}°" if symbol.is_vector and value else ""
+    return f"{size:.6g}{f' {unit}' if unit else ''}{direction}"
 
 
 def _turned(reading: Reading, exact: complex | float, whole: float) -> float:
@@ -434,8 +434,8 @@ class Known:
     unit: str
 
     def __repr__(self) -> str:
-        told = (f"{what} {self.shown(value)}" for what, value in self._values() if value is not None)
-        return f"<{self.symbol}: {', '.join(filter(None, (*told, *self._words())))}>"
+        values = (f"{what} {self.shown(value)}" for what, value in self._values() if value is not None)
+        return f"<{self.symbol}: {', '.join(filter(None, (*values, *self._words())))}>"
 
     def _values(self) -> tuple[tuple[str, Value | None], ...]:
         """Its values by what they are."""
@@ -447,11 +447,11 @@ class Known:
 
     def shown(self, value: Value) -> str:
         """A value with its unit beside it; of a vector size and direction."""
-        size, way = abs(value) if isinstance(value, complex) else value, ""
+        size, direction = abs(value) if isinstance(value, complex) else value, ""
         if isinstance(value, complex) and size:
-            way = f" at {math.degrees(cmath.phase(value)):.6g}°"
+            direction = f" at {math.degrees(cmath.phase(value)):.6g}°"
         unit = {"deg": "°", "": ""}.get(self.unit, f" {self.unit}")
-        return f"{size:.6g}{unit}{way}"
+        return f"{size:.6g}{unit}{direction}"
 
 
 def in_unit(unit: Unit, value: Value, floor: float) -> Value:

@@ -183,11 +183,11 @@ class Evidence:
 
 def _made(alterations: Iterable[Alteration]) -> tuple[Slipped, ...]:
     """Everything with each of some slips."""
-    found = []
+    slipped = []
     for phrase, share, values in alterations:
         with suppress(GraphkinError, ArithmeticError):  # with it nothing can be drawn, so nobody's value comes from it
-            found.append((phrase, share, values()))
-    return tuple(found)
+            slipped.append((phrase, share, values()))
+    return tuple(slipped)
 
 
 def _drawn(plan: Plan, slip: Slip = NO_SLIP) -> Values:
@@ -212,8 +212,8 @@ def _terms(plan: Plan, sheet: Sheet) -> Iterator[Alteration]:
     """Each slip in one term, and in all of its role."""
     drawn = sheet.vectors("acceleration").values()
     names = {role: [v.symbol for v in drawn if v.role == role] for role, *_ in OF_TERMS}
-    for role, own in names.items():
-        groups = [(n,) for n in own] + ([tuple(own)] if len(own) > 1 else [])
+    for role, symbols in names.items():
+        groups = [(n,) for n in symbols] + ([tuple(symbols)] if len(symbols) > 1 else [])
         for group in groups:
             shown = ", ".join(map(str, group))
             for key, factor, share in (slip[1:] for slip in OF_TERMS if slip[0] == role):
@@ -248,9 +248,9 @@ def _suspects(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
     yield from _own_parts(case, symbol)
     yield from _relative(case, symbol, exact)
     yield from _others(case, symbol, exact)
-    own = case.variants(symbol)
-    for name, value in own:
-        yield Suspect(Phrase("slip variant", (name,)), value, 0.3 / len(own))
+    variants = case.variants(symbol)
+    for name, value in variants:
+        yield Suspect(Phrase("slip variant", (name,)), value, 0.3 / len(variants))
     places = case.elsewhere(symbol)
     for name, value in places:
         yield Suspect(Phrase("slip position", (name,)), value, 0.05 / len(places), drawn=False)
@@ -269,17 +269,17 @@ def _factors(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
     second = symbol.measure in ("acceleration", "angular acceleration")
     scene, scales = case.plan.structure.scene, case.plan.scales
     units = [(f"{factor:g}", factor) for power in (1, 2, 3) for factor in (10.0**power, 0.1**power)]
-    own = scene.units.length
-    if own in INCHES and symbol.measure in ("velocity", "acceleration", "length"):  # no powers of ten
-        lengths = (LENGTHS[own] / metres for unit, metres in LENGTHS.items() if unit != own)
+    unit_name = scene.units.length
+    if unit_name in INCHES and symbol.measure in ("velocity", "acceleration", "length"):  # no powers of ten
+        lengths = (LENGTHS[unit_name] / metres for unit, metres in LENGTHS.items() if unit != unit_name)
         units += [(f"{factor:.4g}", factor) for factor in lengths]
     for shown, factor in units:
         yield Suspect(Phrase("slip factor", (shown,)), exact * factor, 0.02)
     for name, factor in (("rpm", RPM), ("degrees", DEGREE)):
-        for way in (factor, 1 / factor):
-            yield Suspect(Phrase(f"slip {name}"), exact * way, 0.01 if symbol.is_vector else 0.03)
+        for times in (factor, 1 / factor):
+            yield Suspect(Phrase(f"slip {name}"), exact * times, 0.01 if symbol.is_vector else 0.03)
             if second:
-                yield Suspect(Phrase(f"slip {name}"), exact * way**2, 0.01)
+                yield Suspect(Phrase(f"slip {name}"), exact * times**2, 0.01)
     by_rpm = any(d.rpm for d in scene.drivers)
     for factor in (60.0, 1 / math.tau):  # n taken for n/60, or n/60 for omega
         yield Suspect(Phrase("slip rpm"), exact * factor, 0.02 if by_rpm else 0.005)
@@ -323,9 +323,9 @@ def _relative(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]
 
 def _beside(scene: Mechanism, link: str) -> tuple[str, ...]:
     """The moving links that share a turning pair with one, or carry it as a wheel."""
-    own = next((k.points for k in scene.links if k.name == link), {})
+    points = next((k.points for k in scene.links if k.name == link), {})
     carriers = {g.carrier for g in scene.gears if link in g.wheels} - {scene.frame.name}
-    return tuple(k.name for k in scene.links if k.name != link and (k.name in carriers or set(k.points) & set(own)))
+    return tuple(k.name for k in scene.links if k.name != link and (k.name in carriers or set(k.points) & set(points)))
 
 
 COMPONENTS = {"an": "normal", "at": "tangential", "ak": "coriolis", "ar": "sliding"}

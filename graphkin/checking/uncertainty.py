@@ -112,7 +112,7 @@ def predict(
     causes = np.array([bisect_left(marks, act) if act <= drawn else reading for act in range(1, still.acts + 1)])
     samples = _samples(read, name, tools) if together else ()
     bent = _bent(read, name, tools, base, moved) if together else np.ones(len(base))
-    found = {}
+    predicted = {}
     for row, times, (symbol, value) in zip(moved, bent.tolist(), base.items(), strict=True):
         shares: dict[int, float] = {}
         for cause, off in zip(causes.tolist(), (np.abs(row) ** 2).tolist(), strict=True):
@@ -121,12 +121,14 @@ def predict(
         if shares and symbol.is_vector and value == 0:  # what errs away from nothing is read off the ruler then
             order: Order = "velocity" if symbol.measure == "velocity" else "acceleration"
             shares[reading] = shares.get(reading, 0.0) + (still.reading_error * what.scales.of(order)) ** 2
-        one = _summed(symbol, shares, drawn_causes)
+        uncertainty = _summed(symbol, shares, drawn_causes)
         if times > BENT:
-            one = replace(one, deviation=one.first * times)
+            uncertainty = replace(uncertainty, deviation=uncertainty.first * times)
         seen = _spread(value, [values[symbol] for values in samples if symbol in values])
-        found[symbol] = replace(one, deviation=CURVED * seen) if seen > BEYOND * one.deviation else one
-    return found
+        if seen > BEYOND * uncertainty.deviation:
+            uncertainty = replace(uncertainty, deviation=CURVED * seen)
+        predicted[symbol] = uncertainty
+    return predicted
 
 
 def _drawn_by(what: Plan, still: Instrument) -> tuple[Sheet, Drawn]:
@@ -151,8 +153,8 @@ def _drawn_by(what: Plan, still: Instrument) -> tuple[Sheet, Drawn]:
 
 def _samples(read: Drawn, name: str, tools: Tools, count: int = SAMPLES) -> Sequence[Values]:
     """The readings of some drawings in which every act errs at random; those that cannot be drawn are left out."""
-    found = (read(erring(name, tools, seed)) for seed in range(count))
-    return [values for values in found if values is not None]
+    readings = (read(erring(name, tools, seed)) for seed in range(count))
+    return [values for values in readings if values is not None]
 
 
 def _bent(
@@ -161,22 +163,22 @@ def _bent(
     """How many times as far as first order tells each reading is off where all acts err together in the way that most
     easily brings it three deviations off; shape (readings,)."""
     ways: list[tuple[NDArray[np.float64], tuple[Values, ...]]] = []
-    found = np.ones(len(base))
+    times = np.ones(len(base))
     for i, (symbol, row) in enumerate(zip(base, moved, strict=True)):
         if not np.isfinite(row).all() or not row.any():
             continue
-        way = _easiest(row)
-        drawn = next((x for x in ways if abs(float(way @ x[0])) > ALIKE), None)
+        errors = _easiest(row)
+        drawn = next((x for x in ways if abs(float(errors @ x[0])) > ALIKE), None)
         if drawn is None:
-            wrong = [
-                {k + 1: sense * COVERAGE * float(way[k]) for k in np.flatnonzero(way).tolist()} for sense in (1.0, -1.0)
-            ]
+            acts = np.flatnonzero(errors).tolist()
+            wrong = ({k + 1: sense * COVERAGE * float(errors[k]) for k in acts} for sense in (1.0, -1.0))
             tried = (read(nudged(name, tools, errs)) for errs in wrong)
-            drawn = way, tuple(values for values in tried if values is not None)
+            drawn = errors, tuple(values for values in tried if values is not None)
             ways.append(drawn)
-        told = COVERAGE * abs(complex(row @ drawn[0]))
-        found[i] = max([abs(values[symbol] - base[symbol]) / told for values in drawn[1] if symbol in values] or [1.0])
-    return found
+        expected = COVERAGE * abs(complex(row @ drawn[0]))
+        offs = [abs(values[symbol] - base[symbol]) for values in drawn[1] if symbol in values]
+        times[i] = max(offs) / expected if offs else 1.0
+    return times
 
 
 def _easiest(row: NDArray[np.complex128]) -> NDArray[np.float64]:
@@ -184,8 +186,8 @@ def _easiest(row: NDArray[np.complex128]) -> NDArray[np.float64]:
     1: along the principal axis of its own."""
     parts = np.stack((row.real, row.imag))
     axis = np.linalg.eigh(parts @ parts.T)[1][:, 1]
-    way = axis @ parts
-    return np.asarray(way / np.linalg.norm(way))
+    errors = axis @ parts
+    return np.asarray(errors / np.linalg.norm(errors))
 
 
 def _reading(symbol: Symbol) -> Phrase:

@@ -130,10 +130,10 @@ def _polygon_pages(
     beside = both is None and all(frames.values())
     before: list[Block] = [Together((Heading(names[d]), *asked[d])) for d in drawn if asked[d] and not beside]
     if both is not None:
-        told = in_each(
+        title = in_each(
             lesson.language, lambda each: word("list comma", each).join(dict(name)[each] for name in names.values())
         )
-        return before, [Heading(told, fresh=True), Together((_poles(lesson, drawn), Picture(both)))]
+        return before, [Heading(title, fresh=True), Together((_poles(lesson, drawn), Picture(both)))]
     after: list[Block] = []
     for d in drawn:
         frame = (frames[d] if beside else _space(lesson, bare, [d], paper)) or pictures.draw_frame(lesson, d)
@@ -196,9 +196,9 @@ def paper_title(lesson: Lesson, key: str) -> str:
 
 def scene_title(lesson: Lesson) -> Said:
     """The title of the scene in each language of the handout."""
-    found = titles(lesson.sheet, lesson.language)
-    both = tuple(zip(languages(lesson.language), found, strict=False))
-    return both if len(found) > 1 else spoken(found[0], lesson.language)
+    names = titles(lesson.sheet, lesson.language)
+    both = tuple(zip(languages(lesson.language), names, strict=False))
+    return both if len(names) > 1 else spoken(names[0], lesson.language)
 
 
 # -- what is given -----------------------------------------------------------------------------------------------------
@@ -224,23 +224,23 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     yield from _formulas(lesson, "find", [f"${letters.vector(s)}$" for s in lesson.questions], "symbol comma")
     yield from reach(lesson)
     names = languages(language)
-    own = {each: in_markup(scene.question.source_in(each)) for each in names}
-    if len(set(own.values())) > 1:
-        told = ((each, word("source", each) + word("colon", each) + text) for each, text in own.items() if text)
+    sources = {each: in_markup(scene.question.source_in(each)) for each in names}
+    if len(set(sources.values())) > 1:
+        told = ((each, word("source", each) + word("colon", each) + text) for each, text in sources.items() if text)
         yield Paragraph(tuple(told), small=True)
-    elif own[names[0]]:
+    elif sources[names[0]]:
         label = " ".join(word("source", each) for each in names) + word("colon", names[-1])
-        yield Paragraph(spoken(label + own[names[0]], language), small=True)
+        yield Paragraph(spoken(label + sources[names[0]], language), small=True)
 
 
 def _guides(lesson: Lesson, language: str) -> list[str]:
     """Each guide of the frame that has a name, by a point of it and its direction."""
-    scene, told = lesson.sheet.scene, []
+    scene, phrases = lesson.sheet.scene, []
     for name, place, angle in fixed_guides(scene, lesson.letters):
         key = {"0": "guide level", "90": "guide upright"}.get(angle, "guide at")
         phrase = Phrase(key, guide=f"${name}$", place=place, unit=scene.units.length, angle=angle)
-        told.append(say(phrase, language))
-    return told
+        phrases.append(say(phrase, language))
+    return phrases
 
 
 def reach(lesson: Lesson) -> Iterator[Paragraph]:
@@ -280,10 +280,10 @@ def _formulas(lesson: Lesson, key: str, items: Sequence[str], between: str = "li
         yield Paragraph(spoken(whole, lesson.language))
 
 
-def _clauses(lesson: Lesson, key: str, told: dict[str, list[str]]) -> Iterator[Paragraph]:
+def _clauses(lesson: Lesson, key: str, clauses: dict[str, list[str]]) -> Iterator[Paragraph]:
     """Clauses in each language, where there are some, with their label."""
-    if any(told.values()):
-        yield Paragraph(in_each(lesson.language, lambda each: labelled(key, "; ".join(told[each]), each)))
+    if any(clauses.values()):
+        yield Paragraph(in_each(lesson.language, lambda each: labelled(key, "; ".join(clauses[each]), each)))
 
 
 def labelled(key: str, text: str, language: str) -> str:
@@ -422,8 +422,8 @@ def head_of(symbol: Symbol, units: Units) -> str:
 
 def length_on_paper(row: Compared) -> str:
     """The length on paper of what is a length there; a rate has none of its own."""
-    own = row.symbol.is_vector or row.symbol.measure == "length"
-    return written(paper(row.reading, row)) if own else "–"
+    is_length = row.symbol.is_vector or row.symbol.measure == "length"
+    return written(paper(row.reading, row)) if is_length else "–"
 
 
 def unsigned(row: Compared, text: str) -> str:
@@ -500,12 +500,12 @@ def _plan_blocks(
     lesson: Lesson, order: str, figure: Drawing | None, count: int, stage: Stage | None = None
 ) -> Iterator[Heading | StepItem | Picture]:
     """A velocity plan with its steps; without a figure where nothing of it moves."""
-    told = said("plan" if order == "velocity" else "plan accelerations", lesson.language)
-    yield Heading(told)
+    title = said("plan" if order == "velocity" else "plan accelerations", lesson.language)
+    yield Heading(title)
     if stage is not None:
         yield from step_items(lesson, stage, len(stage.steps) > 1)
     if figure is not None:
-        yield Picture(figure, numbered(count, told), floats=True)
+        yield Picture(figure, numbered(count, title), floats=True)
 
 
 def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
@@ -521,7 +521,7 @@ def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
         title = stage.heading(language)
         if len(forces.states) > 1 and stage.group.links:
             load = said("force with load" if stage.again else "force without load", language)
-            title = tuple((each, f"{one}  ({text})") for (each, one), (_, text) in zip(title, load, strict=True))
+            title = tuple((each, f"{name}  ({text})") for (each, name), (_, text) in zip(title, load, strict=True))
         count += bool(stage.group.links)
         yield Together((*lead, Heading(title, 3), *_force_pictures(lesson, stage, f"-{turn}", count), *steps))
         lead = ()
@@ -542,8 +542,8 @@ def _force_pictures(lesson: Lesson, stage: ForceStage, tag: str, count: int) -> 
     if equation is not None:
         yield Picture(equation, joined=True)
     drawn = group_picture(page, forces, stage, tag)
-    told = said(about("figure of forces", group.links), language, ", ".join(group.links))
-    yield Picture(drawn, numbered(count, told))
+    caption = said(about("figure of forces", group.links), language, ", ".join(group.links))
+    yield Picture(drawn, numbered(count, caption))
 
 
 def results_blocks(lesson: Lesson) -> Iterator[Block]:

@@ -115,10 +115,10 @@ def _slips(
     """The commonest slips whose values can be told from the right one and from each other."""
     taken = [right]
     try:
-        found = sorted(evidence.suspects(symbol).all, key=lambda s: -s.share)
+        suspects = sorted(evidence.suspects(symbol).all, key=lambda s: -s.share)
     except GraphkinError:
         return
-    for suspect in found:
+    for suspect in suspects:
         value = abs(suspect.value) if symbol.is_vector else float(complex(suspect.value).real)
         value = lesson.in_unit(symbol, value)
         if any(abs(value - other) <= 2 * tolerance for other in taken):
@@ -152,12 +152,12 @@ def bank(category: str, files: Iterable[Mapping[str, bytes]]) -> dict[str, bytes
             moodle.append(text[text.index(_CUT) : text.rindex("</quiz>")])
         if "questions.gift" in made:
             gifts.append(made["questions.gift"].decode())
-    found: dict[str, bytes] = {}
+    banks: dict[str, bytes] = {}
     if moodle:
-        found["moodle.xml"] = moodle_bank(category, moodle)
+        banks["moodle.xml"] = moodle_bank(category, moodle)
     if gifts:
-        found["questions.gift"] = (f"$CATEGORY: {category}\n\n" + "\n".join(gifts)).encode()
-    return found
+        banks["questions.gift"] = (f"$CATEGORY: {category}\n\n" + "\n".join(gifts)).encode()
+    return banks
 
 
 # -- Moodle ------------------------------------------------------------------------------------------------------------
@@ -194,10 +194,10 @@ def _body(
     return rendered("question.html", question=question, source=source, asked=asked, field=field)
 
 
-def _cloze_field(one: AskedNumber) -> str:
+def _cloze_field(asked: AskedNumber) -> str:
     answers = (
         f"%{share}%{value}:{tolerance}#{said}" if said else f"={value}:{tolerance}"
-        for share, value, tolerance, words in one.answers
+        for share, value, tolerance, words in asked.answers
         for said in (re.sub(r"([}#~/\"\\])", r"\\\1", escape(words)),)
     )
     return "{1:NUMERICAL:" + "~".join(answers) + "}"
@@ -210,10 +210,10 @@ def gift(question: Question) -> str:
     """The same in plain text, the figure within it as a data URI: a numerical question in HTML for each quantity."""
     figure = f"data:image/png;base64,{base64.b64encode(question.picture).decode()}"
     made = []
-    for one in question.asked:
-        title = _gift_words(f"{question.title}: {one.plain}")
-        ask = _gift_words(_body(question, figure, [one]))
-        answers = [f"=%{share}%{v}:{within}#{_gift_words(escape(words))}" for share, v, within, words in one.answers]
+    for asked in question.asked:
+        title = _gift_words(f"{question.title}: {asked.plain}")
+        ask = _gift_words(_body(question, figure, [asked]))
+        answers = [f"=%{share}%{v}:{within}#{_gift_words(escape(words))}" for share, v, within, words in asked.answers]
         made.append(f"::{title}::[html]{ask} {{#\n" + "\n".join(answers) + "\n}\n")
     return "\n".join(made)
 
@@ -228,10 +228,10 @@ def _gift_words(words: str) -> str:
 def prairielearn(question: Question) -> dict[str, bytes]:
     """The files of a question's folder by name."""
     right, slips = {}, {}
-    for one in question.asked:
-        (_, value, _, _), *others = one.answers
-        right[_variable(one)] = float(value)
-        slips[_variable(one)] = [[float(value), float(tolerance), words] for _, value, tolerance, words in others]
+    for asked in question.asked:
+        (_, value, _, _), *others = asked.answers
+        right[_variable(asked)] = float(value)
+        slips[_variable(asked)] = [[float(value), float(tolerance), words] for _, value, tolerance, words in others]
     info = {
         "uuid": str(uuid.uuid5(uuid.NAMESPACE_URL, f"graphkin/{question.name}/{question.title}/{right}")),
         "title": question.title,
@@ -247,5 +247,5 @@ def prairielearn(question: Question) -> dict[str, bytes]:
     }
 
 
-def _variable(one: AskedNumber) -> str:
-    return _NOTHING.sub("_", one.symbol).strip("_")
+def _variable(asked: AskedNumber) -> str:
+    return _NOTHING.sub("_", asked.symbol).strip("_")

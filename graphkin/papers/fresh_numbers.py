@@ -75,7 +75,7 @@ class Spread:
 def drivers_of(source: Tables) -> list[tuple[KeyPath, Tables]]:
     """The drivers of a scene file, each with its path: one table, or several."""
     drivers = source.get("driver", [])
-    return [(("driver", i), one) for i, one in enumerate(drivers)] if isinstance(drivers, list) else [
+    return [(("driver", i), driver) for i, driver in enumerate(drivers)] if isinstance(drivers, list) else [
         (("driver",), drivers)
     ]  # fmt: skip
 
@@ -366,8 +366,8 @@ def level_of(source: Tables) -> Bounds:
     """The bounds that a scene asks for: those of its level, and what it says itself."""
     table = _vary(source)
     keys = ("crossing", "transmission", "pressure", "tolerance")
-    own = {key: table[key] for key in keys if table.get(key) is not None}
-    bounds = {key: value if key == "tolerance" else math.radians(value) for key, value in own.items()}
+    levels = {key: table[key] for key in keys if table.get(key) is not None}
+    bounds = {key: value if key == "tolerance" else math.radians(value) for key, value in levels.items()}
     return replace(LEVELS[table.get("level", "usual")], **bounds)
 
 

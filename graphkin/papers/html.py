@@ -31,26 +31,26 @@ PIXEL = 25.4 / 96  # mm
 
 def words_html(markup: str, language: str = "en") -> str:
     """Words with symbols between dollar signs, which are read aloud in words of a language."""
-    found = []
+    parts = []
     for part in parsed(markup):
         if isinstance(part, str):
-            found.append(escape(clean(part)))
+            parts.append(escape(clean(part)))
         else:
             aloud = escape(clean(spoken_symbol(part, language)))
             read = f' role="math" aria-label="{aloud}"' if aloud else ""
-            found.append(f'<span class="sym"{read}>{_atoms(part)}</span>')
-    return "".join(found)
+            parts.append(f'<span class="sym"{read}>{_atoms(part)}</span>')
+    return "".join(parts)
 
 
 def _atoms(atoms: tuple[Atom, ...]) -> str:
-    found = []
+    parts = []
     for atom in atoms:
         text = escape(clean(atom.text))
-        found.append(f"<i>{text}</i>" if is_italic(atom.text) else text)
+        parts.append(f"<i>{text}</i>" if is_italic(atom.text) else text)
         sup = f"<sup>{_atoms(atom.sup)}</sup>" if atom.sup else ""
         sub = f"<sub>{_atoms(atom.sub)}</sub>" if atom.sub else ""
-        found.append(f'<span class="both">{sup}{sub}</span>' if sup and sub else sup + sub)
-    return "".join(found)
+        parts.append(f'<span class="both">{sup}{sub}</span>' if sup and sub else sup + sub)
+    return "".join(parts)
 
 
 def said_html(said: Said, tag: str = "span") -> str:
@@ -109,10 +109,10 @@ def whole_page(document: Document, body: str, script: str = "", data: object = N
     data : what the script reads, packed in the page
     """
     paper, code = document.paper, _file(script) if script else ""
-    told = "" if data is None else json.dumps(
+    json_text = "" if data is None else json.dumps(
         data, ensure_ascii=False, allow_nan=False, sort_keys=True, separators=(",", ":")
     )  # fmt: skip
-    name, rules = face_rules(_used_characters(body + told))
+    name, rules = face_rules(_used_characters(body + json_text))
     style = rules + _file("page.css").replace("FAMILIES", families(name).replace("'", '"'))
     # in millimetres, since CSS has no names for papers larger than A3
     style += f"@page {{ size: {paper.width:g}mm {paper.height:g}mm }}\n"
@@ -130,7 +130,7 @@ def whole_page(document: Document, body: str, script: str = "", data: object = N
         body=Markup(body),
         script=Markup(code),
         # the positions are much alike: packed they take an eighth of the room
-        packed=base64.b64encode(zlib.compress(told.encode(), 9)).decode() if told else "",
+        packed=base64.b64encode(zlib.compress(json_text.encode(), 9)).decode() if json_text else "",
     )
 
 
@@ -154,13 +154,13 @@ _UNSEEN = re.compile(r"<(style|title|desc)\b.*?</\1>", re.DOTALL)
 def _used_characters(body: str) -> dict[Style, set[str]]:
     """The characters of a page in each face in which it shows them; the same for figures that a script holds."""
     plain = _UNSEEN.sub("", unescape(body.replace('\\"', '"')))
-    found = {
+    faces = {
         style: {c for match in pattern.finditer(plain) for c in _TAG.sub("", match[0])}
         for style, pattern in (("italic", _ITALIC), ("bold", _BOLD))
     }
     seen = set(_TAG.sub("", plain))
     letters = {c for c in seen if c.isalpha() and ord(c) < 0x400}
-    return {"regular": seen, "italic": found["italic"] | letters, "bold": found["bold"]}
+    return {"regular": seen, "italic": faces["italic"] | letters, "bold": faces["bold"]}
 
 
 # -- symbols read aloud ------------------------------------------------------------------------------------------------

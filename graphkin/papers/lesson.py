@@ -63,15 +63,15 @@ class Stage:
 def stages(sheet: Sheet) -> tuple[Stage, ...]:
     """The steps of a sheet in groups: one for the position, one for each equation with what is measured after it."""
     equations = {e.number: e for e in sheet.equations}
-    found: list[Stage] = []
+    parts: list[Stage] = []
     for step in sheet.steps:
         equation = equations.get(step.equation) if step.equation is not None else None
-        if found and found[-1].diagram == step.diagram and (equation is None or equation is found[-1].equation):
-            last = found[-1]
-            found[-1] = Stage(last.diagram, last.equation, (*last.steps, step))
+        if parts and parts[-1].diagram == step.diagram and (equation is None or equation is parts[-1].equation):
+            last = parts[-1]
+            parts[-1] = Stage(last.diagram, last.equation, (*last.steps, step))
         else:
-            found.append(Stage(step.diagram, equation, (step,)))
-    return tuple(found)
+            parts.append(Stage(step.diagram, equation, (step,)))
+    return tuple(parts)
 
 
 @dataclass(frozen=True)
@@ -227,14 +227,14 @@ def positions(
     motion = solver.solve(of, at=values, sweep=count)
     drivers = motion.scene.drivers
     keys = [d.key for d in drivers]
-    own = {d.key: d.values[0] for d in drivers} | dict(values or {})
+    stands = {d.key: d.values[0] for d in drivers} | dict(values or {})
     rows = [dict(zip(keys, map(float, motion.values[i]), strict=True)) for i in rows_in_order(motion.ok)]
     first = keys[0]
-    at = next((i for i, row in enumerate(rows) if np.isclose(row[first], own[first], rtol=0, atol=1e-9)), None)
+    at = next((i for i, row in enumerate(rows) if np.isclose(row[first], stands[first], rtol=0, atol=1e-9)), None)
     if at is None:
-        at = sum(row[first] < own[first] for row in rows)
-        rows.insert(at, own)
-    rows[at] = own
+        at = sum(row[first] < stands[first] for row in rows)
+        rows.insert(at, stands)
+    rows[at] = stands
     return rows, at
 
 
@@ -256,9 +256,9 @@ def views_of(
     """
     rows, start = positions(structure, values, count)
     made = {start: plan(structure, rows[start], asked)}
-    for way in (range(start + 1, len(rows)), range(start - 1, -1, -1)):
+    for numbers in (range(start + 1, len(rows)), range(start - 1, -1, -1)):
         last = made[start]
-        for i in way:
+        for i in numbers:
             with suppress(Unsolvable):
                 try:
                     made[i] = last = plan(structure, rows[i], asked, near=last.exact)
@@ -284,17 +284,17 @@ def _centres(
     structure: Structure, sheets: Sequence[Sheet], given: int, progress: Progress | None
 ) -> list[Centres | None]:
     """The centres in each position, from the given one onwards and then backwards: each starts from its neighbour."""
-    found: dict[int, Centres | None] = {}
+    centres: dict[int, Centres | None] = {}
     for i in (*range(given, len(sheets)), *range(given - 1, -1, -1)):
-        near = found.get(i - 1) if i > given else found.get(i + 1)
-        found[i] = None
+        near = centres.get(i - 1) if i > given else centres.get(i + 1)
+        centres[i] = None
         for start in (near, None) if near is not None else (None,):
             with suppress(Unsolvable):
-                found[i] = find_centres(structure, sheets[i].drivers, sheet=sheets[i], near=start)
+                centres[i] = find_centres(structure, sheets[i].drivers, sheet=sheets[i], near=start)
                 break
         if progress is not None:
-            progress(len(found), len(sheets))
-    return [found[i] for i in range(len(sheets))]
+            progress(len(centres), len(sheets))
+    return [centres[i] for i in range(len(sheets))]
 
 
 def common_scales(plans: Sequence[Plan], paper: Scales) -> list[Scales]:
@@ -324,6 +324,6 @@ def _coarser(scale: float, factor: float) -> float:
 def rows_in_order(ok: Array) -> list[int]:
     """The rows of a motion that stand, beginning behind the gap where there is one, so that neighbours in the list are
     neighbours in the motion."""
-    good = [bool(one) for one in ok]
+    good = [bool(stands) for stands in ok]
     cut = next((i for i in range(len(good)) if good[i] and not good[i - 1]), 0)
     return [i for i in (*range(cut, len(good)), *range(cut)) if good[i]]

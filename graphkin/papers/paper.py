@@ -86,48 +86,48 @@ def paper_plan(
 ) -> Plan:
     """What to draw: at the scales that the scene wishes, on a larger paper if need be, else at those that fit; with
     ``share`` such that mechanism and polygon stand on one page where they stay large enough."""
-    own = plan(of, values, asked)
-    scene = own.structure.scene
+    fitted = plan(of, values, asked)
+    scene = fitted.structure.scene
     paper = paper_of(scene)
     wished = {name: getattr(scene.question.sheet, f"{name}_scale") for name in NAMES}
     if paper != A4:
-        scales, filled = own.scales, own.scales_for(paper.room(FILLED))
-        own = replace(own, scales=_scales(lambda name: getattr(scales if wished[name] else filled, name)))
-    fits = _fits(own, paper)
+        scales, filled = fitted.scales, fitted.scales_for(paper.room(FILLED))
+        fitted = replace(fitted, scales=_scales(lambda name: getattr(scales if wished[name] else filled, name)))
+    fits = _fits(fitted, paper)
     if not all(fits.values()):
-        larger = _larger(own, paper, wished)
+        larger = _larger(fitted, paper, wished)
         if larger is not None:
             whole = of if isinstance(of, Mechanism) else of.scene
             return paper_plan(whole.asking(sheet=replace(whole.question.sheet, paper=larger)), values, asked, share)
-        scales, roomed = own.scales, own.scales_for(paper.room(MOST))
-        own = replace(own, scales=_scales(lambda name: getattr(scales if fits[name] else roomed, name)))
-    return _sharing(own, paper, wished) if share else own
+        scales, roomed = fitted.scales, fitted.scales_for(paper.room(MOST))
+        fitted = replace(fitted, scales=_scales(lambda name: getattr(scales if fits[name] else roomed, name)))
+    return _sharing(fitted, paper, wished) if share else fitted
 
 
-def _sharing(own: Plan, paper: Paper, wished: Mapping[str, float | None]) -> Plan:
+def _sharing(whole: Plan, paper: Paper, wished: Mapping[str, float | None]) -> Plan:
     """At scales that let the mechanism share a page with each polygon, from which directions are carried over, where
     the scene leaves them open and figures stay large enough for a pencil; else as it is."""
-    if _share(own, paper):
-        return own
+    if _share(whole, paper):
+        return whole
     for part in PARTS:
-        both = own.scales, own.scales_for(paper.room(FILLED, part))
+        both = whole.scales, whole.scales_for(paper.room(FILLED, part))
         coarser = (max(getattr(scales, name) for scales in both[: 1 if wished[name] else 2]) for name in NAMES)
-        tried = replace(own, scales=Scales(*coarser))
+        tried = replace(whole, scales=Scales(*coarser))
         if _share(tried, paper):
-            sizes = zip(_sizes(tried), _sizes(own), strict=True)
-            return tried if all(max(less) >= min(LEAST_DRAWN, max(size)) for less, size in sizes) else own
-    return own
+            sizes = zip(_sizes(tried), _sizes(whole), strict=True)
+            return tried if all(max(less) >= min(LEAST_DRAWN, max(size)) for less, size in sizes) else whole
+    return whole
 
 
-def _sizes(own: Plan) -> list[tuple[float, float]]:
+def _sizes(what: Plan) -> list[tuple[float, float]]:
     """Width and height (mm) of the mechanism and of both polygons."""
-    pairs = ((own.exact.extents[diagram], own.scales.of(diagram)) for diagram in DIAGRAMS)
+    pairs = ((what.exact.extents[diagram], what.scales.of(diagram)) for diagram in DIAGRAMS)
     return [(extent.width / per, extent.height / per) for extent, per in pairs]
 
 
-def _share(own: Plan, paper: Paper) -> bool:
+def _share(what: Plan, paper: Paper) -> bool:
     """Whether the mechanism, with its dimensions, and each polygon stand side by side or one above the other."""
-    (wide, high), *polygons = _sizes(own)
+    (wide, high), *polygons = _sizes(what)
     wide, high, body = wide + BESIDE, high + BESIDE, paper.body
     for across, up in polygons:
         across, up = max(across + AROUND, LEAST_WIDE), up + AROUND
@@ -137,18 +137,18 @@ def _share(own: Plan, paper: Paper) -> bool:
     return True
 
 
-def _fits(own: Plan, paper: Paper) -> dict[str, bool]:
+def _fits(what: Plan, paper: Paper) -> dict[str, bool]:
     """Whether each of the three figures fits the paper."""
     most = paper.room(MOST)
-    rooms = zip(NAMES, _sizes(own), (most.mechanism, most.polygon, most.polygon), strict=True)
+    rooms = zip(NAMES, _sizes(what), (most.mechanism, most.polygon, most.polygon), strict=True)
     return {name: size[0] <= room[0] and size[1] <= room[1] for name, size, room in rooms}
 
 
-def _larger(own: Plan, paper: Paper, wished: Mapping[str, float | None]) -> PaperName | None:
+def _larger(what: Plan, paper: Paper, wished: Mapping[str, float | None]) -> PaperName | None:
     """The next paper on which the figures of wished scales fit, None where they fit already or nowhere."""
 
     def serves(size: Paper) -> bool:
-        return all(fit or wished[name] is None for name, fit in _fits(own, size).items())
+        return all(fit or wished[name] is None for name, fit in _fits(what, size).items())
 
     if serves(paper):
         return None

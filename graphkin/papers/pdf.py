@@ -99,11 +99,11 @@ def pdf(document: Document) -> bytes:
 
     def measured(leaves: Sequence[tuple[Leaf, float | None]]) -> list[tuple[float, float]]:
         asked = [{"block": _block(leaf, bare=True), "width": width or 0} for leaf, width in leaves]
-        told = typst.query(
+        sizes = typst.query(
             template, "<sizes>", field="value", one=True, format="json", font_paths=fonts,
             sys_inputs=_inputs({**frame, "measure": asked}),
         )  # fmt: skip
-        return [(wide, high) for wide, high in json.loads(told)]
+        return [(wide, high) for wide, high in json.loads(sizes)]
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -166,8 +166,8 @@ def _block(block: Leaf, bare: bool = False) -> Data:
         block = replace(block, drawing=replace(block.drawing, children=()))
     elif bare and isinstance(block, Plate):
         block = replace(block, svg="")
-    told = {name: FORMS[name](value) if name in FORMS else value for name, value in vars(block).items()}
-    return {"kind": type(block).__name__, "edge": 0, **told}
+    fields = {name: FORMS[name](value) if name in FORMS else value for name, value in vars(block).items()}
+    return {"kind": type(block).__name__, "edge": 0, **fields}
 
 
 def _row(row: Row) -> Data:
@@ -193,14 +193,14 @@ def _atoms(atoms: tuple[Atom, ...]) -> list[Data]:
 
 def _drawing(drawing: Drawing) -> Data:
     """A figure as an SVG with the faces of the document, and what it shows in words; nothing of one without ink."""
-    told = clean(re.sub(r"\s+", " ", f"{drawing.title}. {drawing.desc}").strip())
+    seen = clean(re.sub(r"\s+", " ", f"{drawing.title}. {drawing.desc}").strip())
     # a handout has no picture under its figures
     inked = map_tree(drawing.children, lambda thing: None if isinstance(thing, Scan) else thing.moved(EDGE * (1 + 1j)))
     wide, high = drawing.width + 2 * EDGE, drawing.height + 2 * EDGE
     faces = f'<svg xmlns="http://www.w3.org/2000/svg" font-family="{", ".join(_fonts()[0])}" '
     svg = svg_element(replace(drawing, width=wide, height=high, children=inked)) if inked else ""
     size = {"width": _mm(drawing.width), "height": _mm(drawing.height), "edge": EDGE}
-    return {**size, "seen": told, "svg": svg.replace("<svg ", faces, 1)}
+    return {**size, "seen": seen, "svg": svg.replace("<svg ", faces, 1)}
 
 
 def _mm(value: float) -> float:
@@ -413,8 +413,8 @@ def _height(piece: Piece, wide: float, sizes: Sizes) -> float:
         return max(words, sizes[picture, picture.drawing.width][1])
     if piece.fills:
         return 0.0
-    own = isinstance(block, TableBlock) and block.halved and not block.roomy
-    return sizes[block, None if own else (wide - COLUMN_GAP) / 2 if piece.half else wide][1]
+    alone = isinstance(block, TableBlock) and block.halved and not block.roomy
+    return sizes[block, None if alone else (wide - COLUMN_GAP) / 2 if piece.half else wide][1]
 
 
 def _gap(above: Leaf, below: Leaf) -> float:

@@ -115,21 +115,21 @@ def mechanism_picture(lesson: Lesson) -> Drawing:
     aids = {f"{part}-{point}" for point in special for part in ("special", "point", "label-point")}
 
     def names_result(thing: Primitive | None) -> bool:
-        found = ("label-omega-", "label-alpha-", "label-trial-")
-        named = isinstance(thing, Text) and thing.id.startswith(found)
+        results = ("label-omega-", "label-alpha-", "label-trial-")
+        named = isinstance(thing, Text) and thing.id.startswith(results)
         return named or (isinstance(thing, Group | Text) and thing.id in aids)
 
     kept = []
     for layer in parts(lesson, "mechanism"):
         if layer.id not in ("answers", "construction"):
             both = zip(layer.children, (*layer.children[1:], None), strict=True)
-            own = tuple(
+            things = tuple(
                 thing for thing, after in both if not names_result(thing)
                 and not (isinstance(thing, Group) and "leader" in thing.classes and names_result(after))
             )  # fmt: skip
-            kept.append(replace(layer, children=own))
-    told = describe(lesson.sheet, ("mechanism",), lesson.language)
-    return _cropped(lesson, kept, term("mechanism", lesson.language), told, "mechanism")
+            kept.append(replace(layer, children=things))
+    described = describe(lesson.sheet, ("mechanism",), lesson.language)
+    return _cropped(lesson, kept, term("mechanism", lesson.language), described, "mechanism")
 
 
 def equation_picture(lesson: Lesson, equation: Equation) -> Drawing:
@@ -157,20 +157,20 @@ def workspace(lesson: Lesson, bare: Drawing, diagrams: Sequence[DiagramName], pa
     widest, highest = max(z.real for z in leasts), max(z.imag for z in leasts)
     if across <= wide and max(bare.height, highest) <= page.height:
         sizes = [complex(z.real + (wide - across) / count, page.height) for z in leasts]
-        place, way = complex(left, 0.0), 1.0 + 0j
+        place, along = complex(left, 0.0), 1.0 + 0j
     elif count > 1 and up <= high and bare.height <= page.height and widest <= page.width - left:
         sizes = [complex(page.width - left, z.imag + (high - up) / count) for z in leasts]
-        place, way = complex(left, 0.0), 1j
+        place, along = complex(left, 0.0), 1j
     elif count == 1 and widest <= page.width and top + up <= page.height:
         sizes = [complex(page.width, page.height - top)]
-        place, way = complex(0.0, top), 1j
+        place, along = complex(0.0, top), 1j
     else:
         return None
     children = [*bare.children]
     for diagram, size in zip(diagrams, sizes, strict=True):
         frame = draw_frame(lesson, diagram, size.imag, size.real)
         children += moved(frame.children, place)
-        place += way * (GAP + (size.real if way.real else size.imag))
+        place += along * (GAP + (size.real if along.real else size.imag))
     title = frame.title if count == 1 else ", ".join(term(FIGURE_WORDS[d], lesson.language) for d in diagrams)
     first = languages(lesson.language)[0]
     return Drawing(page.width, page.height + 0.2, tuple(children), title, bare.desc, first)

@@ -205,8 +205,8 @@ def _position(
         for item, finds in items:
             work = "".join(f'<p class="work">{words_html(line, first)}</p>' for line in item.work)
             aloud = " ".join(spoken_words(markup, each) for each, markup in item.words)
-            told = {"n": item.number, "html": said_html(item.words, "p") + work, "text": aloud}
-            steps.append({"d": figure, "e": count, **told, **finds})
+            words = {"n": item.number, "html": said_html(item.words, "p") + work, "text": aloud}
+            steps.append({"d": figure, "e": count, **words, **finds})
     driver = lesson.sheet.scene.drivers[0]
     at = lesson.sheet.scene.unit_of(driver).of(lesson.sheet.drivers[driver.key])
     return {
@@ -245,14 +245,14 @@ def _figures(lesson: Lesson, piece: Piece, frames: Frames) -> Iterator[Figure]:
     for name, drawn, panel in _drawings(lesson, piece, frames):
         is_stepped = name != "centres"
         children: tuple[Primitive, ...] = layer_groups(moved_piece(drawn, -panel.corners[0]))
-        told = "; ".join(
+        vectors = "; ".join(
             f"{spoken_words(f'${letters.vector(row.symbol)}$', first)} "
             f"{number(lesson.in_unit(row.symbol, abs(row.true)), 4)} {lesson.unit(row.symbol)}, {way(row, first)}"
             for row in lesson.results if row.symbol.is_vector and row.symbol.measure == name
         )  # fmt: skip
         title = term(FIGURE_WORDS[name] if name != "centres" else name, lesson.language)
         drawing = Drawing(panel.width, panel.height, stepped(children) if is_stepped else children, title,
-                          f"{spoken_words(at, first)}. {told}", first)  # fmt: skip
+                          f"{spoken_words(at, first)}. {vectors}", first)  # fmt: skip
         scale = scale_statement(lesson.sheet, letters.convention, name if name != "centres" else "mechanism")
         yield _figure(name, drawing, words_html(title, first), words_html(scale, first), named=is_stepped)
 
@@ -285,8 +285,8 @@ def _plans(lesson: Lesson) -> Iterator[Figure]:
         last = [step.number for step in sheet.steps if step.diagram == plan.order and step.per_mm][-1:]
         bare = bare_picture(page)
         drawn = replace(bare, children=(Group(bare.children, classes=(f"step-{last[0]}",)),)) if last else bare
-        told = said("plan" if plan.order == "velocity" else "plan accelerations", language)
-        yield _figure(f"plan-{plan.order}", drawn, _caption(told))
+        title = said("plan" if plan.order == "velocity" else "plan accelerations", language)
+        yield _figure(f"plan-{plan.order}", drawn, _caption(title))
 
 
 def _cams(lesson: Lesson) -> Iterator[Figure]:
@@ -298,8 +298,8 @@ def _cams(lesson: Lesson) -> Iterator[Figure]:
             yield _figure(f"{key.replace(' ', '-')}-{i}", picture, _caption(said(key, language)))
 
 
-def _caption(told: Said) -> str:
-    return said_html(tuple((each, capital(text)) for each, text in told))
+def _caption(words: Said) -> str:
+    return said_html(tuple((each, capital(text)) for each, text in words))
 
 
 def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
@@ -322,8 +322,8 @@ def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
         if len(forces.states) > 1 and group.links:
             load = said("force with load" if stage.again else "force without load", language)
             title += f" <small>{said_html(load)}</small>"
-        told = ((StepItem(s.number, s.words(language), s.lines(language)), s) for s in stage.steps)
-        yield {"title": title, "svg": svg}, name, [(item, _force_found(lesson, stage, step)) for item, step in told]
+        steps = ((StepItem(s.number, s.words(language), s.lines(language)), s) for s in stage.steps)
+        yield {"title": title, "svg": svg}, name, [(item, _force_found(lesson, stage, step)) for item, step in steps]
     lever = lever_figure(sheet, forces, language=language, convention=lesson.convention)
     if lever is not None:
         figures.append(_figure("lever", lever, said_html(said("lever", language))))
@@ -366,8 +366,8 @@ def _force_found(lesson: Lesson, stage: ForceStage, step: ForceStep) -> dict[str
         return {}
     (symbol,) = step.found
     back = replace(symbol, link=symbol.other, other=symbol.link) if symbol.other else symbol
-    for one, sign in ((symbol, 1.0), (back, -1.0)):
-        moment, span = stage.state.moments.get(one), stage.state.vectors.get(one)
+    for side, sign in ((symbol, 1.0), (back, -1.0)):
+        moment, span = stage.state.moments.get(side), stage.state.vectors.get(side)
         if moment or span:
             value = moment or (span or 0j) * lesson.forces.per_mm
             return _find(lesson, symbol, lesson.letters.vector(symbol), sign * value)
@@ -455,9 +455,9 @@ def motion_data(
 
 def _track(z: Array, rows: Sequence[int]) -> Track:
     track: Track = []
-    for one in np.asarray(z)[rows].tolist():
-        sound = math.isfinite(one.real) and math.isfinite(one.imag)
-        track += [round(one.real, 2) + 0.0, round(-one.imag, 2) + 0.0] if sound else [None, None]
+    for place in np.asarray(z)[rows].tolist():
+        sound = math.isfinite(place.real) and math.isfinite(place.imag)
+        track += [round(place.real, 2) + 0.0, round(-place.imag, 2) + 0.0] if sound else [None, None]
     return track
 
 
@@ -465,11 +465,11 @@ def _guide(motion: Motion, on: str, guide: str, size: float, length: float) -> l
     """Both ends of a guide: of the frame's through the whole mechanism, of a link's along the link."""
     placed = motion.link(on).guides[guide]
     if on == motion.scene.frame.name:
-        ends = (placed.through / length + way * size * placed.direction for way in (-1, 1))
+        ends = (placed.through / length + sense * size * placed.direction for sense in (-1, 1))
         return [np.full(len(motion.ok), end) for end in ends]
     pose, reach = motion.poses[on], 0.6 * size
     start = (pose.z + pose.u * placed.through) / length
-    return [start + way * pose.u * placed.direction for way in (-0.15 * reach, reach)]
+    return [start + along * pose.u * placed.direction for along in (-0.15 * reach, reach)]
 
 
 def _centres(

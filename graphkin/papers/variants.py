@@ -94,7 +94,7 @@ def asked_of(scene: Mechanism) -> tuple[Symbol, ...]:
     structure = analyse(scene)
     driven = {e.link for e in structure.driven}
     turning = [k.name for k in scene.links if k.name not in driven and set(k.points) & set(scene.frame.points)]
-    found: list[Symbol] = []
+    symbols: list[Symbol] = []
     last = next(reversed(structure.groups), None)
     if last is not None:
         if isinstance(last, Dyad):  # its end first, or what lies inside it
@@ -107,9 +107,9 @@ def asked_of(scene: Mechanism) -> tuple[Symbol, ...]:
         rolled = {e.link for e in structure.driven if any(d.rolls for d in e.drivers)}
         known |= {p for k in scene.links if k.name in rolled for p in k.points}
         moving = next((n for n in names if n and n not in known), None)
-        found += [Symbol.parse(f"{k}_{moving}") for k in ("v", "a")] if moving else []
-    found += [Symbol(kind, link=name) for name in turning for kind in ("omega", "alpha")]
-    return tuple(found) or tuple(_led(scene))
+        symbols += [Symbol.parse(f"{k}_{moving}") for k in ("v", "a")] if moving else []
+    symbols += [Symbol(kind, link=name) for name in turning for kind in ("omega", "alpha")]
+    return tuple(symbols) or tuple(_led(scene))
 
 
 def _led(scene: Mechanism) -> Iterator[Symbol]:
@@ -134,15 +134,15 @@ def _led(scene: Mechanism) -> Iterator[Symbol]:
 def _of_larger_groups(scene: Mechanism, asked: Sequence[Symbol]) -> Iterator[Symbol]:
     """What else may be asked of a mechanism's larger groups: the motion of the points that they find, the rates of
     their links."""
-    found = set(scene.frame.points)
+    known = set(scene.frame.points)
     for group in analyse(scene).elements:
         links = [scene.by_name[name] for name in group.members if name in scene.by_name]
         if isinstance(group, LargerGroup):
-            points = dict.fromkeys(p for link in links for p in link.points if p not in found)
+            points = dict.fromkeys(p for link in links for p in link.points if p not in known)
             names = [f"{k}_{p}" for k in "va" for p in points]
             names += [f"{kind}_{link.name}" for kind in ("omega", "alpha") for link in links]
             yield from (s for s in map(Symbol.parse, names) if s not in asked)
-        found |= {p for link in links for p in link.points}
+        known |= {p for link in links for p in link.points}
 
 
 def examined(
@@ -294,8 +294,8 @@ def _remarks(sheet: Sheet, asked: tuple[Symbol, ...], crossing: float) -> Iterat
     for equation in sheet.equations:
         rays = [s for step in sheet.steps if step.equation == equation.number for s in step.strokes]
         lines = [r for r in rays if isinstance(r, Ray)]
-        for one, two in pairwise(lines):
-            angle = math.asin(min(1.0, abs(cross(one.along, two.along))))
+        for line, two in pairwise(lines):
+            angle = math.asin(min(1.0, abs(cross(line.along, two.along))))
             if angle < crossing:
                 yield f"lines cross at {math.degrees(angle):.0f} degrees only"
     yield from _unread(sheet, asked)
@@ -322,11 +322,11 @@ def _answers(
     drawn = {r.symbol: r.value for r in read_off(sheet, asked)}
     exact = exact_values(motion, asked)
     values = {symbol: complex(exact(symbol)) for symbol in asked}
-    for symbol, found in values.items():
+    for symbol, value in values.items():
         least = NOTHING * max(abs(other) for s, other in values.items() if s.measure == symbol.measure)
-        if symbol in drawn and abs(drawn[symbol] - found) > max(1e-6 * abs(found), least, 1e-15):
+        if symbol in drawn and abs(drawn[symbol] - value) > max(1e-6 * abs(value), least, 1e-15):
             raise SceneError.of(str(symbol), "the drawing and the solver disagree")
-        yield symbol, 0.0 if abs(found) < least else abs(found) if symbol.is_vector else found.real
+        yield symbol, 0.0 if abs(value) < least else abs(value) if symbol.is_vector else value.real
 
 
 # -- a set of them -----------------------------------------------------------------------------------------------------
@@ -410,8 +410,8 @@ def _named(source: Tables, name: str) -> OwnTables:
     title, zh = (_DATA.sub("", str(source.get(key, ""))) for key in ("title", "title_zh"))
     named = {"title": f"{title} (no. {name})"[:300], **({"title_zh": f"{zh}（第 {name} 题）"[:300]} if zh else {})}
     # where it comes from, published values and scales belong to the problem as it was
-    own = ("printed", "source", "source_zh", "title", "title_zh", "sheet", "vary")
-    kept = {k: v for k, v in source.items() if k not in own}
+    left_out = ("printed", "source", "source_zh", "title", "title_zh", "sheet", "vary")
+    kept = {k: v for k, v in source.items() if k not in left_out}
     level = (source.get("vary") or {}).get("level")
     if level:  # it says what a sheet gives, too
         kept["vary"] = {"level": level}
@@ -428,11 +428,11 @@ def _where_it_was(source: Tables, original: Tables) -> OwnTables:
     return made
 
 
-def distinct(one: Sequence[Answer], others: Iterable[Sequence[Answer]]) -> bool:
+def distinct(answers: Sequence[Answer], others: Iterable[Sequence[Answer]]) -> bool:
     """Whether some answer differs from that of every other variant by more than both may be drawn wrong."""
     for other in others:
         known = {a.symbol: a for a in other}
-        shared = [(a, known[a.symbol]) for a in one if a.symbol in known]
+        shared = [(a, known[a.symbol]) for a in answers if a.symbol in known]
         if shared and all(abs(a.value - b.value) <= a.tolerance + b.tolerance for a, b in shared):
             return False
     return True
@@ -529,13 +529,13 @@ def accepted(jobs: Iterable[Job], done: Mapping[int, Variant], workers: Workers)
 
 def _finished(points: Checkpoints | None) -> dict[int, Variant]:
     """Finished jobs by number, of those whose files are all there."""
-    found: dict[int, Variant] = {}
+    variants: dict[int, Variant] = {}
     for number, piece in points.done()[0].items() if points is not None else ():
         facts = dict(piece.facts)
         if points is not None and all((points.place.parent / name).is_file() for name in facts.pop("files")):
             answers, remarks = tuple(Answer(**one) for one in facts["answers"]), tuple(facts["remarks"])
-            found[number] = Variant(**{**facts, "answers": answers, "remarks": remarks})
-    return found
+            variants[number] = Variant(**{**facts, "answers": answers, "remarks": remarks})
+    return variants
 
 
 def _rendered(render: Render | None, variant: Variant) -> tuple[Variant, Mapping[str, bytes]]:

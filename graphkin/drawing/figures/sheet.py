@@ -109,8 +109,8 @@ def sheet_page(
     further = overleaf(page, rest, plan.page)
     for kind in ("plan", "loops") if sheet.scene.question.sheet.loops else ("plan",):
         figure = figure_kinds()[kind].draw(sheet, language=page.language, convention=page.convention)
-        for one in (figure, *figure.further) if figure is not None else ():
-            further += (_as_page(sheet, one, plan, len(further) + 2),)
+        for drawn_page in (figure, *figure.further) if figure is not None else ():
+            further += (_as_page(sheet, drawn_page, plan, len(further) + 2),)
     if further:
         pieces.append(_in_corner(word("goes on", languages(page.language)[0]), plan.page))
     made = _drawn_page(page, plan.width, plan.height, pieces, "")
@@ -138,9 +138,9 @@ class _Writing:
     def on(self, plan: SheetPlan, size: float) -> tuple[list[Piece], Remainder]:
         """All of it on a plan, given data in letters of at most a size; and what is left for further pages."""
         page, whole = self.page, self.whole(size)
-        own = (_own_given, plan.given), (_own_equations, plan.equations), (_readings, plan.readings)
+        parts = (_own_given, plan.given), (_own_equations, plan.equations), (_readings, plan.readings)
         rest, pieces, rooms = whole, list[Piece](), list[Box]()
-        for part, box in own:
+        for part, box in parts:
             if box is None:
                 given = given_lines(page.sheet, page.letters, page.language, plan.page.width, GIVEN[0])
                 return [], replace(whole, given=given)
@@ -223,7 +223,7 @@ def _heights(page: FigurePage, plan: SheetPlan) -> list[float]:
 def _insets(pieces: Sequence[object]) -> list[str]:
     """The insets that stand in polygons."""
     drawn = (piece.drawn for piece in pieces if isinstance(piece, Piece))
-    return [one.id for each in drawn for one in walk(each) if isinstance(one, Group) and "inset" in one.classes]
+    return [thing.id for each in drawn for thing in walk(each) if isinstance(thing, Group) and "inset" in thing.classes]
 
 
 @dataclass(frozen=True, eq=False)
