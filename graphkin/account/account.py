@@ -113,7 +113,7 @@ def _products(sheet: Sheet, equation: Equation, letters: Letters) -> list[str]:
 def _shared_with_drivers(sheet: Sheet, equation: Equation) -> Iterator[str]:
     """``ω_2 = ω_1``: links that slide on a driven one turn as it does."""
     kind = "omega" if equation.diagram == "velocity" else "alpha"
-    rates = sheet.omega if kind == "omega" else sheet.alpha
+    rates = sheet.rates(kind)
     for rate in rates.values():
         if rate.vector is None and not rate.same_as and rate.value != 0.0:
             others = alike(rates.values(), rate)

@@ -12,7 +12,7 @@ from typing import Literal
 
 from graphkin.account.given import slide_index
 from graphkin.account.headings import number, written
-from graphkin.account.notation import Letters
+from graphkin.account.notation import Letters, unit_of
 from graphkin.construction.instruments import EXACT
 from graphkin.construction.links_on_paper import pushed_by_driver
 from graphkin.construction.sheet import Sheet, either_way
@@ -37,21 +37,12 @@ from graphkin.words.written import (
 )
 
 SAME_RATE = 1e-12  # of rates: what rounding leaves of the difference of two that are the same
-_TAILS = {"mechanism": "", "velocity": "/s", "acceleration": "/s²"}
-
-
-def unit_of(sheet: Sheet, diagram: DiagramName) -> str:
-    """The unit of what a diagram shows."""
-    return _units(sheet, diagram).length + _TAILS[diagram]
+RATE_UNITS = {"omega": Units().of("angular velocity").written, "alpha": Units().of("angular acceleration").written}
 
 
 def scale_of(sheet: Sheet, diagram: DiagramName) -> float:
     """Scene units for one mm of paper."""
-    return sheet.scales.of(diagram) / _units(sheet, diagram).metres
-
-
-def _units(sheet: Sheet, diagram: DiagramName) -> Units:
-    return sheet.scene.units if diagram == "mechanism" else sheet.scene.units.rates
+    return sheet.scales.of(diagram) / unit_of(sheet, diagram).si
 
 
 def arm_written(sheet: Sheet, bar: tuple[str, str], mm: float, most: int = MOST) -> str:
@@ -70,7 +61,7 @@ def arm_written(sheet: Sheet, bar: tuple[str, str], mm: float, most: int = MOST)
 def times_scale(sheet: Sheet, diagram: DiagramName, mm: float) -> str:
     """``56.67 mm × 5 (mm/s)/mm = 283.35 mm/s (283.37)``: a length on paper, and, where exact hands have drawn it, what
     it is beyond the hundredth of a millimetre in brackets."""
-    unit, per = unit_of(sheet, diagram), scale_of(sheet, diagram)
+    unit, per = unit_of(sheet, diagram).written, scale_of(sheet, diagram)
     length = on_paper(mm)
     value, finer = product(length, amount(per, 12)), amount(mm * per, MOST)
     more = "" if finer == value or sheet.instrument != EXACT.name else f" ({written(finer)})"
@@ -113,14 +104,13 @@ def is_given(sheet: Sheet, bar: tuple[str, str]) -> bool:
 def rate_sum(sheet: Sheet, step: Step, units: bool = True) -> str:
     """``283.37 mm/s / 383.14 mm = 0.7396 rad/s``, or without units before the result; "" where there is nothing to
     divide."""
-    omega = step.kind == "omega"
     divided = _divided(sheet, step)
     if divided is None:
         return ""
     size, arm, value = (written(one) for one in divided)
-    unit = unit_of(sheet, "velocity" if omega else "acceleration")
+    unit = unit_of(sheet, step.diagram).written
     of, over = (f" {unit}", f" {sheet.scene.units.rates.length}") if units else ("", "")
-    return f"{size}{of} / {arm}{over} = {value} {'rad/s' if omega else 'rad/s²'}"
+    return f"{size}{of} / {arm}{over} = {value} {RATE_UNITS[step.kind]}"
 
 
 def _divided(sheet: Sheet, step: Step) -> tuple[str, str, str] | None:
@@ -130,7 +120,7 @@ def _divided(sheet: Sheet, step: Step) -> tuple[str, str, str] | None:
         drawn = (abs(one.span) for one in sheet.vectors_seen(step.diagram) if one.symbol == step.symbol)
         mm, arm_mm, rate = _as_read(sheet, step.symbol, next(drawn, 0.0)), sheet.arm_mm(step.points), step.value
     else:
-        found = (sheet.omega if step.kind == "omega" else sheet.alpha)[step.link]
+        found = sheet.rates(step.kind)[step.link]
         mm, arm_mm, rate = found.mm, sheet.readings.get(frozenset(step.points), found.arm_mm), found.value
     if mm == 0.0 or not arm_mm:
         return None
@@ -149,7 +139,7 @@ def _divided(sheet: Sheet, step: Step) -> tuple[str, str, str] | None:
 
 def plan_sum(step: Step) -> str:
     """``30.00 mm × 0.25 (rad/s)/mm = 7.5 rad/s``: a rate as it is read off the plan of a train."""
-    unit = "rad/s" if step.kind == "omega" else "rad/s²"
+    unit = RATE_UNITS[step.kind]
     length, scale = on_paper(step.mm), amount(step.per_mm, 12)
     return f"{length} mm × {scale} ({unit})/mm = {product(length, scale)} {unit}"
 
@@ -249,7 +239,7 @@ def _rate_read(sheet: Sheet, rule: Size) -> str:
     """The rate of one link as a hand has measured it, the quotient that stands on the sheet; "" for any other."""
     if sheet.instrument == EXACT.name or len(rule.links) > 1:
         return ""
-    rate = (sheet.omega if rule.rate == "omega" else sheet.alpha)[rule.links[0]]
+    rate = sheet.rates(rule.rate)[rule.links[0]]
     link = rate.same_as or rate.link
     read = (s for s in sheet.steps if s.reason == "rate" and not s.held)
     own = next((step for step in read if (step.kind, step.link) == (rule.rate, link)), None)
@@ -259,7 +249,7 @@ def _rate_read(sheet: Sheet, rule: Size) -> str:
 
 def _turning(sheet: Sheet, rate: Literal["omega", "alpha"], links: Sequence[str]) -> float:
     """How a link turns (rad/s, rad/s2), or the first of two as seen from the second."""
-    rates = [(sheet.omega if rate == "omega" else sheet.alpha)[name].value for name in links]
+    rates = [sheet.rates(rate)[name].value for name in links]
     turning = rates[0] - added_up(rates[1:])
     return turning if abs(turning) > SAME_RATE * max(map(abs, rates)) else 0.0
 
@@ -279,7 +269,7 @@ def rule_sum(sheet: Sheet, rule: Size | None, diagram: DiagramName) -> str:
     if not factors:
         return ""
     value = written(product(*factors, carried=carried_by(sheet, rule)))
-    return f"{substituted(rule, factors)} = {value} {unit_of(sheet, diagram)}"
+    return f"{substituted(rule, factors)} = {value} {unit_of(sheet, diagram).written}"
 
 
 def _span(sheet: Sheet, symbol: Symbol) -> float | None:
@@ -297,7 +287,7 @@ def _as_read(sheet: Sheet, symbol: Symbol, mm: float) -> float:
 def laid_sum(sheet: Sheet, diagram: DiagramName, rule: Size | None, mm: float) -> tuple[str, str]:
     """``0.7396² × 383.14 = 209.58 mm/s²`` (without a rule the value alone), and what ``÷ 10 (mm/s²)/mm = 20.96 mm``
     says of it, for a vector of a length on paper: with as many figures as both want to be true as they are written."""
-    per, unit = scale_of(sheet, diagram), unit_of(sheet, diagram)
+    per, unit = scale_of(sheet, diagram), unit_of(sheet, diagram).written
     length, scale, least = on_paper(mm), amount(per, 12), carried_by(sheet, rule)
     tried = [
         (factors, product(*factors, carried=least + most - MOST) if factors else amount(mm * per, most))

@@ -8,10 +8,12 @@ import math
 import re
 from collections.abc import Callable, Mapping
 
+from graphkin.account.notation import unit_of
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName, Direction, plain_in
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.scene.tables import Measure
 from graphkin.version import __version__
 from graphkin.words import Neutral, Phrase, as_plain, in_all, languages, listed, rich_text, say, word
 from graphkin.words.written import amount, in_markup, on_paper, product, true_minus
@@ -87,15 +89,15 @@ def written(plain: str) -> str:
     return f"{head}·$10^{{{power}}}$" if power else head
 
 
+DRAWN: tuple[Measure, ...] = ("length", "velocity", "acceleration")
+
+
 def facts(sheet: Sheet, figure: str) -> dict[str, object]:
     """What a program may want to know of a figure, in scene units: for the metadata of the file."""
     scene = sheet.scene
-    metres = scene.units.metres
     at = {d.key: round(scene.unit_of(d).of(sheet.drivers[d.key]), 9) for d in scene.drivers}
     scales = {
-        "length": float(f"{sheet.scales.length / metres:.12g}"),
-        "velocity": float(f"{sheet.scales.velocity / scene.units.rates.metres:.12g}"),
-        "acceleration": float(f"{sheet.scales.acceleration / scene.units.rates.metres:.12g}"),
+        measure: float(f"{getattr(sheet.scales, measure) / scene.units.of(measure).si:.12g}") for measure in DRAWN
     }
     return {
         "figure": figure,
@@ -196,8 +198,8 @@ def structure_words(scene: Mechanism, language: str) -> list[str]:
 
 
 def _vectors(sheet: Sheet, diagram: DiagramName, language: str) -> list[str]:
-    unit = sheet.scene.units.rates.length + ("/s" if diagram == "velocity" else "/s²")
-    per_mm = sheet.scales.of(diagram) / sheet.scene.units.rates.metres
+    unit = unit_of(sheet, diagram)
+    per_mm = sheet.scales.of(diagram) / unit.si
     said = []
     for symbol, vector in sheet.vectors(diagram).items():
         words = _capital(spoken_vector(symbol, language))
@@ -207,7 +209,7 @@ def _vectors(sheet: Sheet, diagram: DiagramName, language: str) -> list[str]:
         angle = math.degrees(math.atan2(vector.span.imag, vector.span.real))
         size = on_paper(abs(vector.span))
         phrase = Phrase(
-            "vector is", vector=words, size=product(size, amount(per_mm, 12)), unit=unit, length=size,
+            "vector is", vector=words, size=product(size, amount(per_mm, 12)), unit=unit.written, length=size,
             angle=true_minus(f"{angle:.1f}"),
         )  # fmt: skip
         said.append(say(phrase, language))

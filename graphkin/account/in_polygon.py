@@ -10,6 +10,7 @@ from functools import cached_property, reduce
 from typing import ClassVar, get_args
 
 from graphkin.account.arithmetic import (
+    RATE_UNITS,
     bound,
     divisions,
     laid_sum,
@@ -18,9 +19,9 @@ from graphkin.account.arithmetic import (
     rule_sum,
     scale_of,
     trials_of,
-    unit_of,
 )
 from graphkin.account.headings import number, term, written
+from graphkin.account.notation import unit_of
 from graphkin.account.voice import SAME, Telling, numeral
 from graphkin.construction.sheet import Rate
 from graphkin.construction.steps import (
@@ -44,7 +45,6 @@ from graphkin.words import Markup, Neutral, Phrase, in_turn, languages, listed, 
 from graphkin.words.written import MOST, amount, on_paper, pointing, quotient, true_minus
 
 SEEN = 0.005  # mm on paper: less than that is not taken off
-RATE_UNITS = {"omega": "rad/s", "alpha": "rad/s²"}
 ON_THE_POINT = 1e-9  # of a bar: so near to its end a point divides nothing
 RATIOS = "part", "whole", "ratio", "ratio_a", "ratio_b"
 ROLES: tuple[Role, ...] = get_args(Role)
@@ -309,7 +309,7 @@ class InPolygon(Telling):
 
     def _by_rates_sums(self) -> Iterator[str]:
         """The parts of a relative vector that follow from the rates of a link, each with its length and direction."""
-        per, unit = scale_of(self.sheet, self.step.diagram), unit_of(self.sheet, self.step.diagram)
+        per, unit = scale_of(self.sheet, self.step.diagram), unit_of(self.sheet, self.step.diagram).written
         for said, (_, span) in zip(self._by_rates_lines(""), self.parts, strict=True):
             yield said
             yield f"÷ {number(per)} ({unit})/mm = {written(on_paper(abs(span)))} mm,  {pointing(span)}°"
@@ -329,7 +329,7 @@ class InPolygon(Telling):
     @property
     def turning_links(self) -> tuple[str, ...]:
         """The links that turn as a rate says, as indices of it."""
-        step, rates = self.step, self.sheet.omega if self.step.kind == "omega" else self.sheet.alpha
+        step, rates = self.step, self.sheet.rates(self.step.kind)
         return (step.link + step.held,) if step.held else (step.link, *alike(rates.values(), rates[step.link]))
 
     def _rate_sums(self) -> Iterable[str]:
@@ -339,7 +339,7 @@ class InPolygon(Telling):
 
     def _rate_lines(self, language: str) -> Iterator[str]:
         """``ω_4 = ω_3 = v_A4 / l_AO4 = 0.74 rad/s, clockwise``: the quotient of a vector and a bar."""
-        step, rates = self.step, self.sheet.omega if self.step.kind == "omega" else self.sheet.alpha
+        step, rates = self.step, self.sheet.rates(self.step.kind)
         value = step.value if step.held else rates[step.link].value
         rule = f"{self.voice.symbol(step.symbol)} / ${self.voice.letters.length(step.points)}$"
         shown = bound(rate_sum(self.sheet, step, units=False)) or f"{number(abs(value), 5)} {RATE_UNITS[step.kind]}"
@@ -443,8 +443,7 @@ class InPolygon(Telling):
         return listed(told)
 
     def _unit(self, symbol: Symbol) -> str:
-        length = self.sheet.scene.units.rates.length
-        return RATE_UNITS.get(symbol.kind, f"{length}/s" if symbol.kind == "v" else f"{length}/s²")
+        return symbol.unit(self.sheet.scene.units).written
 
     def _rates(self, found: Iterable[tuple[Symbol, float]]) -> object:
         """Rates with their units, in a list."""

@@ -18,6 +18,7 @@ from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName, Direction, Size, Term
 from graphkin.scene.scene_tables import Convention
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.scene.tables import Unit
 from graphkin.words.written import true_minus
 
 Rows = Literal["rows", "over", "table", "underlines"]
@@ -216,22 +217,26 @@ def scale_statement(sheet: Sheet, convention: Convention, diagram: DiagramName) 
     >>> scale_statement(draft(mechanism_of("sixbar-guide-40deg")), "british", "velocity")
     '1 cm = 100 mm/s'
     """
-    units = sheet.scene.units if diagram == "mechanism" else sheet.scene.units.rates
-    unit: str = units.length
-    per = sheet.scales.of(diagram) / units.metres
-    if diagram == "force":
-        unit, per = units.force, sheet.scales.force / units.newtons
-    tail = {"mechanism": "", "velocity": "/s", "acceleration": "/s²", "force": ""}[diagram]
+    unit = unit_of(sheet, diagram)
+    per = sheet.scales.of(diagram) / unit.si
     if convention == "us":
-        return f"1 mm = {_number(per)} {unit}{tail}"
+        return f"1 mm = {_number(per)} {unit.written}"
     if convention == "british":
-        return f"1 cm = {_number(10 * per)} {unit}{tail}"
+        return f"1 cm = {_number(10 * per)} {unit.written}"
     index = {"mechanism": "l", "velocity": "v", "acceleration": "a", "force": "F"}[diagram]
-    if convention == "russian":
-        under = {"mechanism": "mm", "velocity": "(s·mm)", "acceleration": "(s²·mm)", "force": "mm"}[diagram]
-        return f"$μ_{{{index}}}$ = {_number(per)} {unit}/{under}"
-    whole = f"({unit}{tail})" if tail else unit
-    return f"$μ_{{{index}}}$ = {_number(per)} {whole}/mm"
+    over, _, under = unit.written.partition("/")
+    shown = f"{over}/({under}·mm)" if under and convention == "russian" else per_mm(unit.written)
+    return f"$μ_{{{index}}}$ = {_number(per)} {shown}"
+
+
+def per_mm(unit: str) -> str:
+    """A unit for one mm of paper: ``mm/mm``, ``(mm/s)/mm``."""
+    return f"({unit})/mm" if "/" in unit else f"{unit}/mm"
+
+
+def unit_of(sheet: Sheet, diagram: DiagramName) -> Unit:
+    """The unit of what a diagram shows."""
+    return sheet.scene.units.of("length" if diagram == "mechanism" else diagram)
 
 
 def _number(value: float) -> str:

@@ -371,7 +371,7 @@ def _floor(sheet: Sheet, reading: Reading, rounding: Lost, unknown: float) -> fl
             return min(lost, _TOLD_APART * slow**2 / (abs(ends[0] - ends[1]) * sheet.scales.length))
     if symbol.is_vector:
         return lost
-    rate = (sheet.omega if symbol.kind == "omega" else sheet.alpha).get(symbol.link)
+    rate = sheet.rates(symbol.kind).get(symbol.link)
     if rate is None or rate.vector is None:
         return 0.0  # given
     return lost / (rate.arm_mm * sheet.scales.length if rate.arm_mm else sheet.scene.size)

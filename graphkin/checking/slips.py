@@ -378,7 +378,7 @@ def _step(sheet: Sheet, symbol: Symbol) -> float:
     if symbol.scope != "motion":
         return 0.0
     if not symbol.is_vector:
-        rate = (sheet.omega if symbol.kind == "omega" else sheet.alpha).get(symbol.link)
+        rate = sheet.rates(symbol.kind).get(symbol.link)
         if rate is not None and rate.same_as:
             return _step(sheet, Symbol(symbol.kind, link=rate.same_as))
         return _step(sheet, rate.vector) + 0.5 if rate is not None and rate.vector else 0.0

@@ -243,6 +243,10 @@ class Sheet:
             points={ref: z * times for ref, z in self.points.items()},
         )  # fmt: skip
 
+    def rates(self, kind: str) -> Mapping[str, Rate]:
+        """The measured rates by link, of a kind: "omega" or "alpha"."""
+        return self.omega if kind == "omega" else self.alpha
+
     def at(self, scales: Scales) -> Sheet:
         """The same construction at other scales: every length on paper so many times as large.
 

@@ -8,9 +8,9 @@ from functools import cache, cached_property, partial
 from typing import TypeAlias
 
 from graphkin.account.account import WrittenLine, rule_alone
-from graphkin.account.arithmetic import bound, rule_sum, scale_of, unit_of
+from graphkin.account.arithmetic import bound, rule_sum, scale_of
 from graphkin.account.headings import number, term
-from graphkin.account.notation import Letters, rows_of
+from graphkin.account.notation import Letters, rows_of, unit_of
 from graphkin.construction.sheet import Equation, Sheet
 from graphkin.construction.steps import GIVEN, Term
 from graphkin.drawing.ink import strokes
@@ -178,7 +178,7 @@ def _short(sheet: Sheet, equation: Equation, letters: Letters) -> str | None:
         laid_off = (s.mm for s in sheet.steps if s.verb == "lay off" and s.symbol == only.symbol)
         # what is given is not what a hand has made of it
         value = next(laid_off, abs(vector.span)) * scale_of(sheet, equation.diagram)
-        found = f"{number(value, MOST)}\u00a0{unit_of(sheet, equation.diagram)}"
+        found = f"{number(value, MOST)}\u00a0{unit_of(sheet, equation.diagram).written}"
     parts.append(found)
     way = letters.direction(only.direction, sheet.scene.frame.name)
     return " =\u00a0".join(parts) + (f",  ${way}$" if way else "")

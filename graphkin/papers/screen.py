@@ -348,10 +348,8 @@ def _found(lesson: Lesson, step: Step) -> dict[str, Json]:
     """What a step of the motion finds: the rate that it measures, or its last vector."""
     sheet = lesson.sheet
     if step.finds_rate:
-        omega = step.kind == "omega"
-        rate = (sheet.omega if omega else sheet.alpha).get(step.link)
-        name = f"{'ω' if omega else 'α'}_{{{step.link}}}"
-        return {} if rate is None else _find(lesson, Symbol(step.kind, link=step.link), name, rate.value)
+        rate, symbol = sheet.rates(step.kind).get(step.link), Symbol(step.kind, link=step.link)
+        return {} if rate is None else _find(lesson, symbol, lesson.letters.vector(symbol), rate.value)
     vectors = [s for s in step.strokes if isinstance(s, Vector) and s.span]
     if not vectors:
         return {}

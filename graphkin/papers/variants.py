@@ -309,7 +309,7 @@ def _unread(sheet: Sheet, asked: tuple[Symbol, ...]) -> Iterator[str]:
             yield f"{symbol} is not drawn"
         elif (mm := readings[symbol].on_paper) is not None and mm < LEAST_READING:
             turning = not symbol.is_vector and symbol.scope == "motion"
-            rates = (sheet.omega if symbol.kind == "omega" else sheet.alpha) if turning else {}
+            rates = sheet.rates(symbol.kind) if turning else {}
             # not of a rate that is given or shared
             if not turning or (symbol.link in rates and rates[symbol.link].vector is not None):
                 yield f"{symbol} is {mm:.1f} mm on paper only"

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from graphkin.account.notation import per_mm
 from graphkin.checking.readings import read_off
 from graphkin.construction import Sheet, draft
 from graphkin.construction.scales import next_of_series
@@ -243,10 +244,6 @@ def markup_of(symbol: Symbol) -> str:
     return f"{LETTERS.get(symbol.kind, symbol.kind)}_{{{names}}}"
 
 
-def _per_mm(unit: str) -> str:
-    return f"({unit})/mm" if "/" in unit else f"{unit}/mm"
-
-
 def chords_page(chords: Chords, reach: DriverRange, language: str) -> ChartPage:
     """Draw it.  One mm of the file is one mm on paper, so that what a ruler measures times the scale is the value."""
     scene = reach.scene
@@ -255,9 +252,9 @@ def chords_page(chords: Chords, reach: DriverRange, language: str) -> ChartPage:
     title = say(Phrase(f"graphical {chords.way}", result=f"${result}$", curve=f"${given}$"), language)
     per_y, per_found = of_given.of(chords.per_y), of_result.of(chords.per_found)
     scales = (
-        f"$μ_{{{given[0]}}}$ = {number(per_y)} {_per_mm(of_given.written)}",
+        f"$μ_{{{given[0]}}}$ = {number(per_y)} {per_mm(of_given.written)}",
         f"$μ_{{t}}$ = {number(chords.per_x)} s/mm", f"$H$ = {number(chords.pole)} mm",
-        f"$μ_{{{result[0]}}}$ = {number(per_found)} {_per_mm(of_result.written)}",
+        f"$μ_{{{result[0]}}}$ = {number(per_found)} {per_mm(of_result.written)}",
     )  # fmt: skip
     facts = [",  ".join(scales), say(Phrase(f"graphical {chords.way} off", error=f"{100 * chords.off:.2g}"), language)]
     lines = [runs for fact in facts for runs in wrapped(fact, 3.0, WIDTH - 2 * MARGIN)]
