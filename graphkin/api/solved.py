@@ -66,37 +66,38 @@ class Solved(OfScene, Result):
 
     def blocks(self) -> Iterator[Solved]:
         """Itself, or a long sweep as some of its positions after the other."""
-        if self.part is not None or self.count is None or self.times or "_moved" in self.__dict__:
+        if self.part is not None or "_moved" in self.__dict__:
             yield self
             return
-        from graphkin import solver
-
         yield self.first
-        if len(self.first.motion) < self.count:
-            motions = solver.sweep_in_blocks(self.structure, self.values, self.count)
-            yield from (replace(self, part=motion) for motion in islice(motions, 1, None))
+        if len(self.first._moved) < (self.count or 1):
+            yield from (replace(self, part=motion) for motion in islice(self._motions(), 1, None))
 
     @cached_property
     def first(self) -> Solved:
         """The first of its ``blocks``."""
+        return self if self.part is not None else replace(self, part=next(self._motions()))
+
+    def _motions(self) -> Iterator[Motion]:
+        """The motion whatever the forces are, of a long sweep some of its positions after the other."""
         from graphkin import solver
 
-        if self.part is not None or self.count is None or self.times:
-            return self
-        return replace(self, part=next(solver.sweep_in_blocks(self.structure, self.values, self.count)))
+        if self.count is None:
+            yield solver.solve(self.structure, at=self.values)
+        elif self.times:
+            yield solver.over_time(self.structure, np.array(self.times))
+        else:
+            yield from solver.sweep_in_blocks(self.structure, self.values, self.count)
 
     @cached_property
     def _moved(self) -> Motion:
-        """The motion, whatever the forces are."""
+        """The motion of all positions, whatever the forces are."""
         from graphkin import solver
 
-        if self.first is not self and len(self.first._moved) == self.count:
-            return self.first._moved
         if self.part is not None:
             return self.part
-        if self.times and self.count is not None:
-            return solver.over_time(self.structure, np.array(self.times))
-        return solver.solve(self.structure, at=self.values, sweep=self.count)
+        whole = len(self.first._moved) == (self.count or 1)
+        return self.first._moved if whole else solver.solve(self.structure, at=self.values, sweep=self.count)
 
     @property
     def motion(self) -> Motion:
@@ -275,21 +276,16 @@ def solve(
         given, values = placed(given, at)
     elif at is not None:
         raise CallError.of("sweep", "stands beside at", "a sweep goes over the whole time of")
-    solved = Solved(solver.structure_of(given), values, count)
-    names = () if find is None else _known(solved.first, find)
-    _ = solved.first.motion
-    return replace(solved, find=names) if names else solved
-
-
-def _known(solved: Solved, find: str | Symbol | Iterable[str | Symbol]) -> tuple[str, ...]:
-    """The names of what is asked.  Raises CallError, naming everything that names nothing."""
-    names = [find] if isinstance(find, Symbol) else as_list("find", find, Phrase("give symbols v_b omega_3"))
+    wanted = Phrase("give symbols v_b omega_3")
+    names = [] if find is None else [find] if isinstance(find, Symbol) else as_list("find", find, wanted)
+    solved = Solved(solver.structure_of(given), values, count, tuple(map(str, names)))
     problems: list[Problem] = []
-    for name in map(str, names):
+    for name in solved.find:
         try:
-            _ = solved[name], solved.columns(name)
+            _ = solved.first[name], solved.first.columns(name)
         except CallError as error:
             problems += error.problems
     if problems:
         raise CallError(*problems)
-    return tuple(map(str, names))
+    _ = solved.first.motion
+    return solved

@@ -106,3 +106,13 @@ def test_a_component_is_given_by_the_name_of_its_column(name: str) -> None:
     assert [(x + 1j * y)[k] for k in range(3)] == pytest.approx(solved[name].tolist(), rel=1e-12)
     assert ("position", "driver_1", f"{name}.x", "status", "why") == graphkin.sweep(
         SIXBAR, positions=3, find=f"{name}.x").table.names
+
+
+def test_what_is_asked_by_name_is_solved_once(monkeypatch):
+    from graphkin import solver
+
+    solve, asked = solver.solve, []
+    monkeypatch.setattr(solver, "solve", lambda *given, **named: asked.append(given) or solve(*given, **named))
+    solved = graphkin.solve("shaper-scheme-2", find=["v_C", "omega_4"])
+    assert (1,) == solved["v_C"].shape
+    assert (1, 1) == (len(solved.table), len(asked))
