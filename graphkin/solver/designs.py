@@ -17,12 +17,9 @@ from graphkin.scene.model import Dimension, with_dimensions
 from graphkin.solver.assemblies import choose_modes
 from graphkin.solver.driver_range import range_from
 from graphkin.solver.drivers import GivenValues, UniformGrid, own_values
-from graphkin.solver.engine import SINGULAR
 from graphkin.solver.expressions import Code, Name
-from graphkin.solver.kernel import Kernel
 from graphkin.solver.pose import Array, turned
-from graphkin.solver.prepared import PreparedMechanism, formulas, prepare
-from graphkin.solver.program import program_of
+from graphkin.solver.prepared import PreparedMechanism, prepare
 from graphkin.structure import analyse
 
 NODES = 360
@@ -33,33 +30,6 @@ TOGETHER = 1 << 16
 """Positions that are computed together."""
 LOOP = 64
 """From so many positions of each design on its own loop of compiled code pays."""
-
-
-class _OpenCode:
-    """The formulas of a prepared mechanism with some of its numbers open, and their code."""
-
-    def __init__(self, ready: PreparedMechanism, names: frozenset[Name], moving: tuple[bool, ...]) -> None:
-        self.ready = ready
-        self.dimensioned = program_of(ready.structure, moving, names)
-        program, structure = self.dimensioned.program, ready.structure
-        asked = list(formulas(program, structure, ready.wanted, ready.units).values())
-        self.fixed = {*ready.fixed, *names}
-        fixed = {name for name in ready.fixed if name not in names}
-        self.columns = Code(program.graph, asked, fixed, names)
-        checked = [solved.discriminant for _, solved in sorted(program.groups.items())]
-        self.checks = Code(program.graph, checked, fixed, names)
-        self.alone = Code(program.graph, asked, self.fixed)
-        self._invariants: dict[Code, list[Array] | None] = {}
-
-    @cached_property
-    def kernel(self) -> Kernel:
-        return Kernel(self.alone, True, True, len(self.alone.asked), SINGULAR)
-
-    def invariants(self, code: Code) -> list[Array] | None:
-        """What no design changes."""
-        if code not in self._invariants:
-            self._invariants[code] = code.invariants(self.dimensioned.params(code.params, self.ready.given_names))
-        return self._invariants[code]
 
 
 @cache
@@ -116,16 +86,11 @@ class PreparedMechanisms:
         return guides
 
     @cached_property
-    def _code(self) -> _OpenCode:
+    def _formulas(self) -> PreparedMechanism:
+        """The mechanism with what the designs change left open."""
         drivers = self.ready.structure.scene.drivers
         moving = tuple(d.values[2] != 0 or ("second", k) in self.given for k, d in enumerate(drivers))
-        key = frozenset(self._open), moving
-        known = self.ready.opened
-        if key not in known:
-            known[key] = _OpenCode(self.ready, *key)
-        made = known[key]
-        assert isinstance(made, _OpenCode)
-        return made
+        return self.ready.opened(frozenset(self._open), moving)
 
     @cached_property
     def _start(self) -> Array:
@@ -144,7 +109,7 @@ class PreparedMechanisms:
         n = cosine.shape[1]
         out = np.empty((len(code.asked), len(which), n))
         each = max(1, TOGETHER // n)
-        invariants = self._code.invariants(code)
+        invariants = self._formulas.invariants(code)
         for low in range(0, len(which), each):
             some = slice(low, low + each)
             changed = [name for name in code.inputs if name in self._open]
@@ -162,7 +127,7 @@ class PreparedMechanisms:
         if not ready.whole or ready.signs is None or ready.bounded:  # bounds are made of each mechanism by itself
             return np.zeros(self.count, dtype=bool)
         turn = (np.broadcast_to(x, (self.count, NODES)) for x in _nodes())
-        seen = self._compute(self._code.checks, np.arange(self.count), *turn)
+        seen = self._compute(self._formulas.checks, np.arange(self.count), *turn)
         # so near to each other that nothing happens between two nodes
         steps = np.abs(seen - np.roll(seen, 1, axis=2))
         return np.asarray(((seen > CLEAR) & (steps < seen / 2)).all(axis=(0, 2)))
@@ -199,7 +164,7 @@ class PreparedMechanisms:
         if fast and n >= LOOP:
             self._loops(which, n, out.reshape(len(out), -1))
         elif len(which):
-            out[:, which] = self._compute(self._code.columns, which, *self._turns(which, n))
+            out[:, which] = self._compute(self._formulas.code, which, *self._turns(which, n))
         values = self._values(n) if self.ready.turns else np.full((self.count, n), np.nan)
         if not self.together.all():
             values = np.array(np.broadcast_to(values, (self.count, n)))
@@ -226,16 +191,16 @@ class PreparedMechanisms:
         return c.reshape(shape), s.reshape(shape)
 
     def _loops(self, which: Array, n: int, out: Array) -> None:
-        code = self._code
-        given = {**self.ready.given_names, **dict.fromkeys(self._open, 0.0)}
-        params = code.dimensioned.params(code.alone.params, given)
-        numbers = np.tile([*params, 0.0, 0.0], (self.count, 1))
-        for j, name in enumerate(code.alone.params):
+        opened = self._formulas
+        given = {**opened.fixed, **dict.fromkeys(self._open, 0.0)}
+        names = opened.by_design.params
+        numbers = np.tile([*opened.dimensioned.params(names, given), 0.0, 0.0], (self.count, 1))
+        for j, name in enumerate(names):
             if name in self._open:
                 numbers[:, j] = self._open[name]
         numbers[:, -2], numbers[:, -1] = self._start, self._way
         for k in which.tolist():
-            code.kernel.run(k * n, (k + 1) * n, numbers[k], n, -k * n, out)
+            opened.on_grid.run(k * n, (k + 1) * n, numbers[k], n, -k * n, out)
 
     def at(self, value: float | None) -> tuple[Array, Array, Array]:
         """All designs at one value of the first driver (rad, m), or each at its own: columns, shape (columns, designs),
@@ -246,7 +211,7 @@ class PreparedMechanisms:
         which = np.flatnonzero(ok)
         if len(which):
             c, s = (x[:, None] for x in GivenValues(each[which]).turn)
-            out[:, which] = self._compute(self._code.columns, which, c, s)[:, :, 0]
+            out[:, which] = self._compute(self._formulas.code, which, c, s)[:, :, 0]
         for k, design in self._alone():
             _, ok[k : k + 1] = design.columns(each[k : k + 1], out[:, k : k + 1])
         return out, ok, np.asarray(values)

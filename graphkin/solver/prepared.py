@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Hashable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -55,6 +55,7 @@ class PreparedMechanism:
         all links, some hundred times slower than the values
     loads : forces and moments that were asked for, by name: the last of the names, solved position by position as they
         have no closed form, some hundred times slower
+    open : numbers of the formulas that are given for each design
     """
 
     names: tuple[str, ...]
@@ -65,6 +66,7 @@ class PreparedMechanism:
     units: Units = (1.0, 1.0, 1.0)
     bounded: bool = False
     loads: tuple[str, ...] = ()
+    open: frozenset[Name] = frozenset()
 
     @property
     def rows(self) -> int:
@@ -171,19 +173,28 @@ class PreparedMechanism:
         return np.asarray(GIVEN * np.array([*ends, *followers]) + PRODUCTS * UNIT * turning)
 
     @cached_property
-    def _code(self) -> Code:
-        asked = self.asked if self._even else (*self.asked, *self._sines)
-        return Code(self.dimensioned.program.graph, asked, self.fixed)
+    def code(self) -> Code:
+        """What is asked; below it the sines of groups, where positions are to be looked at."""
+        asked = self.asked if self.open or self._even else (*self.asked, *self._sines)
+        return Code(self.dimensioned.program.graph, asked, self.fixed, self.open)
 
     @cached_property
-    def fixed(self) -> set[Name]:
-        """Inputs that do not change."""
-        return {*self._held, *(self.signs or ())}
+    def checks(self) -> Code:
+        """The discriminants of its groups."""
+        program = self.dimensioned.program
+        discriminants = [group.discriminant for _, group in sorted(program.groups.items())]
+        return Code(program.graph, discriminants, self.fixed, self.open)
 
     @cached_property
-    def given_names(self) -> dict[Name, float]:
+    def by_design(self) -> Code:
+        """What is asked, with what is open among the params: for one design after the other."""
+        return Code(self.dimensioned.program.graph, self.asked, {*self.fixed, *self.open})
+
+    @cached_property
+    def fixed(self) -> dict[Name, float]:
         """Numbers of the formulas that are no dimensions, as far as they are the same everywhere."""
-        return {**self._held, **(self.signs or {})}
+        numbers = {**self._held, **(self.signs or {})}
+        return {name: number for name, number in numbers.items() if name not in self.open}
 
     @cached_property
     def dimensions(self) -> dict[Dimension, complex]:
@@ -191,20 +202,31 @@ class PreparedMechanism:
         return dimensions(self.structure.scene)
 
     @cached_property
-    def opened(self) -> dict[Hashable, object]:
-        """Code with some dimensions open, by what is open, made once."""
+    def _opened(self) -> dict[Hashable, PreparedMechanism]:
         return {}
 
+    def opened(self, names: frozenset[Name], moving: tuple[bool, ...]) -> PreparedMechanism:
+        """The same with some numbers of the formulas open, to be given for each design; made once.  ``moving`` tells
+        for each driver whether it has a second rate in some of them."""
+        if (names, moving) not in self._opened:
+            dimensioned = program_of(self.structure, moving, names)
+            asked = formulas(dimensioned.program, self.structure, self.wanted, self.units)
+            made = replace(self, dimensioned=dimensioned, asked=tuple(asked.values()), open=names)
+            self._opened[names, moving] = made
+        return self._opened[names, moving]
+
     def given(self, code: Code) -> list[float]:
-        return self.dimensioned.params(code.params, self.given_names)
+        return self.dimensioned.params(code.params, self.fixed)
+
+    def invariants(self, code: Code) -> list[Array] | None:
+        """What is the same at all positions, and in all designs; found once."""
+        if code not in self._invariants:
+            self._invariants[code] = code.invariants(self.given(code))
+        return self._invariants[code]
 
     @cached_property
-    def _params(self) -> list[float]:
-        return self.given(self._code)
-
-    @cached_property
-    def _invariants(self) -> list[Array] | None:
-        return self._code.invariants(self._params)
+    def _invariants(self) -> dict[Code, list[Array] | None]:
+        return {}
 
     # one position
 
@@ -281,15 +303,16 @@ class PreparedMechanism:
     def _numbers(self) -> Array:
         """What compiled code takes: the params, then start and way of the driver over its range."""
         grid = self.range.grid(1)
-        return np.array([*self._params, grid.start, grid.way])
+        return np.array([*self.given(self.code), grid.start, grid.way])
 
     @cached_property
-    def _on_grid(self) -> Kernel:
-        return Kernel(self._code, self.turns, True, len(self.asked), SINGULAR)
+    def on_grid(self) -> Kernel:
+        """At even steps; of what is open one design after the other."""
+        return Kernel(self.by_design if self.open else self.code, self.turns, True, len(self.asked), SINGULAR)
 
     @cached_property
     def _at_values(self) -> Kernel:
-        return Kernel(self._code, self.turns, False, len(self.asked), SINGULAR)
+        return Kernel(self.code, self.turns, False, len(self.asked), SINGULAR)
 
     @cached_property
     def clear(self) -> bool:
@@ -356,7 +379,7 @@ class PreparedMechanism:
             return ok
         given: dict[Name, Array] = {} if self.signs is not None else self.signs_at(steps.values)
         if compiled:
-            kernel = self._on_grid if isinstance(steps, UniformGrid) else self._at_values
+            kernel = self.on_grid if isinstance(steps, UniformGrid) else self._at_values
             rows = [np.array([given[name] for name in kernel.signs])] if kernel.signs else []
             kernel(n, self._numbers, *steps.given, *rows, out, *([ok] if kernel.checked else []))
         else:
@@ -365,8 +388,8 @@ class PreparedMechanism:
                 given["cos", 0], given["sin", 0] = steps.turn
             else:
                 given["travel", 0] = steps.values
-            sines = np.empty((len(self._code.asked) - count, n))
-            self._code.arrays(self._invariants, [given[name] for name in self._code.inputs], [*out, *sines])
+            sines = np.empty((len(self.code.asked) - count, n))
+            self.code.arrays(self.invariants(self.code), [given[name] for name in self.code.inputs], [*out, *sines])
             for sine in sines:
                 ok &= np.abs(sine) >= SINGULAR
         return ok
@@ -394,7 +417,7 @@ class PreparedMechanism:
         out = np.empty((self.rows, n)) if out is None else out
         if fast and n < LONG and self.clear:
             # nothing but the call: at some hundred positions each line here would be felt
-            self._on_grid.run(0, n, self._numbers, n, 0, out)
+            self.on_grid.run(0, n, self._numbers, n, 0, out)
             return out, _every(n)
         return out, self._all(self.range.grid(n), out, fast)
 

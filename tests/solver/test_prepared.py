@@ -88,7 +88,7 @@ def test_many_compiled_columns_are_those_of_numpy() -> None:
 
 def test_no_compiled_loop_fills_more_columns_than_can_be_told_apart() -> None:
     ready = prepare(mechanism_of_text(scenes.FOUR_BAR, "four-bar"), MANY)
-    loops = kernel_text(ready._code, True, True, len(ready.names), 1e-7).split("for k in range(m)")[1:]
+    loops = kernel_text(ready.code, True, True, len(ready.names), 1e-7).split("for k in range(m)")[1:]
     assert [loop.count("[k] = ") - loop.count("good[k] = ") for loop in loops] == [14, 6]
 
 
