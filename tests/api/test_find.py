@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import sys
 
 import pytest
 
@@ -116,3 +117,13 @@ def test_what_is_asked_by_name_is_solved_once(monkeypatch):
     solved = graphkin.solve("shaper-scheme-2", find=["v_C", "omega_4"])
     assert (1,) == solved["v_C"].shape
     assert (1, 1) == (len(solved.table), len(asked))
+
+
+def test_a_long_sweep_has_each_position_once_whether_it_is_whole_or_comes_in_blocks(monkeypatch):
+    monkeypatch.setattr(sys.modules["graphkin.solver.driver_range"], "BLOCK", 8)
+    solved = graphkin.solve("shaper-scheme-2", sweep=20)
+    assert [8, 8, 4] == [len(block.motion) for block in solved.blocks()]
+    in_blocks = list(solved.entries())
+    assert solved.table["driver_2"] % 360 == pytest.approx(
+        [math.degrees(entry["driver"]["2"]) % 360 for entry in in_blocks], abs=1e-9)  # fmt: skip
+    assert in_blocks == list(solved.entries())

@@ -13,6 +13,7 @@ from graphkin.scene import library_text, mechanism_of
 from graphkin.solver.designs import PreparedMechanisms
 from graphkin.solver.prepared import prepare
 from graphkin.study.designs import applied
+from tests import scenes
 
 SHAPER = tomllib.loads(library_text("shaper-scheme-2"))
 FOUR_BAR = {
@@ -57,6 +58,13 @@ def off(source, designs, find, n=24):
 @pytest.mark.parametrize("key", KEYS)
 def test_a_key_of_the_file_acts_as_in_the_file(key):
     assert off(SHAPER, {key: KEYS[key]}, ASKED) < 1e-12
+
+
+def test_the_value_of_a_driver_that_is_held_is_another_in_each_design():
+    five_bar = tomllib.loads(scenes.FIVE_BAR.replace("angle = 40", "angle = 90"))
+    designs = {"driver.2.angle": np.array([60.0, 100.0, 120.0])}
+    assert graphkin.prepare(five_bar, find="v_C").over(designs)._designs.together.all()
+    assert off(five_bar, designs, ["C", "v_C", "a_C", "omega_3"]) < 1e-12
 
 
 def test_keys_act_together_as_in_the_file():

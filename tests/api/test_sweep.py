@@ -244,3 +244,12 @@ def test_positions_whose_balance_does_no_work_are_not_solved_in_a_sweep_either()
     assert 2 == swept.good
     assert np.isfinite(swept["F_1/2"][0])
     assert ["ok"] * 4 == graphkin.sweep(scene, positions=4, find=["v_C"]).table["status"].tolist()
+
+
+def test_designs_have_the_numbers_of_the_scenes_that_they_say() -> None:
+    shaper, find, lengths = graphkin.read("shaper-scheme-2"), ["v_C", "omega_4"], [80.0, 100.0]
+    swept = graphkin.sweep(shaper, find=find, positions=12, designs={"links.2.length": lengths})
+    for k, length in enumerate(lengths):
+        alone = graphkin.sweep(shaper.replace("links.2.length", length), find=find, positions=12)
+        for name in find:
+            assert alone[name] == pytest.approx(swept[name][k], rel=1e-12, abs=1e-9)
