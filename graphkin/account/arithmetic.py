@@ -16,7 +16,7 @@ from graphkin.account.notation import Letters, unit_of
 from graphkin.construction.instruments import EXACT
 from graphkin.construction.links_on_paper import pushed_by_driver
 from graphkin.construction.sheet import Sheet, either_way
-from graphkin.construction.steps import Aid, DiagramName, RateTrial, Size, Step, Superposed, Vector
+from graphkin.construction.steps import ConstructionVector, DiagramName, RateTrial, Size, Step, Superposed, Vector
 from graphkin.plane import added_up
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Units
@@ -274,7 +274,7 @@ def rule_sum(sheet: Sheet, rule: Size | None, diagram: DiagramName) -> str:
 
 def _span(sheet: Sheet, symbol: Symbol) -> float | None:
     """The length of a drawn velocity (mm), as read where a hand has."""
-    drawn: Vector | Aid | None = sheet.vectors("velocity").get(symbol)
+    drawn: Vector | ConstructionVector | None = sheet.vectors("velocity").get(symbol)
     if drawn is None:
         drawn = next((one for one in sheet.vectors_seen("velocity") if one.symbol == symbol), None)
     return None if drawn is None else _as_read(sheet, symbol, abs(drawn.span))

@@ -26,9 +26,9 @@ from graphkin.account.voice import SAME, Telling, numeral
 from graphkin.construction.sheet import Rate
 from graphkin.construction.steps import (
     GIVEN,
-    Aid,
     Arrow,
     Bar,
+    ConstructionVector,
     RateTrial,
     Ray,
     Reason,
@@ -69,10 +69,10 @@ class InPolygon(Telling):
     # -- the letters between which a step goes -------------------------------------------------------------------------
 
     @cached_property
-    def drawn(self) -> Vector | Aid | None:
+    def drawn(self) -> Vector | ConstructionVector | None:
         """The vector of a step; those of trial polygons bear no letters."""
-        strokes = self.step.strokes
-        return next((s for s in strokes if isinstance(s, Vector) or (isinstance(s, Aid) and not s.trial)), None)
+        strokes = (s for s in self.step.strokes if isinstance(s, Vector | ConstructionVector))
+        return next((s for s in strokes if isinstance(s, Vector) or not s.trial), None)
 
     @cached_property
     def places(self) -> tuple[complex, complex] | None:
@@ -374,7 +374,7 @@ class InPolygon(Telling):
         trial, step = self.step.data, self.step
         assert isinstance(trial, RateTrial)
         # the steps by which it is drawn like the true polygon
-        aids = {s.symbol for s in step.strokes if isinstance(s, Aid)}
+        aids = {s.symbol for s in step.strokes if isinstance(s, ConstructionVector)}
         later = [s for s in self.sheet.steps[step.number :] if s.diagram == step.diagram]
         first = next(s.number for s in later if s.reason == "open ends") + 1
         own = (s for s in later if s.number >= first and any(getattr(x, "symbol", None) in aids for x in s.strokes))

@@ -17,7 +17,18 @@ from typing import Any, ClassVar
 from graphkin.account.arithmetic import times_scale
 from graphkin.account.notation import Letters, pole
 from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import GIVEN, Aid, Bar, DiagramName, Direction, Mark, Reason, Size, Step, Vector
+from graphkin.construction.steps import (
+    GIVEN,
+    Bar,
+    ConstructionVector,
+    DiagramName,
+    Direction,
+    Mark,
+    Reason,
+    Size,
+    Step,
+    Vector,
+)
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Markup, Neutral, Phrase, as_markup, filled, rich_text, word
 from graphkin.words.written import in_markup
@@ -135,7 +146,7 @@ class PolygonPoints:
                 yield NamedPoint(vector.tip, symbol=vector.symbol, role=vector.role, step=step)
         known = set(self._vectors)
         for one, stroke in ((step, stroke) for step in self._steps for stroke in step.strokes):
-            if isinstance(stroke, Aid) and not stroke.trial:
+            if isinstance(stroke, ConstructionVector) and not stroke.trial:
                 symbol, tail, tip = stroke.symbol, stroke.tail, stroke.tip
             elif isinstance(stroke, Bar) and one.reason == "before its turn":
                 symbol, tail, tip = one.symbol, stroke.a, stroke.b

@@ -21,7 +21,7 @@ import numpy as np
 from graphkin.checking.readings import read_off
 from graphkin.checking.slip_likelihood import Suspect, Suspects
 from graphkin.checking.uncertainty import Uncertainty
-from graphkin.construction import NO_SLIP, GoneOn, Plan, Sheet, Slip, execute, plan
+from graphkin.construction import AS_DRAWN, GoneOn, OwnValues, Plan, Sheet, execute, plan
 from graphkin.construction.steps import Order, Term
 from graphkin.errors import GraphkinError
 from graphkin.plane import added_up, unit
@@ -190,9 +190,9 @@ def _made(alterations: Iterable[Alteration]) -> tuple[Slipped, ...]:
     return tuple(slipped)
 
 
-def _drawn(plan: Plan, slip: Slip = NO_SLIP) -> Values:
+def _drawn(plan: Plan, own_values: OwnValues = AS_DRAWN) -> Values:
     """What is read off a plan drawn with a slip."""
-    return {r.symbol: r.value for r in read_off(execute(plan, slip=slip))}.get
+    return {r.symbol: r.value for r in read_off(execute(plan, own_values=own_values))}.get
 
 
 def _assemblies(plan: Plan) -> Iterator[Alteration]:
@@ -217,7 +217,7 @@ def _terms(plan: Plan, sheet: Sheet) -> Iterator[Alteration]:
         for group in groups:
             shown = ", ".join(map(str, group))
             for key, factor, share in (slip[1:] for slip in OF_TERMS if slip[0] == role):
-                slip = Slip(term=_times(group, factor))
+                slip = OwnValues(term=_times(group, factor))
                 yield Phrase(f"slip {role} {key}", (shown,)), share / len(groups), partial(_drawn, plan, slip)
 
 
@@ -385,7 +385,7 @@ def _step(sheet: Sheet, symbol: Symbol) -> float:
     return float(sheet.drawn_in.get(symbol, math.inf))
 
 
-def _own_values(plan: Plan, base: Sheet, own: Mapping[Symbol, Value]) -> Slip:
+def _own_values(plan: Plan, base: Sheet, own: Mapping[Symbol, Value]) -> OwnValues:
     """The drawing gone on with from somebody's own values (SI) in place of the drawn ones."""
 
     def ratio(symbol: Symbol | None) -> float:
@@ -430,7 +430,7 @@ def _own_values(plan: Plan, base: Sheet, own: Mapping[Symbol, Value]) -> Slip:
     def rate(symbol: Symbol, value: float) -> float | None:
         return float(own[symbol].real) if symbol in own else None
 
-    return Slip(term, found, rate)
+    return OwnValues(term, found, rate)
 
 
 def _guide_turns(plan: Plan, of: PointRef, to: PointRef | None) -> Symbol | None:

@@ -6,11 +6,26 @@ analytic solver.
 
 from graphkin.construction.instruments import EXACT, Instrument, cad, erring, nudged, pencil
 from graphkin.construction.plan import GoneOn, Plan, Redrawn, draft, execute, plan
-from graphkin.construction.polygons import NO_SLIP, Slip
+from graphkin.construction.polygons import AS_DRAWN, OwnValues
 from graphkin.construction.scales import Room, Scales
 from graphkin.construction.sheet import Sheet
 
 __all__ = [
-    "EXACT", "NO_SLIP", "GoneOn", "Instrument", "Plan", "Redrawn", "Room", "Scales", "Sheet", "Slip", "cad", "draft",
-    "erring", "execute", "nudged", "pencil", "plan",
+    "AS_DRAWN",
+    "EXACT",
+    "GoneOn",
+    "Instrument",
+    "OwnValues",
+    "Plan",
+    "Redrawn",
+    "Room",
+    "Scales",
+    "Sheet",
+    "cad",
+    "draft",
+    "erring",
+    "execute",
+    "nudged",
+    "pencil",
+    "plan",
 ]  # fmt: skip

@@ -29,15 +29,14 @@ from graphkin.construction.equations import (
 )
 from graphkin.construction.group_plan import GroupPlan, equation_of, plan_group
 from graphkin.construction.links_on_paper import stuck
-from graphkin.construction.net import Edge, Net, VectorChain, contacts_of, node, past
 from graphkin.construction.polygons import RATE, Polygons, letter
 from graphkin.construction.proportional_division import divide, magnified
 from graphkin.construction.seen_from import Joint, contours
 from graphkin.construction.sheet import Rate
 from graphkin.construction.steps import (
     ORDERS,
-    Aid,
     Bar,
+    ConstructionVector,
     Direction,
     FarPoint,
     Mark,
@@ -49,6 +48,7 @@ from graphkin.construction.steps import (
     Vector,
 )
 from graphkin.construction.trains import rolled
+from graphkin.construction.vector_graph import RelativeMotion, VectorChain, VectorGraph, contacts_of, node, past
 from graphkin.errors import Unsolvable
 from graphkin.plane import added_up, dot, unit
 from graphkin.scene.model import Driver
@@ -72,7 +72,7 @@ def draw_element(plot: Polygons, order: Order, element: Element) -> None:
         _driven(plot, order, element)
     elif isinstance(element, Dyad):
         if element not in plot.chains:
-            chain = equation_of(_net_of(plot, element), plot.ends["velocity"])
+            chain = equation_of(_graph_of(plot, element), plot.ends["velocity"])
             if chain is None:
                 # every dyad has an equation with two unknowns, but its points must be apart on the sheet
                 raise stuck("not drawn", element.links, "points of theirs fall together on any sheet")
@@ -99,7 +99,7 @@ def _driven(plot: Polygons, order: Order, element: Driven) -> None:
     if pair.turns and name in plot.rates[order]:
         pivot = PointRef(pair.point)
         for end in first_ends(plot, name, pair.point):
-            draw_equation(plot, order, element, VectorChain.closing(Edge.of_link(pivot, end, name)))
+            draw_equation(plot, order, element, VectorChain.closing(RelativeMotion.of_link(pivot, end, name)))
         return
     known = pair.b if name == pair.a else pair.a
     share_rate(plot, order, known, name)
@@ -107,7 +107,7 @@ def _driven(plot: Polygons, order: Order, element: Driven) -> None:
     if point:
         a, b = node(plot.links, point, pair.a), node(plot.links, point, pair.b)
         labels, way = (PointRef(point, pair.b), PointRef(point, pair.a)), Direction("along", plot.guide_names(pair))
-        edge = Edge(b, a, labels, way, slide=pair)
+        edge = RelativeMotion(b, a, labels, way, slide=pair)
         draw_equation(plot, order, element, VectorChain.closing(edge if name == pair.a else edge.reversed()))
 
 
@@ -208,7 +208,7 @@ def _draw_by(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan) 
     for move in plan.moves:
         _draw_move(plot, order, group, move)
     # what moves along the guides, or slips at the contacts, and has not been drawn
-    for edge in [edge for ref in plan.net.nodes for edge in plan.net.edges[ref] if edge.forward]:
+    for edge in [edge for ref in plan.graph.nodes for edge in plan.graph.edges[ref] if edge.forward]:
         if edge.contact or (edge.slide is not None and edge.start.point == edge.slide.pin):
             symbol = plot.symbol(letter(order), edge.labels[1], edge.labels[0])
             if symbol not in plot.drawn[order] and not plot.fixed(edge.start):
@@ -255,7 +255,7 @@ def _mark_special(plot: Polygons, move: VectorChain) -> None:
     free = (next(e for e in leg if e.unknown) for leg in legs)
     d, e = (1j * _direction(plot, edge, plot.places) for edge in free)
     p, q = (plot.places[leg[-1].end.point] for leg in legs)
-    d = plot.slip.line(Symbol("v", PointRef(name)), d)
+    d = plot.own_values.line(Symbol("v", PointRef(name)), d)
     at = plot.board.cross("mechanism", p, d, q, e, name)
     plot.special.add(name)
     plot.places[name] = at
@@ -279,13 +279,13 @@ def _free_letters(plot: Polygons) -> Sequence[str]:
 
 
 def _plans(plot: Polygons, group: LargerGroup, wide: bool = False) -> Iterator[GroupPlan]:
-    """The ways in which a group can be drawn, those with the fewest trials first; ``wide`` as in `Net`."""
-    net = _net_of(plot, group, wide)
-    return plan_group(net, partial(_direction, plot), _free_letters(plot))
+    """The ways in which a group can be drawn, those with the fewest trials first; ``wide`` as in `VectorGraph`."""
+    graph = _graph_of(plot, group, wide)
+    return plan_group(graph, partial(_direction, plot), _free_letters(plot))
 
 
-def _net_of(plot: Polygons, group: Dyad | LargerGroup, wide: bool = False) -> Net:
-    """The points of a group and their relative motions; ``wide`` as in `Net`."""
+def _graph_of(plot: Polygons, group: Dyad | LargerGroup, wide: bool = False) -> VectorGraph:
+    """The points of a group and their relative motions; ``wide`` as in `VectorGraph`."""
     driven: Collection[str] = ()
     rolling: Mapping[str, tuple[str, tuple[str, str]]] = {}
     if isinstance(group, Dyad):
@@ -300,7 +300,7 @@ def _net_of(plot: Polygons, group: Dyad | LargerGroup, wide: bool = False) -> Ne
     names = {p.key: plot.guide_names(p) for p in pairs if not p.turns}
     contacts = contacts_of(plot.structure, group) if plot.at_contacts else ()
     gone = {c.block for c in contacts}
-    return Net(
+    return VectorGraph(
         plot.links, plot.places, plot.ground, plot.tiny, [name for name in group.members if name not in gone],
         past(pairs, gone), joints, same_turn(plot, group), names, driven, isinstance(group, LargerGroup), contacts,
         rolling, [(held, n) for held, rest in contours for n in rest.links], wide,
@@ -330,7 +330,7 @@ def _mark_pitch_point(plot: Polygons, name: str) -> str:
     return letter
 
 
-def _direction(plot: Polygons, edge: Edge, places: Mapping[str, complex]) -> complex:
+def _direction(plot: Polygons, edge: RelativeMotion, places: Mapping[str, complex]) -> complex:
     if edge.rolling:
         return 1j * plot.touch(edge.rolling).normal
     if edge.slide is not None:
@@ -412,7 +412,7 @@ def _turn_driven(plot: Polygons, order: Order, rest: LargerGroup) -> None:
             continue
         for end in first_ends(plot, name, pair.point):
             if end not in plot.ends[order]:
-                draw_equation(plot, order, rest, VectorChain.closing(Edge.of_link(pivot, end, name)))
+                draw_equation(plot, order, rest, VectorChain.closing(RelativeMotion.of_link(pivot, end, name)))
 
 
 def _draw_contours(plot: Polygons, order: Order, group: LargerGroup) -> None:
@@ -496,13 +496,13 @@ class Trials:
         once = [base * (1.0 if t.kind == "turning" else scene.size) for t in self.plan.tried]
         return [[0.0] * len(once), *([x if i == j else 0.0 for j, x in enumerate(once)] for i in range(len(once)))]
 
-    def along(self, edge: Edge, across: bool) -> complex:
+    def along(self, edge: RelativeMotion, across: bool) -> complex:
         """Direction in which what an edge leaves open is measured: along it, or square to it."""
         way = _direction(self.plot, edge, self.plot.places)
         way = way if edge.slide is not None or edge.contact else -1j * way
         return 1j * way if across else way
 
-    def gap(self, trial: Polygons, edge: Edge, across: bool) -> float | None:
+    def gap(self, trial: Polygons, edge: RelativeMotion, across: bool) -> float | None:
         """How far ends that should meet lie apart (mm) after a trial; None where that is not known."""
         parts = parts_of(trial, self.order, replace(edge, unknown=None))
         missing = trial.end(self.order, edge.end) - trial.end(self.order, edge.start)
@@ -520,8 +520,8 @@ class Trials:
         the plan with the ends by which the true rates are known."""
         plan, order = self.plan, self.order
         # no point of a sliding pair without a pin is a joint
-        edges = [edge for ref in plan.net.nodes for edge in plan.net.edges[ref] if edge.forward and (
-            (edge.slide is not None and edge.slide.pin is None) or plan.net.natural >= {edge.start, edge.end})]
+        edges = [edge for ref in plan.graph.nodes for edge in plan.graph.edges[ref] if edge.forward and (
+            (edge.slide is not None and edge.slide.pin is None) or plan.graph.natural >= {edge.start, edge.end})]
         keys = [(edge, across) for edge in edges for across in (False, True)]
         try:
             trials = [self.polygon(number, rates) for number, rates in enumerate(self.rates(), 1)]
@@ -592,7 +592,8 @@ class Trials:
                 if step.diagram == "mechanism":  # special points met with first
                     plot.do(step)
             steps = [step for step in trial.board.steps if step.diagram == order]
-            strokes = [replace(s, trial=number) for step in steps for s in step.strokes if isinstance(s, Aid)]
+            vectors = (s for step in steps for s in step.strokes if isinstance(s, ConstructionVector))
+            strokes = [replace(vector, trial=number) for vector in vectors]
             told = RateTrial(number, self.as_symbols(assumed), far)
             plot.do(Step("trial", "polygon", order, tuple(strokes), data=told))
         shared = [ref for ref in ends[0] if all(ref in end for end in ends)]
@@ -611,7 +612,7 @@ class Trials:
         plot.do(Step("divide", "open ends", order, data=divided))
         return found
 
-    def _taken_off(self, trial: Polygons, edge: Edge, across: bool) -> Iterator[tuple[Term, float]]:
+    def _taken_off(self, trial: Polygons, edge: RelativeMotion, across: bool) -> Iterator[tuple[Term, float]]:
         """What is known of an edge and has a part in the direction in which it is left open."""
         way = self.along(edge, across)
         for p in parts_of(trial, self.order, replace(edge, unknown=None)):

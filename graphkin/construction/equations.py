@@ -11,16 +11,29 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import Literal
 
-from graphkin.construction.net import Edge, Unknown, VectorChain, contacts_of, links_alike, node
 from graphkin.construction.polygons import PARTS, RATE, Polygons, letter
 from graphkin.construction.sheet import Equation, Rate
-from graphkin.construction.steps import GIVEN, ORDERS, Aid, Bar, Direction, Mark, Order, Ray, Size, Step, Term, Vector
+from graphkin.construction.steps import (
+    GIVEN,
+    ORDERS,
+    Bar,
+    ConstructionVector,
+    Direction,
+    Mark,
+    Order,
+    Ray,
+    Size,
+    Step,
+    Term,
+    Vector,
+)
+from graphkin.construction.vector_graph import RelativeMotion, Unknown, VectorChain, contacts_of, links_alike, node
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Pair
 from graphkin.words.written import MOST, figures, on_paper
 
-Side = list[tuple[Edge, list[Term]]]
+Side = list[tuple[RelativeMotion, list[Term]]]
 
 
 # -- links that turn alike ---------------------------------------------------------------------------------------------
@@ -104,9 +117,9 @@ def first_ends(plot: Polygons, name: str, hinge: str) -> list[PointRef]:
 # -- equations drawn ---------------------------------------------------------------------------------------------------
 
 
-def _side_of(plot: Polygons, order: Order, path: Sequence[Edge]) -> Side:
+def _side_of(plot: Polygons, order: Order, path: Sequence[RelativeMotion]) -> Side:
     """The terms of each edge along one side of an equation."""
-    return [(edge, [plot.slip.term(part) for part in parts_of(plot, order, edge)]) for edge in path]
+    return [(edge, [plot.own_values.term(part) for part in parts_of(plot, order, edge)]) for edge in path]
 
 
 def _parts(side: Side) -> list[Term]:
@@ -229,8 +242,8 @@ def _lines_meet(
 ) -> complex:  # fmt: skip
     """Lines along two vectors of unknown size, each through a point; where they cross the vector ``symbol`` from
     ``tail`` ends."""
-    (p, left), (q, right) = ((at, plot.slip.line(part.symbol, part.along)) for at, part in lines)
-    meeting = plot.slip.found(symbol, tail, plot.board.cross(order, p, left, q, right, symbol))
+    (p, left), (q, right) = ((at, plot.own_values.line(part.symbol, part.along)) for at, part in lines)
+    meeting = plot.own_values.found(symbol, tail, plot.board.cross(order, p, left, q, right, symbol))
     for through, part in lines:
         ray = Ray(through, part.along, meeting, part.direction, part.symbol)
         plot.do(Step("line", "direction", order, (ray,), equation, symbol=part.symbol, direction=part.direction))
@@ -238,7 +251,7 @@ def _lines_meet(
 
 
 def draw_relative(
-    plot: Polygons, order: Order, group: LargerGroup, symbol: Symbol, paths: Sequence[Sequence[Edge]]
+    plot: Polygons, order: Order, group: LargerGroup, symbol: Symbol, paths: Sequence[Sequence[RelativeMotion]]
 ) -> complex:
     """The vector of one moving point relative to another, drawn from the pole by two ways that have no known start."""
     sides = [_side_of(plot, order, path) for path in paths]
@@ -250,7 +263,7 @@ def draw_relative(
         at = _carry(plot, order, (part for part in _parts(side) if part.span), 0j, number)
         lines.append((at, _open(side)[0]))
     meeting = _lines_meet(plot, order, symbol, 0j, lines, number)
-    found = Aid(symbol, 0j, meeting, plot.trial)
+    found = ConstructionVector(symbol, 0j, meeting, plot.trial)
     plot.do(Step("read", "vector", order, (found,), number, symbol=symbol, mm=abs(meeting)))
     return meeting
 
@@ -269,7 +282,7 @@ def _draw_parallel_legs(plot: Polygons, order: Order, group: LargerGroup, legs: 
     edge, turning = next((e, p) for e, p in unknown if e.link == legs.link and e.unknown == Unknown("turning", own))
     free = [p for e, p in unknown if e is not edge][-1]  # both legs leave that free
     meeting = _lines_meet(plot, order, turning.symbol, start, [(start, turning), (goal, free)], number)
-    found = Aid(turning.symbol, start, meeting, 0)
+    found = ConstructionVector(turning.symbol, start, meeting, 0)
     mm = plot.found_mm(turning.symbol, meeting - start)
     plot.do(Step("read", "vector", order, (found,), number, symbol=turning.symbol, mm=mm))
     _rate(plot, order, edge, turning.symbol, meeting - start, group)
@@ -292,7 +305,7 @@ def _fill(plot: Polygons, order: Order, side: Side, tip: complex, tail: complex,
     for edge, parts in side:
         for part in parts:
             if part.span is None:
-                found = Vector(part.symbol, tail, plot.slip.found(part.symbol, tail, tip), part.role)
+                found = Vector(part.symbol, tail, plot.own_values.found(part.symbol, tail, tip), part.role)
                 plot.board.notice(order, "zero vector", part.symbol, size=abs(found.span))
                 mm = plot.found_mm(part.symbol, found.span)
                 plot.record(found, Step("read", "vector", order, (), equation, symbol=part.symbol, mm=mm))
@@ -306,7 +319,7 @@ def _fill(plot: Polygons, order: Order, side: Side, tip: complex, tail: complex,
             plot.reach(order, edge.end, at, equation)
 
 
-def _rate(plot: Polygons, order: Order, edge: Edge, symbol: Symbol, span: complex, group: Element) -> None:
+def _rate(plot: Polygons, order: Order, edge: RelativeMotion, symbol: Symbol, span: complex, group: Element) -> None:
     """The angular rate of a link, measured from a vector between two points of it and the bar that joins these."""
     arm = plot.places[edge.end.point] - plot.places[edge.start.point]
     # in a trial the ends need not meet: only the part square to the bar turns it
@@ -315,7 +328,7 @@ def _rate(plot: Polygons, order: Order, edge: Edge, symbol: Symbol, span: comple
     read = abs(hand.read(mm) if plot.trial else plot.board.read(symbol, mm))
     size = hand.noted(read * plot.per[order] / plot.length(arm, edge.bar), min(MOST - 1, figures(on_paper(read))))
     value = size if cross(arm, span) >= 0 else -size
-    own = plot.slip.rate(Symbol(rate, link=edge.link), value)
+    own = plot.own_values.rate(Symbol(rate, link=edge.link), value)
     if own is not None:
         plot.believed.add((order, edge.link))
     source = symbol if symbol in plot.drawn[order] else None
@@ -329,7 +342,7 @@ def _rate(plot: Polygons, order: Order, edge: Edge, symbol: Symbol, span: comple
 # -- terms -------------------------------------------------------------------------------------------------------------
 
 
-def parts_of(plot: Polygons, order: Order, edge: Edge) -> list[Term]:
+def parts_of(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Term]:
     """The terms of the motion of an edge's end relative to its start."""
     if edge.joint is not None:
         return _driven_joint_parts(plot, order, edge, edge.joint)
@@ -348,7 +361,7 @@ def parts_of(plot: Polygons, order: Order, edge: Edge) -> list[Term]:
     return _rigid_parts(plot, order, edge)
 
 
-def symbol_of(plot: Polygons, kind: str, edge: Edge) -> Symbol:
+def symbol_of(plot: Polygons, kind: str, edge: RelativeMotion) -> Symbol:
     """The motion of an edge's end relative to its start, or a part of it, by its letters."""
     if kind in ("v", "a") and plot.fixed(edge.start):
         return plot.symbol(kind, edge.end)
@@ -356,7 +369,7 @@ def symbol_of(plot: Polygons, kind: str, edge: Edge) -> Symbol:
 
 
 def _term(
-    plot: Polygons, edge: Edge, kind: str, along: complex, mm: float | None, written: Direction,
+    plot: Polygons, edge: RelativeMotion, kind: str, along: complex, mm: float | None, written: Direction,
     size: Size | None = None,
 ) -> Term:  # fmt: skip
     """A term of an edge.
@@ -385,13 +398,13 @@ def _by_rate(
     return Size("rate", links, factor, rate, square, twice)
 
 
-def _coriolis(plot: Polygons, edge: Edge, link: str, along: complex, mm: float, written: Direction) -> Term:
+def _coriolis(plot: Polygons, edge: RelativeMotion, link: str, along: complex, mm: float, written: Direction) -> Term:
     """The term of Coriolis: twice the rate of a link times the relative velocity of the edge."""
     size = _by_rate(plot, (link,), symbol_of(plot, "v", edge), twice=True)
     return _term(plot, edge, "ak", along, mm, written, size)
 
 
-def _rigid_parts(plot: Polygons, order: Order, edge: Edge) -> list[Term]:
+def _rigid_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Term]:
     """Two points of one link: omega times their distance, square to it; omega squared towards the start, and alpha."""
     if edge.link in plot.still:
         return []
@@ -411,7 +424,7 @@ def _rigid_parts(plot: Polygons, order: Order, edge: Edge) -> list[Term]:
     return [normal, _term(plot, edge, "at", square, mm, edge.direction, rule)]
 
 
-def _driven_joint_parts(plot: Polygons, order: Order, edge: Edge, joint: DrivenJoint) -> list[Term]:
+def _driven_joint_parts(plot: Polygons, order: Order, edge: RelativeMotion, joint: DrivenJoint) -> list[Term]:
     """A point of a link that a driver turns about a hinge of another link, relative to that link."""
     hinge, per = joint.pair.point, plot.per[order]
     arm = plot.places[edge.end.point] - plot.places[hinge]
@@ -431,7 +444,7 @@ def _driven_joint_parts(plot: Polygons, order: Order, edge: Edge, joint: DrivenJ
     ]
 
 
-def _contour_parts(plot: Polygons, order: Order, edge: Edge) -> list[Term]:
+def _contour_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Term]:
     """The point of one link of a contour relative to that of another, as a polygon with one of them held still gave it;
     with the term of Coriolis, for that one turns."""
     seen = plot.seen[edge.held]
@@ -451,14 +464,14 @@ def _contour_parts(plot: Polygons, order: Order, edge: Edge) -> list[Term]:
     return parts
 
 
-def _slip_read(plot: Polygons, edge: Edge, sense: complex) -> tuple[float, float]:
+def _slip_read(plot: Polygons, edge: RelativeMotion, sense: complex) -> tuple[float, float]:
     """The relative velocity of an edge's ends as read (m/s): its size, and that along a sense."""
     slip = plot.end("velocity", edge.end) - plot.end("velocity", edge.start)
     speed = plot.slip_mm(symbol_of(plot, "v", edge), slip) * plot.scales.velocity
     return speed, speed if dot(slip, sense) >= 0 else -speed
 
 
-def _slide_parts(plot: Polygons, order: Order, edge: Edge, slide: Pair) -> list[Term]:
+def _slide_parts(plot: Polygons, order: Order, edge: RelativeMotion, slide: Pair) -> list[Term]:
     """Both sides of a sliding pair: the rest runs along the guide, Coriolis square to it; a curved guide adds the
     square of the sliding velocity over the radius of curvature, towards its centre."""
     sense = plot.paper.poses[slide.b].axis * slide.guide.direction * (1 if edge.forward else -1)
@@ -481,7 +494,7 @@ def _slide_parts(plot: Polygons, order: Order, edge: Edge, slide: Pair) -> list[
     return [*parts, _term(plot, edge, "ar", sense, mm, edge.direction, size)]
 
 
-def _contact_parts(plot: Polygons, order: Order, edge: Edge) -> list[Term]:
+def _contact_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Term]:
     """The material point of one body at a contact relative to that of the other: slip along the tangent; with the term
     of Coriolis, and along the normal what the curvatures of both outlines give."""
     one, two = (ref.link for ref in edge.labels)
@@ -509,7 +522,7 @@ def _contact_parts(plot: Polygons, order: Order, edge: Edge) -> list[Term]:
     return parts[1:] if one in plot.still else parts
 
 
-def _rolling_parts(plot: Polygons, order: Order, edge: Edge) -> list[Term]:
+def _rolling_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Term]:
     """The material point of one link where it rolls relative to that of the other: they have one velocity, and their
     accelerations differ along the normal alone, by what the curvatures give."""
     if order == "velocity":

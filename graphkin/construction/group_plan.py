@@ -19,8 +19,8 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 
-from graphkin.construction.net import Edge, Net, Path, Unknown, VectorChain
 from graphkin.construction.steps import FarPoint
+from graphkin.construction.vector_graph import Path, RelativeMotion, Unknown, VectorChain, VectorGraph
 from graphkin.plane import cross, cross_lines, unit
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import LargerGroup
@@ -45,9 +45,9 @@ class GroupPlan:
 
     moves: tuple[VectorChain, ...]
     tried: tuple[Unknown, ...]
-    net: Net
+    graph: VectorGraph
     parallel: tuple[tuple[str, str, str], ...] = ()
-    open_ends: tuple[tuple[Edge, bool], ...] = ()
+    open_ends: tuple[tuple[RelativeMotion, bool], ...] = ()
     assumed: Mapping[str, tuple[tuple[float, ...], ...]] = field(default_factory=dict)
     far: FarPoint | None = None
     contours: tuple[tuple[str, LargerGroup], ...] = ()
@@ -61,8 +61,8 @@ class _Search:
     far : special points of two moving links met with that are no use, of all searches
     """
 
-    net: Net
-    along: Callable[[Edge, Mapping[str, complex]], complex]
+    graph: VectorGraph
+    along: Callable[[RelativeMotion, Mapping[str, complex]], complex]
     letters: Iterator[str]
     nodes: set[PointRef]
     known: set[Unknown]
@@ -72,35 +72,35 @@ class _Search:
 
     # -- what is known -------------------------------------------------------------------------------------------------
 
-    def seen(self, edge: Edge) -> Edge:
+    def seen(self, edge: RelativeMotion) -> RelativeMotion:
         """An edge with what is unknown of it now."""
         return replace(edge, unknown=None) if edge.unknown in self.known else edge
 
     def of(self, link: str) -> list[PointRef]:
-        return [n for n in self.net.nodes if link in self.net.owners[n]]
+        return [n for n in self.graph.nodes if link in self.graph.owners[n]]
 
     def turns(self, link: str) -> bool:
         """Whether the rate of a link is known."""
-        one = self.net.turning(link)
-        return one.name not in self.net.inside or one in self.known
+        one = self.graph.turning(link)
+        return one.name not in self.graph.inside or one in self.known
 
     @property
     def size(self) -> float:
         """How far the farthest point lies from the origin."""
-        return max((abs(z) for z in self.net.places.values()), default=1.0) or 1.0
+        return max((abs(z) for z in self.graph.places.values()), default=1.0) or 1.0
 
     def settle(self) -> None:
         """All points of a link that turns at a known rate about a known point."""
         grown = True
         while grown:
             grown = False
-            for link in self.net.inside:
+            for link in self.graph.inside:
                 mine = self.of(link)
                 if self.turns(link) and not self.nodes.issuperset(mine) and self.nodes.intersection(mine):
                     self.nodes.update(mine)
                     grown = True
 
-    def learn(self, path: Sequence[Edge]) -> None:
+    def learn(self, path: Sequence[RelativeMotion]) -> None:
         for edge in path:
             if edge.link and edge.unknown:
                 self.known.add(edge.unknown)
@@ -116,7 +116,7 @@ class _Search:
 
         A way may come back to where it began, with more than the ``shortest`` number of edges besides the last.
         """
-        stack: list[Path] = [(e,) for e in self.net.edges[start]]
+        stack: list[Path] = [(e,) for e in self.graph.edges[start]]
         while stack:
             path = stack.pop()
             at = path[-1].end
@@ -129,29 +129,29 @@ class _Search:
             if at in self.nodes or len(path) >= LONGEST:
                 continue
             visited = {e.end for e in path}
-            stack += [(*path, e) for e in self.net.edges[at] if e.end not in visited and (
+            stack += [(*path, e) for e in self.graph.edges[at] if e.end not in visited and (
                 e.end != start or len(path) > shortest)]
 
     def strange(self, path: Path) -> int:
         """How many points of a way are no joints."""
-        return len({n for e in path for n in (e.start, e.end)} - self.net.natural)
+        return len({n for e in path for n in (e.start, e.end)} - self.graph.natural)
 
     # -- moves, each tried in turn -------------------------------------------------------------------------------------
 
     def close(self) -> bool:
         """A rate that two known points of a link give."""
-        for link in self.net.inside:
+        for link in self.graph.inside:
             if self.turns(link):
                 continue
             pairs = [
-                e for n in self.of(link) if n in self.nodes for e in self.net.edges[n]
+                e for n in self.of(link) if n in self.nodes for e in self.graph.edges[n]
                 if e.link == link and e.end in self.nodes
             ]  # fmt: skip
             if pairs:
                 # from what was known before to what was found: from the frame where it can be
-                places = self.net.places
+                places = self.graph.places
                 best = max(pairs, key=lambda e: (
-                    -self.strange((e,)), e.start in self.net.fixed, e.start in self.net.known,
+                    -self.strange((e,)), e.start in self.graph.fixed, e.start in self.graph.known,
                     abs(places[e.end.point] - places[e.start.point]), e.forward,
                 ))  # fmt: skip
                 return self.drawn(VectorChain.closing(self.seen(best)), (best,))
@@ -163,9 +163,9 @@ class _Search:
         self.learn(path)
         return True
 
-    def way(self, edge: Edge) -> complex:
+    def way(self, edge: RelativeMotion) -> complex:
         """Direction of the relative motion of an edge."""
-        return self.along(edge, self.net.places)
+        return self.along(edge, self.graph.places)
 
     def reach(self) -> bool:
         """A way from a known point with nothing unknown to a link of which no point is known; or one with one unknown
@@ -175,14 +175,14 @@ class _Search:
                 if len(path) > 1 and not self.nodes.issuperset(e.end for e in path):
                     return self.drawn(VectorChain.closing(*path), path)
             for path in self.ways(start, 0, lambda n: n not in self.nodes):
-                links = [name for name in self.net.owners[path[-1].end] if name in self.net.inside]
+                links = [name for name in self.graph.owners[path[-1].end] if name in self.graph.inside]
                 if all(self.nodes.isdisjoint(self.of(name)) for name in links):
                     return self.drawn(VectorChain.closing(*path), path)
         return False
 
     def in_order(self) -> list[PointRef]:
         """The known points."""
-        return sorted(self.nodes, key=self.net.order.__getitem__)
+        return sorted(self.nodes, key=self.graph.order.__getitem__)
 
     def cross(self) -> bool:
         """The best equation with two unknown sizes."""
@@ -191,7 +191,7 @@ class _Search:
             two = [e for e in path if e.unknown]
             sine = abs(cross(self.way(two[0]), self.way(two[1]))) if len(two) == 2 else 0.0
             cost = (float(sine < 0.05), len(path) + 0.6 * self.strange(path) - sine,
-                    float(self.net.order[path[0].start]))  # fmt: skip
+                    float(self.graph.order[path[0].start]))  # fmt: skip
             if sine >= FLAT and (best is None or cost < best[0]):
                 best = cost, path
         if best is None:
@@ -201,7 +201,7 @@ class _Search:
 
     def legs(self, link: str) -> list[Path]:
         """Ways from known points to a link, each with one unknown that is not the link's own rate."""
-        own, mine = self.net.turning(link), set(self.of(link))
+        own, mine = self.graph.turning(link), set(self.of(link))
         best: dict[Unknown, Path] = {}
         for path in (path for start in self.in_order() for path in self.ways(start, 1, mine.__contains__)):
             unknown = next((e.unknown for e in path if e.unknown), None)
@@ -216,7 +216,7 @@ class _Search:
         """The special point that gives the best crossings, of any link that has one, but of these."""
         best: tuple[float, str, tuple[Path, Path], complex] | None = None
         flat: tuple[str, Path, Path] | None = None
-        for link in self.net.inside:
+        for link in self.graph.inside:
             if ("", link) in left_out or self.turns(link) or self.nodes.intersection(self.of(link)):
                 continue
             legs = self.legs(link)
@@ -235,7 +235,7 @@ class _Search:
         if best is not None:
             _, link, sides, at = best
             letter = next(self.letters)
-            ref = self.net.add(link, letter, at)
+            ref = self.graph.add(link, letter, at)
             self.nodes.add(ref)
             one, two = ((*leg, *self.on_line(leg, leg[-1].end, ref, link)) for leg in sides)
             self.moves.append(VectorChain(ref, (one, two), link))
@@ -244,7 +244,8 @@ class _Search:
         if flat is None:
             return False
         link, one, two = flat
-        bar = next((self.seen(e) for e in self.net.edges[one[-1].end] if e.link == link and e.end == two[-1].end), None)
+        edges = self.graph.edges[one[-1].end]
+        bar = next((self.seen(e) for e in edges if e.link == link and e.end == two[-1].end), None)
         if bar is None or abs(cross(self.way(bar), self.line(one)[1] * 1j)) < FLAT:
             return False
         self.moves.append(VectorChain.closing(*one, bar, *(e.reversed() for e in reversed(two)), link=link))
@@ -256,15 +257,15 @@ class _Search:
     def on_line(self, leg: Path, joint: PointRef, ref: PointRef, link: str) -> Path:
         """From the joint of a leg to the special point, written as the leg's own direction, for the two lie along one
         line; nothing where it is the joint itself."""
-        if abs(self.net.places[joint.point] - self.net.places[ref.point]) <= self.net.tiny:
+        if abs(self.graph.places[joint.point] - self.graph.places[ref.point]) <= self.graph.tiny:
             return ()
         free = next(e for e in leg if e.unknown)
-        return (Edge(joint, ref, (joint, ref), free.direction, link=link, unknown=self.net.turning(link)),)
+        return (RelativeMotion(joint, ref, (joint, ref), free.direction, link=link, unknown=self.graph.turning(link)),)
 
     def line(self, leg: Path) -> tuple[complex, complex]:
         """The line of a leg: through its joint on the link, square to the direction in which it leaves that free."""
         free = next(e for e in leg if e.unknown)
-        return self.net.places[leg[-1].end.point], 1j * self.way(free)
+        return self.graph.places[leg[-1].end.point], 1j * self.way(free)
 
     def crossing(self, one: Path, two: Path) -> tuple[complex | None, float, float]:
         """Where the lines of two legs cross, the sine of their angle, and how far it is from between their joints."""
@@ -274,7 +275,7 @@ class _Search:
 
     def _third(self, leg: Path, at: complex) -> float:
         p, d = self.line(leg)
-        return abs(cross(unit(p - at), d)) if abs(p - at) > self.net.tiny else 0.0
+        return abs(cross(unit(p - at), d)) if abs(p - at) > self.graph.tiny else 0.0
 
     # -- the special point of two links that both move -----------------------------------------------------------------
 
@@ -296,7 +297,7 @@ class _Search:
             return False
         _, links, sides, at = best
         letter = next(self.letters)
-        self.net.tie(links, letter, at)
+        self.graph.tie(links, letter, at)
         base, ref = (PointRef(letter, name) for name in links)
         # what both links turn by lies along the line that the leg leaves free: its size is not asked
         paths = tuple((*(e.reversed() for e in self.on_line(leg, leg[0].start, base, links[0])), *leg,
@@ -307,11 +308,11 @@ class _Search:
 
     def _legs_between(self, left_out: Collection[tuple[str, str]]) -> Mapping[tuple[str, str], Sequence[Path]]:
         """For each two links, but of these, the shortest way by each unknown that joins them."""
-        owners, names = self.net.owners, [name for name in self.net.inside if "/" not in name]
-        turning = {name: self.net.turning(name) for name in names}
+        owners, names = self.graph.owners, [name for name in self.graph.inside if "/" not in name]
+        turning = {name: self.graph.turning(name) for name in names}
         found: dict[tuple[str, str], dict[Unknown, Path]] = {}
         for i, one in enumerate(names):
-            others = {n: [two for two in names[i + 1 :] if two in owners[n]] for n in self.net.nodes}
+            others = {n: [two for two in names[i + 1 :] if two in owners[n]] for n in self.graph.nodes}
             for path in self._ways_off(one):
                 unknown = next((e.unknown for e in path if e.unknown), None)
                 for two in others[path[-1].end] if unknown else ():
@@ -328,7 +329,7 @@ class _Search:
         while stack:
             path = stack.pop()
             for start in (path[-1].end,) if path else self.of(link):
-                for edge in map(self.seen, self.net.edges[start]):
+                for edge in map(self.seen, self.graph.edges[start]):
                     if edge.link == link or edge.end in self.nodes or (
                             edge.unknown and any(e.unknown for e in path)):
                         continue
@@ -339,8 +340,8 @@ class _Search:
     def _straight(self, leg: Path) -> bool:
         """Whether a leg's joints on both links lie on its line, so that neither's turning moves it along that."""
         end, way = self.line(leg)
-        arm = end - self.net.places[leg[0].start.point]
-        return abs(arm) <= self.net.tiny or abs(cross(unit(arm), way)) < OFF
+        arm = end - self.graph.places[leg[0].start.point]
+        return abs(arm) <= self.graph.tiny or abs(cross(unit(arm), way)) < OFF
 
     # -- the whole -----------------------------------------------------------------------------------------------------
 
@@ -366,18 +367,18 @@ class _Search:
         return [(m.base, m.link) for m in self.moves if m.is_special]
 
     def done(self) -> bool:
-        return all(self.turns(link) and self.nodes.intersection(self.of(link)) for link in self.net.inside)
+        return all(self.turns(link) and self.nodes.intersection(self.of(link)) for link in self.graph.inside)
 
     def unknowns(self) -> list[Unknown]:
         """What can be assumed: rates of links, those next to known links first; then those of sliding pairs."""
-        edges = [e for n in self.net.nodes for e in self.net.edges[n] if e.unknown and e.unknown not in self.known]
+        edges = [e for n in self.graph.nodes for e in self.graph.edges[n] if e.unknown and e.unknown not in self.known]
         near = [e for e in edges if e.link and (e.start in self.nodes or e.end in self.nodes)]
         turning = [e for e in edges if e.link]
         sliding = [e for e in edges if e.slide is not None]
         return list(dict.fromkeys(e.unknown for e in (*near, *turning, *sliding) if e.unknown))
 
 
-def equation_of(net: Net, drawn: Collection[PointRef]) -> VectorChain | None:
+def equation_of(graph: VectorGraph, drawn: Collection[PointRef]) -> VectorChain | None:
     """The shortest equation with two unknown sizes of a dyad's links and all pairs that hold them; None where it has
     none.
 
@@ -385,7 +386,7 @@ def equation_of(net: Net, drawn: Collection[PointRef]) -> VectorChain | None:
     ----------
     drawn : nodes that stand in the polygon already (preferred as starting points)
     """
-    search = _Search(net, lambda *_: 1j, iter(()), set(net.known), set(), [])
+    search = _Search(graph, lambda *_: 1j, iter(()), set(graph.known), set(), [])
     # it may come back to where it begins: a pin that both guides belong to
     paths = [path for start in search.in_order() for path in search.ways(start, 2, search.nodes.__contains__, 0)
              if sum(bool(e.unknown) for e in path) == 2]  # fmt: skip
@@ -393,7 +394,7 @@ def equation_of(net: Net, drawn: Collection[PointRef]) -> VectorChain | None:
     def cost(path: Path) -> tuple[float, bool, int]:
         ends = sum(n not in drawn for n in (path[0].start, path[-1].end))
         start = path[0].start
-        return len(path) + 0.6 * search.strange(path) + 0.1 * ends, start in net.fixed, net.order[start]
+        return len(path) + 0.6 * search.strange(path) + 0.1 * ends, start in graph.fixed, graph.order[start]
 
     best = min(reversed(paths), key=cost, default=None)
     return None if best is None else split(best, [i for i, e in enumerate(best) if e.unknown][1])
@@ -405,7 +406,7 @@ def split(path: Path, at: int) -> VectorChain:
 
 
 def plan_group(
-    net: Net, along: Callable[[Edge, Mapping[str, complex]], complex], letters: Sequence[str]
+    graph: VectorGraph, along: Callable[[RelativeMotion, Mapping[str, complex]], complex], letters: Sequence[str]
 ) -> Iterator[GroupPlan]:
     """The ways in which a group can be drawn, those with the fewest trials first.
 
@@ -414,7 +415,7 @@ def plan_group(
     along : direction of the relative motion of an edge
     letters : free letters for special points
     """
-    start = _Search(net, along, iter(letters), set(net.known), set(), [])
+    start = _Search(graph, along, iter(letters), set(graph.known), set(), [])
     for trials in range(MOST_TRIALS + 1):
         for relative in (False, True):  # a special point of two moving links is looked for where no other serves
             served = False
@@ -423,7 +424,7 @@ def plan_group(
                 if search is not None:
                     served = True
                     far = min(start.far, key=lambda point: point.away, default=None) if tried else None
-                    yield GroupPlan(tuple(search.moves), tried, search.net, tuple(search.parallel), far=far)
+                    yield GroupPlan(tuple(search.moves), tried, search.graph, tuple(search.parallel), far=far)
             if served:
                 return
 
@@ -434,7 +435,7 @@ def _searched(start: _Search, tried: Sequence[Unknown], letters: Sequence[str], 
 
     def found(left_out: Collection[tuple[str, str]]) -> _Search | None:
         known = {*start.known, *tried}
-        search = _Search(start.net.copy(), start.along, iter(letters), set(start.nodes), known, start.far)
+        search = _Search(start.graph.copy(), start.along, iter(letters), set(start.nodes), known, start.far)
         return search if search.run(relative, left_out) else None
 
     left_out: tuple[tuple[str, str], ...] = ()

@@ -22,7 +22,7 @@ import numpy as np
 
 from graphkin.construction.follow import Pace, best_first, drawn_near, fitted, walk
 from graphkin.construction.instruments import EXACT
-from graphkin.construction.links_on_paper import PlacedLinks, Story, drive, meet
+from graphkin.construction.links_on_paper import PlacedLinks, Steps, drive, meet
 from graphkin.construction.proportional_division import divide, shares
 from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.steps import Bar, CompassArc, Missed, Step, Stroke, TrialCurve, TrialPositions, TrialRow
@@ -84,19 +84,19 @@ def place_by_trial(paper: PlacedLinks, reduced: ReducedMechanism, poses: Poses) 
     raise stops[0]
 
 
-def trial_steps(paper: PlacedLinks, so_far: PlacedLinks, reduced: ReducedMechanism) -> Story:
+def trial_steps(paper: PlacedLinks, so_far: PlacedLinks, reduced: ReducedMechanism) -> Steps:
     """What is drawn to place a group: the trial curve with what it must meet, then each part of it in its place."""
     poses = {**so_far.poses, **{n: paper.poses[n] for n in reduced.group.members}}
     values = np.array(reduced.values(poses, paper.mm))
-    story: list[Step] = []
+    steps: list[Step] = []
     for driver in reduced.starts:
         if driver.turns:
             axis = cmath.phase(paper.poses[driver.link].axis)
-            story.append(Step("lay off", "rolling", link=driver.link, value=axis))
+            steps.append(Step("lay off", "rolling", link=driver.link, value=axis))
         else:
-            story.append(Step("lay off", "rolling", pairs=(driver.key,), mm=driver.values[0] * paper.mm))
+            steps.append(Step("lay off", "rolling", pairs=(driver.key,), mm=driver.values[0] * paper.mm))
     if reduced.trial:
-        story.append(_trial_positions(so_far, reduced, poses, values))
+        steps.append(_trial_positions(so_far, reduced, poses, values))
     board = replace(reduced.opened(so_far, [float(v) for v in values]), instrument=EXACT)
     for element in reduced.elements:
         if isinstance(element, Driven):
@@ -106,12 +106,12 @@ def trial_steps(paper: PlacedLinks, so_far: PlacedLinks, reduced: ReducedMechani
                 replace(step, value=axis, base="") if step.reason == "angle" else step for step in told_here
             )
         else:
-            meeting = meet(board, element)
-            best = meeting.nearest(poses)
-            told_here = meeting.tell(best) if best is not None else ()
-        story += told_here
+            intersection = meet(board, element)
+            best = intersection.nearest(poses)
+            told_here = intersection.steps(best) if best is not None else ()
+        steps += told_here
         board.poses.update({name: poses[name] for name in element.members})
-    return tuple(story)
+    return tuple(steps)
 
 
 def _fit(known: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> dict[str, Pose]:

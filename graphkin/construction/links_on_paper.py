@@ -2,7 +2,7 @@
 an element lie, lengths in mm.
 
 Of a driven link the angle or the travel is laid off.  For each kind of dyad compass arcs and ruler lines meet: a
-`Meeting` tells how well the two loci cross, the possible places of the links, and for each what was drawn.
+`Intersection` tells how well the two loci cross, the possible places of the links, and for each what was drawn.
 """
 
 from __future__ import annotations
@@ -255,16 +255,16 @@ def coordinate_on_paper(structure: Structure, paper: PlacedLinks, coordinate: Co
 
 # -- the links of an element -------------------------------------------------------------------------------------------
 
-Story = tuple[Step, ...]
+Steps = tuple[Step, ...]
 
 
 @dataclass(frozen=True)
-class Meeting:
+class Intersection:
     """Two loci that meet.
 
     ``gap`` is positive where they cross, zero where they touch, negative where they miss each other; for two lines
     it is the sine of their angle, and they meet once.  ``poses`` are the possible places of the group's links, the one
-    of the default rule first; ``tell`` gives what is drawn for each.  ``sine`` of the crossing angle is 0 where the
+    of the default rule first; ``steps`` gives what is drawn for each.  ``sine`` of the crossing angle is 0 where the
     crossing is lost; a guide between two pivots is lost as they fall together, at whatever angle its lines
     ``cross``.
     """
@@ -272,7 +272,7 @@ class Meeting:
     gap: float
     sine: float
     poses: tuple[Poses, ...]
-    tell: Callable[[int], Story]
+    steps: Callable[[int], Steps]
     cross: float | None = None
 
     @property
@@ -285,11 +285,11 @@ class Meeting:
         return min(range(len(self.poses)), key=lambda k: apart(self.poses[k], poses), default=None)
 
 
-LOST = Meeting(0.0, 0.0, (), lambda _: ())
+LOST = Intersection(0.0, 0.0, (), lambda _: ())
 """Loci that find nothing: an arc of no radius, lines along each other."""
 
 
-def drive(paper: PlacedLinks, element: Driven) -> tuple[Pose, Story]:
+def drive(paper: PlacedLinks, element: Driven) -> tuple[Pose, Steps]:
     """Place a driven link: the angle or the travel is laid off."""
     name, driver, pair = element.link, element.driver, element.pair
     value = paper.values[driver.key]
@@ -312,11 +312,11 @@ def drive(paper: PlacedLinks, element: Driven) -> tuple[Pose, Story]:
     return pose, (Step("lay off", "travel", strokes=(bar,), pairs=(pair.key,), mm=abs(value) * paper.mm),)
 
 
-def _arcs(gap: float, poses: list[Poses], tell: Callable[[int], Story], cross: float | None = None) -> Meeting:
-    return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tell, cross)
+def _arcs(gap: float, poses: list[Poses], steps: Callable[[int], Steps], cross: float | None = None) -> Intersection:
+    return Intersection(gap, math.sqrt(max(gap, 0.0)), tuple(poses), steps, cross)
 
 
-def _rrr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+def _rrr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Intersection:
     letter, about = dyad.inner.point, (dyad.outer_first.point, dyad.outer_second.point)
     (p1, local1), (p2, local2) = one.hinge(dyad.outer_first), two.hinge(dyad.outer_second)
     inner1, inner2 = one.point(letter), two.point(letter)
@@ -327,17 +327,17 @@ def _rrr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
     product = (hi + (mid + lo)) * (lo - (hi - mid)) * (lo + (hi - mid)) * (hi + (mid - lo))
     places = cross_arcs(p1, r1, p2, r2) or ()
 
-    def tell(k: int) -> Story:
+    def steps(k: int) -> Steps:
         arcs = CompassArc(p1, r1, places[k]), CompassArc(p2, r2, places[k])
         return (Step("cross", "arcs", strokes=arcs, points=about, point=letter, radii=(r1, r2)),)
 
     poses: list[Poses] = [
         {**one.through((local1, inner1), (p1, q)), **two.through((local2, inner2), (p2, q))} for q in places
     ]
-    return _arcs(product / (2 * r1 * r2) ** 2, poses, tell)
+    return _arcs(product / (2 * r1 * r2) ** 2, poses, steps)
 
 
-def _rrp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+def _rrp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Intersection:
     letter, outer, slide = dyad.inner.point, dyad.outer_first, dyad.outer_second
     (p, local), (start, step) = one.hinge(outer), two.rail(slide)
     inner, q0 = one.point(letter), start.place(two.point(letter))
@@ -347,7 +347,7 @@ def _rrp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
     off = abs(cross(p - q0, step))
     places = cross_line_arc(q0, step, p, radius) or ()
 
-    def tell(k: int) -> Story:
+    def steps(k: int) -> Steps:
         path, arc = Bar(q0, places[k], ""), CompassArc(p, radius, places[k])
         return (
             Step("line", "path", strokes=(path,), point=letter, pairs=(slide.key,)),
@@ -357,10 +357,10 @@ def _rrp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
     poses: list[Poses] = [
         {**one.through((local, inner), (p, q)), **two.shifted(start, dot(q - q0, step) * step)} for q in places
     ]
-    return _arcs((radius - off) * (radius + off) / radius**2, poses, tell)
+    return _arcs((radius - off) * (radius + off) / radius**2, poses, steps)
 
 
-def _rpr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+def _rpr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Intersection:
     slide, pivots = dyad.inner, (dyad.outer_second.point, dyad.outer_first.point)
     (p1, local1), (p2, local2) = one.hinge(dyad.outer_first), two.hinge(dyad.outer_second)
     # the sliding body as seen from the guiding one, at travel 0
@@ -378,7 +378,7 @@ def _rpr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
     lined = abs(offset) < 1e-9 * size  # through both pivots
     axes = [unit((p1 - p2) / (g * complex(root, offset))) for root in roots]
 
-    def tell(k: int) -> Story:
+    def steps(k: int) -> Steps:
         if lined:
             return (Step("line", "guide", strokes=(Bar(p2, p1, ""),), points=pivots, pairs=(slide.key,)),)
         # foot of the square from the pivot to the guide's parallel through the other pivot
@@ -390,10 +390,10 @@ def _rpr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
     for axis in axes:
         turned = unit(axis * turn)
         poses.append({**one.placed(Pose(p1 - turned * local1, turned)), **two.placed(Pose(p2 - axis * local2, axis))})
-    return _arcs(square / size**2, poses, tell, 1.0 if lined or not roots else roots[0] / span)
+    return _arcs(square / size**2, poses, steps, 1.0 if lined or not roots else roots[0] / span)
 
 
-def _prp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+def _prp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Intersection:
     letter, slides = dyad.inner.point, (dyad.outer_first, dyad.outer_second)
     (start1, step1), (start2, step2) = one.rail(slides[0]), two.rail(slides[1])
     q1, q2 = start1.place(one.point(letter)), start2.place(two.point(letter))
@@ -403,10 +403,10 @@ def _prp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
     poses = {**one.shifted(start1, q - q1), **two.shifted(start2, q - q2)}
     told = Step("cross", "paths", strokes=(Bar(q1, q, ""), Bar(q2, q, "")), point=letter,
                 pairs=(slides[0].key, slides[1].key))  # fmt: skip
-    return Meeting(sine, abs(sine), (poses,), lambda _: (told,))
+    return Intersection(sine, abs(sine), (poses,), lambda _: (told,))
 
 
-def _rpp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+def _rpp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Intersection:
     outer, inner, slide = dyad.outer_first, dyad.inner, dyad.outer_second
     (p, local), (start, step) = one.hinge(outer), two.rail(slide)
     resting = two.placed(start)
@@ -423,11 +423,11 @@ def _rpp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
     base = p - want
     strokes = (Bar(base, base + shift, ""), Bar(base + shift, p, ""))
     told = Step("cross", "guide to point", strokes=strokes, point=outer.point, pairs=(slide.key, inner.key))
-    return Meeting(sine, abs(sine), ({**hung, **two.shifted(start, shift)},), lambda _: (told,))
+    return Intersection(sine, abs(sine), ({**hung, **two.shifted(start, shift)},), lambda _: (told,))
 
 
 # The one place in this room where the kinds of dyads are told apart.
-_MEETINGS: Mapping[DyadKind, Callable[[PlacedLinks, Dyad, RigidBody, RigidBody], Meeting]] = {
+_INTERSECTIONS: Mapping[DyadKind, Callable[[PlacedLinks, Dyad, RigidBody, RigidBody], Intersection]] = {
     "RRR": _rrr,
     "RRP": _rrp,
     "RPR": _rpr,
@@ -436,15 +436,15 @@ _MEETINGS: Mapping[DyadKind, Callable[[PlacedLinks, Dyad, RigidBody, RigidBody],
 }
 
 
-def meet(paper: PlacedLinks, dyad: Dyad) -> Meeting:
+def meet(paper: PlacedLinks, dyad: Dyad) -> Intersection:
     """Draw the loci of a dyad and find where they meet."""
-    return _MEETINGS[dyad.kind](paper, dyad, RigidBody(paper, dyad.first), RigidBody(paper, dyad.second))
+    return _INTERSECTIONS[dyad.kind](paper, dyad, RigidBody(paper, dyad.first), RigidBody(paper, dyad.second))
 
 
-def refuse(structure: Structure, element: Dyad, meeting: Meeting) -> None:
+def refuse(structure: Structure, element: Dyad, intersection: Intersection) -> None:
     """Raise Unsolvable where the loci of a dyad miss each other ("not assembled") or only touch ("dead point")."""
-    missed = meeting.gap < -1e-14 and not element.is_two_lines
-    if missed or not meeting.poses or meeting.sine < DEAD:
+    missed = intersection.gap < -1e-14 and not element.is_two_lines
+    if missed or not intersection.poses or intersection.sine < DEAD:
         found = "the two loci of the group do not" if missed else "the group stands at a dead point its"
         wanted = "choose a driver value at which the mechanism" if missed else "move the driver off this position"
         problem = Problem(named_with_contact(structure, element), Phrase(found, kind=element.kind), Phrase(wanted))
@@ -459,10 +459,10 @@ def meant(structure: Structure, paper: PlacedLinks, dyad: Dyad) -> Poses:
     Unsolvable : as `refuse`
     SceneError : a sketch that fits none
     """
-    meeting = meet(paper, dyad)
-    refuse(structure, dyad, meeting)
-    candidates = [paper.fresh(poses) for poses in meeting.poses]
-    return meeting.poses[pick(structure.scene, dyad.links, candidates, 0)]
+    intersection = meet(paper, dyad)
+    refuse(structure, dyad, intersection)
+    candidates = [paper.fresh(poses) for poses in intersection.poses]
+    return intersection.poses[pick(structure.scene, dyad.links, candidates, 0)]
 
 
 def stuck(status: str, links: Iterable[str], said: str) -> Unsolvable:

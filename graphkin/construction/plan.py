@@ -22,12 +22,12 @@ from graphkin.construction.elements import draw_element
 from graphkin.construction.follow import Choices
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import PlacedLinks, reading, stuck, travel
-from graphkin.construction.net import VectorChain, contacts_of
-from graphkin.construction.polygons import NO_SLIP, RATE, Polygons, Slip, draw_asked
+from graphkin.construction.polygons import AS_DRAWN, RATE, OwnValues, Polygons, draw_asked
 from graphkin.construction.position import Assembly, assembly_at, cams_in_place, each_assembly, own_position, place
 from graphkin.construction.scales import Room, Scales, chosen_scales
 from graphkin.construction.sheet import Board, GroupWay, Limits, Sheet, without_residues
 from graphkin.construction.steps import DIAGRAMS, ORDERS, Order, Step
+from graphkin.construction.vector_graph import VectorChain, contacts_of
 from graphkin.errors import Unsolvable
 from graphkin.plane import Poses, dot
 from graphkin.scene.model import Loading, Mechanism
@@ -116,7 +116,8 @@ class Task:
 
 
 def positioned(
-    task: Task, scales: Scales, instrument: Instrument = EXACT, slip: Slip = NO_SLIP, with_steps: bool = True
+    task: Task, scales: Scales, instrument: Instrument = EXACT, own_values: OwnValues = AS_DRAWN,
+    with_steps: bool = True,
 ) -> Polygons:
     """The position on a board, on which no polygon is begun; its steps, of which no reading is taken, only where they
     are wanted."""
@@ -126,7 +127,7 @@ def positioned(
     assembly = replace(task.assembly, values=values)
     told_on = board if with_steps else None
     paper = place(task.opened, task.elements, 1.0 / scales.length, assembly, instrument, told_on)
-    polygons = Polygons(board, task.opened, paper, scales, slip)
+    polygons = Polygons(board, task.opened, paper, scales, own_values)
     polygons.given.update({inversion.key: found[1:] for inversion, found in triangles})
     polygons.at_contacts = task.touching
     polygons.chains.update(task.chains)
@@ -137,9 +138,11 @@ def positioned(
     return polygons
 
 
-def carried_out(task: Task, scales: Scales, instrument: Instrument = EXACT, slip: Slip = NO_SLIP) -> Polygons:
+def carried_out(
+    task: Task, scales: Scales, instrument: Instrument = EXACT, own_values: OwnValues = AS_DRAWN
+) -> Polygons:
     """Position and both polygons on a board."""
-    *_, made = _stages(task, positioned(task, scales, instrument, slip))
+    *_, made = _stages(task, positioned(task, scales, instrument, own_values))
     return made
 
 
@@ -228,14 +231,14 @@ Own = Mapping[Symbol, Value]
 class GoneOn:
     """A plan gone on with from values of somebody's own, in place of drawn ones: one person's after the other's.
 
-    ``slip`` says what own values change.  What stands before the first of them is taken from the drawing without any,
+    ``own_values`` says what they change.  What stands before the first of them is taken from the drawing without any,
     and what some of them gave is kept while they are the same.
     """
 
     KEPT = 256
 
-    def __init__(self, what: Task, scales: Scales, slip: Callable[[Own], Slip]) -> None:
-        self.what, self.slip = what, slip
+    def __init__(self, what: Task, scales: Scales, own_values: Callable[[Own], OwnValues]) -> None:
+        self.what, self.own_values = what, own_values
         self.in_order = tuple(what.in_order)
         self.kept = [*_stages(what, positioned(what, scales, with_steps=False), kept=EXACT)]
         """What stands there after so many elements."""
@@ -273,7 +276,7 @@ class GoneOn:
         key = number, frozenset(own.items())
         if key not in self.others:
             polygons = self._after(number - 1, own).again(EXACT)
-            polygons.slip = self.slip(own)
+            polygons.own_values = self.own_values(own)
             draw_element(polygons, *self.in_order[number - 1])
             while len(self.others) >= self.KEPT:
                 del self.others[next(iter(self.others))]
@@ -424,14 +427,14 @@ def _growing(task: Task, here: Sheet) -> tuple[Sheet, ...]:
     return tuple(made)
 
 
-def execute(what: Plan, instrument: Instrument = EXACT, slip: Slip = NO_SLIP) -> Sheet:
-    """A plan drawn with an instrument; with a ``slip``, what follows from it.
+def execute(what: Plan, instrument: Instrument = EXACT, own_values: OwnValues = AS_DRAWN) -> Sheet:
+    """A plan drawn with an instrument; with ``own_values``, what follows from them.
 
     What exact hands draw stands in the plan already; finite ones, whose errors depend on the scale, draw it anew.
     """
-    if instrument is EXACT and slip is NO_SLIP:
+    if instrument is EXACT and own_values is AS_DRAWN:
         return what.exact.at(what.scales)
-    return finished(what, carried_out(what, what.scales, instrument, slip))
+    return finished(what, carried_out(what, what.scales, instrument, own_values))
 
 
 def draft(

@@ -17,13 +17,12 @@ from typing import Literal, TypeVar
 from graphkin.construction.group_plan import GroupPlan
 from graphkin.construction.instruments import Instrument
 from graphkin.construction.links_on_paper import PlacedLinks, pushed_by_driver
-from graphkin.construction.net import VectorChain, node
 from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import Board, Rate
 from graphkin.construction.steps import (
     ORDERS,
-    Aid,
     Bar,
+    ConstructionVector,
     Direction,
     Image,
     Mark,
@@ -37,6 +36,7 @@ from graphkin.construction.steps import (
 )
 from graphkin.construction.touching import Touch, Touching
 from graphkin.construction.trains import PlansDrawn
+from graphkin.construction.vector_graph import VectorChain, node
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
@@ -50,13 +50,13 @@ SHARED = {"chains", "plans", "contours"}  # by all drawings of a task
 
 
 @dataclass(frozen=True)
-class Slip:
+class OwnValues:
     """Four places where somebody may take another value than the drawn one: a component left out, a value of their own.
 
-    A drawing with a slip shows what follows from it; nothing else of the construction changes.  ``term`` gets each term
-    of an equation before it is laid off; ``found`` each vector found (end points by image included) by tail and tip, mm
-    on paper, and returns its tip; ``rate`` each angular rate measured (rad/s, rad/s2), and returns None where it stays;
-    ``line`` the direction of each line along which a vector of unknown size is drawn.
+    A drawing with own values shows what follows from them; nothing else of the construction changes.  ``term`` gets
+    each term of an equation before it is laid off; ``found`` each vector found (end points by image included) by tail
+    and tip, mm on paper, and returns its tip; ``rate`` each angular rate measured (rad/s, rad/s2), and returns None
+    where it stays; ``line`` the direction of each line along which a vector of unknown size is drawn.
     """
 
     term: Callable[[Term], Term] = lambda part: part
@@ -65,19 +65,20 @@ class Slip:
     line: Callable[[Symbol, complex], complex] = lambda _, along: along
 
 
-NO_SLIP = Slip()
+AS_DRAWN = OwnValues()
 
 
 class Polygons:
     """What stands in the velocity and the acceleration polygon of one position."""
 
     def __init__(
-        self, board: Board, structure: Structure, paper: PlacedLinks, scales: Scales, slip: Slip = NO_SLIP
+        self, board: Board, structure: Structure, paper: PlacedLinks, scales: Scales, own_values: OwnValues = AS_DRAWN
     ) -> None:
-        self.board, self.structure, self.paper, self.scales, self.slip = board, structure, paper, scales, slip
+        self.board, self.structure, self.paper, self.scales = board, structure, paper, scales
+        self.own_values = own_values
         self.per = {order: scales.of(order) for order in ORDERS}  # m/s or m/s2 for one mm
         self.given = {d.key: d.values[1:] for d in structure.drivers}  # rates of the drivers
-        self.believed: set[tuple[Order, str]] = set()  # rates of links that a slip has put in place of the measured
+        self.believed: set[tuple[Order, str]] = set()  # rates of links that are own values, not measured
         self.links = dict(structure.links)  # with the special points that larger groups get
         self.special: set[str] = set()
         self.pitch_points: dict[str, str] = {}  # letters where wheels of larger groups roll on each other
@@ -128,7 +129,7 @@ class Polygons:
     def holding(self, group: LargerGroup, held: str) -> Polygons:
         """Empty polygons with a link of a group held still, as if it were the frame; drawn on the same mechanism."""
         made = self.fork(0)
-        made.part_of, made.held, made.contours, made.slip = group, held, {}, Slip(line=self.slip.line)
+        made.part_of, made.held, made.contours, made.own_values = group, held, {}, OwnValues(line=self.own_values.line)
         made.begin(held)
         self.seen[held] = made
         self._on(self.board)
@@ -148,7 +149,8 @@ class Polygons:
         if not self.held or step.diagram == "mechanism":
             self.board.do(step)
         elif step.symbol.kind:
-            strokes = (s for s in step.strokes if isinstance(s, Aid | Ray) or step.reason == "before its turn")
+            early = step.reason == "before its turn"
+            strokes = (s for s in step.strokes if early or isinstance(s, ConstructionVector | Ray))
             self.board.do(replace(step, strokes=tuple(strokes)))
 
     def symbol(self, kind: str, end: PointRef, start: PointRef | None = None) -> Symbol:
@@ -246,12 +248,12 @@ class Polygons:
             self.drawn[step.diagram][vector.symbol] = vector
         self.do(replace(step, strokes=(self.shown(vector), *step.strokes)))
 
-    def shown(self, vector: Vector) -> Vector | Aid:
+    def shown(self, vector: Vector) -> Vector | ConstructionVector:
         """A vector as it is drawn: one of a trial polygon, seen from a held link or to a special point only leads on.
         """
         of_special = any(ref is not None and ref.point in self.special for ref in (vector.symbol.of, vector.symbol.to))
         if self.trial or self.held or of_special:
-            return Aid(vector.symbol, vector.tail, vector.tip, self.trial)
+            return ConstructionVector(vector.symbol, vector.tail, vector.tip, self.trial)
         return vector
 
     def reach(self, order: Order, ref: PointRef, at: complex, equation: int | None) -> None:
@@ -328,7 +330,7 @@ class Polygons:
         """An end point that follows from others of its link."""
         order: Order = "velocity" if step.diagram == "velocity" else "acceleration"
         symbol, label = self.symbol(letter(order), ref), self.label(ref)
-        at = self.slip.found(symbol, 0j, at)
+        at = self.own_values.found(symbol, 0j, at)
         self.ends[order][ref] = at
         if not self.held:
             step = replace(step, ref=label, strokes=(Mark(label, at), *step.strokes))

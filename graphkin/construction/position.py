@@ -23,9 +23,9 @@ from graphkin.construction.follow import Choices, best_reduced, fitted, moved, m
 from graphkin.construction.group_position import place_by_trial, trial_steps
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import (
-    Meeting,
+    Intersection,
     PlacedLinks,
-    Story,
+    Steps,
     assemble,
     assembled,
     coordinate_on_paper,
@@ -103,7 +103,7 @@ def place(
         the loci of a dyad miss each other ("not assembled") or only touch ("dead point")
     """
     paper, so_far = (start_board(structure, mm, assembly.values, hand) for hand in (instrument, EXACT))
-    frame, met = structure.scene.frame, dict[Element, tuple[Meeting, int]]()
+    frame, met = structure.scene.frame, dict[Element, tuple[Intersection, int]]()
     placed = [(instrument.acts, frame.name)]
     named = set(frame.points)
     done = 0 if board is None else len(board.causes)
@@ -115,11 +115,11 @@ def place(
         if isinstance(element, LargerGroup):
             place_by_trial(paper, assembly.reduced[element], assembly.poses)
             return {}
-        meeting = meet(paper, element)
-        refuse(structure, element, meeting)
-        index = assembly.branches.get(i, 0) % len(meeting.poses)
-        met[element] = meeting, index
-        return meeting.poses[index]
+        intersection = meet(paper, element)
+        refuse(structure, element, intersection)
+        index = assembly.branches.get(i, 0) % len(intersection.poses)
+        met[element] = intersection, index
+        return intersection.poses[index]
 
     for element in assemble(paper, elements, chosen):
         if board is None:
@@ -127,32 +127,32 @@ def place(
         links = element.link if isinstance(element, Driven) else ", ".join(element.links)
         placed.append((instrument.acts, links))
         if isinstance(element, Driven):
-            _, story = drive(so_far, element)
+            _, steps = drive(so_far, element)
         elif isinstance(element, LargerGroup):
-            story = trial_steps(paper, so_far, assembly.reduced[element])
+            steps = trial_steps(paper, so_far, assembly.reduced[element])
         else:
-            story = _dyad_steps(board, paper, element, *met[element])
-        _record(board, paper, element, story, named)
+            steps = _dyad_steps(board, paper, element, *met[element])
+        _record(board, paper, element, steps, named)
         so_far.poses.update({name: paper.poses[name] for name in element.members})
     if board is not None:
         board.causes[done:] = [(acts, Phrase("placing", links=links)) for acts, links in placed]
     return paper
 
 
-def _dyad_steps(board: Board, paper: PlacedLinks, dyad: Dyad, meeting: Meeting, index: int) -> Story:
+def _dyad_steps(board: Board, paper: PlacedLinks, dyad: Dyad, intersection: Intersection, index: int) -> Steps:
     """How the loci of a dyad were drawn; on the board the words for its assembly, and what makes it uncertain."""
     links, one, two = ", ".join(dyad.links), dyad.outer_first, dyad.outer_second
     of = dyad.inner.point if dyad.inner.turns else Phrase("these links", links=links)
-    board.notice("mechanism", "sharp crossing", of, size=meeting.sharpness)
+    board.notice("mechanism", "sharp crossing", of, size=intersection.sharpness)
     if not dyad.inner.turns and one.turns and two.turns:
         apart = abs(paper.point(one.b, one.point) - paper.point(two.b, two.point))
         board.notice("mechanism", "short arm", links, one.point, two.point, size=apart)
     which = "one assembly" if dyad.is_two_lines else f"{dyad.kind} {index}"
     board.assembly[links] = Phrase(which, tuple(pair.key for pair in dyad.pairs))
-    return meeting.tell(index)
+    return intersection.steps(index)
 
 
-def _record(board: Board, paper: PlacedLinks, element: Element, story: Story, named: set[str]) -> None:
+def _record(board: Board, paper: PlacedLinks, element: Element, steps: Steps, named: set[str]) -> None:
     """Record how the links of an element were placed, and their points, those ``named`` left out."""
     links, (ground, *_) = paper.links, paper.poses
     found: set[str] = set()
@@ -170,7 +170,7 @@ def _record(board: Board, paper: PlacedLinks, element: Element, story: Story, na
             reason: Reason = "whole link" if len(links[name].points) > 2 else "points"
             board.do(Step("mark", reason, strokes=marks, link=name, points=fresh))
 
-    for step in story:
+    for step in steps:
         board.do(replace(step, base="") if step.base == ground else step)
         if step.reason in FINDS_A_POINT:
             found.add(step.point)

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from graphkin.construction.net import links_alike
+from graphkin.construction.vector_graph import links_alike
 
 ALIKE = 1e-9  # of unit motions: what differs less moves alike
 Joint = tuple[tuple[str, str], complex, complex | None, bool]

@@ -19,9 +19,9 @@ from graphkin.construction.scales import Extent, Room, Scales, chosen_scales
 from graphkin.construction.steps import (
     DIAGRAMS,
     ORDERS,
-    Aid,
     Arrow,
     Cause,
+    ConstructionVector,
     DiagramName,
     Mark,
     OnPaper,
@@ -314,18 +314,18 @@ class Sheet:
         """The steps before one of them."""
         return self.steps[: step.number - 1]
 
-    def trials(self, diagram: DiagramName) -> list[Aid]:
+    def trials(self, diagram: DiagramName) -> list[ConstructionVector]:
         """The vectors of trial polygons in a diagram."""
         strokes = (s for step in self.steps if step.diagram == diagram for s in step.strokes)
-        return [s for s in strokes if isinstance(s, Aid) and s.trial]
+        return [s for s in strokes if isinstance(s, ConstructionVector) and s.trial]
 
-    def vectors_seen(self, diagram: DiagramName) -> Iterator[Aid]:
+    def vectors_seen(self, diagram: DiagramName) -> Iterator[ConstructionVector]:
         """The vectors of a diagram that are seen from held links; those that lead to special points left out."""
         held = {step.held for step in self.steps if step.reason == "seen from"}
         special = self.special_points.keys()
         for step in self.steps if held else ():
             for stroke in step.strokes if step.diagram == diagram else ():
-                if isinstance(stroke, Aid) and stroke.symbol.to is not None:
+                if isinstance(stroke, ConstructionVector) and stroke.symbol.to is not None:
                     of, to = stroke.symbol.of, stroke.symbol.to
                     if {stroke.symbol.seen, to.link} & held and not special & {to.point, of.point if of else ""}:
                         yield stroke

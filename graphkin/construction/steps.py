@@ -429,7 +429,7 @@ class Vector(Arrow):
 
 
 @dataclass(frozen=True)
-class Aid(Arrow):
+class ConstructionVector(Arrow):
     """A vector that only leads on: of a ``trial`` polygon by its number, or of a special point (0)."""
 
     trial: int
@@ -489,7 +489,7 @@ class Image(OnPaper):
     corners: tuple[complex, ...]
 
 
-Stroke = Vector | Aid | TrialCurve | Ray | CompassArc | Bar | Mark | Image
+Stroke = Vector | ConstructionVector | TrialCurve | Ray | CompassArc | Bar | Mark | Image
 
 
 # -- trials ------------------------------------------------------------------------------------------------------------
@@ -555,8 +555,8 @@ class TrialPositions(OnPaper):
 
 @dataclass(frozen=True)
 class FarPoint:
-    """Two links whose special point cannot be used: how far from the joints (m; in a net as its places), and at which
-    angle (rad) the lines of the legs cross."""
+    """Two links whose special point cannot be used: how far from the joints (m; in a vector graph as its places), and
+    at which angle (rad) the lines of the legs cross."""
 
     links: tuple[str, str]
     away: float

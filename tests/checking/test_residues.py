@@ -11,7 +11,7 @@ import pytest
 
 from graphkin import audit, check, draw, read, solve
 from graphkin.api.report_text import reading_words, report_text
-from graphkin.construction.steps import Aid
+from graphkin.construction.steps import ConstructionVector
 from graphkin.words.written import amount
 
 DEAD = [("shaper-scheme-2", 90), ("swinging-block", 180), ("whitworth", 270), ("slider-crank-offset", 0)]
@@ -36,7 +36,8 @@ def test_what_is_nothing_but_rounding_is_zero_on_both_sides(name, at):
 def test_a_step_tells_no_rate_that_is_nothing_but_rounding(name, at):
     sheet = check(name, at=at).sheet
     zero = {s.symbol for d in ("velocity", "acceleration") for s in sheet.vectors(d).values() if s.span == 0.0}
-    zero |= {s.symbol for step in sheet.steps for s in step.strokes if isinstance(s, Aid) and s.span == 0.0}
+    leading = (s for step in sheet.steps for s in step.strokes if isinstance(s, ConstructionVector))
+    zero |= {s.symbol for s in leading if s.span == 0.0}
     rates = [step for step in sheet.steps if step.reason == "rate" and step.symbol in zero]
     assert rates
     assert {0.0} == {step.value for step in rates}

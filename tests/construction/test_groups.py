@@ -12,9 +12,9 @@ import pytest
 import graphkin
 from graphkin import solver
 from graphkin.checking.readings import read_off
-from graphkin.construction import Room, Slip, draft, execute, plan
+from graphkin.construction import OwnValues, Room, draft, execute, plan
 from graphkin.construction.instruments import pencil
-from graphkin.construction.steps import Aid, RateTrial, Superposed, TrialCurve, TrialPositions
+from graphkin.construction.steps import ConstructionVector, RateTrial, Superposed, TrialCurve, TrialPositions
 from graphkin.errors import Unsolvable
 from graphkin.plane import dot
 from graphkin.scene import mechanism_of
@@ -141,13 +141,13 @@ def test_a_group_with_a_driver_inside_agrees_too(leg: str) -> None:
     assert [] == [str(row.symbol) for row in result.report.rows if not row.ok]
 
 
-def wrong(name: Any, slip: Slip) -> set[str]:
+def wrong(name: Any, own_values: OwnValues) -> set[str]:
     """Readings that a drawing with a slip gets wrong by more than 1e-9."""
     scene = mechanism_of(name)
     motion = solver.solve(scene)
     largest: dict[str, float] = {}
     found: dict[str, float] = {}
-    for reading in read_off(execute(plan(scene), slip=slip)):
+    for reading in read_off(execute(plan(scene), own_values=own_values)):
         exact = complex(motion.value(reading.symbol)[0])
         kind = reading.symbol.kind[0]
         largest[kind] = max(largest.get(kind, 0.0), abs(exact))
@@ -296,7 +296,7 @@ def test_a_trial_rate_divided_wrongly_shows() -> None:
     def rate(symbol: Symbol, value: float) -> float | None:
         return value * 1.001 if str(symbol) == "omega_6" else None
 
-    assert {"omega_6"} <= wrong("contour-four-bars", Slip(rate=rate))
+    assert {"omega_6"} <= wrong("contour-four-bars", OwnValues(rate=rate))
 
 
 def test_the_special_point_lies_on_the_lines_of_both_legs() -> None:
@@ -313,7 +313,7 @@ def test_the_special_point_lies_on_the_lines_of_both_legs() -> None:
 
 def test_trial_polygons_are_drawn_and_divided() -> None:
     sheet = draft(mechanism_of("contour-four-bars"))
-    trials = {s.trial for step in sheet.steps for s in step.strokes if isinstance(s, Aid) and s.trial}
+    trials = {s.trial for step in sheet.steps for s in step.strokes if isinstance(s, ConstructionVector) and s.trial}
     assert {1, 2} == trials
     (velocity, _) = (step.data for step in sheet.steps if isinstance(step.data, Superposed))
     one, two = (row[0] for row in velocity.apart)
@@ -355,7 +355,8 @@ def test_the_sheet_says_along_which_direction_a_trial_is_left_open() -> None:
     divided = next(step.data for step in result.sheet.steps if isinstance(step.data, Superposed))
     assert ("8",) == divided.closing
     assert ["∥KD"] == [str(way) for way in divided.ways]
-    drawn = [s for step in result.sheet.steps if step.diagram == "velocity" for s in step.strokes if isinstance(s, Aid)]
+    steps = [step for step in result.sheet.steps if step.diagram == "velocity"]
+    drawn = [s for step in steps for s in step.strokes if isinstance(s, ConstructionVector)]
     first = next(aid.tip for aid in drawn if aid.trial == 1 and str(aid.symbol) == "v_K")
     bar = at["K"] - at["D"]
     assert abs((first / bar).real) * abs(bar) == pytest.approx(abs(divided.apart[0][0]), abs=1e-9)

@@ -11,7 +11,7 @@ import pytest
 import graphkin
 from graphkin import solver
 from graphkin.checking.readings import read_off
-from graphkin.construction import Plan, Slip, draft, execute, plan, reduced_mechanism
+from graphkin.construction import OwnValues, Plan, draft, execute, plan, reduced_mechanism
 from graphkin.construction.links_on_paper import PlacedLinks
 from graphkin.construction.polygons import Polygons
 from graphkin.construction.reduced_mechanism import RemovedConstraint
@@ -48,10 +48,10 @@ POLYGONS: dict[str, Any] = {
 }  # fmt: skip
 
 
-def wrong(what: Plan, motion: solver.Motion, slip: Slip) -> set[str]:
+def wrong(what: Plan, motion: solver.Motion, own_values: OwnValues) -> set[str]:
     largest: dict[str, float] = {}
     off: dict[str, float] = {}
-    for reading in read_off(execute(what, slip=slip)):
+    for reading in read_off(execute(what, own_values=own_values)):
         exact, kind = complex(motion.value(reading.symbol)[0]), reading.symbol.kind[0]
         largest[kind] = max(largest.get(kind, 0.0), abs(exact))
         off[str(reading.symbol)] = abs(reading.value - exact)
@@ -67,14 +67,14 @@ def test_each_line_of_a_group_turned_by_a_tenth_of_a_degree_makes_readings_wrong
         lines.append(symbol)
         return along
 
-    sheet = execute(what, slip=Slip(line=noted))
+    sheet = execute(what, own_values=OwnValues(line=noted))
     rays = [s for step in sheet.steps for s in step.strokes if isinstance(s, Ray)]
     # a line that only leads back to where it begins may lie as it likes
     still = {ray.symbol for ray in rays if ray.to is not None and abs(ray.to - ray.through) < 1e-9}
-    assert set() == wrong(what, motion, Slip())
+    assert set() == wrong(what, motion, OwnValues())
     unseen = {
         str(one) for one in lines
-        if not wrong(what, motion, Slip(line=lambda symbol, way, one=one: way * TURNED if symbol == one else way))
+        if not wrong(what, motion, OwnValues(line=lambda symbol, way, one=one: way * TURNED if symbol == one else way))
     }  # fmt: skip
     assert unseen <= set(map(str, still))
     assert len(unseen) < len(lines) / 3
@@ -89,7 +89,7 @@ def test_check_fails_where_a_line_is_turned_by_a_tenth_of_a_degree(name: str, mo
         first.append(symbol)
         return along * TURNED if symbol == first[0] else along
 
-    monkeypatch.setattr(Polygons, "__init__", lambda self, *args: init(self, *args[:4], Slip(line=line)))
+    monkeypatch.setattr(Polygons, "__init__", lambda self, *args: init(self, *args[:4], OwnValues(line=line)))
     assert not graphkin.check(POLYGONS[name]).ok
 
 

@@ -21,7 +21,7 @@ from graphkin.account.notation import Letters, pole
 from graphkin.account.voice import SAME, NamedPoint, PolygonPoints, numeral
 from graphkin.construction.scales import SERIES
 from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import Aid, Arrow, Bar, DiagramName, Image, Mark, Ray, Step, Vector
+from graphkin.construction.steps import Arrow, Bar, ConstructionVector, DiagramName, Image, Mark, Ray, Step, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Segment, Stroke, Text, on_page
@@ -542,7 +542,7 @@ def trial_marks_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
     """Trial polygons, each in its own kind of line and with its number at its letters; vectors to special points."""
     held = {step.held for step in here.steps if step.reason == "seen from"}
     for step in here.steps:
-        aids = [s for s in step.strokes if isinstance(s, Aid) and abs(s.tip - s.tail) > SAME]
+        aids = [s for s in step.strokes if isinstance(s, ConstructionVector) and abs(s.tip - s.tail) > SAME]
         if not aids:
             continue
         trial = aids[0].trial
@@ -578,7 +578,7 @@ def trial_marks_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
         yield dated(Piece({"construction": (drawn,)}, tuple(labels)), step.number)
 
 
-def _of_one_point(aid: Aid) -> bool:
+def _of_one_point(aid: ConstructionVector) -> bool:
     """Whether a vector is what two points that lie under each other move apart by."""
     of, to = aid.symbol.of, aid.symbol.to
     return of is not None and to is not None and of.point == to.point

@@ -37,7 +37,7 @@ class Unknown(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Edge:
+class RelativeMotion:
     """The motion of ``end`` relative to ``start``.
 
     ``link`` is the rigid link between them, or ``slide`` the sliding pair they belong to, or ``joint`` the driven
@@ -62,7 +62,7 @@ class Edge:
     unknown: Unknown | None = None
 
     @classmethod
-    def of_link(cls, start: PointRef, end: PointRef, link: str, unknown: Unknown | None = None) -> Edge:
+    def of_link(cls, start: PointRef, end: PointRef, link: str, unknown: Unknown | None = None) -> RelativeMotion:
         """Of two points of one link."""
         way = Direction("square", (start.point, end.point))
         return cls(start, end, (start, end), way, link=link, unknown=unknown)
@@ -77,11 +77,11 @@ class Edge:
         """The links of an edge between coincident points, as it is written."""
         return self.labels[0].link, self.labels[1].link
 
-    def reversed(self) -> Edge:
+    def reversed(self) -> RelativeMotion:
         return replace(self, start=self.end, end=self.start, labels=self.labels[::-1], forward=not self.forward)
 
 
-Path = tuple[Edge, ...]
+Path = tuple[RelativeMotion, ...]
 
 
 @dataclass(frozen=True)
@@ -107,7 +107,7 @@ class VectorChain:
         return bool(self.link) and len(self.sides) == 2
 
     @classmethod
-    def closing(cls, *path: Edge, link: str = "") -> VectorChain:
+    def closing(cls, *path: RelativeMotion, link: str = "") -> VectorChain:
         """One way to a node."""
         return cls(path[-1].end, (path,), link)
 
@@ -117,7 +117,7 @@ def node(links: Mapping[str, PlacedLink], point: str, link: str) -> PointRef:
     return PointRef(point) if point in links[link].points else PointRef(point, link)
 
 
-class Net:
+class VectorGraph:
     """Nodes and edges around a group.
 
     Parameters
@@ -168,7 +168,7 @@ class Net:
         self.fixed = {n for n, names in self.owners.items() if frame in names}
         self.known = {n for n, names in self.owners.items() if not set(inside).issuperset(names)}
         self.order = {n: i for i, n in enumerate(self.nodes)}
-        self.edges: dict[PointRef, list[Edge]] = {n: [] for n in self.nodes}
+        self.edges: dict[PointRef, list[RelativeMotion]] = {n: [] for n in self.nodes}
         for name in inside:
             mine = [n for n in self.nodes if name in self.owners[n]]
             for i, a in enumerate(mine):
@@ -178,29 +178,29 @@ class Net:
         for s in slides:
             way, unknown = Direction("along", guide_names[s.key]), Unknown("sliding", s.key)
             for b, a, labels in self._coincident(letters, s.b, s.a):
-                self._add(Edge(b, a, labels, way, slide=s, unknown=None if s.key in given else unknown))
+                self._add(RelativeMotion(b, a, labels, way, slide=s, unknown=None if s.key in given else unknown))
         for j in (j for j in joints if j.pair.turns):
             for a, b, labels in self._coincident(letters, j.a, j.b):
-                self._add(Edge(a, b, labels, Direction("square", (j.pair.point, labels[0].point)), joint=j))
+                self._add(RelativeMotion(a, b, labels, Direction("square", (j.pair.point, labels[0].point)), joint=j))
         for c in contacts:
             # against the frame where it can be: its point stands in the pole
             a, b = (PointRef(c.name, link) for link in sorted(c.links, key=lambda link: link != frame))
             way, unknown = Direction("along", ("t-t",)), Unknown("slipping", c.name)
-            self._add(Edge(a, b, (a, b), way, contact=c.name, unknown=unknown))
+            self._add(RelativeMotion(a, b, (a, b), way, contact=c.name, unknown=unknown))
         for relation, (letter, both) in rolling.items():
             a, b = (PointRef(letter, link) for link in both)
-            self._add(Edge(a, b, (a, b), Direction("along", ("n-n",)), rolling=relation))
+            self._add(RelativeMotion(a, b, (a, b), Direction("along", ("n-n",)), rolling=relation))
         for held, other in contours:
             for a, b, labels in self._coincident(letters, held, other):
-                self._add(Edge(a, b, labels, Direction("found", ()), held=held))
-        self.under: list[Edge] = []  # for links that turn alike one edge between coincident points of theirs
+                self._add(RelativeMotion(a, b, labels, Direction("found", ()), held=held))
+        self.under: list[RelativeMotion] = []  # for links that turn alike one edge between coincident points of theirs
         if wide:
             found = {(e.slide or e.joint or e.held, *e.between): e for n in self.nodes for e in self.edges[n]
                      if e.forward and (e.slide or e.joint or e.held) and "/" not in "".join(e.between)}  # fmt: skip
             self.under = list(found.values())
 
-    def copy(self) -> Net:
-        """The same net, to which special points may be added."""
+    def copy(self) -> VectorGraph:
+        """The same graph, to which special points may be added."""
         made = copy(self)
         made.owners, made.nodes, made.order = dict(self.owners), list(self.nodes), dict(self.order)
         made.edges = {n: list(edges) for n, edges in self.edges.items()}
@@ -210,7 +210,7 @@ class Net:
         """How a link turns, by the name of one that turns alike."""
         return Unknown("turning", self.shares.get(link, link))
 
-    def _add(self, edge: Edge) -> None:
+    def _add(self, edge: RelativeMotion) -> None:
         self.edges[edge.start].append(edge)
         self.edges[edge.end].append(edge.reversed())
 
@@ -218,7 +218,7 @@ class Net:
         """Two points of a link that lie apart."""
         turning = self.turning(link)
         if abs(self.places[a.point] - self.places[b.point]) > self.tiny:
-            self._add(Edge.of_link(a, b, link, turning if turning.name in self.inside else None))
+            self._add(RelativeMotion.of_link(a, b, link, turning if turning.name in self.inside else None))
 
     def _coincident(
         self, letters: Sequence[str], one: str, two: str
@@ -238,7 +238,7 @@ class Net:
     def tie(self, names: tuple[str, str], letter: str, at: complex) -> None:
         """The special point of two links: a point of each, of which the relative motion is found first."""
         one, two = (self._added(PointRef(letter, name), name, at) for name in names)
-        self._add(Edge(one, two, (one, two), Direction("found", ()), tied=True))
+        self._add(RelativeMotion(one, two, (one, two), Direction("found", ()), tied=True))
         self._carry_over({names[0]: one, names[1]: two}, at)
 
     def _carry_over(self, refs: dict[str, PointRef], at: complex) -> None:
