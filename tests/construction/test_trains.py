@@ -49,6 +49,13 @@ TRAINS = {
                    "k": {"between": ["1", "3"], "teeth": [20, 40]}},
          "driver": {"slide": "2", "travel": 5, "velocity": 40, "acceleration": 3}},
         {"omega_1": -1, "omega_3": 0.5, "alpha_3": 3 / 80}),
+    "a rack that is driven": (
+        {"frame": {"points": {"A": [0, 0], "B": [0, -60]}, "guides": {"h": {"through": [0, 40], "angle": 0}}},
+         "links": {"1": {"points": ["A"]}, "2": {"points": ["R"], "on": "0.h"}, "3": {"points": ["B"]}},
+         "gears": {"g": {"between": ["1", "2"], "teeth": [20, "rack"]},
+                   "k": {"between": ["1", "3"], "teeth": [20, 40]}},
+         "driver": {"link": "3", "angle": 5, "omega": 4, "alpha": 3}},
+        {"omega_1": -8, "v_R": 320, "a_R": 240}),
     "a rack along an arm that turns": (
         {"frame": {"points": {"A": [0, 0]}},
          "links": {"1": {"points": ["A", "B"], "length": 60, "guides": {"h": {"through": [0, 40], "angle": 0}}},
@@ -72,6 +79,15 @@ def test_rates_read_off_the_plan_are_those_of_willis_and_of_the_solver(name):
     for symbol, rate in expected.items():
         assert rate == pytest.approx(result[symbol].measured, rel=1e-9)
         assert result[symbol].on_paper > 0
+
+
+@pytest.mark.parametrize("name", TRAINS)
+def test_what_is_read_on_paper_times_the_scale_of_the_plan_is_the_rate(name):
+    scene, expected = TRAINS[name]
+    result = check(scene)
+    scales = {plan.rate: plan.turning for plan in result.sheet.trains}
+    for kind, link in (symbol.split("_") for symbol in expected if symbol[0] in "oa" and symbol != "a_R"):
+        assert abs(expected[f"{kind}_{link}"]) == pytest.approx(result[f"{kind}_{link}"].on_paper * scales[kind])
 
 
 @pytest.mark.parametrize("name", ["differential with two inputs", "coupled sets, found by trial"])
