@@ -106,10 +106,10 @@ def test_a_rate_of_the_table_takes_its_index_into_its_symbol():
 def test_symbols_side_by_side_are_one_and_those_of_the_table_keep_their_indices():
     said = Phrase("tangent", **{"points.0": Markup("A"), "points.1": Markup("B"), "mm": "12", "pairs.0": "3"})
     assert "over $AB$ as diameter" in as_markup(rich_text(said, "en"))
-    assert "turn B2 back" in as_plain(rich_text(Phrase("design trial", ("2",)), "en"))
+    assert "turn B2 back" in as_plain(rich_text(Phrase("design trial", pair="2"), "en"))
 
 
 def test_dollar_signs_and_braces_of_a_name_are_no_marks_of_symbols():
-    said = rich_text(Phrase("design measured", ("a$$b {c}",)), "en")
+    said = rich_text(Phrase("design measured", lengths="a$$b {c}"), "en")
     assert "measured on paper: a$b {c}" == as_plain(said)
     assert ("measured on paper: a$$b {c}",) == said

@@ -89,38 +89,38 @@ class Designed(Result):
 
         task, metres = self.given.task, self.given.units.metres
 
-        def row(key: str, asked: float, found: float, size: float, *args: object) -> Confirmed:
-            unit = {"design stroke value": self.given.units.length, "design K value": ""}.get(key, "deg")
-            return Confirmed(Phrase(key, args), asked, found, abs(found - asked) <= CONFIRMS * size, unit)
+        def row(what: Phrase, asked: float, found: float, size: float) -> Confirmed:
+            unit = {"design stroke value": self.given.units.length, "design K value": ""}.get(what.key, "deg")
+            return Confirmed(what, asked, found, abs(found - asked) <= CONFIRMS * size, unit)
 
         if isinstance(task, BarPositionsTask | FunctionTask):
-            return [row(key, asked, asked + (math.nan if bar is None else math.remainder(degrees(bar) - asked, 360.0)),
-                        360.0, name) for key, name, asked, bar in self._directions(task)]  # fmt: skip
+            return [row(what, asked, asked + (math.nan if bar is None else math.remainder(degrees(bar) - asked, 360.0)),
+                        360.0) for what, asked, bar in self._directions(task)]  # fmt: skip
         name = {GuideBarTask: "stroke_5/0", SliderCrankTask: "stroke_3/0"}.get(type(task), "swing_3")
         output = range_of(structure_of(mechanism_of(self.scene))).extremes(Symbol.parse(name))
         if isinstance(task, LimitsTask):
             # which limit is which: by the turns that bring them together
             ends = math.degrees(output.low), math.degrees(output.high)
             gaps = [min((math.remainder(end - asked, 360.0) for end in ends), key=abs) for asked in task.angles]
-            return [row("design limit value", asked, asked + gap, 360.0, f"{asked:.6g}°")
+            return [row(Phrase("design limit value", angle=f"{asked:.6g}°"), asked, asked + gap, 360.0)
                     for asked, gap in zip(task.angles, gaps, strict=True)]  # fmt: skip
         if isinstance(task, CrankRockerTask):
-            first = row("design swing value", task.swing, math.degrees(output.stroke), 360.0)
+            first = row(Phrase("design swing value"), task.swing, math.degrees(output.stroke), 360.0)
         else:
-            first = row("design stroke value", task.stroke, output.stroke / metres, task.stroke)
-        return [first, row("design K value", task.K, output.ratio, task.K)]
+            first = row(Phrase("design stroke value"), task.stroke, output.stroke / metres, task.stroke)
+        return [first, row(Phrase("design K value"), task.K, output.ratio, task.K)]
 
     def _directions(
         self, task: BarPositionsTask | FunctionTask
-    ) -> Iterator[tuple[str, str, float, complex | None]]:
-        """The directions asked of the rocker or of the bar: by which words, their name, asked (degrees), and as the
-        motion of the scene has them (None where it does not lead there)."""
+    ) -> Iterator[tuple[Phrase, float, complex | None]]:
+        """The directions asked of the rocker or of the bar: in words, asked (degrees), and as the motion of the scene
+        has them (None where it does not lead there)."""
         places, turned = self.found.places, self.found.turned
         if isinstance(task, FunctionTask):
             for crank, rocker in task.pairs:
                 solved = self._solved(crank + 180.0 * ("AB" in turned), "D", "C")
                 back = direction(180.0 * ("CD" in turned))
-                yield "design pair value", f"{crank:.6g}", rocker, solved and solved * back
+                yield Phrase("design pair value", crank=f"{crank:.6g}"), rocker, solved and solved * back
             return
         first, second = ("M", "N") if "M" in places else ("B", "C")
         # the turn from MN to the bar BC
@@ -128,7 +128,7 @@ class Designed(Result):
         for i, bar in enumerate(task.positions, 1):
             place = bar.B if first == "B" else task.positions[0].moved(places["M"], bar)
             solved = self._solved(degrees(place - places["A"]), first, second)
-            yield "design position value", str(i), degrees(bar.C - bar.B), solved and solved * turn
+            yield Phrase("design position value", position=str(i)), degrees(bar.C - bar.B), solved and solved * turn
 
     def _solved(self, crank: float, first: str, second: str) -> complex | None:
         """The way from a point to another with the crank at an angle (degrees), by the motion that leads there; None
@@ -206,15 +206,15 @@ class Designed(Result):
 
     def phrases(self) -> list[Phrase]:
         """What is to be said of the result."""
-        made = [Phrase("turned bar", (name,)) for name in self.found.turned]
-        made += [Phrase("other assembly", (result.what,)) for result in self.confirmed if not result.ok]
+        made = [Phrase("turned bar", bar=name) for name in self.found.turned]
+        made += [Phrase("other assembly", position=result.what) for result in self.confirmed if not result.ok]
         if self.found.least is not None:
-            made.append(Phrase("least angle is", (Neutral(f"{self.found.least:.2f}°"),)))
+            made.append(Phrase("least angle is", angle=Neutral(f"{self.found.least:.2f}°")))
         free = self.choice
         if free is not None and self.found.least is not None and free.least > self.found.least + 0.005:
-            numbers = f"{free.low:.5g}", f"{free.high:.5g}", self.given.units.length, f"{free.least:.2f}"
-            args = Phrase(f"datum {free.key}"), *numbers, f"{free.best:.5g}", f"{self.found.least:.2f}"
-            made.append(Phrase("best choice", args))
+            made.append(Phrase("best choice", datum=Phrase(f"datum {free.key}"), low=f"{free.low:.5g}",
+                               high=f"{free.high:.5g}", unit=self.given.units.length, angle=f"{free.least:.2f}",
+                               best=f"{free.best:.5g}", here=f"{self.found.least:.2f}"))  # fmt: skip
         return made
 
     def sentences(self, language: str) -> list[str]:

@@ -48,20 +48,21 @@ class CamSheet:
         """What is done, one after the other."""
         cam, motion = self.cam, self.cam.motion
         radius, shifted = amount(self.base, 4), self.offset > 1e-9
-        steps = [Phrase("cam step diagram", (str(len(self.divisions)),)), Phrase("cam step base", (cam.point, radius))]
+        steps = [Phrase("cam step diagram", divisions=str(len(self.divisions)))]
+        steps.append(Phrase("cam step base", centre=cam.point, radius=radius))
         if isinstance(motion, SwingingFollower):
             distance = amount(abs(self.divisions[0].line), 4)
-            steps.append(Phrase("cam step pivots", (cam.point, motion.pivot, distance)))
-            steps.append(Phrase("cam step swings", (motion.pivot, motion.tip)))
+            steps.append(Phrase("cam step pivots", centre=cam.point, pivot=motion.pivot, distance=distance))
+            steps.append(Phrase("cam step swings", pivot=motion.pivot, tip=motion.tip))
         else:
             if shifted:
-                steps[-1] = Phrase("cam step circles", (cam.point, radius, amount(self.offset, 4)))
-            steps.append(Phrase("cam step tangents" if shifted else "cam step rays", (cam.point,)))
+                steps[-1] = Phrase("cam step circles", centre=cam.point, radius=radius, offset=amount(self.offset, 4))
+            steps.append(Phrase("cam step tangents") if shifted else Phrase("cam step rays", centre=cam.point))
             steps.append(Phrase("cam step lifts"))
         if cam.flat:
             return (*steps, Phrase("cam step faces"))
-        edge = Phrase("cam step rollers", (amount(self.roller, 4),)) if cam.roller else Phrase("cam step edge")
-        return (*steps, edge, Phrase("cam step normals", (cam.point,)))
+        edge = Phrase("cam step rollers", radius=amount(self.roller, 4)) if cam.roller else Phrase("cam step edge")
+        return (*steps, edge, Phrase("cam step normals", centre=cam.point))
 
 
 def cam_sheet(cam: LawCam, scale: float) -> CamSheet:

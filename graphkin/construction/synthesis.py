@@ -130,9 +130,9 @@ class DesignSheet:
         """A length of the task on paper."""
         return length / self.scale
 
-    def do(self, key: str, args: tuple[object, ...], *strokes: DesignStroke) -> None:
+    def do(self, key: str, *strokes: DesignStroke, **gaps: object) -> None:
         """Record one step, told by a sentence, with the strokes that it leaves."""
-        self.steps.append((Phrase(key, args), strokes))
+        self.steps.append((Phrase(key, **gaps), strokes))
 
     # -- acts of the hand ----------------------------------------------------------------------------------------------
 
@@ -174,7 +174,7 @@ class DesignSheet:
         """A step in which bars are measured."""
         self.measure(**bars)
         written = (f"{name if name == 'ram' else f'${name}$'} = {_mm(self.lengths[name])} mm" for name in bars)
-        self.do("design measured", (",  ".join(written),), *strokes)
+        self.do("design measured", *strokes, lengths=",  ".join(written))
 
 
 # -- the tasks ---------------------------------------------------------------------------------------------------------
@@ -213,12 +213,12 @@ def _(task: SliderCrankTask, paper: DesignSheet) -> None:
     stroke, offset = paper.mm(task.stroke), paper.mm(task.offset)
     near = paper.hand.point(0j)
     far = paper.lay_off(near, 1 + 0j, stroke)
-    paper.do("design stroke", (Markup("C_{2}C_{1}"), _mm(stroke)), line("given", near, far), *points(C1=far, C2=near))
+    paper.do("design stroke", line("given", near, far), *points(C1=far, C2=near), mm=_mm(stroke))
     middle, radius = _locus(paper, far, near, 1, task.K)
     # A lies beyond the near end of the stroke, the offset above its line
     height = near + 1j * paper.hand.length(offset)
     A = paper.cut("A", height, paper.hand.direction(1 + 0j), middle, radius)[1]
-    paper.do("design parallel", (_mm(offset),), line("direction", A, complex(far.real, A.imag)), *pivots(A=A))
+    paper.do("design parallel", line("direction", A, complex(far.real, A.imag)), *pivots(A=A), mm=_mm(offset))
     _crank_from_limits(paper, A, far, near)
 
 
@@ -227,8 +227,8 @@ def _(task: CrankRockerTask, paper: DesignSheet) -> None:
     half, arm = task.swing / 2, paper.mm(task.rocker)
     D = paper.hand.point(0j)
     first, second = (paper.lay_off_angle(D, direction(90.0 + side * half), arm) for side in (1, -1))
-    paper.do("design swing", (f"{task.swing:.6g}", _mm(arm)), *fan("given", D, first, second), *pivots(D=D),
-             *points(C1=first, C2=second), angle(D, second - D, first - D, task.swing, "ψ"))  # fmt: skip
+    paper.do("design swing", *fan("given", D, first, second), *pivots(D=D), *points(C1=first, C2=second),
+             angle(D, second - D, first - D, task.swing, "ψ"), swing=f"{task.swing:.6g}", mm=_mm(arm))  # fmt: skip
     if _theta(task.K) == 0.0:
         A = _pivot_on_line(paper, D, first, second, task)
     else:
@@ -240,8 +240,9 @@ def _(task: CrankRockerTask, paper: DesignSheet) -> None:
 def _(task: LimitsTask, paper: DesignSheet) -> None:
     A, D, arm = paper.plot(task.A), paper.plot(task.D), paper.mm(task.rocker)
     first, second = (paper.lay_off_angle(D, direction(angle), arm) for angle in task.angles)
-    paper.do("design limit positions", (_mm(arm), *(f"{angle:.6g}" for angle in task.angles)),
-             *fan("given", D, first, second), *pivots(A=A, D=D), *points(C1=first, C2=second))  # fmt: skip
+    low, high = (f"{angle:.6g}" for angle in task.angles)
+    paper.do("design limit positions", *fan("given", D, first, second), *pivots(A=A, D=D),
+             *points(C1=first, C2=second), mm=_mm(arm), first=low, second=high)  # fmt: skip
     _between_limits(paper, A, D, first, second)
 
 
@@ -253,12 +254,12 @@ def _locus(paper: DesignSheet, first: complex, second: complex, above: int, K: f
     leg = paper.hand.angle(unit(right - left) * complex(math.cos(tilt), above * math.sin(tilt)))
     centre = paper.meet("O", left, leg, midway, square)
     radius = paper.hand.compass(abs(first - centre))
-    paper.do("design theta", (f"{K:.6g}", shown))
+    paper.do("design theta", K=f"{K:.6g}", theta=shown)
     legs = right - left, (centre - left) or leg
     turn = legs if (tilt > 0) == (above > 0) else legs[::-1]
-    paper.do("design centre", (f"{math.degrees(tilt):.6g}", shown), angle(left, *turn, abs(math.degrees(tilt))),
-             *fan("construction", left, centre, right), line("direction", midway, centre), *points(O=centre),
-             circle(centre, radius))  # fmt: skip
+    paper.do("design centre", angle(left, *turn, abs(math.degrees(tilt))), *fan("construction", left, centre, right),
+             line("direction", midway, centre), *points(O=centre), circle(centre, radius),
+             tilt=f"{math.degrees(tilt):.6g}", theta=shown)  # fmt: skip
     return centre, radius
 
 
@@ -274,8 +275,7 @@ def _pivot_on_circle(
     if met is None:
         raise _not_drawn("A", "the arc about d does not reach the", "another frame")
     A = paper.hand.point(min(met, key=lambda z: z.real))
-    told = Markup("D"), _mm(paper.mm(task.frame)), Markup("A")
-    paper.do("design arc", told, circle(D, reach, A), *pivots(A=A))
+    paper.do("design arc", circle(D, reach, A), *pivots(A=A), mm=_mm(paper.mm(task.frame)))
     return A
 
 
@@ -283,9 +283,9 @@ def _pivot_on_line(paper: DesignSheet, D: complex, first: complex, second: compl
     """The same for K = 1: crank and rod lie in the line C1C2 in both limit positions."""
     reach = paper.hand.compass(paper.mm(task.frame))
     A = paper.cut("A", second, unit(first - second), D, reach)[0]
-    paper.do("design theta", (f"{task.K:.6g}", "0"))
-    told = Markup("D"), _mm(paper.mm(task.frame)), Markup("A")
-    paper.do("design line", told, line("construction", second, A), circle(D, reach, A), *pivots(A=A))
+    paper.do("design theta", K=f"{task.K:.6g}", theta="0")
+    paper.do("design line", line("construction", second, A), circle(D, reach, A), *pivots(A=A),
+             mm=_mm(paper.mm(task.frame)))  # fmt: skip
     return A
 
 
@@ -306,10 +306,10 @@ def _crank_from_limits(paper: DesignSheet, A: complex, far: complex, near: compl
     ends = (near - A, far - A) if cross(near - A, far - A) > 0 else (far - A, near - A)
     theta = math.degrees(math.atan2(abs(cross(*ends)), dot(*ends)))
     shown = [angle(A, *ends, theta, "θ")] if theta > SEEN else []
-    paper.do("design halve", (Markup(f"AC_{{{i}}}"), Markup(f"AC_{{{j}}}")), *shown, *fan("limit", A, far, near),
-             circle(A, reach, on_far))  # fmt: skip
+    paper.do("design halve", *shown, *fan("limit", A, far, near), circle(A, reach, on_far),
+             longer=Markup(f"AC_{{{i}}}"), shorter=Markup(f"AC_{{{j}}}"))  # fmt: skip
     out, back = paper.hand.point(A + crank * unit(far - A)), paper.hand.point(A - crank * unit(near - A))
-    paper.do("design crank circle", (), circle(A, crank), *points(**{f"B{i}": out, f"B{j}": back}),
+    paper.do("design crank circle", circle(A, crank), *points(**{f"B{i}": out, f"B{j}": back}),
              line("limit", A, back), line("mechanism", A, out, far))  # fmt: skip
     paper.told(AB=(A, out), BC=(out, far))
 
@@ -320,33 +320,32 @@ def _(task: GuideBarTask, paper: DesignSheet) -> None:
     half = theta / 2
     C = hand.point(0j)
     A = paper.lay_off(C, 1j, centres)
-    paper.do("design centres", (_mm(centres),), line("given", C, A), *pivots(A=A, C=C))
-    paper.do("design theta", (f"{task.K:.6g}", f"{math.degrees(theta):.6g}"))
+    paper.do("design centres", line("given", C, A), *pivots(A=A, C=C), mm=_mm(centres))
+    paper.do("design theta", K=f"{task.K:.6g}", theta=f"{math.degrees(theta):.6g}")
     left, right = (hand.angle(unit(A - C) * complex(math.cos(half), side * math.sin(half))) for side in (1, -1))
     foot = paper.meet("B1", C, left, A, hand.direction(1j * left))
     other = paper.meet("B2", C, right, A, hand.direction(1j * right))
     far = abs(A - C)
-    paper.do("design bar limits", (f"{math.degrees(half):.6g}",),
-             *fan("direction", C, C + 1.15 * far * left, C + 1.15 * far * right),
-             angle(C, far * right, far * left, math.degrees(theta), "θ"))  # fmt: skip
-    paper.do("design feet", (), line("mechanism", A, foot), line("limit", A, other), *points(B1=foot, B2=other),
+    paper.do("design bar limits", *fan("direction", C, C + 1.15 * far * left, C + 1.15 * far * right),
+             angle(C, far * right, far * left, math.degrees(theta), "θ"), half=f"{math.degrees(half):.6g}")  # fmt: skip
+    paper.do("design feet", line("mechanism", A, foot), line("limit", A, other), *points(B1=foot, B2=other),
              circle(A, abs(foot - A)))  # fmt: skip
     apart = hand.length(reach)
     first = paper.meet("D1", C, left, C - apart, hand.direction(1j))
     second = paper.meet("D2", C, right, C + apart, hand.direction(1j))
     top = C + 1j * abs(first - C)
-    paper.do("design bar ends", (_mm(reach),), line("construction", C - apart, first),
-             line("construction", C + apart, second), *points(D1=first, D2=second), line("mechanism", C, first),
-             line("limit", C, second))  # fmt: skip
+    paper.do("design bar ends", line("construction", C - apart, first), line("construction", C + apart, second),
+             *points(D1=first, D2=second), line("mechanism", C, first), line("limit", C, second),
+             mm=_mm(reach))  # fmt: skip
     top = hand.point(top)
     chord = paper.meet("chord", first, unit(second - first), C, 1j)
     level = hand.point((top + chord) / 2)
     rod = hand.compass(paper.mm(task.rod_length))
-    paper.do("design sagitta", (), circle(C, abs(first - C), first, top, second), line("construction", first, second),
+    paper.do("design sagitta", circle(C, abs(first - C), first, top, second), line("construction", first, second),
              line("direction", level - apart, level + apart + rod))  # fmt: skip
     E = paper.cut("E", level, 1 + 0j, first, rod)[0]
-    paper.do("design ram", (_mm(paper.mm(task.rod_length)),), circle(first, rod, E), *points(E1=E),
-             line("mechanism", first, E))  # fmt: skip
+    paper.do("design ram", circle(first, rod, E), *points(E1=E), line("mechanism", first, E),
+             mm=_mm(paper.mm(task.rod_length)))  # fmt: skip
     paper.told(AB=(A, foot), AC=(A, C), CD=(C, first), ram=(C, level))
 
 
@@ -355,7 +354,7 @@ def _(task: BarPositionsTask, paper: DesignSheet) -> None:
     bars = [(paper.plot(bar.B), paper.plot(bar.C)) for bar in task.positions]
     ends = {f"{name}{i}": at for i, bar in enumerate(bars, 1) for name, at in zip("BC", bar, strict=True)}
     lines = [line("limit" if i else "given", *bar) for i, bar in enumerate(bars)]
-    paper.do("design places", (), *lines, *points(**ends))
+    paper.do("design places", *lines, *points(**ends))
     (B, C), *_ = bars
     if task.A is None or task.D is None:
         A, D = (_circle_centre(paper, name, [f"{of}_{{{i}}}" for i in (1, 2, 3)], on, pivots)
@@ -363,7 +362,7 @@ def _(task: BarPositionsTask, paper: DesignSheet) -> None:
         _chain(paper, "CD", A=A, B=B, C=C, D=D)
         return
     A, D = paper.plot(task.A), paper.plot(task.D)
-    paper.do("design pivots", (), *pivots(A=A, D=D))
+    paper.do("design pivots", *pivots(A=A, D=D))
     centres = []
     for name, at, new in (("A", A, "M"), ("D", D, "N")):
         # carried along with the bar, by overlay
@@ -371,7 +370,7 @@ def _(task: BarPositionsTask, paper: DesignSheet) -> None:
         strokes: list[DesignStroke] = []
         for i, z in enumerate(turned[1:], 2):
             strokes += [*points(**{f"{name}{i}": z}), line("construction", B, z), line("construction", C, z)]
-        paper.do("design inverted", (Markup(name),), *strokes)
+        paper.do("design inverted", *strokes, pivot=Markup(name))
         centres.append(_circle_centre(paper, new, [name, f"{name}_{{2}}", f"{name}_{{3}}"], turned, points))
     _chain(paper, "DN", A=A, M=centres[0], N=centres[1], D=D)
 
@@ -388,9 +387,10 @@ def _circle_centre(
     p, d = paper.bisector(on[i], on[j])
     q, e = paper.bisector(on[k], on[m])
     at = paper.meet(name, p, d, q, e)
-    paper.do("design bisectors", (Markup(name), Markup(of[i] + of[j]), Markup(of[k] + of[m])),
-             line("construction", on[i], on[j]), line("construction", on[k], on[m]), line("direction", p, at),
-             line("direction", q, at), circle(at, abs(on[0] - at), *on), *marked(**{name: at}))  # fmt: skip
+    paper.do("design bisectors", line("construction", on[i], on[j]), line("construction", on[k], on[m]),
+             line("direction", p, at), line("direction", q, at), circle(at, abs(on[0] - at), *on),
+             *marked(**{name: at}), centre=Markup(name), first=Markup(of[i] + of[j]),
+             second=Markup(of[k] + of[m]))  # fmt: skip
     return at
 
 
@@ -410,7 +410,7 @@ def _(task: FunctionTask, paper: DesignSheet) -> None:
     D = paper.lay_off(A, 1 + 0j, frame)
     phi, psi = ([hand.angle(direction(pair[i])) for pair in task.pairs] for i in (0, 1))
     rays = [line("direction", at, at + 0.6 * frame * ray) for at, ways in ((A, phi), (D, psi)) for ray in ways]
-    paper.do("design pairs", (_mm(frame),), line("given", A, D), *pivots(A=A, D=D), *rays)
+    paper.do("design pairs", line("given", A, D), *pivots(A=A, D=D), *rays, mm=_mm(frame))
     trials = [_trials(paper, A, D, frame, phi, psi, other) for other in (1, 2)]
     # one unit of the diagram, so that what was tried fits beside the mechanism
     per_one = frame / max(1.0, *(max(abs(z.real), abs(z.imag)) for ends in trials for z in ends))
@@ -423,7 +423,7 @@ def _(task: FunctionTask, paper: DesignSheet) -> None:
     for a, b in ((p, q), (r, s)):
         first, _, last = sorted((a, b, crossing), key=lambda z: (z.real, z.imag))
         strokes.append(line("construction", corner + first, corner + last))
-    paper.do("design reciprocals", (_mm(per_one),), *strokes, *points(Q=corner + crossing))
+    paper.do("design reciprocals", *strokes, *points(Q=corner + crossing), unit=_mm(per_one))
     across, upward = hand.read_signed(crossing.real), hand.read_signed(crossing.imag)
     if min(abs(across), abs(upward)) < 1e-9 * per_one:
         raise _not_drawn("design.pairs", "they ask for a bar without end", "other angles")
@@ -431,11 +431,11 @@ def _(task: FunctionTask, paper: DesignSheet) -> None:
     paper.turned += [name for name, mm in (("AB", crank), ("CD", rocker)) if mm < 0]
     B = hand.point(A + hand.length(abs(crank)) * math.copysign(1.0, crank) * phi[0])
     C = hand.point(D + hand.length(abs(rocker)) * math.copysign(1.0, rocker) * psi[0])
-    paper.do("design reckoned", _reckoned(frame, per_one, across, upward), *points(B=B, C=C))
+    paper.do("design reckoned", *points(B=B, C=C), **_reckoned(frame, per_one, across, upward))
     _chain(paper, "CD", A=A, B=B, C=C, D=D)
 
 
-def _reckoned(frame: float, per_one: float, across: float, upward: float) -> tuple[str, ...]:
+def _reckoned(frame: float, per_one: float, across: float, upward: float) -> dict[str, str]:
     """The coordinates of Q, crank and rocker, and the unit (mm): with as many decimals as the quotients want that are
     to be true as they are written."""
     lengths = [abs(frame * per_one / side) for side in (across, upward)]
@@ -444,7 +444,8 @@ def _reckoned(frame: float, per_one: float, across: float, upward: float) -> tup
         written = [_mm(length) for length in lengths]
         if all(_mm(abs(base * unit / side)) == text for side, text in zip(sides, written, strict=True) if side):
             break
-    return (*tuple(f"{side:.{decimals}f}" for side in sides), *written, f"{unit:.{decimals}f}")
+    figures = (*(f"{side:.{decimals}f}" for side in sides), *written, f"{unit:.{decimals}f}")
+    return dict(zip(("across", "upward", "crank", "rocker", "unit"), figures, strict=True))
 
 
 def _trials(
@@ -478,5 +479,5 @@ def _trials(
             strokes += [line("direction", p, at), *dots(at)]
             reciprocal = frame / paper.hand.read_signed(math.copysign(abs(at - D), reciprocal))
         ends.append(complex(frame / paper.hand.read(crank), reciprocal))
-    paper.do("design trial", (str(other + 1),), *strokes)
+    paper.do("design trial", *strokes, pair=str(other + 1))
     return ends[0], ends[1]

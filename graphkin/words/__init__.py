@@ -332,7 +332,7 @@ def rich_text(said: Wording, language: str, show: Callable[[object], str] = _as_
     show : writes what stands in a gap, a symbol as `Markup`
 
     >>> from graphkin.words import Phrase
-    >>> rich_text(Phrase("design trial", ("2",)), "en")[:2]
+    >>> rich_text(Phrase("design trial", pair="2"), "en")[:2]
     ('two trial cranks: turn ', 'B_{2}')
     >>> rich_text(Phrase("by rate seen", **{"symbol": Markup("v_{C}"), "start.0": Markup("B"), "seen": "3"}), "en")
     ('from ', 'B', ' lay off what ', 'ω_{3}', ' gives: from the pole to there ', 'v_{C}')

@@ -25,7 +25,8 @@ def test_a_place_is_told_in_each_language_behind_the_masses_that_stand_once():
 
 
 def test_formulas_in_another_order_keep_the_sentences_apart():
-    said = Phrase("given masses", (Neutral("b = 2"), Phrase("best choice", (Neutral("a"), *map(Neutral, "123456")))))
+    gaps = zip(("datum", "low", "high", "unit", "angle", "best", "here"), map(Neutral, "a123456"), strict=True)
+    said = Phrase("given masses", (Neutral("b = 2"), Phrase("best choice", **dict(gaps))))
     assert 2 == len(in_all(said, "both"))
 
 

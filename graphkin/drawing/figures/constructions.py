@@ -301,7 +301,7 @@ def choice_chart(
     low = span[0] if span[0] > low / 3 else low
     x = np.linspace(low, high, 241)
     y = np.array([angle if (angle := at(float(value))) is not None else np.nan for value in x])
-    title = say(Phrase("choice chart", (word(f"datum {key}", language),)), language)
+    title = say(Phrase("choice chart", datum=word(f"datum {key}", language)), language)
 
     def paint(figure: Chart) -> None:
         add_words(figure, Text(complex(8.0, 10.0), rich(title, 4.0, bold=True)))
@@ -420,7 +420,7 @@ def _given(scene: Mechanism, cam: LawCam, language: str) -> str:
              for letter, length in lengths.items() if length)  # fmt: skip
     kind = term("cam flat" if cam.flat else "cam roller" if cam.roller else "cam edge", language)
     sense = "counter-clockwise" if cam.sense > 0 else "clockwise"
-    turns = " ".join(in_all(Phrase("cam turns", (Phrase(sense),)), language))
+    turns = " ".join(in_all(Phrase("cam turns", sense=Phrase(sense)), language))
     return f"{kind}; {',  '.join(parts)}; {turns}"
 
 
