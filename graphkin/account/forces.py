@@ -149,8 +149,8 @@ class ForceAccount:
     def _unnumbered(self) -> Iterator[ForceStage]:
         first, *others = self.forces.states
         inertia = tuple(
-            ForceStep("inertia", Phrase("force step inertia", (n,)), (self.inertia(one),), (Symbol("Fi", link=n),))
-            for n, one in self.forces.inertias.items()
+            ForceStep("inertia", Phrase("force step inertia", (n,)), (self.inertia(pushed),), (Symbol("Fi", link=n),))
+            for n, pushed in self.forces.inertias.items()
         )
         if inertia:
             yield ForceStage("acceleration", Phrase("force inertia"), inertia, first)
@@ -172,20 +172,20 @@ class ForceAccount:
                          ForceStep("lever", balanced, (total,), (lever.unknown.symbol,)))  # fmt: skip
                 yield ForceStage("lever", Phrase("lever"), steps, state, again=bool(k))
 
-    def inertia(self, one: Inertia) -> str:
+    def inertia(self, pushed: Inertia) -> str:
         """``F_I4 = -m_4 a_S4 = 22.4 kg x 2.11 m/s2 = 47.4 N; M_I4 = ...; h_4 = ...``."""
-        units, link = self.sheet.scene.units, one.mass.link
-        mass, push = amount(one.mass.mass / units.kilograms, MOST), amount(abs(one.push), MOST)
+        units, link = self.sheet.scene.units, pushed.mass.link
+        mass, push = amount(pushed.mass.mass / units.kilograms, MOST), amount(abs(pushed.push), MOST)
         size = product(mass, push, amount(units.kilograms / units.newtons, 12), carried=MOST)
-        point = next((p for p, z in self.sheet.scene.by_name[link].points.items() if z == one.mass.at), f"S{link}")
+        point = next((p for p, z in self.sheet.scene.by_name[link].points.items() if z == pushed.mass.at), f"S{link}")
         letter = "A" if self.letters.convention == "us" else "a"
         said = [f"{self.name(Symbol('Fi', link=link))} = $m_{{{link}}}$ ${letter}_{{{point}}}$ = "
                 f"{written(mass)} {units.mass} × {written(push)} m/s² = {written(size)} {units.force}"]  # fmt: skip
-        if one.mass.inertia:
-            turned = f"{number(one.moment / units.newtons, MOST)} {units.force}·m"
+        if pushed.mass.inertia:
+            turned = f"{number(pushed.moment / units.newtons, MOST)} {units.force}·m"
             said.append(f"{self.name(Symbol('Mi', link=link))} = −$J_{{{link}}}$ $α_{{{link}}}$ = {turned}")
-        if one.mass.inertia and one.h is not None:
-            said.append(f"$h_{{{link}}}$ = {number(abs(one.h) / units.metres, MOST)} {units.length}")
+        if pushed.mass.inertia and pushed.h is not None:
+            said.append(f"$h_{{{link}}}$ = {number(abs(pushed.h) / units.metres, MOST)} {units.length}")
         return ";  ".join(said)
 
     def springs(self) -> Iterator[Phrase]:
@@ -193,19 +193,19 @@ class ForceAccount:
         units = self.sheet.scene.units
         for spring in self.sheet.scene.loading.springs:
             name = Symbol("P", name=spring.name)
-            own, other = (one for one in self.forces.states[0].known if one.symbol == name)
-            length = abs(other.at - own.at) * self.sheet.scales.length
+            pull_on, opposite = (load for load in self.forces.states[0].known if load.symbol == name)
+            length = abs(opposite.at - pull_on.at) * self.sheet.scales.length
             force = spring.preload + spring.rate * (length - spring.free)
             start, rate = amount(spring.preload / units.newtons), amount(spring.rate * units.metres / units.newtons)
             free, pull = amount(spring.free / units.metres), amount(force / units.newtons, MOST)
 
-            def as_written(told: str, start: str = start, rate: str = rate, free: str = free) -> str:
-                return amount(float(start) + float(rate) * (float(told) - float(free)), MOST)
+            def as_written(measured: str, start: str = start, rate: str = rate, free: str = free) -> str:
+                return amount(float(start) + float(rate) * (float(measured) - float(free)), MOST)
 
             tried = [amount(length / units.metres, carried) for carried in FINER]
-            told = next((one for one in tried if float(as_written(one)) == float(pull)), tried[0])
+            measured = next((text for text in tried if float(as_written(text)) == float(pull)), tried[0])
             preload = f"{written(start)} + " if spring.preload else ""
-            stretch = f"{written(rate)} × ({written(told)} − {written(free)})"
+            stretch = f"{written(rate)} × ({written(measured)} − {written(free)})"
             total = Neutral(f"{self.name(name)} = {preload}{stretch} = {written(pull)} {units.force}")
             key = "force spring" if force >= 0 else "force spring pushes"
             ends = "".join(map(self.letters.point, spring.points))
@@ -223,7 +223,7 @@ class ForceAccount:
         """The steps by which the forces of a group are found."""
         links, drawn = listed(group.links), group.polygon or chain(*group.inner.values())
         acting = [*(v for v in drawn if v.known and v.span), *group.couples_before]
-        names = [self.name(symbol) for symbol in dict.fromkeys(one.symbol for one in acting)]
+        names = [self.name(symbol) for symbol in dict.fromkeys(load.symbol for load in acting)]
         cut = Phrase("force step cut", (links, listed(names))) if names else Phrase("force step cut bare", (links,))
         yield ForceStep("cut", cut)
         yield from self._moments(group)
@@ -253,54 +253,56 @@ class ForceAccount:
         if held is not None:
             said = Phrase("force reason along", (held.link.split("/")[0], self.name(held.symbol, "n")))
             yield ForceStep("moments", said, (), (held.symbol,), "n")
-        for one in group.moments:
-            symbol, part = one.unknown.symbol, one.unknown.acting.part
-            links, point = _links(one.links), f"${self.letters.point(one.about)}$"
-            if not one.terms and group.way == "polygon" and group.kind != "RPR":
+        for equation in group.moments:
+            symbol, part = equation.unknown.symbol, equation.unknown.acting.part
+            links, point = _links(equation.links), f"${self.letters.point(equation.about)}$"
+            if not equation.terms and group.way == "polygon" and group.kind != "RPR":
                 said = Phrase("force two-force member", (links, self.name(symbol), point))
                 yield ForceStep("moments", said, (), (symbol,), part)
                 continue
             # a part, where both stand in the polygon, or where it is nought and the force lies along the bar
             parts = sum(v.symbol == symbol and v.part != "" for v in group.polygon)
-            name = self.name(symbol, part if parts > 1 or not balance(self.sheet, one)[2] else "")
+            name = self.name(symbol, part if parts > 1 or not balance(self.sheet, equation)[2] else "")
             key = "driver" if group.way == "driver" else "guide" if group.kind == "RPR" else "pin"
             said = Phrase(f"force reason {key}", (point, links, name))
-            yield ForceStep("moments", said, (*self._arms(one, name), self._equation(one, name)), (symbol,), part)
+            yield ForceStep("moments", said, self._in_numbers(equation, name), (symbol,), part)
 
     def _couples(self, group: ForceGroup) -> Iterator[ForceStep]:
         """Couples of sliding pairs with the lines of their forces, and moments that balance."""
         units = self.sheet.scene.units
-        for one in group.couples:
-            if not any(link in self.sheet.scene.by_name for link in one.links):  # a pin in a slot has no couple
+        for equation in group.couples:
+            if not any(link in self.sheet.scene.by_name for link in equation.links):  # a pin in a slot has no couple
                 continue
-            symbol = one.unknown.symbol
+            symbol = equation.unknown.symbol
             name = self.name(symbol)
-            if symbol.other and not one.value:
+            if symbol.other and not equation.value:
                 yield ForceStep("couples", Phrase("force no couple", (Neutral(f"{name} = 0"),)), (), (symbol,))
                 continue
-            work: list[Wording] = [*self._arms(one, name), self._equation(one, name)]
+            work = self._in_numbers(equation, name)
             for force, (_, shifted) in group.lines.items():
                 if (force.link, force.other) == (symbol.link, symbol.other):
                     shift = number(abs(shifted) / units.metres, MOST)
                     work.append(Phrase("force line shifted", (self.name(force), shift, units.length)))
             key = "force reason couple" if symbol.other else "force reason balance"
-            yield ForceStep("couples", Phrase(key, (_links(one.links), name)), work, (symbol,))
+            yield ForceStep("couples", Phrase(key, (_links(equation.links), name)), work, (symbol,))
 
-    def _arms(self, one: MomentEquation, name: str) -> list[Phrase]:
-        """The arms of a moment equation as the ruler gives them on the mechanism; ``name`` is that of its unknown."""
-        of = [*((self.name(t.symbol), t.arm) for t in one.terms), (name, one.unknown.arm)]
+    def _in_numbers(self, equation: MomentEquation, name: str) -> list[Wording]:
+        """The arms of a moment equation as the ruler gives them on the mechanism, and the equation; ``name`` is that of
+        its unknown."""
+        of = [*((self.name(t.symbol), t.arm) for t in equation.terms), (name, equation.unknown.arm)]
         arms = [f"{force} {written(on_paper(abs(arm)))} mm" for force, arm in of if arm is not None]
         scale = Neutral(f"× {amount(self.sheet.scales.length, 12)} m/mm")
-        return [Phrase("force arms", arms=Neutral(",  ".join(arms)), scale=scale)] if arms else []
+        measured = [Phrase("force arms", arms=Neutral(",  ".join(arms)), scale=scale)] if arms else []
+        return [*measured, self._equation(equation, name)]
 
-    def _equation(self, one: MomentEquation, name: str) -> str:
+    def _equation(self, equation: MomentEquation, name: str) -> str:
         """``ΣM_C = 0: F_G5 x 0.0488 m ... = 0, F^t_R45 = -10.7 N``."""
-        scene = self.sheet.scene
-        point = f"({one.about})" if one.about in scene.by_name and one.about not in scene.holders else one.about
-        terms, arm, total = balance(self.sheet, one)
+        scene, point = self.sheet.scene, equation.about
+        point = f"({point})" if point in scene.by_name and point not in scene.holders else point
+        terms, arm, total = balance(self.sheet, equation)
         whole = " ".join(f"{'−' if sign == '-' else '+'} {'·'.join(map(written, factors))}" for sign, factors in terms)
         # the sense of a force is that in which it comes out positive; of a moment what acts may be the opposite
-        turned = not arm and one.unknown.acting.turned
+        turned = not arm and equation.unknown.acting.turned
         whole += f" {'−' if turned or (arm and total < 0) else '+'} {name}" + (f"·{written(arm)}" if arm else "")
         value = number(float(abs(total) if arm else -total if turned else total), MOST) if total else "0"
         unit = scene.units.force + ("" if arm else "·m")
@@ -334,8 +336,8 @@ class ForceAccount:
                 # as their sum gave it
                 value = amount(float(abs(balance(self.sheet, by_moments)[2])), MOST)
                 length = length if is_quotient(length, value, self.per_mm) else on_paper(float(value) / per)
-            one, two = (corner_at(group, place) for place in (v.tail, v.tip))
-            ends = f"${one}{two}$ = " if one != two else ""  # "" where they bear one letter
+            begin, end = (corner_at(group, place) for place in (v.tail, v.tip))
+            ends = f"${begin}{end}$ = " if begin != end else ""  # "" where they bear one letter
             sum_ = f"{written(value)} {force} ÷ {written(self.per_mm)} {force}/mm = {written(length)} mm"
             lines.append(f"{ends}{self.name(v.symbol, v.part)} = {sum_},  {pointing(v.span)}°")
         return lines
@@ -362,8 +364,8 @@ class ForceAccount:
         ways = [f"${way}$" for v in sought if (way := self.letters.direction(v.direction, frame))]
         if len(ways) < 2:
             return None
-        one, two = ((way, self.name(v.symbol, v.part)) for way, v in zip(ways, sought, strict=True))
-        return Phrase("force lines meet", (ends, *one, begins, *two, *at(last.tip, first.tail, behind.tip)))
+        line, other = ((way, self.name(v.symbol, v.part)) for way, v in zip(ways, sought, strict=True))
+        return Phrase("force lines meet", (ends, *line, begins, *other, *at(last.tip, first.tail, behind.tip)))
 
     def lever(self, state: ForceState, lever: Lever) -> tuple[Phrase, Phrase]:
         """The sum of the moments on a lever in numbers, and what balances by it beside the value of the polygons."""
@@ -428,26 +430,26 @@ Balance: TypeAlias = tuple[tuple[tuple[str, tuple[str, ...]], ...], str, Decimal
 unknown ("" where it is a couple), and what the others give for it (in the file's force, or that times m)."""
 
 
-def balance(sheet: Sheet, one: MomentEquation) -> Balance:
+def balance(sheet: Sheet, equation: MomentEquation) -> Balance:
     """The equation with as many figures of its arms, at last of its forces, as it wants to give what is drawn; what it
     gives is true as it is written."""
-    drawn = amount(abs(one.value) / sheet.scene.units.newtons, MOST)
-    tried = [_balance(sheet, one, carried, of_forces) for of_forces in FINER for carried in FINER]
+    drawn = amount(abs(equation.value) / sheet.scene.units.newtons, MOST)
+    tried = [_balance(sheet, equation, carried, of_forces) for of_forces in FINER for carried in FINER]
     return next((b for b in tried if amount(float(abs(b[2])), MOST) == drawn), tried[0])
 
 
-def _balance(sheet: Sheet, one: MomentEquation, carried: int, of_forces: int) -> Balance:
+def _balance(sheet: Sheet, equation: MomentEquation, carried: int, of_forces: int) -> Balance:
     def metres(term: MomentTerm) -> str:
         return "" if term.arm is None else amount(abs(term.arm) * sheet.scales.length, carried)
 
     terms = []
-    for term in one.terms:
+    for term in equation.terms:
         # a force has its sense from its arm, a couple from itself
         size = amount(abs(term.size) / sheet.scene.units.newtons, of_forces)
         turn = term.size if term.arm is None else term.arm
         terms.append(("-" if turn < 0 else "+", tuple(filter(None, (size, metres(term))))))
     total = -sum((Decimal(f"{sign}1") * math.prod(map(Decimal, factors)) for sign, factors in terms), Decimal(0))
-    arm = metres(one.unknown)
+    arm = metres(equation.unknown)
     return tuple(terms), arm, total / Decimal(arm) if arm else total
 
 
