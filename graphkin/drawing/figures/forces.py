@@ -95,7 +95,7 @@ def forces_figure(
             metadata={"scales": {name: float(f"{per:.12g}") for name, per in scales.items()}},
         ) for number, body in enumerate(pages(blocks, room, APART), 1)
     )  # fmt: skip
-    further = [replace(one, title=f"{one.title} ({number})") for number, one in enumerate(further, 2)]
+    further = [replace(drawn, title=f"{drawn.title} ({number})") for number, drawn in enumerate(further, 2)]
     return replace(first, further=tuple(further))
 
 
@@ -160,18 +160,18 @@ def _pictures(
     named = "-".join(stage.group.links) + suffix
     sketch = framed(panel(wide, high, lambda room: _free_body(page, forces, stage, room.grown(-INSIDE), named)))
 
-    def polygon(one: _Polygon, width: float, height: float) -> Block:
+    def polygon(drawn: _Polygon, width: float, height: float) -> Block:
         return framed(panel(
-            width, height, lambda room: _drawn_polygon(page, stage, one, room.grown(-INSIDE), names, suffix)))
+            width, height, lambda room: _drawn_polygon(page, stage, drawn, room.grown(-INSIDE), names, suffix)))
 
     if alone:
         yield row(sketch, polygon(polygons[0], page.width - SKETCH - APART, high), gap=APART)
         return
     yield sketch
     singles = []
-    for one in polygons:
-        link, *_, box = one
-        drawn = polygon(one, max(box.width, NARROW), max(box.height, SMALLEST))
+    for apart in polygons:
+        link, *_, box = apart
+        drawn = polygon(apart, max(box.width, NARROW), max(box.height, SMALLEST))
         said = (" / ".join(page.said("force on link", link)),) if link else ()
         singles.append(column(prose(said, drawn.width, 2.4), drawn))
     yield from rows(singles, page.width, gap=2.0)
@@ -273,10 +273,10 @@ def _sketch(page: FigurePage, forces: ForceSheet, stage: ForceStage, times: floa
     plate.put("construction", *marks.layers["construction"])
     _arms(plate, stage, times)
     _acting(plate, page, stage, times, tag)
-    for link, one in forces.inertias.items():
-        if link in links and one.shifted is not None and one.h:
+    for link, pushed in forces.inertias.items():
+        if link in links and pushed.shifted is not None and pushed.h:
             # where it acts together with its couple: a line at the distance h from the centre of mass
-            along, at, centre = unit(one.force), one.shifted * times, one.centre * times
+            along, at, centre = unit(pushed.force), pushed.shifted * times, pushed.centre * times
             if abs(at - centre) >= 1.0:
                 line = Line(on_page(at - 5.0 * along), on_page(at + ARROW * along), strokes.DIRECTION)
                 across = Line(on_page(centre), on_page(at), strokes.DIMENSION)
@@ -288,9 +288,9 @@ def _sketch(page: FigurePage, forces: ForceSheet, stage: ForceStage, times: floa
 
 def _links(here: MechanismOnPaper, links: set[str]) -> tuple[list[Primitive], list[Label]]:
     parts, labels = links_alone(here, links, 2)
-    for one in here.sliders:
-        if one.slide.a in links:
-            parts += symbols.block(on_page(one.at), phase(one.along), here.colour(one.slide.a))
+    for slider in here.sliders:
+        if slider.slide.a in links:
+            parts += symbols.block(on_page(slider.at), phase(slider.along), here.colour(slider.slide.a))
     known = here.sheet.structure.links
     for point, z in here.places.items():
         if any(point in known[n].points for n in links if n in known):
@@ -323,9 +323,9 @@ def _acting(plate: Plate, page: FigurePage, stage: ForceStage, times: float, tag
         plate.arrow("forces", f"acts-{tag}-{n}", at, at + along * (ARROW + NEXT * again), _letters_of(letters, vector),
                     kind=_kind(vector), colour=_colour(sheet, vector), classes=("acting",),
                     step=stage.on_links(vector))  # fmt: skip
-    found = (one.found for one in group.couples)
-    turning = [*group.couples_before, *(one for one in found if not one.off or one.off not in outside
-                                        or not one.symbol.other)]  # fmt: skip
+    at_pairs = (equation.found for equation in group.couples)
+    turning = [*group.couples_before, *(couple for couple in at_pairs if couple.off not in outside
+                                        or not couple.symbol.other)]  # fmt: skip
     places: list[complex] = []
     for couple in turning:
         if couple.link not in outside or not couple.moment:
@@ -334,10 +334,10 @@ def _acting(plate: Plate, page: FigurePage, stage: ForceStage, times: float, tag
         radius = 4.2 + 2.0 * sum(abs(at - z) < NEAR for z in places)
         places.append(at)
         arc = symbols.sense_arc(on_page(at), radius, 0.9, 1 if couple.moment > 0 else -1)
-        own, step = f"acts-{tag}-{named.id}", stage.number_of("couples", named) or stage.known
-        plate.put("forces", *arc, id=own, classes=("acting",), step=step)
+        name, step = f"acts-{tag}-{named.id}", stage.number_of("couples", named) or stage.known
+        plate.put("forces", *arc, id=name, classes=("acting",), step=step)
         letter = symbol("−" * couple.turned + force_letters(letters.convention, named), 3.0)
-        plate.name(letter, at + radius * 0.7 * (1 + 1j), f"label-{own}", step=step)
+        plate.name(letter, at + radius * 0.7 * (1 + 1j), f"label-{name}", step=step)
 
 
 def _kind(vector: ForceVector) -> symbols.ArrowKind:
@@ -371,8 +371,8 @@ def _arms(plate: Plate, stage: ForceStage, times: float) -> None:
     """Arms of the moments by which parts were found, from the point to the line of each force."""
     for equation in (*stage.group.moments, *(c for c in stage.group.couples if not c.unknown.symbol.other)):
         sought = equation.unknown.acting
-        lines = [Line(on_page(one.about * times), on_page(one.foot * times), strokes.DIRECTION)
-                 for one in equation.terms if one.arm is not None and abs(one.arm) * times >= 1.0]  # fmt: skip
+        lines = [Line(on_page(term.about * times), on_page(term.foot * times), strokes.DIRECTION)
+                 for term in equation.terms if term.arm is not None and abs(term.arm) * times >= 1.0]  # fmt: skip
         step = stage.number_of("moments", sought.symbol, sought.part) or stage.number_of("couples", sought.symbol)
         if lines:
             plate.put("construction", *lines, classes=("arms",), step=step)
@@ -390,7 +390,7 @@ and its panel at least (mm, y down)."""
 def _polygons(group: ForceGroup) -> list[_Polygon]:
     """The polygons of a group that are drawn apart."""
     closing: list[ForceVector] = []
-    own: list[tuple[str, Sequence[ForceVector]]] = []
+    alone: list[tuple[str, Sequence[ForceVector]]] = []
     drawn = {frozenset((v.symbol.link, v.symbol.other)): {v.tail, v.tip} for v in group.polygon if v.symbol.other}
     for link, vectors in group.inner.items():
         if group.polygon and vectors[:-1] == group.polygon[: len(vectors) - 1]:
@@ -398,10 +398,10 @@ def _polygons(group: ForceGroup) -> list[_Polygon]:
             there = drawn.get(frozenset((last.symbol.link, last.symbol.other)))
             closing += [last] if there != {last.tail, last.tip} and abs(last.span) > SHORT else []
         elif any(abs(v.span) > SHORT for v in vectors):
-            own.append((link, vectors))
+            alone.append((link, vectors))
     made = [("", group.polygon, closing)] if group.polygon else []
     return [(link, vectors, inside, _box((*vectors, *inside)).grown(AROUND))
-            for link, vectors, inside in (*made, *((link, vectors, ()) for link, vectors in own))]  # fmt: skip
+            for link, vectors, inside in (*made, *((link, vectors, ()) for link, vectors in alone))]  # fmt: skip
 
 
 def _box(vectors: Sequence[ForceVector]) -> Box:
@@ -440,8 +440,8 @@ def _drawn_polygon(
         arrow(whole, whole.tail, whole.tip, stage.in_polygon(whole, link))
     for letter, place, vector in lettered:
         names[f"corner-{letter}"] += 1
-        own = f"label-corner-{letter}-{names[f'corner-{letter}']}{suffix}"
-        plate.name(symbol(letter, 3.0), place + shifts.get(_key(vector), 0j), own, rank=1,
+        name = f"label-corner-{letter}-{names[f'corner-{letter}']}{suffix}"
+        plate.name(symbol(letter, 3.0), place + shifts.get(_key(vector), 0j), name, rank=1,
                    step=stage.in_polygon(vector, link))  # fmt: skip
     unknown = [v for v in vectors if not v.known]
     for vector in unknown:
@@ -464,10 +464,11 @@ def _key(vector: ForceVector) -> Symbol:
 
 def _wholes(vectors: Sequence[ForceVector]) -> Iterator[ForceVector]:
     """Forces of which both parts stand in a polygon, whole."""
-    for one, two in zip(vectors, (*vectors[1:], *vectors[:1]), strict=True):
-        if one.symbol == two.symbol and {one.part, two.part} == {"t", "n"} and abs(one.tip - two.tail) < SHORT:
-            whole = replace(one, part="", by="closing", tip=two.tip)
-            if min(abs(whole.span), abs(one.span), abs(two.span)) > SHORT:
+    for first, second in zip(vectors, (*vectors[1:], *vectors[:1]), strict=True):
+        both = first.symbol == second.symbol and {first.part, second.part} == {"t", "n"}
+        if both and abs(first.tip - second.tail) < SHORT:
+            whole = replace(first, part="", by="closing", tip=second.tip)
+            if min(abs(whole.span), abs(first.span), abs(second.span)) > SHORT:
                 yield whole
 
 
@@ -551,27 +552,27 @@ def _drawn_lever(page: FigurePage, lever: Lever, per_mm: float, tag: str) -> Pie
     taken: list[tuple[complex, complex]] = []
     sought = lever.unknown.acting
     balance = replace(lever.unknown, acting=replace(sought, force=sought.force * (lever.value or 1.0)))
-    for one in (*(known for known in lever.rows if known.acting.force), balance):
-        found = one is balance
-        acting = _forces_at(one, per_mm)
-        letter = force_letters(convention, one.symbol)
-        turned = one.acting.turned
-        named = ("−" * turned) + (as_vector(convention, letter) if one.pair is None else f"{letter}/l")
+    for term in (*(known for known in lever.rows if known.acting.force), balance):
+        balances = term is balance
+        acting = _forces_at(term, per_mm)
+        letter = force_letters(convention, term.symbol)
+        turned = term.acting.turned
+        named = ("−" * turned) + (as_vector(convention, letter) if term.pair is None else f"{letter}/l")
         for n, (at, along) in enumerate(acting, 1):
             again = sum(abs(at - z) < NEAR and abs(along - e) < 0.1 for z, e in taken)
             taken.append((at, along))
-            own = f"{one.symbol.id}{'-opposite' * turned}{f'-{n}' if len(acting) > 1 else ''}"
-            plate.arrow("forces", f"lever-{own}{tag}", at, at + along * (LEVER_ARROW + NEXT * again), named,
-                        kind=RESULTANT if found else COMPONENT, classes=("acting",),
-                        colour=strokes.LINK_COLOURS[1] if found else strokes.BLACK)  # fmt: skip
-        if one.pair is None and one.arm and abs(one.arm) > SEEN * per_mm and acting:
+            name = f"{term.symbol.id}{'-opposite' * turned}{f'-{n}' if len(acting) > 1 else ''}"
+            plate.arrow("forces", f"lever-{name}{tag}", at, at + along * (LEVER_ARROW + NEXT * again), named,
+                        kind=RESULTANT if balances else COMPONENT, classes=("acting",),
+                        colour=strokes.LINK_COLOURS[1] if balances else strokes.BLACK)  # fmt: skip
+        if term.pair is None and term.arm and abs(term.arm) > SEEN * per_mm and acting:
             at, along = acting[0]
-            foot = -1j * along * one.arm / per_mm
+            foot = -1j * along * term.arm / per_mm
             lines = [Line(0j, on_page(foot), strokes.DIMENSION)]
             if abs(foot - at) > SEEN:
                 lines.append(Line(on_page(foot), on_page(at), strokes.DIRECTION))
             plate.put("velocity", *lines, classes=("arm",))
-            arm = force_letters(convention, Symbol("arm", name=str(one.symbol))) + "'" * turned
+            arm = force_letters(convention, Symbol("arm", name=str(term.symbol))) + "'" * turned
             plate.name(symbol(arm, 2.8), (0j, foot), colour=strokes.GREY, rank=2)
     plate.circle("velocity", 0j, 0.9, strokes.WHITE, strokes.OUTLINE)
     return plate.piece
