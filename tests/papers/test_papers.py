@@ -3,6 +3,7 @@ from __future__ import annotations
 import csv
 import dataclasses
 import io
+import math
 import re
 import subprocess
 
@@ -14,7 +15,7 @@ from graphkin.api.handouts import handout
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink.primitives import Line, Polygon, Text, walk
 from graphkin.papers.blocks import Heading, Picture, StepItem, TableBlock, laid_out
-from graphkin.papers.documents import answer_key, key_rows, problem, result_cells, solution
+from graphkin.papers.documents import accepted, answer_key, key_rows, problem, result_cells, solution
 from graphkin.papers.html import document_page
 from graphkin.papers.pdf import can_typeset
 from graphkin.papers.pictures import POLYGONS, mechanism_picture, workspace
@@ -236,6 +237,18 @@ def test_a_problem_does_not_show_how_a_larger_group_is_placed():
     ids = {thing.id for d in drawn for thing in walk(d.children) if hasattr(thing, "id")}
     assert "point-B" in ids
     assert set() == {"point-S", "special-S", "label-point-S", "label-trial-B-1"} & ids
+
+
+@pytest.mark.parametrize(
+    ("value", "off", "least", "told"),
+    [
+        (100.0, 3.21, 0.0, ("± 3.2", "96.8 … 103.2")), (1234.0, 345.0, 0.0, ("± 340", "890 … 1580")),
+        (2.0, 3.0, 0.0, ("± 3.0", "0.0 … 5.0")), (2.0, 3.0, -math.inf, ("± 3.0", "−1.0 … 5.0")),
+        (2.0, 0.0, 0.0, ("–", "–")), (2.0, math.inf, 0.0, ("–", "–")),
+    ],
+)  # fmt: skip
+def test_what_is_accepted_lies_as_far_as_a_pencil_may_be_off_on_either_side_to_two_figures(value, off, least, told):
+    assert told == accepted(value, off, least)
 
 
 def test_what_is_told_to_be_measured_is_the_length_on_paper_times_the_scale_and_may_be_off_the_exact_value():

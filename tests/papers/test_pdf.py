@@ -6,8 +6,8 @@ import pytest
 
 from graphkin.drawing.ink.primitives import Line, Scan, Stroke
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.papers.blocks import Heading, Paragraph, Picture
-from graphkin.papers.pdf import FORMS, KEPT, Page, Piece, balanced, fill_pages
+from graphkin.papers.blocks import Document, Heading, Paragraph, Picture, StepItem, spoken
+from graphkin.papers.pdf import FORMS, KEPT, Page, Piece, balanced, fill_pages, pages_of
 
 HEIGHT = 260.0
 WORDS, ROOM, FRESH = Paragraph(()), Paragraph((), fills=True), Heading((), fresh=True)
@@ -99,3 +99,16 @@ def test_a_figure_is_set_at_true_scale_with_room_for_lines_on_its_edge():
 def test_a_scan_under_a_figure_is_no_part_of_a_paper():
     scan = Scan(0j, 1 + 0j, 1, 1, "image/png", b"")
     assert "" == FORMS["drawing"](Drawing(10.0, 10.0, (scan,), "title", "desc", "en"))["svg"]
+
+
+def test_a_heading_goes_to_the_next_page_with_what_it_leads_to():
+    heights = {Heading: 10.0, Paragraph: 200.0, StepItem: 100.0}
+
+    def measure(questions):
+        return [(100.0, heights[type(block)]) for block, _ in questions]
+
+    words = spoken("words", "en")
+    steps = [StepItem(number, words) for number in (1, 2)]
+    document = Document("title", ("en",), (Paragraph(words), Heading(words), *steps))
+    shown = [[type(row.left[0].block) for row in half] for page in pages_of(document, measure) for half in page]
+    assert [[Paragraph], [Heading, StepItem, StepItem]] == shown
