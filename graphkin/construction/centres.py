@@ -31,7 +31,7 @@ from graphkin.construction.touching import Touching
 from graphkin.plane import Pose, dot
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Structure, analyse, driver_pair, part_of
+from graphkin.structure import Structure, analyse, part_of
 from graphkin.words import Phrase
 
 LinkPair = tuple[str, str]
@@ -572,20 +572,15 @@ def _chained(centres: Centres) -> dict[str, Turning]:
 def _driven(centres: Centres, driver: Driver) -> dict[str, Turning]:
     """The links that the driver's own pair moves, from its rate: turning about their common centre, or sliding."""
     chart, structure, frame = centres.chart, centres.sheet.structure, centres.scene.frame.name
-    pin = next((p for p in centres.scene.pins if p.key == driver.key), None)
-    if driver.turns:
-        a, b = driver.links
-    else:
-        pair = driver_pair(driver, structure.links, structure.slides)
-        assert pair is not None
-        a, b = (pin.of, pin.on) if pin else (pair.a, pair.b)
+    slide = None if driver.turns else structure.slide(driver.key)
+    a, b = driver.links if slide is None else (slide.of or slide.a, slide.b)
     centre = centres.of(a, b)
     if centre.place is None:
         return {}
     once, reach = centre.place[2], 1.0
-    if not driver.turns:
-        at = centres.point(pin.point) if pin else chart.middle
-        along = centres.poses[b].axis * structure.slide(driver.key).guide.direction
+    if slide is not None:
+        at = centres.point(slide.pin) if slide.slot and slide.pin else chart.middle
+        along = centres.poses[b].axis * slide.guide.direction
         once = dot(chart.velocity(centre.place, 1.0, at), along) / centres.mm
         reach = (abs(at - chart.middle) + chart.unit) / centres.mm
     if once == 0.0:

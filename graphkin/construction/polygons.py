@@ -95,8 +95,7 @@ class Polygons:
         size = max((abs(z - w) for z in self.places.values() for w in self.places.values()), default=1.0)
         self.tiny = 1e-11 * size
         self.touching = {c.name for c in structure.scene.contacts}
-        self.block_of = {p.key: p.of for p in structure.scene.pins}
-        self.block_of |= {c.block: c.round[0].link for c in structure.scene.contacts if c.flat}
+        self.block_of = {slide.a: slide.of for slide in structure.slides if slide.slot}
         self.held = ""  # the link that is held still, and the group whose it is
         self.part_of: LargerGroup | None = None
         self.begin(structure.scene.frame.name)

@@ -103,8 +103,8 @@ def balances(motion: Motion) -> list[PairForce]:
             found.append(PairForce(Symbol("M", link=driver.link), driver.relative_to, driver.link, None, at))
             continue
         slide = motion.structure.slide(driver.key)
-        pin = next((p for p in scene.pins if p.key == driver.key), None)
-        link, at = (pin.of, motion.position(pin.point, pin.of)) if pin else (slide.a, _foot(motion, slide))
+        link = slide.of or slide.a
+        at = motion.position(slide.pin, link) if slide.slot and slide.pin else _foot(motion, slide)
         along = -1j * _square(motion, slide)
         found.append(PairForce(Symbol("F", link=link), slide.b or scene.frame.name, link, along, at))
     return found

@@ -304,16 +304,11 @@ def _of_turning(posed: Posed, symbol: Symbol, of: PointRef) -> Array:
 
 def _guiding(posed: Posed, symbol: Symbol, of: PointRef, to: PointRef) -> str:
     """The link along whose guide one of two coincident points slides, by the turning of which the Coriolis term is."""
-    scene = posed.structure.scene
     for ref in (of, to):
         posed.point(ref)
     for pair in posed.slides:
-        block = {pair.a}
-        if pair.slot:
-            block = {pin.of for pin in scene.pins if pin.key == pair.key}
-            block |= {c.round[0].link for c in scene.contacts if c.block == pair.key}
         for slides, guides in ((of, to), (to, of)):
-            if of.point != to.point or not any(_is_on(posed, slides, name) for name in block):
+            if of.point != to.point or not _is_on(posed, slides, pair.of or pair.a):
                 continue
             # another link that is pinned there too has another rate, and so another Coriolis term
             if guides.link == pair.b or (not guides.link and _is_on(posed, guides, pair.b)):

@@ -136,12 +136,9 @@ def as_drawn(motion: Motion, structure: Structure) -> Motion:
         return motion
     poses = dict(motion.poses)
     for slide in structure.slides:
-        if slide.a in poses or not slide.slot or slide.pin is None:
-            continue
-        holder = next(n for n in structure.hinges.get(slide.pin, ()) if n != slide.a)
-        if holder not in poses or slide.b not in poses:
-            continue  # nothing asks for it
-        at = poses[holder].fixed(structure.links[holder].points[slide.pin])
+        if slide.a in poses or slide.pin is None or not poses.keys() >= {slide.of, slide.b}:
+            continue  # a slide of the scene's own, or nothing asks for it
+        at = poses[slide.of].fixed(structure.links[slide.of].points[slide.pin])
         guide = poses[slide.b]
         turn = np.asarray(guide.u * slide.guide.direction)
         poses[slide.a] = Pose(at.z, turn, at.v, guide.omega, at.a, guide.alpha)

@@ -35,10 +35,10 @@ class Pair:
     guide : of link b, along which a slides
     turn : unit complex number from the guide's sense to a's own x axis
     pin : a's first point, if it has one
-    slot : whether the block ``a`` only stands for a pin in a slot
+    of : the link that has the pin in a slot, or the disc on a face, for which the block ``a`` only stands; else ""
 
-    From these follow whether it ``turns``, both ``links``, the ``point`` about which they turn ("" of a sliding pair)
-    and its ``letter``, R (revolute) or P (prismatic).
+    From these follow whether it ``turns`` or is a ``slot`` with such a block, both ``links``, the ``point`` about which
+    they turn ("" of a sliding pair) and its ``letter``, R (revolute) or P (prismatic).
     """
 
     key: str
@@ -47,9 +47,10 @@ class Pair:
     guide: PlacedGuide = NO_GUIDE
     turn: complex = 1 + 0j
     pin: str | None = None
-    slot: bool = False
+    of: str = ""
 
     turns: bool = field(init=False, repr=False, compare=False)
+    slot: bool = field(init=False, repr=False, compare=False)
     links: tuple[str, str] = field(init=False, repr=False, compare=False)
     point: str = field(init=False, repr=False, compare=False)
     letter: str = field(init=False, repr=False, compare=False)
@@ -57,8 +58,9 @@ class Pair:
     def __post_init__(self) -> None:
         turns = not self.guide.direction
         self.__dict__.update(
-            turns=turns, links=(self.a, self.b), point=self.key if turns else "", letter="R" if turns else "P"
-        )
+            turns=turns, slot=bool(self.of), links=(self.a, self.b), point=self.key if turns else "",
+            letter="R" if turns else "P",
+        )  # fmt: skip
 
     def other(self, link: str) -> str:
         """The link that it joins to one of its links."""
@@ -67,7 +69,7 @@ class Pair:
 
 def slide_pair(scene: Mechanism, s: SlidingPair) -> Pair:
     """A sliding pair or a pin in a slot of the file with its guide, that of a redundant link too."""
-    return Pair(s.key, s.link, s.on, scene.by_name[s.on].guides[s.guide], s.turn, s.pin, bool(s.of))
+    return Pair(s.key, s.link, s.on, scene.by_name[s.on].guides[s.guide], s.turn, s.pin, s.of)
 
 
 @dataclass(frozen=True)

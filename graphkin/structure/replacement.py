@@ -35,7 +35,7 @@ def replacing_link(contact: PlacedContact, links: Mapping[str, PlacedLink]) -> t
         along = replace(face, through=face.through + contact.normal_to_face * face.direction * disc.radius)
         places = {disc.centre: 0j, contact.name: -contact.normal_to_face * disc.radius}
         block = PlacedLink(contact.block, places, (disc.centre,), OWN_AXIS)
-        return block, Pair(contact.block, contact.block, contact.face, along, 1 + 0j, disc.centre, True)
+        return block, Pair(contact.block, contact.block, contact.face, along, 1 + 0j, disc.centre, disc.link)
     other = contact.round[1]
     part = disc.radius / (disc.radius + other.radius)
     if contact.carrier:

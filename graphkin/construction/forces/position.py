@@ -49,7 +49,7 @@ class DrawnPosition:
     @cached_property
     def blocks(self) -> Mapping[str, tuple[str, str]]:
         """For each block the link of its pin and that of its slot."""
-        return {pin.key: (pin.of, pin.on) for pin in self.structure.scene.pins if pin.key in self.structure.links}
+        return {slide.a: (slide.of, slide.b) for slide in self.structure.slides if slide.slot}
 
     @cached_property
     def holders(self) -> Mapping[str, tuple[str, ...]]:
@@ -125,8 +125,8 @@ class DrawnPosition:
             link, off = (driver.link, driver.relative_to) if said is None else (said.link, frame)
             return ForceVector(Symbol("M", link=link), link, moment=1.0, off=off)
         slide = self.structure.slide(driver.key)
-        of = next((pin.of for pin in scene.pins if pin.key == driver.key), slide.a)
-        return ForceVector(Symbol("F", link=of), slide.a, self.along(slide), self.foot(slide), off=slide.b)
+        symbol = Symbol("F", link=slide.of or slide.a)
+        return ForceVector(symbol, slide.a, self.along(slide), self.foot(slide), off=slide.b)
 
     def slip(self, slide: Pair) -> tuple[float, float]:
         """The sliding velocity along the guide, and the greatest speed that leads to it (m/s)."""
