@@ -107,3 +107,22 @@ def test_beside_a_cam_links_are_followed_as_far_round_as_a_crank_drives_it():
     for at in (-60, 170, 430):
         result = check(scene, at=at)
         assert (True, True) == (result.ok, result.complete)
+
+
+@pytest.mark.parametrize("below", [False, True])
+def test_a_follower_that_is_a_cam_itself_turns_its_own_follower_on_either_side(below):
+    rise = [{"to": 120, "rise": 25, "by": "345"}, {"to": 180}, {"to": 300, "fall": 25, "by": "harmonic"}, {"to": 360}]
+    scene = {
+        "frame": {"points": {"A": [0, 0], "C": [80, 0], "Q": [160, 10]}},
+        "links": {"1": {"points": ["A"]}, "2": {"points": ["C", "B"], "length": 70},
+                  "7": {"points": ["Q", "S"], "length": 60}},
+        "cams": {
+            "1": {"follower": "2", "law": rise, "base": {"r": 35}, "roller": 8},
+            "2": {"follower": "7", "base": {"r": 45}, "roller": 5,
+                  "law": [{"to": 180, "rise": 20, "by": "345"}, {"to": 360, "fall": 20, "by": "345"}]},
+        },
+        "driver": {"link": "1", "angle": 40, "omega": 10}, "sketch": {"B": [30, -40 if below else 40]},
+    }  # fmt: skip
+    for at in (70, 215):
+        result = check(scene, at=at)
+        assert (True, True) == (result.ok, result.complete)
