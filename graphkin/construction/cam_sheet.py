@@ -50,10 +50,12 @@ class CamSheet:
         radius, shifted = amount(self.base, 4), self.offset > 1e-9
         steps = [Phrase("cam step diagram", divisions=str(len(self.divisions)))]
         steps.append(Phrase("cam step base", centre=cam.point, radius=radius))
+        normals = Phrase("cam step normals", centre=cam.point)
         if isinstance(motion, SwingingFollower):
             distance = amount(abs(self.divisions[0].line), 4)
             steps.append(Phrase("cam step pivots", centre=cam.point, pivot=motion.pivot, distance=distance))
             steps.append(Phrase("cam step swings", pivot=motion.pivot, tip=motion.tip))
+            normals = Phrase("cam step normals swinging", centre=cam.point, pivot=motion.pivot)
         else:
             if shifted:
                 steps[-1] = Phrase("cam step circles", centre=cam.point, radius=radius, offset=amount(self.offset, 4))
@@ -62,7 +64,7 @@ class CamSheet:
         if cam.flat:
             return (*steps, Phrase("cam step faces"))
         edge = Phrase("cam step rollers", radius=amount(self.roller, 4)) if cam.roller else Phrase("cam step edge")
-        return (*steps, edge, Phrase("cam step normals", centre=cam.point))
+        return (*steps, edge, normals)
 
 
 def cam_sheet(cam: LawCam, scale: float) -> CamSheet:

@@ -94,3 +94,24 @@ def test_a_follower_that_swings_faster_than_its_cam_has_its_normal_out_of_the_ca
     (cam,) = mechanism_of(scene).cams
     assert max(abs(cam.law.at(math.radians(d)).slope) for d in range(20)) > 1.0
     assert compare_cam(cam_sheet(cam, 1e-3)).ok
+
+
+def test_the_normals_of_a_swinging_follower_pass_a_point_that_parts_the_line_of_pivots_as_its_step_tells():
+    sheet, _ = drawn("cam-swinging-roller")
+    assert "distances from A and C are as dψ/dφ to 1" in str(sheet.steps[-1])
+    for d in sheet.divisions:
+        slope = sheet.cam.law.at(d.degree).slope
+        assert abs(slope) == pytest.approx(abs(d.centre) / abs(d.centre - d.line), abs=1e-12)
+        # on the line of pivots, and the normal leads there
+        assert 0 == pytest.approx((d.centre / d.line).imag, abs=1e-12)
+        assert 0 == pytest.approx(((d.point - d.centre) / d.normal).imag, abs=1e-9)
+        opposite = sheet.cam.motion.side * sheet.cam.sense * slope < 0
+        assert not slope or opposite == (0 < (d.centre / d.line).real < 1)
+
+
+def test_the_normals_of_a_sliding_follower_pass_a_point_ds_dphi_from_the_axis():
+    sheet, _ = drawn("cam-offset-roller")
+    assert "ds/dφ away from A" in str(sheet.steps[-1])
+    for d in sheet.divisions:
+        slope = sheet.cam.law.at(d.degree).slope
+        assert abs(slope) == pytest.approx(abs(d.centre) * sheet.scale, abs=1e-12)
