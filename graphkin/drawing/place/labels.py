@@ -8,7 +8,7 @@ box and segment what touches.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, TypeAlias
 
@@ -37,18 +37,33 @@ Mark: TypeAlias = complex | Segment
 """What a label names: a point, or the line between two."""
 
 # Distances of the box from its mark, mm: near ones, and such as want a leader.
-NEAR, FAR = np.array((0.7, 1.5, 2.4, 3.6, 5.0)), np.array((6.8, 9.0, 11.5, 14.5, 18.0, 22.0, 27.0))
-FURTHER = np.array((2.4, 3.6, 5.0, 6.8, 9.0, 11.5, 14.5, 18.0, 22.0, 27.0, 32.0, 38.0))
+NEAR, FAR = (0.7, 1.5, 2.4, 3.6, 5.0), (6.8, 9.0, 11.5, 14.5, 18.0, 22.0, 27.0)
+FURTHER = (2.4, 3.6, 5.0, 6.8, 9.0, 11.5, 14.5, 18.0, 22.0, 27.0, 32.0, 38.0)
 """Those at which a leader round what is in its way is looked for."""
 LEADER_LEAST = 2.0  # nearer to its mark a label has no room for a leader
-WAYS = np.exp(-2j * np.pi * np.arange(24) / 24)
-MANY_WAYS = np.exp(-2j * np.pi * np.arange(48) / 48)
-SHARES = np.array((0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9))  # of a vector, where a name stands beside it
-FEET = np.array((0.35, 0.65, 0.2, 0.8, 0.08, 0.92, 0.5, 0.14, 0.86, 0.28, 0.72, 0.97, 1.0))  # and where leaders end
-MIDDLE = SHARES[:1]
+WAYS = np.exp(-2j * np.pi * np.arange(48) / 48)
+SQUARE = len(WAYS), len(WAYS) + 1  # the two ways square to a vector, which follow
+SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9)  # of a vector, where a name stands beside it
+FEET = (0.35, 0.65, 0.2, 0.8, 0.08, 0.92, 0.5, 0.14, 0.86, 0.28, 0.72, 0.97, 1.0)  # and where leaders end
 OFF_MIDDLE = 2.0  # mm that a place at the end of a vector costs more than one at its middle, twice
 # Where nothing is liked, up and to the right reads best (Imhof, Positioning names on maps, 1975).
 LIKED = math.radians(40)
+
+
+def _grid(shares: Sequence[float], gaps: Sequence[float], ways: Sequence[int]) -> Floats:
+    """Places with all of some feet (shares of a mark), distances (mm) and ways (indices), shape (3, places)."""
+    return np.array([axis.ravel() for axis in np.meshgrid(shares, gaps, ways, indexing="ij")])
+
+
+_ROUND = (
+    _grid((0.5,), [gap for gap in NEAR if gap >= LEADER_LEAST], range(0, 48, 2)),
+    _grid((0.5,), FAR[::2], range(0, 48, 4)), _grid((0.5,), FAR[1::2], range(2, 48, 4)),
+)  # fmt: skip
+_TIGHT = _grid((0.5,), [gap for gap in NEAR if gap < LEADER_LEAST], range(0, 48, 2))
+# Where names of points and of vectors may stand, and where more places with leaders are looked for.
+AROUND_POINT = np.hstack((_TIGHT, *_ROUND))
+AROUND_VECTOR = np.hstack((*_ROUND, _grid(SHARES, NEAR, SQUARE), _grid(SHARES[:5], FAR, SQUARE)))
+LED_FROM_POINT, LED_FROM_VECTOR = _grid((0.5,), FURTHER, range(48)), _grid(FEET, FURTHER, range(0, 48, 2))
 
 
 @dataclass(frozen=True)
@@ -100,13 +115,6 @@ class Places(NamedTuple):
     gaps: Floats
     bad: Flags
     owners: Indices
-
-    @classmethod
-    def of(cls, middles: Points, halves: Points, feet: Points, costs: Floats, gaps: Floats, owners: Indices) -> Places:
-        """Places without leaders from columns of any shapes that go with that of the middles."""
-        columns = middles, halves, feet, feet, costs, gaps, False, owners
-        whole: Any = [np.broadcast_to(column, middles.shape).ravel() for column in columns]
-        return cls(np.array(whole[:4]), whole[4].copy(), whole[5], whole[6].copy(), whole[7])
 
     @classmethod
     def stacked(cls, tables: Iterable[Places]) -> Places:
@@ -215,7 +223,7 @@ class LabelPanel:
         )
         self._ask()
         if labels:
-            self._find(range(len(labels)), self._around_marks)
+            self._find(range(len(labels)), AROUND_POINT, AROUND_VECTOR)
 
     def _ask(self) -> None:
         """Take up the requests of all texts that there are."""
@@ -223,7 +231,10 @@ class LabelPanel:
         self.boxes = [box_about(text.runs) for text in self.texts]
         self.own = np.array([self.index[ends(label.mark)] for label in labels], dtype=int)
         self.half = np.array([complex(box.width, box.height) / 2 for box in self.boxes])
-        self.toward = [label.toward for label in labels]
+        along = self.mark_end[self.own] - self.mark_start[self.own]
+        square = 1j * along / np.where(self.mark_is_point[self.own], 1.0, np.abs(along))
+        self.ways = np.hstack((np.broadcast_to(WAYS, (len(labels), len(WAYS))), np.outer(square, (1.0, -1.0))))
+        self.disliked = _disliked([label.toward for label in labels], self.ways)
 
     def ask_for_keys(self) -> Mapping[int, int]:
         """Let the keys of all labels that have one want places too; returns their requests."""
@@ -235,68 +246,47 @@ class LabelPanel:
             self.texts.append(replace(key, id=text.id, classes=("label", *key.classes), since=text.since))
         self._ask()
         if some:
-            self._find([*self.keys.values()], self._around_marks)
+            self._find([*self.keys.values()], AROUND_POINT, AROUND_VECTOR)
         return self.keys
 
     def look_further(self, some: Sequence[int]) -> None:
         """Look for more places of some requests, with leaders round what is in their way."""
         if some:
-            self._find(some, self._led_from_marks)
+            self._find(some, LED_FROM_POINT, LED_FROM_VECTOR)
 
-    def _around_marks(self, who: Indices) -> Iterator[Places]:
-        """Places of some requests all round points and the middles of vectors, and on both sides of vectors."""
-        is_point = self.mark_is_point[self.own[who]]
-        near = LEADER_LEAST <= NEAR
-        yield self._swung(who[is_point], MIDDLE, WAYS, NEAR[~near])
-        yield self._swung(who, MIDDLE, WAYS, NEAR[near])
-        yield self._swung(who, MIDDLE, WAYS[::2], FAR[::2])
-        yield self._swung(who, MIDDLE, WAYS[1::2], FAR[1::2])
-        yield self._beside(who[~is_point], SHARES, NEAR)
-        yield self._beside(who[~is_point], SHARES[:5], FAR)
-
-    def _led_from_marks(self, who: Indices) -> Iterator[Places]:
-        """Places of some requests at more distances, and from more places of a vector."""
-        is_point = self.mark_is_point[self.own[who]]
-        yield self._swung(who[is_point], MIDDLE, MANY_WAYS, FURTHER)
-        yield self._swung(who[~is_point], FEET, WAYS, FURTHER)
-
-    def _swung(self, who: Indices, shares: Floats, ways: Points, gaps: Floats) -> Places:
-        """Places in some ways from shares of marks; the corner or the edge of the box that looks at its foot slides
-        with the way."""
-        start, end, half = (column[:, None, None, None] for column in self._marked(who))
-        feet = start + shares[:, None, None] * (end - start)
-        hold = np.clip(1.6 * ways.real, -1, 1) * half.real + 1j * np.clip(1.6 * ways.imag, -1, 1) * half.imag
-        liked = np.array([_dislike(self.toward[i], ways) for i in who]).reshape(-1, 1, 1, len(ways))
-        costs = gaps[:, None] + liked + OFF_MIDDLE * np.abs(shares - 0.5)[:, None, None]
-        return Places.of(feet + gaps[:, None] * ways + hold, half, feet, costs, gaps[:, None], who[:, None, None, None])
-
-    def _beside(self, who: Indices, shares: Floats, gaps: Floats) -> Places:
-        """Places on both sides of vectors, square to them."""
-        start, end, half = (column[:, None, None, None] for column in self._marked(who))
-        normal = 1j * (end - start) / np.abs(end - start) * np.array((1.0, -1.0))
-        liked = np.array([page_direction((self.toward[i] or (LIKED,))[0]) for i in who]).reshape(-1, 1, 1, 1)
-        reach = np.abs(normal.real) * half.real + np.abs(normal.imag) * half.imag
-        feet, gaps = start + shares[:, None] * (end - start), gaps[:, None, None]
-        costs = gaps + 0.4 * (1.0 - (normal * liked.conj()).real) + OFF_MIDDLE * np.abs(shares - 0.5)[:, None]
-        return Places.of(feet + (gaps + reach) * normal, half, feet, costs, gaps, who[:, None, None, None])
-
-    def _marked(self, who: Indices) -> tuple[Points, Points, Points]:
-        """Ends of the marks of some requests, and half the sizes of their boxes."""
-        return self.mark_start[self.own[who]], self.mark_end[self.own[who]], self.half[who]
-
-    def _find(self, some: Sequence[int], places: Callable[[Indices], Iterable[Places]]) -> None:
+    def _find(self, some: Sequence[int], around_points: Floats, around_vectors: Floats) -> None:
         """Add those of some places that have no fault to those that are known of some requests, the cheapest first."""
-        judged, _ = self._judged(Places.stacked(places(np.array(some))), keep=False)
+        judged, _ = self._judged(self._around(some, around_points, around_vectors), keep=False)
         known = [self.found[i] for i in some if i in self.found]
-        found = Places.stacked((*known, judged))
+        found = Places.stacked((*known, judged)) if known else judged
         found = found.picked(np.lexsort((found.costs, found.owners)))
-        bounds = (np.searchsorted(found.owners, some, side) for side in ("left", "right"))
+        bounds = (np.searchsorted(found.owners, some, side).tolist() for side in ("left", "right"))
         for i, first, last in zip(some, *bounds, strict=True):
             self.found[i] = found.picked(slice(first, last))
 
+    def _around(self, some: Sequence[int], around_points: Floats, around_vectors: Floats) -> Places:
+        """Places of some requests round their marks, without leaders, nothing in the way of them.
+
+        The corner or the edge of a box that looks at its foot slides with the way; one beside a vector touches a line
+        along it.
+        """
+        requests = np.array(some, dtype=np.intp)
+        is_point = self.mark_is_point[self.own[requests]]
+        lots = (requests[is_point], around_points), (requests[~is_point], around_vectors)
+        owners = np.concatenate([np.repeat(own, pattern.shape[1]) for own, pattern in lots])
+        shares, gaps, turn = np.hstack([np.tile(pattern, len(own)) for own, pattern in lots])
+        which = turn.astype(np.intp)
+        mark, half, way = self.own[owners], self.half[owners], self.ways[owners, which]
+        feet = self.mark_start[mark] + shares * (self.mark_end[mark] - self.mark_start[mark])
+        across, down = way.real * half.real, way.imag * half.imag
+        hold = np.clip(1.6 * across, -half.real, half.real) + 1j * np.clip(1.6 * down, -half.imag, half.imag)
+        middles = feet + gaps * way + np.where(which >= len(WAYS), (np.abs(across) + np.abs(down)) * way, hold)
+        costs = gaps + self.disliked[owners, which] + OFF_MIDDLE * np.abs(shares - 0.5)
+        return Places(np.array((middles, half, feet, feet)), costs, gaps, np.zeros(len(gaps), dtype=bool), owners)
+
     def everywhere(self, request: int) -> Places:
         """All places for one request, each fault of them at its price."""
-        places, faults = self._judged(Places.stacked(self._around_marks(np.array([request]))), keep=True)
+        places, faults = self._judged(self._around([request], AROUND_POINT, AROUND_VECTOR), keep=True)
         return places._replace(costs=places.costs + FORBIDDEN * faults)
 
     def _judged(self, places: Places, keep: bool) -> tuple[Places, Indices]:
@@ -423,12 +413,17 @@ def _columns(segments: Sequence[Segment]) -> tuple[Points, Points]:
     return start, end
 
 
-def _dislike(toward: tuple[float, ...], ways: Points) -> Floats:
-    """What each way from a point costs for liked directions."""
-    if not toward:
-        return 0.5 * _apart(LIKED, ways) / np.pi
-    least: Floats = np.min([3.0 * _apart(one, ways) / np.pi + 0.3 * k for k, one in enumerate(toward)], axis=0)
-    return least
+def _disliked(toward: Sequence[tuple[float, ...]], ways: Points) -> Floats:
+    """What each way from a mark (columns) costs for the directions that are liked of it (rows): of a point from all of
+    them, of a vector for the side that the last two of the ways are on."""
+    first = np.array([page_direction((liked or (LIKED,))[0]) for liked in toward]).reshape(-1, 1)
+    costs: Floats = 0.4 * (1.0 - (ways * first.conj()).real)
+    costs[:, : len(WAYS)] = 0.5 * _apart(LIKED, WAYS) / np.pi
+    for i, liked in enumerate(toward):
+        if liked:
+            each = [3.0 * _apart(angle, WAYS) / np.pi + 0.3 * k for k, angle in enumerate(liked)]
+            costs[i, : len(WAYS)] = np.min(each, axis=0)
+    return costs
 
 
 def _apart(liked: float, ways: Points) -> Floats:
