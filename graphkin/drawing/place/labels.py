@@ -124,8 +124,7 @@ class Places(NamedTuple):
 
     def picked(self, some: Flags | Indices | slice) -> Places:
         """Some of the places."""
-        columns: Any = (column[..., some] for column in self)
-        return Places(*columns)
+        return Places(self.forms[:, some], self.costs[some], self.gaps[some], self.bad[some], self.owners[some])
 
 
 LEADER_SPACE = 0.25  # mm between a leader and the box of any other label
@@ -159,10 +158,10 @@ def meeting(ones: Points, others: Points, space: complex) -> Flags:
 
 def _around(forms: Points, room: complex) -> Sides:
     """The sides of boxes around boxes with their leaders, and so much room (mm)."""
-    middles, halves, feet, _ = forms
-    low, high = middles - halves, middles + halves
-    left, top = np.minimum(low.real, feet.real) - room.real, np.minimum(low.imag, feet.imag) - room.imag
-    right, bottom = np.maximum(high.real, feet.real) + room.real, np.maximum(high.imag, feet.imag) + room.imag
+    (x, half_x, foot_x, _), (y, half_y, foot_y, _) = forms.real, forms.imag
+    reach_x, reach_y = half_x + room.real, half_y + room.imag
+    left, top = np.minimum(x - reach_x, foot_x - room.real), np.minimum(y - reach_y, foot_y - room.imag)
+    right, bottom = np.maximum(x + reach_x, foot_x + room.real), np.maximum(y + reach_y, foot_y + room.imag)
     return left, top, right, bottom
 
 
@@ -418,17 +417,21 @@ def _disliked(toward: Sequence[tuple[float, ...]], ways: Points) -> Floats:
     them, of a vector for the side that the last two of the ways are on."""
     first = np.array([page_direction((liked or (LIKED,))[0]) for liked in toward]).reshape(-1, 1)
     costs: Floats = 0.4 * (1.0 - (ways * first.conj()).real)
-    costs[:, : len(WAYS)] = 0.5 * _apart(LIKED, WAYS) / np.pi
-    for i, liked in enumerate(toward):
-        if liked:
-            each = [3.0 * _apart(angle, WAYS) / np.pi + 0.3 * k for k, angle in enumerate(liked)]
-            costs[i, : len(WAYS)] = np.min(each, axis=0)
+    costs[:, : len(WAYS)] = 0.5 * _apart((LIKED,), WAYS) / np.pi
+    rows = np.array([i for i, liked in enumerate(toward) for _ in liked], dtype=np.intp)
+    if rows.size:
+        ranks, angles = zip(*(pair for liked in toward for pair in enumerate(liked)), strict=True)
+        each = 3.0 * _apart(angles, WAYS) / np.pi + 0.3 * np.array(ranks)[:, None]
+        costs[rows, : len(WAYS)] = np.inf
+        np.minimum.at(costs[:, : len(WAYS)], rows, each)
     return costs
 
 
-def _apart(liked: float, ways: Points) -> Floats:
-    """Angles (rad) of ways with a direction."""
-    return np.abs(np.angle(ways * page_direction(liked).conjugate()))
+def _apart(liked: Sequence[float], ways: Points) -> Floats:
+    """Angles (rad) of ways (columns) with directions (rows)."""
+    directions = np.array([page_direction(angle) for angle in liked])
+    apart: Floats = np.abs(np.angle(ways * directions.conj()[:, None]))
+    return apart
 
 
 def _gap(off: Points, half: Points) -> Points:

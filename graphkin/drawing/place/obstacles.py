@@ -31,7 +31,7 @@ Sides: TypeAlias = Sequence[Floats]
 """Left, top, right, bottom of upright boxes."""
 
 ON_LINE = 1e-9  # mm⁴: so near to a line, but for rounding, lies on it
-MOST_PAIRS = 1 << 15  # of boxes compared at a time: what a processor holds near
+MOST_PAIRS = 1 << 16  # of boxes compared at a time: what a processor holds near
 FEW = 50
 
 

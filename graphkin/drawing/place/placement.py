@@ -35,7 +35,7 @@ GAIN = 1.0  # mm: for less no label is moved
 PUSHED, PUSH = 200, 10.0
 ROUNDS = 6
 TRIED, LOOKED_AT = 45, 100  # places tried that others stand in, and places that these may make room in
-LOT = 32  # places looked at together for one in which no label stands
+LOT = 8  # places of all labels looked at together for some in which no label stands
 IN_THE_WAY = 2  # labels that make room for another at most
 TOLD, NOWHERE = -1, -2  # in place of a request
 NOTHING = Obstacles()
@@ -99,8 +99,7 @@ class Placement:
         self.forms = np.array([stand.form for stand in self.stands], dtype=complex).reshape(-1, 4).T
         self.telling = False  # whether a list may tell labels by their ends
         order = ((label.rank >= DISPENSABLE, len(self.choices.found[i].costs), i) for i, label in enumerate(labels))
-        for _, _, i in sorted(order):
-            self._stand(i)
+        self._stand([i for _, _, i in sorted(order)])
         self._settle(range(len(labels)))
         for i, label in enumerate(labels):
             if label.rank == 0 and self.stands[i].request == NOWHERE:
@@ -162,15 +161,31 @@ class Placement:
         self.stands[i] = stand
         self.forms[:, i] = stand.form
 
-    def _stand(self, i: int) -> None:
-        """Have a label take the cheapest place in which no other stands."""
-        stood = self.forms[:, ~np.isnan(self.forms[0])]
-        for first in range(0, len(self.choices.found[i].costs), LOT):
-            places = self.choices.found[i].picked(slice(first, first + LOT))
-            free = np.flatnonzero(~meeting(stood, places.forms, SPACE).any(axis=0))
+    def _stand(self, order: Sequence[int]) -> None:
+        """Have labels take, one after the other, the cheapest place in which no other stands."""
+        if not order:
+            return
+        lots = [self.choices.found[i].picked(slice(LOT)) for i in order]
+        places = Places.stacked(lots)  # in which mostly there is a free one for each
+        met, taken = meeting(places.forms, places.forms, SPACE), np.zeros(len(places.costs), dtype=bool)
+        first = 0
+        for i, lot in zip(order, lots, strict=True):
+            last = first + len(lot.costs)
+            free = (~taken[first:last]).nonzero()[0]
             if free.size:
-                self._take(i, Stand.at(places, int(free[0])))
-                break
+                self._take(i, Stand.at(lot, int(free[0])))
+                taken |= met[first + free[0]]
+            elif self._stand_further(i):
+                taken |= meeting(self.forms[:, i : i + 1], places.forms, SPACE)[0]
+            first = last
+
+    def _stand_further(self, i: int) -> bool:
+        """Have a label take the cheapest of its further places in which no other stands; whether there is one."""
+        places = self.choices.found[i].picked(slice(LOT, None))
+        free = np.flatnonzero(~meeting(self.forms, places.forms, SPACE).any(axis=0))
+        if free.size:
+            self._take(i, Stand.at(places, int(free[0])))
+        return bool(free.size)
 
     def _improve(self, i: int) -> bool:
         """Move a label, and a few in its way, to where they cost less together; whether there is such a place."""
@@ -258,13 +273,14 @@ class Placement:
         lots = [self._places(j, LOOKED_AT) for j in some]
         places = Places.stacked(lots)
         labels = np.repeat(some, [len(lot.costs) for lot in lots])
-        met = meeting(self.forms, places.forms, SPACE)
-        met[labels, np.arange(len(labels))] = False
-        free = np.flatnonzero(~met.any(axis=0))
+        met = meeting(np.hstack((self.forms, offers.forms)), places.forms, SPACE)
+        standing, offered = met[: len(self.labels)], met[len(self.labels) :]
+        standing[labels, np.arange(len(labels))] = False
+        free = np.flatnonzero(~standing.any(axis=0))
         places = places.picked(free)
         bounds = np.searchsorted(labels[free], [*some, len(self.labels)]).tolist()
         spans = {j: slice(*span) for j, span in zip(some, pairwise(bounds), strict=True)}
-        return places, spans, ~meeting(offers.forms, places.forms, SPACE)
+        return places, spans, ~offered[:, free]
 
     def _insist(self, i: int) -> None:
         """Put a label where it does least harm, and give up those in its way that may be given up."""
