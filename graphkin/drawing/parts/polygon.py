@@ -376,7 +376,7 @@ def _bars(here: PolygonOnPage) -> Iterator[Piece]:
             names: list[Label] = []
             if step.reason == "before its turn":
                 parts += _head(clipped, here.at(bar.b))
-                names += _carried(here, step.symbol, clipped)
+                names += _carried(here, step, clipped)
             drawn = Group(tuple(parts), classes=("construction",), step=step.number)
             yield dated(Piece({"construction": (drawn,)}, tuple(names)), step.number)
 
@@ -389,10 +389,12 @@ def _head(line: Segment, tip: complex) -> Iterator[Primitive]:
         yield arrowhead(tip, line[1] - line[0], head, POINTER.head_width, strokes.BLACK)
 
 
-def _carried(here: PolygonOnPage, moved: Symbol, line: Segment) -> Iterator[Label]:
+def _carried(here: PolygonOnPage, step: Step, line: Segment) -> Iterator[Label]:
+    """The name of a vector added before its turn in the chain."""
     if abs(line[1] - line[0]) > 4.0:
-        markup = symbol(here.letters.arrow(moved), 3.0)
-        yield Label.of(markup, line, f"label-carried-{moved.id}", colour=strokes.GREY, rank=4)
+        markup = symbol(here.letters.arrow(step.symbol), 3.0)
+        yield Label.of(markup, line, f"label-carried-{step.symbol.id}", colour=strokes.GREY, rank=3,
+                       key=step_number(step.number))  # fmt: skip
 
 
 def _rays(here: PolygonOnPage) -> Iterator[Piece]:
