@@ -488,12 +488,17 @@ def _name(
     resultants = all(v.role == "resultant" for v in vectors)
     text = Text(0j, symbol(markup), "start", colour_of_vector(here.sheet, first.symbol), id, ("label",), since=step)
     key = step_number(step, text.colour)
+    if LEAST <= length < SHORT:
+        number = key.runs
+        by = runs_width(number) + BESIDE
+        text = replace(text, runs=(*number, *(run._replace(x=run.x + by) for run in text.runs)), step=step)
     ends = [letters.get(same_place(end), "") for end in (first.tail, first.tip)]
     between = "→".join(ends) if all(ends) else ""
     return Label(text, here.drawn(first), rank=2 if resultants and not us else 1, key=key, between=between)
 
 
 LEAST = 5.0  # mm: a shorter vector has no room for a number
+SHORT = 8.0  # mm: beside a shorter one its name leaves no room for a number, which stands before the name
 OFF = 0.9  # mm from the vector to its number
 CLEAR = 0.35  # mm around a number
 BESIDE = 0.5  # mm from a name to the number beside it
