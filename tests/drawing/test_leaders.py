@@ -55,7 +55,7 @@ def test_hardly_a_leader_runs_across_a_velocity(scene):
 
 
 def test_what_a_crowd_has_no_room_for_is_listed_behind_the_number_of_its_step():
-    root = ET.fromstring(drawn("sixbar-rotating-guide-35rpm").figures["sheet"].content("svg"))
+    root = ET.fromstring(drawn("loader-cylinder").figures["sheet"].content("svg"))
     texts = {text.get("id"): text for text in root.iter(f"{SVG}text") if text.get("id")}
     listed = {id.removeprefix("listed-"): text for id, text in texts.items() if id.startswith("listed-label-")}
     numbered = {id: entry for id, entry in listed.items() if id in texts}  # others by end letters
@@ -197,3 +197,13 @@ def test_no_vector_runs_between_a_point_and_its_letter_that_has_no_leader():
     way = shapely.LineString([(z.real, z.imag) for z in (at + 0.45 * (near - at) / abs(near - at), near)])
     _, vectors, _ = read(scene, figure)
     assert isinstance(things[index - 1], Line) or not any(vector.intersects(way) for vector in vectors)
+
+
+def test_the_number_of_the_step_of_a_short_vector_stands_before_its_name():
+    texts = texts_of("slotter-75-150", "acceleration")
+    assert "(25)aA3O3n" == texts["label-an_A3-O3"].replace(" ", "")
+    assert "aA3" == texts["label-a_A3"].replace(" ", "")  # a long one has it elsewhere
+
+
+def test_a_vector_that_is_carried_over_has_its_name_in_a_crowd_too():
+    assert "aB3B2k" == texts_of("boom-lifted", "sheet")["label-carried-ak_B3-B2"].replace(" ", "")

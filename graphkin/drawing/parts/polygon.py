@@ -488,7 +488,7 @@ def _name(
     resultants = all(v.role == "resultant" for v in vectors)
     text = Text(0j, symbol(markup), "start", colour_of_vector(here.sheet, first.symbol), id, ("label",), since=step)
     key = step_number(step, text.colour)
-    if LEAST <= length < SHORT:
+    if LEAST <= length < SHORT and len(here.vectors) <= MANY:
         number = key.runs
         by = runs_width(number) + BESIDE
         text = replace(text, runs=(*number, *(run._replace(x=run.x + by) for run in text.runs)), step=step)
@@ -498,7 +498,8 @@ def _name(
 
 
 LEAST = 5.0  # mm: a shorter vector has no room for a number
-SHORT = 8.0  # mm: beside a shorter one its name leaves no room for a number, which stands before the name
+SHORT = 7.0  # mm: beside a shorter one its name leaves no room for a number, which stands before the name
+MANY = 16  # in a polygon of more vectors names have no room for that
 OFF = 0.9  # mm from the vector to its number
 CLEAR = 0.35  # mm around a number
 BESIDE = 0.5  # mm from a name to the number beside it
