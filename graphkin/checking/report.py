@@ -140,7 +140,8 @@ class Report:
             return
         problems = []
         for row in off:
-            drawn, exact = (_written(scene, row.symbol, value) for value in (row.measured, row.true))
+            told = ReadValue.of(scene, row)
+            drawn, exact = told.shown(told.measured), told.shown(told.exact)
             problems.append(Problem(str(row.symbol), "by the drawing by computation",
                                     "no paper is written please report this scene", value=drawn, exact=exact))
         raise Disagreement(*problems)
@@ -291,14 +292,6 @@ def _largest(sheet: Sheet, pairs: Sequence[tuple[Reading, complex | float]]) -> 
         sizes.setdefault((order, False), []).extend((s, span / sheet.scene.size) for s, span in vectors)
     most = {group: greatest_before(sheet.structure, some) for group, some in sizes.items()}
     return lambda reading: most[reading.diagram, reading.symbol.is_vector](reading.symbol)
-
-
-def _written(scene: Mechanism, symbol: Symbol, value: complex | float) -> str:
-    """A value in the units of a file, a vector by its size and its direction."""
-    own = symbol.unit(scene.units)
-    size, unit = own.of(abs(value) if symbol.is_vector else float(value.real)), own.written
-    direction = f" at {math.degrees(cmath.phase(value)):.4g}°" if symbol.is_vector and value else ""
-    return f"{size:.6g}{f' {unit}' if unit else ''}{direction}"
 
 
 def _turned(reading: Reading, exact: complex | float, whole: float) -> float:

@@ -32,7 +32,6 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import put_at, value_at
 from graphkin.solver import Motion, exact_values, solve
-from graphkin.solver.quantities import transmission
 from graphkin.structure import Dyad, LargerGroup, Pair, analyse
 from graphkin.words import Wording
 
@@ -269,7 +268,7 @@ def _flat(motion: Motion, bounds: Bounds) -> Iterator[str]:
     for dyad in structure.elements:
         if not isinstance(dyad, Dyad) or (not bounds.transmission and bounds.pressure >= math.pi / 2):
             continue
-        angle = float(transmission(structure, dyad, motion.poses)[0])
+        angle = float(motion.value(Symbol("transmission", name="-".join(dyad.links)))[0])
         links = " and ".join(dyad.links)
         if dyad.kind == "RRR" and angle < bounds.transmission:
             yield f"the transmission angle of {links} is {math.degrees(angle):.0f} degrees only"

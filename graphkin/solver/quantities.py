@@ -19,7 +19,7 @@ from graphkin.scene.model import PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol, centre_links
 from graphkin.solver.cams import cam_at
 from graphkin.solver.pose import UNIT, Array, ErrorBound, Pose, R, V
-from graphkin.structure import Dyad, Pair, Structure
+from graphkin.structure import Pair, Structure
 from graphkin.structure.model import slide_pair
 from graphkin.structure.transmission import (
     TransmissionAngle,
@@ -163,6 +163,12 @@ def _pressure(posed: Posed, symbol: Symbol) -> Array:
 
 def _gamma(posed: Posed, symbol: Symbol) -> Array:
     return _crossing(posed.poses, joint_between(posed.structure, symbol.link, symbol.other, symbol))
+
+
+def _transmission(posed: Posed, symbol: Symbol) -> Array:
+    """Of the group of two links that has these."""
+    dyad = next(dyad for dyad in posed.structure.dyads.values() if "-".join(dyad.links) == symbol.name)
+    return _crossing(posed.poses, joint_of_dyad(posed.structure, dyad))
 
 
 def _apart(posed: Posed, symbol: Symbol) -> Array:
@@ -342,6 +348,7 @@ VALUES: Mapping[str, Callable[[Posed[Any, Any], Symbol], Any]] = {
     "y": _coordinate,
     "d": _apart,
     "gamma": _gamma,
+    "transmission": _transmission,
     "pressure": _pressure,
     **dict.fromkeys(("an", "at", "ak", "ar"), _part),
 }
@@ -381,12 +388,6 @@ def bound_of_symbol(posed: Posed, symbol: Symbol, bounds: Mapping[str, ErrorBoun
     if symbol.to is None:
         return bound
     return bound + of_point(symbol.to) + UNIT * np.abs(value_of_symbol(posed, symbol))
-
-
-def transmission(structure: Structure, dyad: Dyad, poses: Mapping[str, Pose]) -> Array:
-    """The transmission angle of a group of two links (`graphkin.structure.transmission`), 0 .. pi/2 (rad), shape (n,);
-    the pressure angle is what it lacks to 90 degrees."""
-    return _crossing(poses, joint_of_dyad(structure, dyad))
 
 
 def _crossing(poses: Mapping[str, Pose], joint: TransmissionAngle) -> Array:

@@ -15,7 +15,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Measure, Unit
 from graphkin.solver import DriverRange, Motion, forces_of, listed_points, own_slides, senses_along, value_of
 from graphkin.solver.pose import Array
-from graphkin.solver.quantities import all_slides, transmission
+from graphkin.solver.quantities import all_slides
 from graphkin.structure import Structure, links_for
 from graphkin.table import Column, Table
 from graphkin.words import Wording
@@ -25,12 +25,6 @@ Parts = tuple[tuple[Array, ...], ...]
 Words = Sequence[Wording] | Array
 IN_LINE = 1e-12
 """Two bars are in line where the square of the sine of their angle is no more: rounding tells no less."""
-
-
-def _transmission(motion: Motion, links: str) -> Array:
-    """The transmission angle of the group of two links that has these."""
-    dyad = next(d for d in motion.structure.dyads.values() if "-".join(d.links) == links)
-    return transmission(motion.structure, dyad, motion.poses)
 
 
 @dataclass(frozen=True)
@@ -114,8 +108,6 @@ class Quantity:
         """Its values in a motion (SI), complex for vectors, shape (n,)."""
         if self.is_angle:
             return motion.angle(self.symbol.link)
-        if self.kind == "transmission":
-            return _transmission(motion, self.symbol.name)
         return value_of(motion, self.symbol)
 
     def values(self, reach: DriverRange | None, motion: Motion) -> Array:

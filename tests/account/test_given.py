@@ -3,7 +3,7 @@
 import pytest
 
 from graphkin import draw, handout
-from graphkin.account.given import given_shapes
+from graphkin.account.given import given_drivers, given_shapes
 from graphkin.account.notation import letters_of
 from graphkin.construction import draft
 from graphkin.drawing.ink.primitives import Text, walk
@@ -120,3 +120,16 @@ def test_slanted_guides_places_on_links_and_driven_travels_are_dimensioned(wante
 def test_a_point_beside_its_guide_is_dimensioned_along_it_and_not_by_its_distance():
     figure = draw(CARRIAGE, figures=("mechanism",)).figures["mechanism"]
     assert "76.158" not in {thing.string for thing in walk(figure.children) if isinstance(thing, Text)}
+
+
+@pytest.mark.parametrize(
+    ("told", "scene"),
+    [
+        (["$φ_{1}$ = 20°", "$ω_{1}$ = 0 rad/s"], {**ARM, "driver": {"link": "1", "angle": 20, "omega": 0}}),
+        (["$φ_{1}$ = 40°", "$n_{1}$ = 90 r/min", "$ω_{1}$ = 9.42478 rad/s"], YOKE),
+        (["$s_{1}$ = 20 mm", "$v_{1}$ = 50 mm/s", "$a_{1}$ = −100 mm/s²"], CARRIAGE),
+    ],
+)
+def test_a_driver_is_told_with_its_rate_even_at_rest(told, scene):
+    sheet = draft(mechanism_of(scene))
+    assert told == given_drivers(sheet, letters_of(sheet, "chinese"))
