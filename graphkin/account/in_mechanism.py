@@ -163,8 +163,9 @@ class InMechanism(Telling):
         step = self.step
         joints = map(Markup, map(self.voice.letters.point, (step.point, *step.points)))
         key = "written relative special" if step.base and step.kind != "driven" else "written special"
-        told = Phrase(key, (*joints, step.base, step.link))
-        yield Phrase("written sliding leg", (told,)) if self.sheet.structure.slides else told
+        point, first, second = joints
+        told = Phrase(key, point=point, first=first, second=second, base=step.base, link=step.link)
+        yield Phrase("written sliding leg", rule=told) if self.sheet.structure.slides else told
 
     # -- trial positions -----------------------------------------------------------------------------------------------
 
@@ -177,17 +178,22 @@ class InMechanism(Telling):
         moved, missed = self._moved_and_missed(table)
         values, misses = zip(*(_told_in(table, row) for row in table.trials), strict=True)
         if len(table.moved) > 1:
-            told = Phrase("trial table several", (moved, _numbered(values), missed, _numbered(misses)))
+            several = {"values": _numbered(values), "misses": _numbered(misses)}
+            told = Phrase("trial table several", moved=moved, missed=missed, **several)
             return Phrase("in turn", first=self.plain, second=_divided_by_parts(table, told))
         unit = "°" if table.missed[0].angle else " mm"
-        told = Phrase("trial table", (moved, ", ".join(values), missed, "; ".join(misses).replace(unit, "") + unit))
+        measured = "; ".join(misses).replace(unit, "") + unit
+        told = Phrase("trial table", moved=moved, values=", ".join(values), missed=missed, misses=measured)
         if table.divided:
             before = table.before
-            between = tuple(f"{abs(table.trials[i][1][0]):.2f}" for i in (before - 1, before))
-            first, *rest = (_told_in(table, row) for row in table.divided)
-            told = Phrase("trial division", (told, before, before + 1, *between, *first))
+            part, whole = (f"{abs(table.trials[i][1][0]):.2f}" for i in (before - 1, before))
+            (first_values, first_misses), *rest = (_told_in(table, row) for row in table.divided)
+            told = Phrase(
+                "trial division", told=told, first=before, second=before + 1, parts=part, whole=whole,
+                values=first_values, misses=first_misses,
+            )  # fmt: skip
             if rest:
-                told = Phrase("trial division again", (told, rest[-1][0]))
+                told = Phrase("trial division again", told=told, value=rest[-1][0])
         return Phrase("in turn", first=self.plain, second=told)
 
     def _positions_lines(self, language: str) -> Iterator[Phrase]:
@@ -195,25 +201,26 @@ class InMechanism(Telling):
         trial = self.step.data
         assert isinstance(trial, TrialPositions)
         out, moved, rolled = (", ".join(n) for n in (trial.left_out, trial.driven, trial.rolling))
-        told = Phrase("written trial rolling", (moved, rolled)) if rolled else Phrase("written trial", (out, moved))
-        parts = [told]
+        fitted = Phrase("written trial", left_out=out, moved=moved)
+        parts = [Phrase("written trial rolling", moved=moved, contact=rolled) if rolled else fitted]
         if trial.trials:
             moved_words, missed = self._moved_and_missed(trial)
             rows = [_told_in(trial, row) for row in trial.trials]
             if len(trial.moved) > 1:
                 numbered = ([Neutral(f"${numeral(i)}$ {row[k]}") for i, row in enumerate(rows, 1)] for k in (0, 1))
                 values, misses = map(listed, numbered)
-                parts += [Phrase("written tried", (moved_words, values)), Phrase("written missed", (missed, misses))]
+                parts.append(Phrase("written tried", moved=moved_words, values=values))
+                parts.append(Phrase("written missed", missed=missed, misses=misses))
             else:
                 values = listed([row[0] for row in rows])
-                parts.append(Phrase("written tried one", (moved_words, values, len(rows))))
+                parts.append(Phrase("written tried one", moved=moved_words, values=values, trials=len(rows)))
                 near = (trial.before, trial.before + 1)
-                seen = listed([Phrase("written miss", (rows[i - 1][1], i)) for i in near])
-                parts.append(Phrase("written missed", (missed, seen)))
+                seen = listed([Phrase("written miss", misses=rows[i - 1][1], trial=i) for i in near])
+                parts.append(Phrase("written missed", missed=missed, misses=seen))
             if trial.divided:
-                parts.append(Phrase("written fits", (_told_in(trial, trial.divided[-1])[0],)))
+                parts.append(Phrase("written fits", values=_told_in(trial, trial.divided[-1])[0]))
         if route := [*self._route()]:
-            parts.insert(2, Phrase("written route", (listed([*map(Neutral, route)]),)))
+            parts.insert(2, Phrase("written route", route=listed([*map(Neutral, route)])))
         yield in_turn(parts)
 
     def _route(self) -> Iterator[str]:
@@ -249,14 +256,14 @@ class InMechanism(Telling):
 
     def _moved_and_missed(self, table: TrialPositions) -> tuple[Phrase, Phrase]:
         """All that is moved in trial positions, and all that is missed."""
-        moved = reduce(lambda a, b: Phrase("moved too", (a, b)), map(self._moved, table.moved))
-        return moved, reduce(lambda a, b: Phrase("missed too", (a, b)), map(self._missed, table.missed))
+        moved = reduce(lambda a, b: Phrase("moved too", first=a, second=b), map(self._moved, table.moved))
+        return moved, reduce(lambda a, b: Phrase("missed too", first=a, second=b), map(self._missed, table.missed))
 
     def _missed(self, missed: Missed) -> Phrase:
         """What is measured: between the ends of a bar, off a guide, or of a list."""
         if missed.kind != "guide":
             named = "".join(missed.names) if missed.kind == "bar" else ", ".join(missed.names)
-            return Phrase(f"missed {missed.kind}", (named, on_paper(missed.length)))
+            return Phrase(f"missed {missed.kind}", names=named, length=on_paper(missed.length))
         *points, key = missed.names
         slide = self.sheet.structure.slide(key)
         # the outermost points on the guide, in its sense, else its name
@@ -265,25 +272,28 @@ class InMechanism(Telling):
         size = max(map(abs, off.values()), default=0.0)
         on = sorted((along.real, p) for p, along in off.items() if abs(along.imag) <= IN_LINE * size)
         name = on[0][1] + on[-1][1] if len(on) > 1 else guide.name
-        told = (", ".join(points), slide.b)
-        return Phrase("missed guide", (*told, name)) if name else Phrase("missed guide of link", told)
+        off_guide = {"point": ", ".join(points), "link": slide.b}
+        return Phrase("missed guide", **off_guide, guide=name) if name else Phrase("missed guide of link", **off_guide)
 
     def _moved(self, moved: Symbol) -> Phrase:
         """What is moved in trial positions: a travel, the angle of a link or of its bar, or that between two."""
         links = self.sheet.structure.links
         if moved.kind == "s":
-            return Phrase("trial travel", (moved.pair,))
+            return Phrase("trial travel", slide=moved.pair)
         if not moved.other:
             points = links[moved.link].points.items()
             spans = ((p + q, w - z) for p, z in points for q, w in points if z != w)
             # a bar along the axis of the link
             bars = [bar for bar, span in spans if abs(cmath.phase(span)) < IN_LINE]
-            return Phrase("trial angle of bar" if bars else "trial angle", (moved.link, *bars[:1]))
+            if bars:
+                return Phrase("trial angle of bar", link=moved.link, bar=bars[0])
+            return Phrase("trial angle", link=moved.link)
         one, other = links[moved.other], links[moved.link]
         hinge = next((p for p in one.points if p in other.points), "")
         if len(one.bar) < 2 or len(other.bar) < 2 or not hinge:
-            return Phrase("trial turn", (moved.link, moved.other))
-        return Phrase("trial turn of bars", (moved.link, "".join(other.bar[:2]), "".join(one.bar[:2]), hinge))
+            return Phrase("trial turn", link=moved.link, base=moved.other)
+        bar, base = ("".join(link.bar[:2]) for link in (other, one))
+        return Phrase("trial turn of bars", link=moved.link, bar=bar, base=base, hinge=hinge)
 
     sentences: ClassVar[Mapping[Reason, tuple[str, ...] | Callable[[InMechanism], Phrase | None]]] = {
         "frame": ("fixed on paper",), "angle": ("lay off angle from link", "lay off angle from x"),

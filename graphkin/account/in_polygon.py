@@ -202,7 +202,7 @@ class InPolygon(Telling):
         if seen is None or seen.to is None:
             return None
         against = of.link == seen.to.link
-        told = Phrase("against", (seen,)) if against else seen
+        told = Phrase("against", vector=seen) if against else seen
         if kind == "v" or to is None or not against:
             return Phrase("written carried over", symbol=step.symbol, vector=told)
         slip = next(s.symbol for s in before if s.verb == "lay off" and s.symbol.of == of and s.symbol.kind == "v")
@@ -271,12 +271,12 @@ class InPolygon(Telling):
         the vector with what is similar on the link, nothing for one that is not drawn."""
         step, on_line = self.step, self.step.reason == "division"
         if step.held:
-            yield Phrase("written image seen", (step.symbol, step.link))
+            yield Phrase("written image seen", vector=step.symbol, link=step.link)
         elif self.gap("abc") is None:
             vector = Symbol("v" if step.diagram == "velocity" else "a", step.ref)
             if self.voice.letters.convention == "us" and vector in self.sheet.vectors(step.diagram):
                 similar = f"${self.gap('AC')}$ : ${self.gap('AB')}$" if on_line else f"△${self.gap('ABC')}$"
-                named = Phrase("written image named", (vector, step.link, Neutral(similar)))
+                named = Phrase("written image named", vector=vector, link=step.link, points=Neutral(similar))
                 yield bound(self.voice.say(named, languages(language)[0]))
         elif on_line:
             yield bound(f"${self.gap('ac')}$ : ${self.gap('ab')}$ = ${self.gap('AC')}$ : ${self.gap('AB')}$")
@@ -379,13 +379,16 @@ class InPolygon(Telling):
         first = next(s.number for s in later if s.reason == "open ends") + 1
         own = (s for s in later if s.number >= first and any(getattr(x, "symbol", None) in aids for x in s.strokes))
         last = max((s.number for s in own), default=first)
-        told = Phrase("trial lettered", (numeral(trial.number), self._rates(trial.assumed), first, last))
+        rates = self._rates(trial.assumed)
+        told = Phrase("trial lettered", trial=numeral(trial.number), rates=rates, first=first, last=last)
         if trial.number > 1:
             return told
         if trial.far is None:
-            return Phrase("superposed since none", (told,))
+            return Phrase("superposed since none", reason=told)
         angle, away = number(math.degrees(trial.far.crossing), 2), f"{trial.far.away / self.sheet.scales.length:.0f}"
-        return Phrase("superposed since far", (told, *trial.far.links, angle, away))
+        first_link, second_link = trial.far.links
+        crossing = {"first": first_link, "second": second_link, "angle": angle, "distance": away}
+        return Phrase("superposed since far", reason=told, **crossing)
 
     def _superposed(self) -> Phrase:
         """What the trials leave open, measured from letter to letter, and the proportional division in numbers."""
@@ -395,8 +398,9 @@ class InPolygon(Telling):
         )) + " mm"  # fmt: skip
         found, sums = self._rates(divided.found), divisions(self.sheet, self.step, divided)
         if len(sums) > 1:
-            return Phrase("superposed several", (self._left_open(), rows, ", ".join(one.part for one in sums), found))
-        return Phrase("superposed one", (self._left_open(), rows, sums[0].terms, found))
+            parts = ", ".join(one.part for one in sums)
+            return Phrase("superposed several", between=self._left_open(), open=rows, parts=parts, rates=found)
+        return Phrase("superposed one", between=self._left_open(), open=rows, sum=sums[0].terms, rates=found)
 
     def _superposed_lines(self, language: str) -> Iterator[Phrase]:
         """What is measured, ``I: ω_3 = 0.2 rad/s; open 3.21 mm``, a line for each trial, and the proportional division.
@@ -404,11 +408,12 @@ class InPolygon(Telling):
         divided, symbol = self._divided, self.voice.symbol
         trials = trials_of(self.sheet, self.step, divided)
         numerals = [Markup(numeral(trial.number)) for trial in trials]
-        yield Phrase("written trials", (listed(numerals), ", ".join(divided.closing), self._left_open()))
+        closing = ", ".join(divided.closing)
+        yield Phrase("written trials", trials=listed(numerals), vectors=closing, open=self._left_open())
         for trial, mark, row in zip(trials, numerals, divided.apart, strict=True):
             rates = ", ".join(f"{symbol(s)} = {number(v, 5)} {self._unit(s)}" for s, v in trial.assumed)
             apart = ", ".join(written(on_paper(mm)) for mm in row)
-            yield Phrase("written trial polygon", (mark, Neutral(rates), apart))
+            yield Phrase("written trial polygon", trial=mark, rates=Neutral(rates), open=apart)
         sums = divisions(self.sheet, self.step, divided)
         said = Neutral("; ".join(
             bound(f"{symbol(s)} = {one.terms} = {one.value} {self._unit(s)}")
@@ -416,9 +421,10 @@ class InPolygon(Telling):
         ))  # fmt: skip
         if len(sums) > 1:
             parts = ", ".join(one.part for one in sums)
-            yield Phrase("written superposed several", (parts, Markup(numeral(1)), listed(numerals[1:]), said))
+            first, others = Markup(numeral(1)), listed(numerals[1:])
+            yield Phrase("written superposed several", parts=parts, first=first, others=others, rates=said)
         else:
-            yield Phrase("written superposed", (said,))
+            yield Phrase("written superposed", rates=said)
 
     @property
     def _divided(self) -> Superposed:
@@ -429,16 +435,19 @@ class InPolygon(Telling):
         """From which end points to which, and in which directions, something is left open."""
         told, divided = [], self._divided
         for way, refs, less in zip(divided.ways, divided.between, divided.less, strict=True):
-            ends = (self.voice.end_of(self.step.diagram, r) or Phrase("point on link", (r.point, r.link)) for r in refs)
+            begin, end = (
+                self.voice.end_of(self.step.diagram, ref) or Phrase("point on link", point=ref.point, link=ref.link)
+                for ref in refs
+            )
             across, names = "square" if way.relation == "square" else "along", tuple(ref.point for ref in refs)
             if names[0] != names[1] or (way.names == names and not refs[0].link + refs[1].link):
-                said = Phrase(f"open {across} bar", (*ends, *names))
+                said = Phrase(f"open {across} bar", begin=begin, end=end, first=names[0], second=names[1])
             else:
-                said = Phrase(f"open {across} guide", (*ends, "".join(way.names)))
+                said = Phrase(f"open {across} guide", begin=begin, end=end, guide="".join(way.names))
             for one, mm in less:
                 if abs(mm) >= SEEN:
                     rule = one.symbol if one.size is None else Phrase("rule of size", symbol=one.symbol, rule=one.size)
-                    said = Phrase("open less", (said, rule, true_minus(on_paper(mm))))
+                    said = Phrase("open less", between=said, rule=rule, length=true_minus(on_paper(mm)))
             told.append(said)
         return listed(told)
 
@@ -447,7 +456,8 @@ class InPolygon(Telling):
 
     def _rates(self, found: Iterable[tuple[Symbol, float]]) -> object:
         """Rates with their units, in a list."""
-        return listed([Phrase("rate is", (s, true_minus(number(value, 5)), self._unit(s))) for s, value in found])
+        told = ((symbol, true_minus(number(value, 5)), self._unit(symbol)) for symbol, value in found)
+        return listed([Phrase("rate is", symbol=symbol, value=value, unit=unit) for symbol, value, unit in told])
 
     sentences: ClassVar[Mapping[Reason, tuple[str, ...] | Callable[[InPolygon], Phrase | None]]] = {
         **dict.fromkeys(ROLES, _laid_off), "vector": ("found lettered",),

@@ -104,7 +104,7 @@ class Task:
         without = {"left out elements": gone, "left out accelerations": placed - pushed}
         names = [link.name for link in self.structure.scene.links]
         told = {key: ", ".join(name for name in names if name in links) for key, links in without.items()}
-        return tuple(Phrase(key, (links,)) for key, links in told.items() if links)
+        return tuple(Phrase(key, links=links) for key, links in told.items() if links)
 
     @property
     def in_order(self) -> Iterator[tuple[Order, Element]]:

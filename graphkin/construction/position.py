@@ -148,7 +148,8 @@ def _dyad_steps(board: Board, paper: PlacedLinks, dyad: Dyad, intersection: Inte
         apart = abs(paper.point(one.b, one.point) - paper.point(two.b, two.point))
         board.notice("mechanism", "short arm", links, one.point, two.point, size=apart)
     which = "one assembly" if dyad.is_two_lines else f"{dyad.kind} {index}"
-    board.assembly[links] = Phrase(which, tuple(pair.key for pair in dyad.pairs))
+    first, inner, last = (pair.key for pair in dyad.pairs)
+    board.assembly[links] = Phrase(which, first=first, inner=inner, last=last)
     return intersection.steps(index)
 
 

@@ -36,7 +36,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import leading, links_for
 from graphkin.structure.model import Element, LargerGroup, Structure
-from graphkin.words import Phrase
+from graphkin.words import Phrase, gaps_of
 
 if TYPE_CHECKING:
     from graphkin.construction.trains import TrainPlan
@@ -55,6 +55,14 @@ Remarkable = Literal[
     "sharp crossing", "off the sheet", "zero vector", "short arm", "magnified", "parallel legs", "at contact",
     "at pitch curve",
 ]  # fmt: skip
+
+
+_GAPS: Mapping[Remarkable, tuple[str, ...]] = {
+    "sharp crossing": ("result",), "off the sheet": ("result",), "zero vector": ("symbol",), "magnified": ("links",),
+    "short arm": ("links", "point", "other"), "parallel legs": ("first", "second"), "at contact": ("contact",),
+    "at pitch curve": ("point",),
+}  # fmt: skip
+"""What a remark is said of, as the gaps of its sentence; "size" is a further one."""
 
 
 @dataclass(frozen=True)
@@ -93,15 +101,11 @@ class Remark:
 
     @property
     def phrase(self) -> Phrase:
-        size = f"{math.degrees(math.asin(self.size)) if self.key == 'sharp crossing' else self.size:.2g}"
-        match self.key:
-            case "sharp crossing" | "magnified":
-                return Phrase(self.key, (*self.of, size))
-            case "short arm":
-                return Phrase(self.key, (*self.of[:2], size, *self.of[2:]))
-            case "zero vector":
-                return Phrase(self.key, symbol=self.of[0])
-        return Phrase(self.key, self.of)
+        gaps: dict[str, object] = dict(zip(_GAPS[self.key], self.of, strict=True))
+        if "size" in gaps_of(self.key):
+            degrees = self.key == "sharp crossing"
+            gaps["size"] = f"{math.degrees(math.asin(self.size)) if degrees else self.size:.2g}"
+        return Phrase(self.key, **gaps)
 
     def scaled(self, times: float) -> Remark:
         """The same where lengths on paper are so many times as large."""

@@ -272,7 +272,8 @@ class Step:
         key = self.sentence
         told = Phrase(key, **{name: self.gap(name) for name in gaps_of(key)})
         for block, link, turned in self.data.instead if isinstance(self.data, TrialPositions) else ():
-            told = Phrase("driven in its stead", (told, block, link, f"{math.degrees(turned) + 0.0:.6g}"))
+            angle = f"{math.degrees(turned) + 0.0:.6g}"
+            told = Phrase("driven in its stead", told=told, block=block, link=link, angle=angle)
         return told
 
     @property

@@ -207,12 +207,13 @@ def _quantity(base: str, sub: str, sup: str, language: str) -> str:
         part = sup[:1] if sup[:1] in _PARTS else ""
         points = sub.split("/") if "/" in sub else _POINT.findall(sub)
         key = f"spoken {_VECTORS[base]}{part}"
-        names = (points[0], " ".join(points[1:]))
-        said = say(Phrase(f"{key} relative" if names[1] else key, names), language)
+        point, other = points[0], " ".join(points[1:])
+        relative = Phrase(f"{key} relative", point=point, other=other)
+        said = say(relative if other else Phrase(key, point=point), language)
     elif base in _RATES and sub:
-        said = say(Phrase(f"spoken {_RATES[base]}", (sub,)), language)
+        said = say(Phrase(f"spoken {_RATES[base]}", link=sub), language)
     elif base == "l" and sub[:1].isupper():
-        said = say(Phrase("spoken length", (" ".join(_POINT.findall(sub)),)), language)
+        said = say(Phrase("spoken length", points=" ".join(_POINT.findall(sub))), language)
     else:
         return ""
     return f"{said} {_raised(power, language)}" if power else said
