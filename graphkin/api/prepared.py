@@ -152,7 +152,10 @@ class Prepared(Tabled, OfScene):
             n = whole_number("sweep", n, 1, MOST, " positions")
         if out is not None:
             self._fitting(n, out)
-        return self.samples(*self.ready.sweep(n, out, self.compiled(n)), None)
+        columns, ok = self.ready.sweep(n, out, pays(n) if self.fast is None else self.fast)
+        if self.ready.bounded:
+            return self.samples(columns, ok, None)
+        return Samples(self, columns, ok, None, None)  # at some hundred positions each call would be felt
 
     def _fitting(self, n: int, out: Reals) -> None:
         shape = self.ready.rows, n

@@ -134,7 +134,7 @@ class PreparedMechanisms:
 
     def _alone(self) -> Iterator[tuple[int, PreparedMechanism]]:
         """The other designs by their numbers, each followed by itself; without those that cannot be assembled."""
-        ready, own_modes = self.ready, self.ready.range.modes(np.zeros(1))
+        ready = self.ready
         for k in np.flatnonzero(~self.together).tolist():
             changed = {name: complex(numbers[k]) for name, numbers in self.given.items()}
             scene = with_dimensions(ready.structure.scene, changed)
@@ -143,6 +143,7 @@ class PreparedMechanisms:
                 modes = choose_modes(structure)
             except (Unsolvable, SceneError):
                 continue
+            own_modes = ready.range.modes(np.zeros(1))
             for i, dyad in structure.dyads.items():
                 if not dyad.is_two_lines:
                     modes[i] = own_modes[i][0]
@@ -158,7 +159,8 @@ class PreparedMechanisms:
         ok : bool, shape (designs, n)
         values : of the first driver (rad, m), shape (n,), or (designs, n) where they differ
         """
-        out = np.full((self.ready.rows, self.count, n), np.nan)
+        out = np.empty((self.ready.rows, self.count, n))
+        out[:, ~self.together] = np.nan
         ok = np.repeat(self.together[:, None], n, axis=1)
         which = np.flatnonzero(self.together)
         if fast and n >= LOOP:
