@@ -11,7 +11,7 @@ import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.solver.bounds import most_of
-from graphkin.solver.driver_path import FAR, Path, assembled, stretches
+from graphkin.solver.driver_path import FAR, MOST_GROUPS, Path, assembled, stretches
 from graphkin.solver.drivers import meant_value
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, closes, positions
@@ -21,7 +21,6 @@ from graphkin.solver.sentences import dyad_words, group_words, lies_at, links_wo
 from graphkin.structure import Dyad, LargerGroup, Structure
 from graphkin.words import Phrase, Wording
 
-MOST_GROUPS = 6
 MARGIN = 1e-3
 """Of the way that is searched: so much more on both sides, for what lies at its ends."""
 BESIDE = 0.01
@@ -45,7 +44,7 @@ class DeadPoint:
 
 def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
     """All dead points of all assemblies within half a turn (four sizes of the mechanism) of a value of its driver; of
-    more than six groups those of the first six (``not_searched`` names the links of the others).
+    more than seven groups those of the first seven (``not_tried`` names the links of the others).
 
     Raises
     ------
@@ -71,11 +70,6 @@ def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
 
 def _same(structure: Structure, one: DeadPoint, two: DeadPoint) -> bool:
     return abs(structure.scene.drivers[0].wrapped(float(one.value - two.value))) < SAME
-
-
-def not_searched(structure: Structure) -> tuple[str, ...]:
-    """Links of groups that stand behind so many others that not all their assemblies are tried."""
-    return tuple(name for e in [*structure.dyads.values()][MOST_GROUPS:] for name in e.links)
 
 
 def nearest_dead_point(structure: Structure, i: int, signs: Mapping[int, float], value: float) -> DeadPoint | None:

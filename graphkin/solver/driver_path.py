@@ -42,6 +42,8 @@ BESIDE = 1e-5
 POLISHED = 1e-6
 """Of a path: so far on both sides of a root its last digit is looked for."""
 STEP = Decimal(10) ** -12
+MOST_GROUPS = 7
+"""Of so many groups all assemblies are tried."""
 OFF_FLIP = 1e-6
 """Of a path: what follows a group at a change point is watched this far beside it."""
 
@@ -331,3 +333,8 @@ def assembled(
                 yield from assembled(tried, behind, stretch.low, stretch.high, signs)
             else:
                 yield tried, stretch
+
+
+def not_tried(structure: Structure) -> list[tuple[str, ...]]:
+    """Links of groups that stand behind so many others that not all their assemblies are tried."""
+    return [group.links for group in [*structure.dyads.values()][MOST_GROUPS:]]

@@ -20,7 +20,8 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef
 from graphkin.solver.assemblies import choose_modes, new_places
 from graphkin.solver.cams import meeting_followers
-from graphkin.solver.dead_points import MOST_GROUPS, SAME, DeadPoint, dead_points, not_searched, singular
+from graphkin.solver.dead_points import SAME, DeadPoint, dead_points, singular
+from graphkin.solver.driver_path import MOST_GROUPS, not_tried
 from graphkin.solver.drivers import meant_value, own_values, working
 from graphkin.solver.engine import SINGULAR, State, positions
 from graphkin.solver.pose import Drive
@@ -247,8 +248,9 @@ def from_dead_point(structure: Structure) -> Structure:
     if not found:
         key = "no dead point at which the motion begins" if side > 0 else "no dead point at which the motion ends"
         wanted = [Phrase("change the sign of the distance or give"), *others]
-        if missing := not_searched(structure):
-            wanted.append(Phrase("links were not looked at", links=", ".join(missing), most=MOST_GROUPS))
+        if missing := not_tried(structure):
+            behind = ", ".join(name for links in missing for name in links)
+            wanted.append(Phrase("links were not looked at", links=behind, most=MOST_GROUPS))
         raise Unsolvable("dead point", Problem(what, Phrase(key), clauses(wanted)))
     if dead.near is None and len(found) > 1:
         names = listed([driver_text(scene, driver, float(p.value)) for p, _ in found])

@@ -15,10 +15,10 @@ from graphkin.plane import added_up
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, Motion, own_slides
-from graphkin.solver.driver_path import FAR, Path, assembled
+from graphkin.solver.driver_path import FAR, Path, assembled, not_tried
 from graphkin.solver.driver_range import Extremes
 from graphkin.solver.values import FlywheelStudy, flywheel_of
-from graphkin.structure import Dyad, DyadKind, Pair, Structure
+from graphkin.structure import Driven, Dyad, DyadKind, Pair, Structure
 from graphkin.study.extremes import Extreme, Traced, trace
 from graphkin.study.quantities import Quantity, link_quantities, rates_of, slide_quantities
 
@@ -417,7 +417,6 @@ def _output(reach: DriverRange, position: Traced) -> Output:
     return Output(position)
 
 
-MOST_GROUPS = 7
 BESIDE = 1e-9
 """Ranges (rad, m) that overlap by less have only their ends in common."""
 
@@ -455,12 +454,14 @@ def ranges(reach: DriverRange) -> tuple[AssemblyRange, ...]:
 
 def not_searched(reach: DriverRange) -> tuple[str, ...]:
     """Links for whose sake ranges in which the mechanism assembles otherwise are not known: of larger groups, whose
-    assemblies are known only along their motion, or of too many groups to try all their assemblies."""
+    assemblies are known only along their motion, of groups behind what rolls, which stands elsewhere after each turn,
+    or of too many groups to try all their assemblies."""
     if reach.full:
         return ()
-    larger = [e.links for e in reach.structure.larger_groups]
-    dyads = [e.links for e in reach.structure.dyads.values()]
-    many = dyads[MOST_GROUPS:] if not larger else []
+    elements, larger = reach.structure.elements, [e.links for e in reach.structure.larger_groups]
+    rolled = next((i for i, e in enumerate(elements) if isinstance(e, Driven) and e.rolled is not None), len(elements))
+    behind = [e.links for i, e in reach.structure.dyads.items() if i > rolled]
+    many = behind or not_tried(reach.structure) if not larger else []
     return tuple(name for links in (*larger, *many) for name in links)
 
 

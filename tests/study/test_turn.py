@@ -208,6 +208,27 @@ def test_a_driven_slide_has_its_other_range() -> None:
     assert (other.low, other.high) == pytest.approx((-0.5, -0.1), abs=1e-9)
 
 
+GEARED: dict[str, object] = {
+    # a rocker that does not turn fully moves a pair of bars by two wheels
+    "frame": {"points": {"A": [0, 0], "D": [400, 0], "G": [500, 200], "H": [700, 150]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 350},
+        "2": {"points": ["B", "C"], "length": 200},
+        "3": {"points": ["D", "C"], "length": 300},
+        "4": {"points": ["G", "E"], "length": 60},
+        "5": {"points": ["E", "F"], "length": 220},
+        "6": {"points": ["H", "F"], "length": 180},
+    },
+    "gears": {"g": {"between": ["3", "4"], "teeth": [20, 20]}},
+    "driver": {"link": "1", "angle": 40, "omega": 1},
+    "sketch": {"C": [300, 280], "E": [540, 240], "F": [650, 320]},
+}
+
+
+def test_groups_behind_wheels_whose_other_ranges_are_unknown_are_named() -> None:
+    assert ("5", "6") == study_turn(driver_range(mechanism_of(GEARED)), everything=False).not_searched
+
+
 def test_a_larger_group_whose_other_ranges_are_unknown_is_named() -> None:
     turn = study_turn(driver_range(mechanism_of_text(scenes.MOVED_PARALLELOGRAM, "p")), everything=False)
     assert turn.not_searched == ("1", "2", "3", "5")
