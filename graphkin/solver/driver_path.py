@@ -285,6 +285,9 @@ def closed(
     middles = (cuts[1:] + cuts[:-1]) / 2
     # what has no roots but rounding ends nothing, as lines that always lie in one
     closing = ~(gap(middles) < (0.0 if len(middles) > 1 else -TOUCH))
+    # it may begin and end at zero, but for rounding
+    for k, end, next_ in ((0, low, cuts[1]), (-1, high, cuts[-2])):
+        closing[k] |= abs(end - next_) < AT_END * wide and bool(gap(np.array([end]))[0] >= -TOUCH)
     for dip in below:
         closing &= ~((middles > dip[0]) & (middles < dip[1]))
     changes = np.flatnonzero(closing[1:] != closing[:-1]) + 1

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from decimal import Decimal
 from typing import Any
 
 import numpy as np
@@ -52,6 +53,12 @@ def test_a_near_miss_is_no_touch() -> None:
 def test_a_touch_is_a_change_point_also_where_rounding_is_below_zero(place: float, below: float) -> None:
     (found,) = along(lambda t: (t - place) ** 2 - below)
     assert (0.0, 1.0, (place,)) == (found.low, found.high, pytest.approx(found.touches, abs=1e-7))
+
+
+def test_a_dip_that_only_fifty_digits_tell_ends_the_motion_on_both_sides() -> None:
+    dip = Decimal("0.49999"), Decimal("0.50001")
+    first, second = closed(lambda t: (t - 0.5) ** 2 - 1e-10, 0.0, 1.0, lambda _: dip)
+    assert (0.49999, 0.50001, (), ()) == (first.high, second.low, first.touches, second.touches)
 
 
 def test_two_touches_are_two_change_points() -> None:

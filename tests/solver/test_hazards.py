@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Callable
+from typing import Any
 
+import numpy as np
 import pytest
 
 from graphkin.solver import continuity
-from graphkin.solver.driver_path import stretches
+from graphkin.solver.driver_path import Path
+from graphkin.solver.pose import Array
 from tests import EVERYTHING
 from tests.bench.hazards import Found, look
 
@@ -26,5 +29,10 @@ def test_dead_points_are_among_them(found: Found) -> None:
 
 
 def test_a_jump_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(continuity, "stretches", lambda *at: [replace(s, touches=()) for s in stretches(*at)])
-    assert any("jumps" in x for x in look(500, 11, each=6).wrong)
+    passed_by = continuity._passed_by
+
+    def in_one_form(path: Path, i: int, form: Callable[[Array], Array], *rest: Any) -> Path:
+        return passed_by(path, i, lambda t: np.broadcast_to(form(np.zeros(1)), t.shape), *rest)
+
+    monkeypatch.setattr(continuity, "_passed_by", in_one_form)
+    assert any("jumps" in x for x in look(3000, 11, each=6).wrong)
