@@ -20,15 +20,16 @@ STILL = 1e-12  # part of the largest speed that is none
 def how_found(centres: Centres, centre: Centre, name: Callable[[LinkPair], str]) -> Phrase:
     """How a centre was found, as a sentence to be; ``name`` writes centres."""
     if centre.kind == "undetermined":
-        return Phrase("centre none", (centre.pair,))
+        return Phrase("centre none", centre=centre.pair)
     far = centre.point is None
     if centre.kind == "permanent":
         key = "centre rolling" if centre.rolls else "centre guide" if far else "centre joint"
-        return Phrase(key, (centre.pair, centre.joint))
+        return Phrase(key, centre=centre.pair, joint=centre.joint)
     if centre.way:
-        return Phrase(f"centre {centre.way}", (centre.pair, ", ".join(centres.kept)))
-    lines = (line_through(line, name, lambda pin: f"n({pin})") for line in centre.lines)
-    return Phrase("centre crossing far" if far else "centre crossing", (centre.pair, *lines))
+        return Phrase(f"centre {centre.way}", centre=centre.pair, kept=", ".join(centres.kept))
+    first, second = (line_through(line, name, lambda pin: f"n({pin})") for line in centre.lines)
+    key = "centre crossing far" if far else "centre crossing"
+    return Phrase(key, centre=centre.pair, first=first, second=second)
 
 
 def line_through(line: CentreRelation, name: Callable[[LinkPair], str], normal: Callable[[str], str]) -> str:
@@ -116,11 +117,14 @@ def _of_link(
     ``nothing`` but rounding), and the sentence that says so."""
     new, its, common = _three(centres, turning)
     known, sign = rates[turning.chain[-2]], "-" * (turning.omega < 0.0)
-    args = turning.link, turning.chain[-2], common.pair, its.pair, new.pair
+    gaps: dict[str, object] = {
+        "link": turning.link, "known": turning.chain[-2], "common": common.pair, "known_centre": its.pair,
+        "centre": new.pair,
+    }  # fmt: skip
     if new.point is None:  # it only translates
-        return _Rate("0" if nothing else amount(turning.omega)), Phrase("centre slides", args)
+        return _Rate("0" if nothing else amount(turning.omega)), Phrase("centre slides", **gaps)
     if common.point is None:  # it turns as the other does
-        return _Rate("0") if nothing else known, Phrase("centre turns alike", args)
+        return _Rate("0") if nothing else known, Phrase("centre turns alike", **gaps)
     near, far = _apart(new.point, common.point), None if its.point is None else _apart(common.point, its.point)
     if nothing or near == "0":
         rate = _Rate("0" if nothing else amount(turning.omega, MOST))
@@ -132,10 +136,10 @@ def _of_link(
         value = written.quotient(over, near, min(carried, MOST))
         rate = _Rate(sign * (value != "0") + value, min(carried, MOST))
     if far is None or its.point is None:
-        return rate, Phrase("centre from slider", (*args, near, rate.size))
+        return rate, Phrase("centre from slider", **gaps, near=near, rate=rate.size)
     same = dot(its.point - common.point, new.point - common.point) >= 0.0
     key = "centre same sense" if same else "centre opposite sense"
-    return rate, Phrase(key, (*args, far, near, true_minus(rate.written)))
+    return rate, Phrase(key, **gaps, far=far, near=near, rate=true_minus(rate.written))
 
 
 def _of_point(centres: Centres, rates: Mapping[str, _Rate], symbol: Symbol) -> Phrase | None:
@@ -156,10 +160,11 @@ def _of_point(centres: Centres, rates: Mapping[str, _Rate], symbol: Symbol) -> P
     if centre.point is None or at is None or (length := _apart(at, centre.point)) == "0":
         return None
     rate = rates[link]
-    return Phrase("centre speed", (
-        symbol, link, centre.pair, end, rate.size, length,
-        *_speed(centres, rate.size, length, min(rate.carried, written.figures(length))),
-    ))  # fmt: skip
+    scale, speed = _speed(centres, rate.size, length, min(rate.carried, written.figures(length)))
+    return Phrase(
+        "centre speed", symbol=symbol, link=link, centre=centre.pair, end=end, rate=rate.size, length=length,
+        scale=scale, speed=speed,
+    )  # fmt: skip
 
 
 def _speed(centres: Centres, rate: str, length: str, carried: int) -> tuple[str, str]:
@@ -202,7 +207,8 @@ def _of_sliding(
     symbol = Symbol("v", PointRef(point, guiding), PointRef(point, sliding))
     second = f"({guide_rate.written})" if guide_rate.written.startswith("-") else guide_rate.written
     first = true_minus(pinned_rate.written)
-    return Phrase("centre sliding", (
-        symbol, pinned, guiding, centre.pair, PointRef(point), first, true_minus(second), length,
-        *_speed(centres, apart, length, min(carried, written.figures(length))),
-    ))  # fmt: skip
+    scale, speed = _speed(centres, apart, length, min(carried, written.figures(length)))
+    return Phrase(
+        "centre sliding", symbol=symbol, link=pinned, guide=guiding, centre=centre.pair, point=PointRef(point),
+        rate=first, guide_rate=true_minus(second), length=length, scale=scale, speed=speed,
+    )  # fmt: skip

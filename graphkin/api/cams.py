@@ -99,7 +99,8 @@ class CamMade:
             if most.value:
                 said = Phrase(f"cam pressure {kind}", size=Neutral(f"{_degrees(most.value)}°"), place=_place(most))
             if kept is not None and allowed is not None:
-                said = Phrase("cam kept" if kept else "cam exceeded", (said, f"{math.degrees(allowed):.6g}°"))
+                limit = f"{math.degrees(allowed):.6g}°"
+                said = Phrase("cam kept" if kept else "cam exceeded", angle=said, allowed=limit)
             if said not in made:
                 made.append(said)
         if study.radius is not None:
@@ -107,23 +108,23 @@ class CamMade:
             made.append(Phrase("cam radius", size=size, place=_place(study.radius)))
         made += [self._undercut(start, end) for start, end in study.undercut]
         if self.wanted_base is not None:
-            made.append(Phrase("cam base wanted", (self._length(self.wanted_base), unit)))
+            made.append(Phrase("cam base wanted", radius=self._length(self.wanted_base), unit=unit))
         made += self._rates()
         for jump in study.jumps:
             edge = "cam impact" if cam.flat or cam.roller else "cam impact corner"
-            made.append(Phrase(edge if jump.order == 1 else "cam soft impact", (_degrees(jump.degree),)))
+            made.append(Phrase(edge if jump.order == 1 else "cam soft impact", angle=_degrees(jump.degree)))
         return made
 
     def _undercut(self, start: float, end: float) -> Phrase:
         unit = self.mechanism.units.length
-        between = _degrees(start), _degrees(end)
+        between = {"begin": _degrees(start), "end": _degrees(end)}
         least = self.study.radius.value if self.study.radius is not None else 0.0
         if self.cam.flat:
-            return Phrase("cam undercut flat", (*between, self._length(self.cam.base - least), unit))
+            return Phrase("cam undercut flat", **between, radius=self._length(self.cam.base - least), unit=unit)
         if not self.cam.roller:
-            return Phrase("cam undercut edge", between)
+            return Phrase("cam undercut edge", **between)
         most = self._length(max(least + self.cam.roller, 0.0))
-        return Phrase("cam undercut roller", (*between, self._length(self.cam.roller), unit, most))
+        return Phrase("cam undercut roller", **between, roller=self._length(self.cam.roller), unit=unit, most=most)
 
     def _rates(self) -> list[Phrase]:
         """The greatest velocity and acceleration: at the cam's own speed, or by its angle."""
@@ -293,17 +294,19 @@ class Cams(OfScene, Result):
         base = disc.profile if disc.pitch is None else disc.pitch
         kind = Phrase("cam base profile" if disc.pitch is None else "cam base pitch")
         rise = (math.degrees(disc.rise), "°") if disc.swings else (disc.rise / metres, f" {unit}")
-        size = f"{base / metres:.6g}", unit, kind
-        yield Phrase("cam disc", (disc.link, disc.follower, *size, f"{rise[0]:.6g}", rise[1]))
-        yield Phrase("cam disc points", (disc.link,))
+        yield Phrase(
+            "cam disc", link=disc.link, follower=disc.follower, radius=f"{base / metres:.6g}", unit=unit, kind=kind,
+            rise=f"{rise[0]:.6g}", rise_unit=rise[1],
+        )  # fmt: skip
+        yield Phrase("cam disc points", link=disc.link)
         if disc.offset is not None:
-            yield Phrase("cam disc offset", (f"{disc.offset / metres + 0.0:.6g}", unit))
+            yield Phrase("cam disc offset", offset=f"{disc.offset / metres + 0.0:.6g}", unit=unit)
         if not disc.most[0]:
             yield Phrase("cam disc no pressure")
             return
         here = "–" if disc.here is None else _degrees(disc.here)
         at = _degrees(disc.most[1] % math.tau)
-        yield Phrase("cam disc pressure", (_degrees(disc.most[0]), at, here))
+        yield Phrase("cam disc pressure", angle=_degrees(disc.most[0]), place=at, here=here)
 
     @cached_property
     def table(self) -> Table:

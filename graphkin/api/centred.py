@@ -67,7 +67,7 @@ def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str,
     off += [str(v.symbol) for v in centred.velocities if v.ok is False]
     near = [v.too_near(language) for v in centred.velocities if v.ok is None]
     count = sum(e is not None for e in centred.errors.values())
-    verdict = Phrase("check failed", readings=", ".join(off)) if off else Phrase("centres checked", (count,))
+    verdict = Phrase("check failed", readings=", ".join(off)) if off else Phrase("centres checked", centres=count)
     heads = ["", *(word(key, language) for key in ("centre", "place", "how found"))]
     head = [*why, *[""] * bool(why), word("velocities by centres", language)]
     return heads, rows, [*head, *velocities, *near, say(verdict, language)]
@@ -113,7 +113,7 @@ class SpeedByCentres(Known):
 
     def too_near(self, language: str) -> str:
         """What is said where the centres do not determine it."""
-        return say(Phrase("centres too near", (str(self.symbol),)), language)
+        return say(Phrase("centres too near", symbol=str(self.symbol)), language)
 
     def _values(self) -> tuple[tuple[str, Value | None], ...]:
         return ("by centres", self.by_centres), ("exact", self.exact)

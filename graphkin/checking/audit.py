@@ -105,7 +105,7 @@ def _turned(case: Evidence, judged: Judged, right: Value) -> Judged | None:
                 ("slip square", math.pi / 2), ("slip square", -math.pi / 2))  # fmt: skip
         key = next((key for key, turn in ways if _near(true + turn - angle, room, either)), "slip direction")
         off = math.degrees(math.remainder(angle - true, math.pi if either else math.tau))
-        return replace(judged, verdict="wrong", looks_like=Phrase(key, (f"{off:+.0f}",)))
+        return replace(judged, verdict="wrong", looks_like=Phrase(key, angle=f"{off:+.0f}"))
     return None
 
 
@@ -164,7 +164,7 @@ def _following(
         for suspect, weight in judged.weighed(follows):
             if weight > chance:
                 names = tuple(s for s in others if any(map(moved, case.following({s: own[s]}, symbol))))
-                phrase = Phrase("slip follows", (", ".join(map(str, names)),))
+                phrase = Phrase("slip follows", name=", ".join(map(str, names)))
                 yield from [(replace(suspect, phrase=phrase, follows_from=names), weight)] if names else ()
 
 
@@ -355,15 +355,15 @@ def _explained_by_digits(
     def ways() -> Iterator[tuple[Phrase, Value]]:
         yield Phrase("slip sign"), -right
         for factor in (sign for power in (1, 2, 3) for sign in (10.0**power, 0.1**power)):
-            yield Phrase("slip factor", (f"{factor:g}",)), right * factor
+            yield Phrase("slip factor", factor=f"{factor:g}"), right * factor
         for text, _, value in transcription_errors(printed):
             if abs(value - right) <= printed.rounding + 0.1 * COMPUTED_SHARE * abs(right):
-                yield Phrase("slip pen", (text,)), printed.value
+                yield Phrase("slip pen", name=text), printed.value
         for k in sorted(range(len(names)), key=lambda k: abs(k - row))[1:]:
-            yield Phrase("slip position", (names[k],)), exact(k, printed)
+            yield Phrase("slip position", name=names[k]), exact(k, printed)
         for symbol in symbols:
             if symbol != printed.symbol:
-                yield Phrase("slip other", (str(symbol),)), exact(row, replace(printed, symbol=symbol))
+                yield Phrase("slip other", name=str(symbol)), exact(row, replace(printed, symbol=symbol))
 
     near = printed.rounding + COMPUTED_SHARE * abs(printed.value) / 10
     phrase = next((phrase for phrase, value in ways() if abs(printed.value - value) <= near), None)

@@ -159,7 +159,7 @@ class Judged:
             best = max(best, (share * float(fits), text, share), key=lambda found: found[0])
         weight, text, share = best
         if weight:
-            yield Suspect(Phrase("slip pen", (text,)), self.exact, share, copied=True), weight
+            yield Suspect(Phrase("slip pen", name=text), self.exact, share, copied=True), weight
 
     def drawn_badly(self, suspects: Suspects) -> tuple[Suspect, float] | None:
         """A slip in a drawing worse than it should be: the likeliest of those that are much commoner than a value there

@@ -218,7 +218,7 @@ def _terms(plan: Plan, sheet: Sheet) -> Iterator[Alteration]:
             shown = ", ".join(map(str, group))
             for key, factor, share in (slip[1:] for slip in OF_TERMS if slip[0] == role):
                 slip = OwnValues(term=_times(group, factor))
-                yield Phrase(f"slip {role} {key}", (shown,)), share / len(groups), partial(_drawn, plan, slip)
+                yield Phrase(f"slip {role} {key}", name=shown), share / len(groups), partial(_drawn, plan, slip)
 
 
 def _times(symbols: tuple[Symbol, ...], factor: float) -> Callable[[Term], Term]:
@@ -240,20 +240,20 @@ def _suspects(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
         yield Suspect(Phrase("slip kg for N"), exact / gravity, 0.08)
         yield Suspect(Phrase("slip N for kg"), exact * gravity, 0.08)
     if symbol.kind == "ak":
-        yield Suspect(Phrase("slip coriolis factor", (str(symbol),)), exact / 2, 0.1)
+        yield Suspect(Phrase("slip coriolis factor", name=str(symbol)), exact / 2, 0.1)
     for altered in _slipped(case.altered, symbol, exact):
         yield altered
-        yield Suspect(Phrase("slip and sign", (altered.phrase,)), -altered.value, 0.1 * altered.share)
+        yield Suspect(Phrase("slip and sign", slip=altered.phrase), -altered.value, 0.1 * altered.share)
     yield from _factors(case, symbol, exact)
     yield from _own_parts(case, symbol)
     yield from _relative(case, symbol, exact)
     yield from _others(case, symbol, exact)
     variants = case.variants(symbol)
     for name, value in variants:
-        yield Suspect(Phrase("slip variant", (name,)), value, 0.3 / len(variants))
+        yield Suspect(Phrase("slip variant", name=name), value, 0.3 / len(variants))
     places = case.elsewhere(symbol)
     for name, value in places:
-        yield Suspect(Phrase("slip position", (name,)), value, 0.05 / len(places), drawn=False)
+        yield Suspect(Phrase("slip position", name=name), value, 0.05 / len(places), drawn=False)
 
 
 def _slipped(slips: Sequence[Slipped], symbol: Symbol, exact: Value) -> Iterator[Suspect]:
@@ -274,7 +274,7 @@ def _factors(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
         lengths = (LENGTHS[unit_name] / metres for unit, metres in LENGTHS.items() if unit != unit_name)
         units += [(f"{factor:.4g}", factor) for factor in lengths]
     for shown, factor in units:
-        yield Suspect(Phrase("slip factor", (shown,)), exact * factor, 0.02)
+        yield Suspect(Phrase("slip factor", factor=shown), exact * factor, 0.02)
     for name, factor in (("rpm", RPM), ("degrees", DEGREE)):
         for times in (factor, 1 / factor):
             yield Suspect(Phrase(f"slip {name}"), exact * times, 0.01 if symbol.is_vector else 0.03)
@@ -310,7 +310,7 @@ def _relative(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]
         beside = _beside(scene, symbol.link)
         for name in beside:
             value = exact - case.exact(Symbol(symbol.kind, link=name))
-            yield Suspect(Phrase("slip relative rate", (name,)), value, 0.08 / len(beside))
+            yield Suspect(Phrase("slip relative rate", name=name), value, 0.08 / len(beside))
     if symbol.kind not in ("v", "a") or symbol.of is None or symbol.to is not None:
         return
     for link in _links_of(scene, symbol.of):
@@ -318,7 +318,7 @@ def _relative(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]
         for other in others:
             if other not in case.others and other.to and other.to.point not in scene.frame.points:
                 value = exact - case.exact(Symbol(symbol.kind, other.to))
-                yield Suspect(Phrase("slip relative", (str(other),)), value, 0.08 / len(others))
+                yield Suspect(Phrase("slip relative", name=str(other)), value, 0.08 / len(others))
 
 
 def _beside(scene: Mechanism, link: str) -> tuple[str, ...]:
@@ -344,7 +344,7 @@ def _own_parts(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
                 parts += [Symbol(kind, symbol.of, PointRef(pivot)) for kind in ("an", "at")]
     for other in dict.fromkeys(parts):
         if other.kind in COMPONENTS:
-            yield Suspect(Phrase(f"slip {COMPONENTS[other.kind]} only", (str(other),)), case.exact(other), 0.05)
+            yield Suspect(Phrase(f"slip {COMPONENTS[other.kind]} only", name=str(other)), case.exact(other), 0.05)
 
 
 def _others(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
@@ -352,9 +352,9 @@ def _others(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
     for other, value in alike:
         relative = symbol.to is None and other.to is not None and other.of is not None and symbol.of is not None
         if relative and other.of and symbol.of and other.of.point == symbol.of.point and other.kind == symbol.kind:
-            yield Suspect(Phrase("slip relative", (str(other),)), value, 0.08)
+            yield Suspect(Phrase("slip relative", name=str(other)), value, 0.08)
         else:
-            yield Suspect(Phrase("slip other", (str(other),)), value, 0.1 / len(alike))
+            yield Suspect(Phrase("slip other", name=str(other)), value, 0.1 / len(alike))
     if not symbol.is_vector:
         return
     for other, value in ((symbol, exact), *alike):
@@ -362,7 +362,7 @@ def _others(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
             if abs(part) > 1e-6 * abs(value) and abs(abs(part) - abs(value)) > 1e-6 * abs(value):
                 own = other == symbol
                 key = "slip component" if own else "slip other component"
-                yield Suspect(Phrase(key, (axis, str(other))), part, 0.05 if own else 0.05 / len(alike))
+                yield Suspect(Phrase(key, axis=axis, name=str(other)), part, 0.05 if own else 0.05 / len(alike))
 
 
 def _sort(symbol: Symbol) -> str:
@@ -466,7 +466,7 @@ def _force_slips(motion: Motion) -> Iterator[Alteration]:
 
     def slip(key: str, of: str | None, share: float, **changes: Sequence[object]) -> Alteration:
         wrong = replace(right, **{name: tuple(things) for name, things in changes.items()})  # type: ignore[arg-type]
-        return Phrase(key, () if of is None else (of,)), share, partial(_forces, motion, wrong)
+        return Phrase(key, name=of), share, partial(_forces, motion, wrong)
 
     every = [tuple(mass.link for mass in masses)] if masses else []
     groups = [*((mass.link,) for mass in masses), *(every if len(masses) > 1 else ())]
@@ -562,7 +562,7 @@ def _gear_slips(motion: Motion) -> Iterator[Alteration]:
     scene, each = _standing_here(motion), 1.0 / len(motion.scene.gears)
 
     def slip(key: str, gear: PlacedGear, share: float, gears: Iterable[PlacedGear]) -> Alteration:
-        return Phrase(key, (gear.name,)), share * each, partial(_motions, replace(scene, gears=tuple(gears)))
+        return Phrase(key, name=gear.name), share * each, partial(_motions, replace(scene, gears=tuple(gears)))
 
     for gear in scene.gears:
         one, two = gear.teeth

@@ -523,14 +523,16 @@ def _otherwise(diagram: CircleDiagram, motions: Mapping[str, LinkMotion], larges
     pair = diagram.to_measure(motions)
     # too few triangles, or lines that fall together
     count = len(diagram.lines[pair])
-    why = Phrase("centre few lines", (*pair, count)) if count < 2 else Phrase("centre lines together", pair)
+    links = {"first": pair[0], "second": pair[1]}
+    few, together = Phrase("centre few lines", **links, lines=count), Phrase("centre lines together", **links)
+    why = few if count < 2 else together
     if not motions.keys() >= {*pair}:
         return Centre(pair, "undetermined", why=why)
     first, second = motions[pair[0]], motions[pair[1]]
     chart, at = diagram.links.chart, diagram.links.chart.middle
     place, strength = chart.pole(at, first.of(at) - second.of(at), first.omega - second.omega)
     if abs(strength) <= AT_REST * largest:
-        return Centre(pair, "undetermined", why=Phrase("centre no motion", pair))
+        return Centre(pair, "undetermined", why=Phrase("centre no motion", **links))
     error = MEASURED * max(1.0, SLOW * largest / abs(strength))
     way: Literal["superposition", "velocity polygon"] = "superposition" if diagram.links.kept else "velocity polygon"
     return Centre(pair, "found", place, way=way, why=why, error=error)

@@ -324,11 +324,11 @@ def read_way(text: str, symbol: Symbol) -> Way:
         bare = rest.strip(" °;,()")
         if re.fullmatch(NUMBER, bare):
             return Way(*_degrees(bare))
-        raise Unreadable(Phrase("cell no direction", (text[:40],)))
+        raise Unreadable(Phrase("cell no direction", cell=text[:40]))
     if not symbol.is_vector and not way.sense:
         if rest.strip() in ("+", "-"):
             return Way(sense=1 if rest.strip() == "+" else -1)
-        raise Unreadable(Phrase("cell no sense", (text[:40],)))
+        raise Unreadable(Phrase("cell no sense", cell=text[:40]))
     return way
 
 
@@ -533,14 +533,15 @@ def read_cell(
     if not symbol.is_vector:
         left = re.sub(r"^k\u0302?$", "", left)  # the unit vector out of the paper
     if not numbers or len(numbers) > (2 if symbol.is_vector else 1):
-        raise Unreadable(Phrase("cell more numbers" if numbers else "cell no number", (text.strip()[:40],)))
+        raise Unreadable(Phrase("cell more numbers" if numbers else "cell no number", cell=text.strip()[:40]))
     factor = symbol.unit(units).si
     for said in (left, unit):
         if said:
             found = unit_factor(said, symbol, units)
             if found is None:
                 key = "cell no unit" if is_unit(said, units) else "cell no words"
-                raise Unreadable(Phrase(key, (text.strip()[:60], said[:40], Phrase(f"measure {symbol.measure}"))))
+                measure = Phrase(f"measure {symbol.measure}")
+                raise Unreadable(Phrase(key, cell=text.strip()[:60], unit=said[:40], measure=measure))
             factor = found
             break
     pointed = [_pointed(n, sign) for n in numbers]
@@ -576,7 +577,7 @@ def _joined(text: str, symbol: Symbol) -> str:
     if symbol.is_vector and text.startswith(("(", "[")):
         return text
     if symbol.is_vector:
-        raise Unreadable(Phrase("cell two components", (text[:40], whole)))
+        raise Unreadable(Phrase("cell two components", cell=text[:40], number=whole))
     return text[: match.start()] + whole + text[match.end() :]
 
 
@@ -588,6 +589,6 @@ def _pointed(number: str, sign: str) -> str:
     if sign == "," and _THOUSANDS.fullmatch(number):
         if number.count(",") == 1 and "." not in number:
             plain, decimal = number.replace(",", ""), number.replace(",", ".")
-            raise Unreadable(Phrase("cell two ways", (number[:40], plain, decimal)))
+            raise Unreadable(Phrase("cell two ways", cell=number[:40], plain=plain, decimal=decimal))
         return number.replace(",", "")
     return number.replace(",", ".") if _DECIMAL.fullmatch(number) else number

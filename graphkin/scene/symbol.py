@@ -503,8 +503,8 @@ def _number(text: str) -> Decimal:
     try:
         number = Decimal(plain)
     except InvalidOperation:
-        raise Unreadable(Phrase("cell no number", (plain[:40],))) from None
+        raise Unreadable(Phrase("cell no number", cell=plain[:40])) from None
     fine = number.is_finite() and int(number.as_tuple().exponent) < SMALLEST
     if not number.is_finite() or fine or not abs(number) < Decimal("1e15") or len(plain) > 40:
-        raise Unreadable(Phrase("cell no size", (plain[:40],)))
+        raise Unreadable(Phrase("cell no size", cell=plain[:40]))
     return number

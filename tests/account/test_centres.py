@@ -28,7 +28,7 @@ def test_the_told_rates_multiply_up_to_the_exact_ones(name: str) -> None:
     metres = found.scene.units.metres
     for phrase in velocity_sentences(found.centres):
         if phrase.key == "centre speed":
-            symbol, _, _, _, rate, arm, scale, _ = phrase.args
+            symbol, rate, arm, scale = (phrase.gaps[gap] for gap in ("symbol", "rate", "length", "scale"))
             told = float(str(rate)) * float(str(arm)) * float(str(scale).split()[0]) * metres
             carried = written.figures(str(rate), str(arm))
             assert told == pytest.approx(exact[str(symbol)], rel=max(2e-3, 10.0 ** (1 - carried)))
@@ -40,7 +40,8 @@ def test_every_told_rate_is_true_as_it_is_written(name: str) -> None:
     turning = {link: written.amount(one.omega) for link, one in found.turning.items()}
     for phrase in velocity_sentences(found.centres):
         if phrase.key in ("centre same sense", "centre opposite sense"):
-            link, known, *_, far, near, rate = (str(arg).replace("−", "-") for arg in phrase.args)
+            gaps = (str(phrase.gaps[gap]).replace("−", "-") for gap in ("link", "known", "far", "near", "rate"))
+            link, known, far, near, rate = gaps
             sign = -1.0 if phrase.key == "centre opposite sense" else 1.0
             value = sign * float(turning[known]) * float(far) / float(near)
             assert float(rate) == pytest.approx(value, rel=0.0, abs=0.5001 * unit_of(rate))
@@ -51,7 +52,7 @@ def test_a_residue_is_no_rate_of_a_velocity_by_centres() -> None:
     # at this dead centre a link stands still: nothing but rounding is left of its rate
     scene = random_scene(9129, ("RRP", "RPR"), "slot", textbook=True)
     found = checked_centres(scene, at=121.65525060596437)
-    told = [str(arg) for phrase in velocity_sentences(found.centres) for arg in phrase.args]
+    told = [str(arg) for phrase in velocity_sentences(found.centres) for arg in phrase.gaps.values()]
     assert [] == [text for text in told if "e-" in text or "e−" in text]
 
 
@@ -68,7 +69,7 @@ def test_the_speed_of_a_translating_link_is_that_of_the_crank_at_their_centre() 
     scene = replace(given, question=replace(given.question, find=(Symbol.parse("v_C@6"),)))
     centres = find_centres(scene)
     (told,) = [p for p in velocity_sentences(centres) if p.key == "centre speed"]
-    _, link, _, end, rate, arm, scale, said = told.args
+    link, end, rate, arm, scale, said = (told.gaps[gap] for gap in ("link", "end", "rate", "length", "scale", "speed"))
     exact = abs(checked_centres(scene).velocities[0].exact) / scene.units.metres
     assert ("2", True) == (link, isinstance(end, tuple))
     product = float(str(rate)) * float(str(arm)) * float(str(scale).split()[0])
@@ -79,22 +80,22 @@ def test_the_speed_of_a_translating_link_is_that_of_the_crank_at_their_centre() 
 
 def test_a_clockwise_link_is_told_with_its_sign() -> None:
     centres = find_centres(mechanism_of("shaper-scheme-2"))
-    told = {p.args[0]: p.args[-1] for p in velocity_sentences(centres) if "sense" in p.key}
+    told = {p.gaps["link"]: p.gaps["rate"] for p in velocity_sentences(centres) if "sense" in p.key}
     assert "−0.739" == told["4"]  # 6.70206 · 8.68 mm / 78.68 mm
 
 
 def test_the_sliding_velocity_is_the_difference_of_rates_times_the_arm_from_the_common_centre():
     centres = find_centres(mechanism_of("sixbar-guide-40deg"))
-    told = [p.args for p in velocity_sentences(centres) if p.key == "centre sliding"]
-    assert [("1", "3"), ("5", "3")] == [args[1:3] for args in told]
-    sizes = [float(args[-1].split()[0]) for args in told]
+    told = [p.gaps for p in velocity_sentences(centres) if p.key == "centre sliding"]
+    assert [("1", "3"), ("5", "3")] == [(gaps["link"], gaps["guide"]) for gaps in told]
+    sizes = [float(gaps["speed"].split()[0]) for gaps in told]
     assert [575.4062995771787, 99.20039152997784] == pytest.approx(sizes, rel=1e-3)
 
 
 def test_no_sliding_velocity_is_told_of_links_that_turn_alike_but_for_rounding() -> None:
     centres = find_centres(mechanism_of(mechanism(9028)))
     moving = centres.turning
-    told = [p.args[1:3] for p in velocity_sentences(centres) if p.key == "centre sliding"]
+    told = [(p.gaps["link"], p.gaps["guide"]) for p in velocity_sentences(centres) if p.key == "centre sliding"]
     assert told
     for pinned, guiding in told:
         one, other = moving[str(pinned)].omega, moving[str(guiding)].omega

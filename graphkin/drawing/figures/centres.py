@@ -416,7 +416,8 @@ def _report(centres: Centres, letters: Letters, language: str, width: float) -> 
     lines: list[str] = []
     for each in languages(language):
         for centre in centres.indeterminate:
-            by = Phrase(f"centre {centre.way}", (centre.pair, ", ".join(centres.kept))) if centre.way else None
+            kept = ", ".join(centres.kept)
+            by = Phrase(f"centre {centre.way}", centre=centre.pair, kept=kept) if centre.way else None
             sentences = [as_markup(_rich(one, each, letters)) for one in (centre.why, by) if one is not None]
             lines.append(word("sentence joint", each).join(sentences))
     spoken = velocity_sentences(centres)
