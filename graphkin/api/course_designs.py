@@ -460,14 +460,14 @@ def _report(
     figures : "structure", "positions", "loops" and "diagrams", where they could be drawn
     """
     language, driver = lesson.language, scheme.scene.unit_of(scheme.scene.drivers[0])
-    driver_value = said("course place", language, driver.said(stands))
+    driver_value = said("course place", language, value=driver.said(stands))
     task = Heading(said("course task", language), 2, fresh=True)
     blocks: list[Block] = [*_cover(lesson, student, driver_value), task, *given_words(lesson)]
     if data:
         blocks.append(Together((Heading(said("course data", language)), *_data(data, student, language))))
     for name in ("structure", "positions"):
         blocks += _headed(f"course {name}", figures[name], language)
-    place = said("course position", language, in_markup(student.place)) if student.place else driver_value
+    place = said("course position", language, position=in_markup(student.place)) if student.place else driver_value
     heads = zip(said("course drawn", language), place, strict=True)
     blocks.append(Heading(tuple((each, text + word("colon", each) + more) for (each, text), (_, more) in heads)))
     blocks += [_lower(block) for block in solution_blocks(lesson)]
@@ -521,15 +521,18 @@ def _cover(lesson: Lesson, student: Student, place: Said) -> Iterable[Block]:
     yield Heading(said("course design", language), 1)
     yield Heading(scene_title(lesson), 2)
     blanks = []
-    for key, blank, text in (("course student", "name of student", student.name),
-                             ("course id", "class of student", student.id)):  # fmt: skip
-        if text:
-            yield Paragraph(said(key, language, in_markup(text)))
-        else:
-            blanks.append(blank)
-    for key, text in (("course scheme", student.scheme), ("course position", student.place)):
-        if text:
-            yield Paragraph(said(key, language, in_markup(text)))
+    if student.name:
+        yield Paragraph(said("course student", language, name=in_markup(student.name)))
+    else:
+        blanks.append("name of student")
+    if student.id:
+        yield Paragraph(said("course id", language, id=in_markup(student.id)))
+    else:
+        blanks.append("class of student")
+    if student.scheme:
+        yield Paragraph(said("course scheme", language, scheme=in_markup(student.scheme)))
+    if student.place:
+        yield Paragraph(said("course position", language, position=in_markup(student.place)))
     yield Paragraph(place)
     yield Fields(said_each(language, (*blanks, "course teacher", "date")))
     yield Picture(mechanism_picture(lesson))
@@ -589,7 +592,7 @@ def _value_tables(
 ) -> list[TableBlock]:  # fmt: skip
     """A row for each position behind its names; what one table has no room for stands in a further one."""
     language = lesson.language
-    driver = said("course driver head", language, unit)
+    driver = said("course driver head", language, unit=unit)
     tables = []
     for k in range(0, len(asked), MOST_VALUES):
         part = asked[k : k + MOST_VALUES]

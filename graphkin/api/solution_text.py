@@ -60,12 +60,12 @@ def _texts(*parts: Array) -> list[str]:
 
 def _whole(solved: Solved, language: str) -> list[SolutionTable]:
     scene, motion = solved.mechanism, solved.motion if solved.forces is None else solved.forces.motion
-    length, speed, push = (scene.units.of(measure) for measure in ("length", "velocity", "acceleration"))
+    push = scene.units.of("acceleration")
 
     def table(of: str, *right: int) -> SolutionTable:
-        shown = (length, speed, push, scene.units.of("force"))
-        units = tuple(unit.text if language == "en" else unit.written for unit in shown)
-        return SolutionTable(say(Phrase(f"heads of {of}", units), language).split("|"), right)
+        shown = {measure: scene.units.of(measure) for measure in ("length", "velocity", "acceleration", "force")}
+        units = {measure: unit.text if language == "en" else unit.written for measure, unit in shown.items()}
+        return SolutionTable(say(Phrase(f"heads of {of}", **units), language).split("|"), right)
 
     def columns(*quantities: Quantity) -> list[list[str]]:
         return [_texts(*quantity.parts(None, motion)) for quantity in quantities]

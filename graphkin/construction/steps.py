@@ -121,7 +121,7 @@ def plain_in(language: str) -> Callable[[object], str]:
         text = str(thing).replace("{", "").replace("}", "")
         if text == str(GIVEN):
             return word("given size", language)
-        return _SEEN.sub(lambda found: word("symbol seen", language).format(found[1]), text)
+        return _SEEN.sub(lambda found: word("symbol seen", language).format(link=found[1]), text)
 
     return written
 

@@ -157,9 +157,9 @@ def laid_out(blocks: Iterable[Block]) -> Iterator[Leaf]:
             yield block
 
 
-def said(key: str, language: str, *args: object) -> Said:
+def said(key: str, language: str, /, **gaps: object) -> Said:
     """Words from the table of terms, in the languages of a sheet ("en", "zh" or "both")."""
-    return in_each(language, lambda each: say(Phrase(key, args), each))
+    return in_each(language, lambda each: say(Phrase(key, **gaps), each))
 
 
 def said_each(language: str, keys: Sequence[str]) -> tuple[Said, ...]:
@@ -197,7 +197,7 @@ def finished(words: Said) -> Said:
 def numbered(count: int, caption: Said) -> Said:
     """The caption of a figure behind its number."""
     return tuple(
-        (each, say(Phrase("figure numbered", (count, capital(text))), each)) for each, text in caption
+        (each, say(Phrase("figure numbered", number=count, caption=capital(text)), each)) for each, text in caption
     )
 
 

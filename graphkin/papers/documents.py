@@ -146,7 +146,7 @@ def _poles(lesson: Lesson, diagrams: Sequence[DiagramName]) -> Paragraph:
     """From which poles polygons are to be drawn."""
     poles = [f"${pole(lesson.letters.convention, diagram)}$" for diagram in diagrams]
     names = word("list comma", languages(lesson.language)[0]).join(poles)
-    return Paragraph(said("your polygon", lesson.language, names), small=True)
+    return Paragraph(said("your polygon", lesson.language, poles=names), small=True)
 
 
 def _equations(lesson: Lesson, diagram: DiagramName, width: float) -> tuple[Paragraph | Picture, ...]:
@@ -261,7 +261,7 @@ def _senses(scene: Mechanism) -> Iterator[Phrase]:
     """Which way drivers turn, and whether that is ever faster."""
     for driver in scene.drivers:
         if driver.turns and driver.rate:
-            on = "" if driver.relative_to == scene.frame.name else Phrase("seen from link", (driver.relative_to,))
+            on = "" if driver.relative_to == scene.frame.name else Phrase("seen from link", link=driver.relative_to)
             even = "" if driver.law is not None else Phrase("at constant speed")
             faster = Phrase("ever faster" if driver.second * driver.rate > 0 else "ever slower")
             law = faster if driver.second else even
@@ -374,8 +374,9 @@ def answer_key(lesson: Lesson) -> Document:
     """The answer key of a lesson."""
     language, tools = lesson.language, lesson.sheet.scene.question.sheet.tools
     words = said(
-        "key words", language, *(f"{x:g}" for x in (tools.line_width / 2, tools.ruler, tools.compass, tools.set_square))
-    )
+        "key words", language, points=f"{tools.line_width / 2:g}", ruler=f"{tools.ruler:g}",
+        compass=f"{tools.compass:g}", directions=f"{tools.set_square:g}",
+    )  # fmt: skip
     blocks: tuple[Block, ...] = (
         Heading(scene_title(lesson), 1),
         Heading(said("answer key", language)),
@@ -542,7 +543,7 @@ def _force_pictures(lesson: Lesson, stage: ForceStage, tag: str, count: int) -> 
     if equation is not None:
         yield Picture(equation, joined=True)
     drawn = group_picture(page, forces, stage, tag)
-    caption = said(about("figure of forces", group.links), language, ", ".join(group.links))
+    caption = said(about("figure of forces", group.links), language, links=", ".join(group.links))
     yield Picture(drawn, numbered(count, caption))
 
 
@@ -574,7 +575,7 @@ def stage_title(lesson: Lesson, stage: Stage) -> Said:
         return said("the position", lesson.language)
     if equation is None:
         return said("further vectors", lesson.language)
-    numbered_one = Phrase("equation numbered", (equation.number,))
+    numbered_one = Phrase("equation numbered", number=equation.number)
     return in_each(
         lesson.language,
         lambda each: say(numbered_one, each) + word("colon", each) + word(f"for {stage.diagram}", each),
@@ -602,7 +603,7 @@ def _told(lesson: Lesson, stage: Stage, count: int) -> Iterator[Heading | Paragr
     of the figure that shows them."""
     equation = stage.equation
     assert equation is not None
-    where = dict(said("see figure", lesson.language, count))
+    where = dict(said("see figure", lesson.language, figure=count))
     yield Heading(tuple((each, f"{title}{where[each]}") for each, title in stage_title(lesson, stage)))
     yield Picture(pictures.equation_picture(lesson, equation), joined=True)
     why = in_each(lesson.language, lambda each: lesson.account.why(equation, each))
@@ -617,12 +618,11 @@ def _stage(
     sheet = lesson.sheet
     drawn = pictures.stage_picture(lesson, layers, stage.diagram, begun, stage.last)
     start = next(step.number for step in sheet.steps if step.diagram == stage.diagram)
-    args: tuple[int, ...] = (stage.last,)
     key = "figure whole" if begun == start else "figure with step"
     if start != begun != stage.last:
-        key, args = "figure so far", (stage.last, begun)
-    named = FIGURE_WORDS[stage.diagram]
-    caption = in_each(lesson.language, lambda each: say(Phrase(key, (word(named, each), *args)), each))
+        key = "figure so far"
+    named = Phrase(FIGURE_WORDS[stage.diagram])
+    caption = said(key, lesson.language, figure=named, step=stage.last, first=begun)
     figure = Picture(drawn, numbered(count, caption), floats=True)
     narrow = drawn.width <= paper_of(sheet.scene).narrow
     steps = step_items(lesson, stage, parted=not narrow and len(stage.steps) >= MANY)

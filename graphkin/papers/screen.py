@@ -59,7 +59,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion, solve
 from graphkin.solver.pose import Array
 from graphkin.solver.quantities import pole
-from graphkin.words import about, languages, word
+from graphkin.words import about, gaps_of, languages, word
 
 WIDE = 96.0  # mm of the sketch of a group, its polygon below
 LISTED = ("figures", "steps")
@@ -101,11 +101,11 @@ def handout_page(
         "start": start,
         "moving": dict(moving or {}),
         "room": _tolerances(lesson),
-        "words": {key: _side_by_side(said(of, lesson.language, *gaps)) for key, of, gaps in SPOKEN},
+        "words": {key: _to_fill(of, lesson.language) for key, of in SPOKEN.items()},
     }
     keys = said("keys", lesson.language)
-    shown = said("positions words" if len(views) > 1 else "position words", lesson.language, len(views))
-    hints = zip(keys, shown, said("print hint", lesson.language, paper), strict=True)
+    shown = said("positions words" if len(views) > 1 else "position words", lesson.language, count=len(views))
+    hints = zip(keys, shown, said("print hint", lesson.language, paper=paper), strict=True)
     hint = tuple((each, word("between sentences", each).join((a, b, c))) for (each, a), (_, b), (_, c) in hints)
     body = rendered(
         "handout.html",
@@ -125,18 +125,22 @@ BUTTONS = (
     ("first", "|◀", "first step"), ("previous", "◀", "previous step"), ("next", "▶", "next step"),
     ("last", "▶|", "last step"), ("equation", "▶▶", "next equation"),
 )  # fmt: skip
-SPOKEN = (
-    ("stepOf", "step of", ("{0}", "{1}")), ("right", "trial right", ()), ("off", "trial off", ()),
-    ("turned", "trial turned", ()), ("enter", "trial enter", ()), ("hint1", "hint equation", ("{0}",)),
-    ("hint2", "hint direction", ("{0}",)), ("hint3", "hint size", ("{0}", "{1}")), ("play", "play", ()),
-    ("pause", "pause", ()), ("ccw", "counter-clockwise", ()), ("cw", "clockwise", ()), ("hidden", "step hidden", ()),
-    ("velocity", "velocity polygon", ()), ("acceleration", "acceleration polygon", ()), ("mechanism", "mechanism", ()),
-    ("figure", "figure numbered", ("{0}", "")),
-)  # fmt: skip
+SPOKEN = {
+    "stepOf": "step of", "right": "trial right", "off": "trial off", "turned": "trial turned", "enter": "trial enter",
+    "hint1": "hint equation", "hint2": "hint direction", "hint3": "hint size", "play": "play", "pause": "pause",
+    "ccw": "counter-clockwise", "cw": "clockwise", "hidden": "step hidden", "velocity": "velocity polygon",
+    "acceleration": "acceleration polygon", "mechanism": "mechanism", "figure": "figure numbered",
+}  # fmt: skip
+"""What the page itself says, by the names of its script: keys of the table."""
 
 
 def _side_by_side(words: Said) -> str:
     return " / ".join(text for _, text in words)
+
+
+def _to_fill(key: str, language: str) -> str:
+    """A sentence whose gaps the page fills by their names."""
+    return _side_by_side(said(key, language, **{gap: f"{{{gap}}}" for gap in gaps_of(key)}))
 
 
 def positions_data(views: Sequence[Lesson], progress: Progress | None = None) -> dict[str, object]:
@@ -315,7 +319,7 @@ def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
         if group.links:
             name, page = f"force-{turn}", FigurePage(sheet, "forces", language, lesson.letters, WIDE)
             drawn = group_picture(page, forces, stage, f"-{turn}")
-            links = said(about("force on links", group.links), language, ", ".join(group.links))
+            links = said(about("force on links", group.links), language, links=", ".join(group.links))
             figures.append(_figure(name, drawn, said_html(links), scale, named=True))
             equation = group_equation(page, group)
             svg = "" if equation is None else svg_element(equation)

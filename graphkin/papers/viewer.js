@@ -25,7 +25,7 @@
     return found ? Number(found[1]) : 0;
   };
   const parts = () => figures.querySelectorAll("[class*='step-']");
-  const fill = (words, ...values) => words.replace(/\{(\d)\}/g, (_, i) => values[i]);
+  const fill = (words, gaps) => words.replace(/\{(\w+)\}/g, (_, name) => gaps[name]);
 
   // a step of the list, by its number
   const itemOf = (number) => list.querySelector(`button[data-step="${number}"]`);
@@ -76,7 +76,7 @@
     let count = 0;
     const printedFigure = ({ svg, caption }) => {
       count += 1;
-      return `<figure>${bare(svg)}<figcaption>${fill(data.words.figure, count)} ${caption}</figcaption></figure>`;
+      return `<figure>${bare(svg)}<figcaption>${fill(data.words.figure, { number: count, caption: "" })} ${caption}</figcaption></figure>`;
     };
     const stages = now.stages.map((number, e) => {
       const stage = data.stages[number], steps = now.steps.filter((s) => s.e === e);
@@ -114,7 +114,7 @@
         button.removeAttribute("aria-current");
       }
     }
-    const count = fill(data.words.stepOf, current.n, now.steps[now.steps.length - 1].n);
+    const count = fill(data.words.stepOf, { number: current.n, count: now.steps[now.steps.length - 1].n });
     stepInput.value = step + 1;
     stepInput.setAttribute("aria-valuetext", `${count}: ${current.text}`);
     stepOut.textContent = count;
@@ -203,8 +203,9 @@
     const find = wanted(), next = here().steps[step + 1];
     trial.hints = Math.min(3, trial.hints + 1);
     const title = list.querySelectorAll("h3")[next.e].textContent;
-    const near = [0.9, 1.15].map((f) => Number((find.size * f).toPrecision(2)));
-    trial.said.textContent = fill(data.words[`hint${trial.hints}`], ...[[title], [wayOf(find)], near][trial.hints - 1]);
+    const [least, most] = [0.9, 1.15].map((f) => Number((find.size * f).toPrecision(2)));
+    const gaps = { equation: title, direction: wayOf(find), least, most };
+    trial.said.textContent = fill(data.words[`hint${trial.hints}`], gaps);
   });
   byId("trial-show").addEventListener("click", () => showStep(step + 1));
   byId("try").addEventListener("change", (event) => { trial.on = event.target.checked; showStep(trial.on ? 0 : step); });

@@ -228,22 +228,27 @@ def lessons(singularities: Sequence[Singularity]) -> tuple[Phrase, ...]:
     phrases = []
     if dead := by_key.get("dead point RRR"):
         lost, given = dead["acceleration closed form"], dead["all from the dead point"]
-        phrases.append(Phrase("lesson place", (in_powers(lost.worst), in_powers(given.worst))))
+        phrases.append(Phrase("lesson place", lost=in_powers(lost.worst), given=in_powers(given.worst)))
     if (height := by_key.get("crossing height")) and (angle := by_key.get("angle near zero")):
-        laws = (height[f"height by {formula}"] for formula in ("squares", "Heron"))
-        formulas = *laws, *(angle[f"angle by {formula}"] for formula in ("arccos", "atan2"))
-        phrases.append(Phrase("lesson digits", tuple(in_powers(law.worst) for law in formulas)))
+        phrases.append(Phrase(
+            "lesson digits",
+            squares=in_powers(height["height by squares"].worst), heron=in_powers(height["height by Heron"].worst),
+            arccos=in_powers(angle["angle by arccos"].worst), atan2=in_powers(angle["angle by atan2"].worst),
+        ))  # fmt: skip
     if dead:
         pencil, doubles = dead["velocity pencil"], dead["velocity closed form"]
         at = next((x for x in pencil.x if x < 0.15), pencil.x[0])
-        both = pencil.near(at), doubles.near(at)
-        phrases.append(Phrase("lesson pencil", tuple(map(in_powers, (both[0] / both[1], at, *both)))))
+        by_pencil, in_doubles = pencil.near(at), doubles.near(at)
+        phrases.append(Phrase(
+            "lesson pencil", times=in_powers(by_pencil / in_doubles), distance=in_powers(at),
+            pencil=in_powers(by_pencil), doubles=in_powers(in_doubles),
+        ))  # fmt: skip
     if lines := by_key.get("parallel lines"):
         place, through = lines["centre place pencil"], lines["centre velocity pencil"]
-        phrases.append(Phrase("lesson centres", (in_powers(place.worst), in_powers(through.worst))))
-    silent = {"crossing height": "height by squares", "differences": "acceleration differences"}
-    if silent.keys() <= by_key.keys():
-        phrases.append(Phrase("lesson says", tuple(in_powers(by_key[key][law].worst) for key, law in silent.items())))
+        phrases.append(Phrase("lesson centres", place=in_powers(place.worst), velocity=in_powers(through.worst)))
+    if height and (rates := by_key.get("differences")):
+        squares, differences = height["height by squares"].worst, rates["acceleration differences"].worst
+        phrases.append(Phrase("lesson says", squares=in_powers(squares), differences=in_powers(differences)))
     return tuple(phrases)
 
 

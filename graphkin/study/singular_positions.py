@@ -59,8 +59,10 @@ def _exactly_drawn(scene: Mechanism) -> Sheet | None:
         return None
 
 
-def _numbers(*values: float) -> tuple[str, ...]:
-    return tuple(in_powers(value) for value in values)
+def _fates(key: str, /, **values: float | None) -> tuple[Phrase, ...]:
+    """A sentence with measured numbers in its gaps; none where one of them was not met."""
+    numbers = {gap: in_powers(value) for gap, value in values.items() if value is not None}
+    return (Phrase(key, **numbers),) if len(numbers) == len(values) else ()
 
 
 @dataclass(frozen=True)
@@ -209,13 +211,13 @@ def dead_point(kind: str, mp: MPContext, samples: int = 4) -> Singularity:
         *measured([hand], few, map(by_pencil, few)),
     )
     by_key = {law.key: law for law in laws}
-    ends = (
-        ("fate dead closed", (by_key["velocity closed form"].refuses_from,)),
-        ("fate dead newton", (by_key["velocity Newton"].warns_from,)),
-        ("fate dead drawn", (by_key["velocity exact drawing"].warns_from, by_key["velocity pencil"].refuses_from)),
+    warned, missed = by_key["velocity exact drawing"].warns_from, by_key["velocity pencil"].refuses_from
+    fates = (
+        *_fates("fate dead closed", distance=by_key["velocity closed form"].refuses_from),
+        *_fates("fate dead newton", distance=by_key["velocity Newton"].warns_from),
+        *_fates("fate dead drawn", drawn=warned, pencil=missed),
     )
-    fates = [Phrase(key, _numbers(*(e for e in at if e is not None))) for key, at in ends if None not in at]
-    return Singularity(f"dead point {kind}", "crank before", laws, tuple(fates))
+    return Singularity(f"dead point {kind}", "crank before", laws, fates)
 
 
 def _followed(scene: Mechanism, link: str, angles: Sequence[mpf], mp: MPContext) -> Iterator[Turning]:
@@ -290,8 +292,8 @@ def crossing_height(mp: MPContext, samples: int = 4) -> Singularity:
         ErrorLaw("height by Heron", theory=0.0, window=(1e-13, 1e-1)),
     )
     laws = measured(stated, x, map(partial(_worst_of_trials, errors), x), samples)
-    fate = Phrase("fate height", _numbers(*(law.worst for law in laws)))
-    return Singularity("crossing height", "gap of radii", laws, (fate,))
+    fates = _fates("fate height", squares=laws[0].worst, heron=laws[1].worst)
+    return Singularity("crossing height", "gap of radii", laws, fates)
 
 
 def angle_formulas(mp: MPContext, samples: int = 4) -> Singularity:
@@ -313,8 +315,8 @@ def angle_formulas(mp: MPContext, samples: int = 4) -> Singularity:
         ErrorLaw("angle by atan2", theory=0.0, window=(1e-7, 0.5)),
     )
     laws = measured(stated, x, map(partial(_worst_of_trials, errors), x), samples)
-    fate = Phrase("fate arccos", _numbers(*(law.worst for law in laws)))
-    return Singularity("angle near zero", "angle of two lines", laws, (fate,))
+    fates = _fates("fate arccos", arccos=laws[0].worst, atan2=laws[1].worst)
+    return Singularity("angle near zero", "angle of two lines", laws, fates)
 
 
 # -- differences in place of rates -------------------------------------------------------------------------------------
@@ -370,8 +372,10 @@ def differences(mp: MPContext, samples: int = 4) -> Singularity:
     )
     few = [ErrorLaw("velocity complex step", theory=2.0, window=(1e-6, 0.2))]
     laws = measured(stated, steps, map(central, steps)) + measured(few, steps[::4], map(complex_step, steps[::4]))
-    fate = Phrase("fate differences", _numbers(*(laws[i].best for i in (0, 2, 4))))
-    return Singularity("differences", "step", laws, (fate,))
+    fates = _fates(
+        "fate differences", velocity=laws[0].best, acceleration=laws[2].best, complex_step=laws[4].best
+    )
+    return Singularity("differences", "step", laws, fates)
 
 
 def _worst(values: Array, right: Array) -> float:
@@ -460,10 +464,11 @@ def parallel_lines(mp: MPContext, samples: int = 2) -> Singularity:
     )
     x, few = grid(0.5, 1e-15, samples), grid(0.5, 1e-5, 1)
     laws = measured(exact, x, map(exactly, x), samples) + measured(drawn, few, map(by_pencil, few))
-    fates = [Phrase("fate centre kept", _numbers(laws[1].worst, laws[3].worst))]
-    if laws[0].refuses_from is not None:
-        fates.insert(0, Phrase("fate centre", _numbers(laws[0].refuses_from)))
-    return Singularity("parallel lines", "angle of two lines", laws, tuple(fates))
+    fates = (
+        *_fates("fate centre", distance=laws[0].refuses_from),
+        *_fates("fate centre kept", doubles=laws[1].worst, pencil=laws[3].worst),
+    )
+    return Singularity("parallel lines", "angle of two lines", laws, fates)
 
 
 # -- guide bars --------------------------------------------------------------------------------------------------------
@@ -534,9 +539,10 @@ def near_ground(mp: MPContext, samples: int = 4) -> Singularity:
     growing = [ErrorLaw(f"size {what}", theory=slope, window=(1e-12, 0.03), lost=math.inf)
                for what, slope in (("Coriolis", -1.0), ("bar", -2.0))]  # fmt: skip
     growth = measured(growing, x, sizes, samples)
-    grown = Phrase("grows", tuple(true_minus(f"{law.slope:.2f}") for law in growth))
-    fate = Phrase("fate near ground", _numbers(laws[2].worst, max(stated, default=math.nan)))
-    return Singularity("near ground", "crank from ground", laws, (grown, fate), growth)
+    coriolis, bar = (true_minus(f"{law.slope:.2f}") for law in growth)
+    fates = _fates("fate near ground", doubles=laws[2].worst, solved=max(stated, default=math.nan))
+    grown = Phrase("grows", coriolis=coriolis, bar=bar)
+    return Singularity("near ground", "crank from ground", laws, (grown, *fates), growth)
 
 
 def flip(mp: MPContext, samples: int = 4) -> Singularity:
@@ -580,8 +586,10 @@ def flip(mp: MPContext, samples: int = 4) -> Singularity:
         *measured([ErrorLaw("acceleration bar solved")], x, map(solved, x), samples),
         *measured([board], few, map(drawn, few)),
     )
-    ends = ("fate flip solved", laws[3].refuses_from), ("fate flip drawn", laws[4].refuses_from)
-    fates = tuple(Phrase(key, _numbers(at)) for key, at in ends if at is not None)
+    fates = (
+        *_fates("fate flip solved", distance=laws[3].refuses_from),
+        *_fates("fate flip drawn", distance=laws[4].refuses_from),
+    )
     return Singularity("guide flip", "crank from flip", laws, fates)
 
 
@@ -614,8 +622,9 @@ def slow_sliding(mp: MPContext, samples: int = 4) -> Singularity:
     drawn = [ErrorLaw(f"{law.key} pencil", theory=law.theory, lost=2.0) for law in exact]
     x, few = grid(0.3, 1e-15, samples), grid(0.3, 1e-4, 1)
     laws = measured(exact, x, map(solved, x), samples) + measured(drawn, few, map(by_pencil, few))
-    return Singularity("slow sliding", "crank from line", laws,
-                       (Phrase("fate sliding", _numbers(*(law.worst for law in laws))),))  # fmt: skip
+    sliding, bar, sliding_pencil, bar_pencil = (law.worst for law in laws)
+    fates = _fates("fate sliding", sliding=sliding, bar=bar, sliding_pencil=sliding_pencil, bar_pencil=bar_pencil)
+    return Singularity("slow sliding", "crank from line", laws, fates)
 
 
 # -- a drawing made small ----------------------------------------------------------------------------------------------
@@ -647,8 +656,12 @@ def drawing_scale(mp: MPContext, samples: int = 1) -> Singularity:
 
     stated = ErrorLaw("pencil points", theory=-1.0, lost=1.0), ErrorLaw("pencil all", lost=1.0)
     laws = measured(stated, sizes, map(errors, sizes))
-    ends = _numbers(*(law.error[k] for law in laws for k in (0, -1)))
-    fate = Phrase("fate scale", (f"{sizes[0]:.2g}", f"{sizes[-1]:.4g}", *ends))
+    points, all_tools = laws
+    fate = Phrase(
+        "fate scale", small=f"{sizes[0]:.2g}", large=f"{sizes[-1]:.4g}",
+        points_small=in_powers(points.error[0]), points_large=in_powers(points.error[-1]),
+        all_small=in_powers(all_tools.error[0]), all_large=in_powers(all_tools.error[-1]),
+    )  # fmt: skip
     return Singularity("small scale", "crank on paper", laws, (fate,))
 
 

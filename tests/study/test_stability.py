@@ -23,7 +23,7 @@ from graphkin.study.error_laws import (
     to_json,
 )
 from graphkin.study.singular_positions import KINDS, run_singularities
-from graphkin.words import Phrase, say
+from graphkin.words import Phrase, gaps_of, say
 from tests.drawing.chart_words import off_the_page, overlapping
 
 SLOPE = 0.15
@@ -181,10 +181,11 @@ def test_what_is_concluded_is_what_was_measured():
     found = tuple(map(singularity, KINDS))
     by_key = {one.key: one for one in found}
     height, dead = by_key["crossing height"], by_key["dead point RRR"]
-    assert in_powers(height["height by squares"].worst) == height.fates[0].args[0]
-    assert in_powers(dead["velocity closed form"].refuses_from) == dead.fates[0].args[0]
+    assert in_powers(height["height by squares"].worst) == height.fates[0].gaps["squares"]
+    assert in_powers(dead["velocity closed form"].refuses_from) == dead.fates[0].gaps["distance"]
     pencil = next(lesson for lesson in lessons(found) if lesson.key == "lesson pencil")
-    times, at, drawn, doubles = (float(re.sub(r"·\$10\^\{(.*)\}\$", r"e\1", a).replace("−", "-")) for a in pencil.args)
+    gaps = (pencil.gaps[name] for name in ("times", "distance", "pencil", "doubles"))
+    times, at, drawn, doubles = (float(re.sub(r"·\$10\^\{(.*)\}\$", r"e\1", a).replace("−", "-")) for a in gaps)
     assert drawn / doubles == pytest.approx(times, rel=0.1)
     assert drawn == pytest.approx(dead["velocity pencil"].near(at), rel=0.06)
 
@@ -195,12 +196,12 @@ def test_conclusions_follow_what_is_measured(times):
     other = replace(found, laws=tuple(replace(law, error=tuple(times * e for e in law.error)) for law in found.laws))
     angle = singularity("angle near zero")
     (one,), (two,) = lessons((found, angle)), lessons((other, angle))
-    assert [in_powers(times * law.worst) for law in found.laws] == list(two.args[:2])
-    assert one.args[2:] == two.args[2:]
+    assert [in_powers(times * law.worst) for law in found.laws] == [two.gaps["squares"], two.gaps["heron"]]
+    assert [one.gaps["arccos"], one.gaps["atan2"]] == [two.gaps["arccos"], two.gaps["atan2"]]
 
 
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_no_conclusion_has_a_number_that_was_not_measured(language):
     keys = "fate height", "fate arccos", "fate scale", "fate centre", "lesson pencil", "lesson digits"
-    fixed = [say(Phrase(key, ("",) * 6), language) for key in keys]
+    fixed = [say(Phrase(key, **dict.fromkeys(gaps_of(key), "")), language) for key in keys]
     assert [] == [text for text in fixed if re.search(r"\d", text.replace("c² − m²", "").replace("atan2", ""))]

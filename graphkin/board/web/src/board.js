@@ -87,7 +87,7 @@ export async function mount(root, send, { kept = null, nonce = "", wrote = () =>
 
   const problems = (found) => {
     editor.problems(found);
-    list.replaceChildren(...found.map((one) => h("li", {}, one.line ? button(word("line").replace("{0}", one.line) + one.text, () => { tab("text"); editor.goTo(one.line); }) : one.text)));
+    list.replaceChildren(...found.map((one) => h("li", {}, one.line ? button(word("line").replace("{line}", one.line) + one.text, () => { tab("text"); editor.goTo(one.line); }) : one.text)));
     if (found.length) {
       verdict.textContent = word("stays");
       verdict.className = "differs";
