@@ -149,8 +149,9 @@ class ForceAccount:
     def _unnumbered(self) -> Iterator[ForceStage]:
         first, *others = self.forces.states
         inertia = tuple(
-            ForceStep("inertia", Phrase("force step inertia", (n,)), (self.inertia(pushed),), (Symbol("Fi", link=n),))
-            for n, pushed in self.forces.inertias.items()
+            ForceStep("inertia", Phrase("force step inertia", link=link), (self.inertia(pushed),),
+                      (Symbol("Fi", link=link),))
+            for link, pushed in self.forces.inertias.items()
         )
         if inertia:
             yield ForceStage("acceleration", Phrase("force inertia"), inertia, first)
@@ -165,8 +166,8 @@ class ForceAccount:
             yield ForceStage("forces", self.caption(group, count), (*self.of_group(state, group),), state, group, again)
         for k, state in enumerate(self.forces.states):
             for lever in state.levers:
-                why = Phrase("lever reason", (f"${pole(self.letters.convention, 'velocity')}$",))
-                why = Phrase("two sentences", (why, Phrase("lever virtual"))) if lever.virtual else why
+                why = Phrase("lever reason", pole=f"${pole(self.letters.convention, 'velocity')}$")
+                why = Phrase("two sentences", first=why, second=Phrase("lever virtual")) if lever.virtual else why
                 total, balanced = self.lever(state, lever)
                 steps = (ForceStep("lever", why), ForceStep("lever", Phrase("lever step forces")),
                          ForceStep("lever", balanced, (total,), (lever.unknown.symbol,)))  # fmt: skip
@@ -217,14 +218,15 @@ class ForceAccount:
         """``1. Links 5, 6 (RRP) cut free``."""
         kind = {"driver": Phrase("force driver"), "drawn system": Phrase("force larger group")}
         return Phrase(about("force group", group.links),
-                      (str(count), listed(group.links), kind.get(group.way, group.kind)))  # fmt: skip
+                      number=str(count), links=listed(group.links), kind=kind.get(group.way, group.kind))  # fmt: skip
 
     def of_group(self, state: ForceState, group: ForceGroup) -> Iterator[ForceStep]:
         """The steps by which the forces of a group are found."""
         links, drawn = listed(group.links), group.polygon or chain(*group.inner.values())
         acting = [*(v for v in drawn if v.known and v.span), *group.couples_before]
         names = [self.name(symbol) for symbol in dict.fromkeys(load.symbol for load in acting)]
-        cut = Phrase("force step cut", (links, listed(names))) if names else Phrase("force step cut bare", (links,))
+        bare = Phrase("force step cut bare", links=links)
+        cut = Phrase("force step cut", links=links, forces=listed(names)) if names else bare
         yield ForceStep("cut", cut)
         yield from self._moments(group)
         read = self.read_off(state, group)
@@ -233,17 +235,17 @@ class ForceAccount:
             return tuple(s for s in dict.fromkeys(v.symbol for v in vectors if not v.known) if s in read)
 
         if group.way == "drawn system":
-            yield ForceStep("system", Phrase("force reason system", (links,)))
+            yield ForceStep("system", Phrase("force reason system", links=links))
         elif len(group.polygon) > 1:
             if laid_off(group):
                 yield ForceStep("lay", Phrase("force step lay"), self._laid(group))
-            why = Phrase(about("force polygon closes", group.links), (links,))
+            why = Phrase(about("force polygon closes", group.links), links=links)
             by, found = self._closed_by(group), own(group.polygon)
-            why = why if by is None else Phrase("two sentences", (why, by))
+            why = why if by is None else Phrase("two sentences", first=why, second=by)
             yield ForceStep("close", why, [read.pop(s) for s in found], found)
         for link, vectors in group.inner.items():
             if found := own(vectors):
-                why = Phrase("force step inside", (link, listed([*map(self.name, found)])))
+                why = Phrase("force step inside", link=link, forces=listed([*map(self.name, found)]))
                 yield ForceStep("inside", why, [read.pop(s) for s in found], found, link)
         yield from self._couples(group)
 
@@ -251,20 +253,20 @@ class ForceAccount:
         """The moment equations that give parts of forces."""
         held = next((v for v in group.polygon if v.part == "n"), None) if group.kind in ("RPP", "RPR") else None
         if held is not None:
-            said = Phrase("force reason along", (held.link.split("/")[0], self.name(held.symbol, "n")))
+            said = Phrase("force reason along", link=held.link.split("/")[0], force=self.name(held.symbol, "n"))
             yield ForceStep("moments", said, (), (held.symbol,), "n")
         for equation in group.moments:
             symbol, part = equation.unknown.symbol, equation.unknown.acting.part
             links, point = _links(equation.links), f"${self.letters.point(equation.about)}$"
             if not equation.terms and group.way == "polygon" and group.kind != "RPR":
-                said = Phrase("force two-force member", (links, self.name(symbol), point))
+                said = Phrase("force two-force member", links=links, force=self.name(symbol), point=point)
                 yield ForceStep("moments", said, (), (symbol,), part)
                 continue
             # a part, where both stand in the polygon, or where it is nought and the force lies along the bar
             parts = sum(v.symbol == symbol and v.part != "" for v in group.polygon)
             name = self.name(symbol, part if parts > 1 or not balance(self.sheet, equation)[2] else "")
             key = "driver" if group.way == "driver" else "guide" if group.kind == "RPR" else "pin"
-            said = Phrase(f"force reason {key}", (point, links, name))
+            said = Phrase(f"force reason {key}", point=point, links=links, force=name)
             yield ForceStep("moments", said, self._in_numbers(equation, name), (symbol,), part)
 
     def _couples(self, group: ForceGroup) -> Iterator[ForceStep]:
@@ -276,15 +278,16 @@ class ForceAccount:
             symbol = equation.unknown.symbol
             name = self.name(symbol)
             if symbol.other and not equation.value:
-                yield ForceStep("couples", Phrase("force no couple", (Neutral(f"{name} = 0"),)), (), (symbol,))
+                yield ForceStep("couples", Phrase("force no couple", moment=Neutral(f"{name} = 0")), (), (symbol,))
                 continue
             work = self._in_numbers(equation, name)
             for force, (_, shifted) in group.lines.items():
                 if (force.link, force.other) == (symbol.link, symbol.other):
-                    shift = number(abs(shifted) / units.metres, MOST)
-                    work.append(Phrase("force line shifted", (self.name(force), shift, units.length)))
+                    distance = number(abs(shifted) / units.metres, MOST)
+                    shift = Phrase("force line shifted", force=self.name(force), distance=distance, unit=units.length)
+                    work.append(shift)
             key = "force reason couple" if symbol.other else "force reason balance"
-            yield ForceStep("couples", Phrase(key, (_links(equation.links), name)), work, (symbol,))
+            yield ForceStep("couples", Phrase(key, links=_links(equation.links), moment=name), work, (symbol,))
 
     def _in_numbers(self, equation: MomentEquation, name: str) -> list[Wording]:
         """The arms of a moment equation as the ruler gives them on the mechanism, and the equation; ``name`` is that of
@@ -348,14 +351,16 @@ class ForceAccount:
         if not known or not unknown or len(unknown) > 2:
             return None
 
-        def at(*places: complex) -> list[str]:
-            return [f"${corner_at(group, place)}$" for place in places]
+        def name(vector: ForceVector) -> str:
+            return self.name(vector.symbol, vector.part)
+
+        def corner(place: complex) -> str:
+            return f"${corner_at(group, place)}$"
 
         first, last = known[0], known[-1]
-        begins, ends = (self.name(v.symbol, v.part) for v in (first, last))
+        chained = {"first": name(first), "last": name(last), "begin": corner(first.tail), "end": corner(last.tip)}
         if len(unknown) == 1:
-            only = self.name(unknown[0].symbol, unknown[0].part)
-            return Phrase("force closes", (ends, begins, only, *at(last.tip, first.tail)))
+            return Phrase("force closes", force=name(unknown[0]), **chained)
         behind = next((v for v in unknown if abs(v.tail - last.tip) < SAME), None)
         before = next((v for v in unknown if abs(v.tip - first.tail) < SAME and v is not behind), None)
         if behind is None or before is None:
@@ -364,8 +369,11 @@ class ForceAccount:
         ways = [f"${way}$" for v in sought if (way := self.letters.direction(v.direction, frame))]
         if len(ways) < 2:
             return None
-        line, other = ((way, self.name(v.symbol, v.part)) for way, v in zip(ways, sought, strict=True))
-        return Phrase("force lines meet", (ends, *line, begins, *other, *at(last.tip, first.tail, behind.tip)))
+        line, other_line = ways
+        return Phrase(
+            "force lines meet", line=line, force=name(behind), other_line=other_line, other_force=name(before),
+            corner=corner(behind.tip), **chained,
+        )  # fmt: skip
 
     def lever(self, state: ForceState, lever: Lever) -> tuple[Phrase, Phrase]:
         """The sum of the moments on a lever in numbers, and what balances by it beside the value of the polygons."""
@@ -381,8 +389,8 @@ class ForceAccount:
         unit = units.force + ("·m" if moment else "")
         by_lever, by_polygons = (f"{number(v / units.newtons, MOST)} {unit}" for v in values)
         return (
-            Phrase("lever sum", (Neutral(f"{lead} {rest} = 0"),)),
-            Phrase("lever balance", (Neutral(f"{name} = {by_lever}"), Neutral(by_polygons))),
+            Phrase("lever sum", sum=Neutral(f"{lead} {rest} = 0")),
+            Phrase("lever balance", lever=Neutral(f"{name} = {by_lever}"), polygons=Neutral(by_polygons)),
         )
 
 

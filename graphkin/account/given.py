@@ -287,10 +287,10 @@ def given_loads(sheet: Sheet, letters: Letters) -> list[Phrase]:
     masses = list(_masses(scene, letters))
     balances = dict.fromkeys(DrawnPosition(sheet).balance(driver).symbol for driver in scene.drivers)
     return [
-        *([reduce(lambda one, other: Phrase("given masses", (one, other)), masses)] if masses else []),
+        *([reduce(lambda one, other: Phrase("given masses", first=one, second=other), masses)] if masses else []),
         *(_load(scene, load, letters) for load in loading.loads),
         *(_spring_given(scene, spring, letters) for spring in loading.springs),
-        Phrase("given balance", (", ".join(f"${force_letters(letters.convention, one)}$" for one in balances),)),
+        Phrase("given balance", forces=", ".join(f"${force_letters(letters.convention, one)}$" for one in balances)),
     ]
 
 
@@ -307,7 +307,7 @@ def _masses(scene: Mechanism, letters: Letters) -> Iterator[Phrase]:
         if mass.inertia:
             unit = units.of("inertia")
             said += f", $J_{{{mass.link}}}$ = {unit.beside(number(unit.of(mass.inertia), 5))}"
-        yield Phrase("given mass", (Neutral(said), where))
+        yield Phrase("given mass", mass=Neutral(said), point=where)
 
 
 def _load(scene: Mechanism, load: LoadOn, letters: Letters) -> Phrase:
@@ -315,24 +315,24 @@ def _load(scene: Mechanism, load: LoadOn, letters: Letters) -> Phrase:
     unit = symbol.unit(scene.units)
     size = Neutral(f"${force_letters(letters.convention, symbol)}$ = {unit.beside(number(unit.of(load.size)))}")
     if not load.is_force:
-        said = Phrase("given moment", (size, load.link))
+        said = Phrase("given moment", size=size, link=load.link)
     elif load.against:
-        said = Phrase("given against", (size, load.link, load.against))
+        said = Phrase("given against", size=size, link=load.link, slide=load.against)
     else:
         angle = number(degrees(load.turn), 5)
         key = "given following" if load.follows else "given force"
-        said = Phrase(key, (size, load.link, angle, load.follows))
-    return said if load.phase is None else Phrase("given while", (said, _phase(scene, load.phase)))
+        said = Phrase(key, size=size, link=load.link, angle=angle, other=load.follows)
+    return said if load.phase is None else Phrase("given while", load=said, phase=_phase(scene, load.phase))
 
 
 def _phase(scene: Mechanism, phase: LoadPhase) -> Phrase:
     if phase.stroke:
         key = "given on stroke" if phase.sense > 0 else "given on stroke back"
-        return Phrase(key, (phase.stroke, number(phase.start), number(phase.end)))
+        return Phrase(key, slide=phase.stroke, start=number(phase.start), end=number(phase.end))
     unit = scene.unit_of(scene.drivers[0])
     start, end = (number(unit.of(value)) for value in (phase.start, phase.end))
-    ends = unit.beside(start) if scene.drivers[0].turns else start, unit.beside(end)
-    return Phrase("given while driver", ends)
+    start = unit.beside(start) if scene.drivers[0].turns else start
+    return Phrase("given while driver", start=start, end=unit.beside(end))
 
 
 def _spring_given(scene: Mechanism, spring: SpringOn, letters: Letters) -> Phrase:
@@ -345,7 +345,10 @@ def _spring_given(scene: Mechanism, spring: SpringOn, letters: Letters) -> Phras
         for unit, value in ((units.of("length"), spring.free), (units.of("force"), spring.preload))
     )
     name = f"${force_letters(letters.convention, Symbol('P', name=spring.name))}$"
-    told = (spring.name, one, spring.links[0], two, spring.links[1], rate, free, preload, name)
-    return Phrase("given spring", told)
+    link, other_link = spring.links
+    return Phrase(
+        "given spring", name=spring.name, point=one, link=link, other_point=two, other_link=other_link, rate=rate,
+        length=free, preload=preload, force=name,
+    )  # fmt: skip
 
 

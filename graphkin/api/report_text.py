@@ -109,7 +109,8 @@ def lever_lines(checked: Checked, language: str) -> list[str]:
             unit = f"{units.force} m" if moment else units.force
             values = lever.value if moment else abs(lever.value), row.measured if moment else abs(row.measured)
             by_lever, by_polygons = (f"{amount(float(v.real) / units.newtons, MOST)} {unit}" for v in values)
-            lines.append(say(Phrase("lever balance", (f"{row.symbol} = {by_lever}", by_polygons)), language))
+            said = Phrase("lever balance", lever=f"{row.symbol} = {by_lever}", polygons=by_polygons)
+            lines.append(say(said, language))
     return list(dict.fromkeys(lines))
 
 

@@ -299,9 +299,9 @@ class FigurePage:
         """What a figure shows, and where the drivers stand: the line below its title."""
         return f"{name}{punctuation('colon', self.language)}{drivers(self.sheet, self.letters)}"
 
-    def said(self, key: str, *arguments: object, **gaps: object) -> tuple[str, ...]:
+    def said(self, key: str, /, **gaps: object) -> tuple[str, ...]:
         """A phrase in each language of the page, one line where its formulas can stand once."""
-        return in_all(Phrase(key, arguments, **gaps), self.language)
+        return in_all(Phrase(key, **gaps), self.language)
 
     def prose(self, said: Iterable[Wording], size: float = SIZE, *, bold: bool = False) -> Block:
         """What is said in every language of the page."""

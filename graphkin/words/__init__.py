@@ -175,9 +175,9 @@ def in_all(said: Wording, language: str) -> tuple[str, ...]:
     """A statement in every language of a sheet, as lines: one where what is `Neutral` in it stands in one order, with
     the words of both languages around it, else a line for each language.
 
-    >>> in_all(Phrase("force line shifted", ("$F$", "2", "mm")), "both")
+    >>> in_all(Phrase("force line shifted", force="$F$", distance="2", unit="mm"), "both")
     ('The line of action of $F$ lies 2 mm off that point.', '$F$ 的作用线偏离该点 2 mm。')
-    >>> in_all(Phrase("given moment", (Neutral("$M$ = 2 N·m"), "3")), "both")
+    >>> in_all(Phrase("given moment", size=Neutral("$M$ = 2 N·m"), link="3"), "both")
     ('$M$ = 2 N·m on link 3 作用于构件 3',)
     """
     every = languages(language)

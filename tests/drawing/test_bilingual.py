@@ -26,12 +26,15 @@ def test_a_place_is_told_in_each_language_behind_the_masses_that_stand_once():
 
 def test_formulas_in_another_order_keep_the_sentences_apart():
     gaps = zip(("datum", "low", "high", "unit", "angle", "best", "here"), map(Neutral, "a123456"), strict=True)
-    said = Phrase("given masses", (Neutral("b = 2"), Phrase("best choice", **dict(gaps))))
+    said = Phrase("given masses", first=Neutral("b = 2"), second=Phrase("best choice", **dict(gaps)))
     assert 2 == len(in_all(said, "both"))
 
 
 def test_a_sentence_without_a_formula_stands_in_each_language_whole():
-    said = Phrase("given spring", ("R", "$A$", "3", "$B$", "4", "1.6 N/mm", "60 mm", "12 N", "$P$"))
+    said = Phrase(
+        "given spring", name="R", point="$A$", link="3", other_point="$B$", other_link="4", rate="1.6 N/mm",
+        length="60 mm", preload="12 N", force="$P$",
+    )  # fmt: skip
     assert (say(said, "en"), say(said, "zh")) == in_all(said, "both")
 
 

@@ -164,10 +164,10 @@ def centrodes_figure(
     if here is not None and mechanism.distance(here) <= REACH * max(mechanism.width, mechanism.height):
         around = around.joined(Box.around((here,)).grown(ROOM))  # where the two touch
     colour = colour_of_link(sheet.scene, link)
-    kinds = (
-        ("fixed centrode", "centrode-fixed", FIXED, fixed, ""),
-        ("moving centrode", "centrode-moving", MOVING.coloured(colour), moving, ""),
-        ("coupler curve", "coupler-curve", COUPLER.coloured(colour), curve, point),
+    kinds: Sequence[tuple[str, str, Stroke, Sequence[Branch], Mapping[str, str]]] = (
+        ("fixed centrode", "centrode-fixed", FIXED, fixed, {}),
+        ("moving centrode", "centrode-moving", MOVING.coloured(colour), moving, {}),
+        ("coupler curve", "coupler-curve", COUPLER.coloured(colour), curve, {"point": point}),
     )
     drawn = {id: _clipped(branches, stroke, around) for _, id, stroke, branches, _ in kinds}
     content = mechanism
@@ -182,8 +182,8 @@ def centrodes_figure(
     page = page.wide_enough(content.width + 2 * ROOM)
     whole = joined((back, Piece({"centres": groups}, names)))
     figure = centred(content, page.width, content.height + 2 * ROOM, lambda around: whole)
-    legend = [(say(Phrase(key, (name,)), languages(page.language)[0]), stroke)
-              for key, _, stroke, branches, name in kinds if branches]  # fmt: skip
+    legend = [(say(Phrase(key, **gaps), languages(page.language)[0]), stroke)
+              for key, _, stroke, branches, gaps in kinds if branches]  # fmt: skip
     keys = [row(_sample(stroke), prose((said,), page.width - KEY, 3.0, classes=("legend",))) for said, stroke in legend]
     end = punctuation("full stop", page.language) + punctuation("between sentences", page.language)
     return page.drawing(

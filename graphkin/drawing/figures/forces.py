@@ -172,7 +172,7 @@ def _pictures(
     for apart in polygons:
         link, *_, box = apart
         drawn = polygon(apart, max(box.width, NARROW), max(box.height, SMALLEST))
-        said = (" / ".join(page.said("force on link", link)),) if link else ()
+        said = (" / ".join(page.said("force on link", link=link)),) if link else ()
         singles.append(column(prose(said, drawn.width, 2.4), drawn))
     yield from rows(singles, page.width, gap=2.0)
 
@@ -181,7 +181,7 @@ def _below(page: FigurePage, account: ForceAccount, stage: ForceStage) -> Block:
     """Moments with their reasons, the vector equation with its rows, and what was read off."""
     group, said = stage.group, stage.told("moments", "system")
     if len(group.polygon) > 1 and group.way == "polygon":
-        said.append(Phrase(about("force reason polygon", group.links), (listed(group.links),)))
+        said.append(Phrase(about("force reason polygon", group.links), links=listed(group.links)))
     equation = group_equation(page, group)
     couples, read = stage.told("couples"), ";  ".join(account.read_off(stage.state, group).values())
     return column(
@@ -502,7 +502,7 @@ def lever_figure(
         return None
     sheet = sheet if report is None else replace(sheet, scales=report.scales)
     page = FigurePage.of(sheet, "lever", language, convention)
-    why = [Phrase("lever reason", (f"${pole(page.convention, 'velocity')}$",))]
+    why = [Phrase("lever reason", pole=f"${pole(page.convention, 'velocity')}$")]
     why += [Phrase("lever couple")] * any(row.pair for _, _, lever in shown for row in lever.rows)
     why += [Phrase("lever virtual")] * any(lever.virtual for _, _, lever in shown)
     body = [page.prose(why)]

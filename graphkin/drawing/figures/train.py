@@ -60,7 +60,7 @@ def _page(page: FigurePage, plan: TrainPlan) -> Drawing:
     sheet, velocity = page.sheet, plan.order == "velocity"
     name = "plan" if velocity else "plan accelerations"
     why = [Phrase("plan reason" if velocity else "plan reason accelerations")]
-    why += [Phrase("plan relative", (line.still,)) for line in plan.on if not line.in_frame]
+    why += [Phrase("plan relative", point=line.still) for line in plan.on if not line.in_frame]
     rates = _rate_scale(sheet, plan)
     least = min(0.0, *map(foot, plan.lines.values()))
     scale = panel(page.width - TABLE - 4.0, plan.pole + 16.0, lambda room: with_labels(
