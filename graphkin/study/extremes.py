@@ -133,9 +133,14 @@ class CurveParameter:
         near = self.offset(high - steps if which else low + steps)
         if self._away[which]:
             low, high = self.reach.ends
-            steps = np.asarray(HAIR * 2.0 ** np.arange(2, 8), dtype=np.float64)
+            steps = np.asarray(HAIR * 2.0 ** np.arange(2, 18), dtype=np.float64)
             near = high - steps * (high - low) if which else low + steps * (high - low)
         values = curve.quantity.values(self.reach, self.reach.motion(near))
+        if self._away[which]:  # the six nearest positions that the solver reaches
+            nearest = np.flatnonzero(np.isfinite(values))[:6]
+            if len(nearest) < 6:
+                return np.nan
+            steps, values = steps[nearest], values[nearest]
         if self._away[which] and abs(values[0]) > 1.5 * abs(values[1]) > 2.25 * abs(values[2]):
             return float(np.copysign(np.inf, values[0]))
         # Neville's scheme: the value at 0 of the polynomial through values at steps
@@ -295,9 +300,11 @@ def _constant(way: CurveParameter, curves: Sequence[Curve]) -> set[Quantity]:
     low, high = way.range
     motion = way.reach.motion(way.offset(np.linspace(low, high, 34)[1:-1]), extended=False)
     for quantity in (c.quantity for c in curves if not c.quantity.is_position):
-        values = quantity.smooth(way.reach, motion)[0]
-        values = values[np.isfinite(values)]
-        if len(values) == 0 or np.ptp(values) <= 1e-12 * np.max(np.abs(values)):
+        values, errors = quantity.smooth(way.reach, motion)
+        known = np.isfinite(values)
+        values, errors = values[known], np.broadcast_to(errors, known.shape)[known]
+        room = 1e-12 * np.max(np.abs(values), initial=0.0) + np.where(np.isfinite(errors), errors, 0.0)
+        if len(values) == 0 or np.all(np.abs(values - np.median(values)) <= room):
             found.add(quantity)
     return found
 

@@ -58,18 +58,30 @@ class Output:
 
     @property
     def stroke(self) -> float | None:
-        """Stroke (m) or swing (rad); None for a link that turns on and on, or goes away without bound."""
-        return self.high.value - self.low.value if self.low and self.high and not self.unbounded else None
+        """Stroke (m) or swing (rad); None for a link that turns on and on or goes away without bound, and
+        where its value at an end cannot be computed."""
+        if self.unbounded or self.not_computed:
+            return None
+        return self.high.value - self.low.value if self.low and self.high else None
 
     @property
-    def without(self) -> Literal["goes away", "does not move", "turns on"]:
+    def without(self) -> Literal["goes away", "not computed", "does not move", "turns on"]:
         """What it does, where it has no stroke."""
-        return "goes away" if self.unbounded else "does not move" if self.position.constant is not None else "turns on"
+        if self.unbounded:
+            return "goes away"
+        if self.not_computed:
+            return "not computed"
+        return "does not move" if self.position.constant is not None else "turns on"
 
     @property
     def unbounded(self) -> bool:
         """Whether it goes away without bound at an end of the motion."""
-        return any(not np.isfinite(e.value) for e in self.position.extremes)
+        return any(np.isinf(e.value) for e in self.position.extremes)
+
+    @property
+    def not_computed(self) -> bool:
+        """Whether its value at an end of the motion cannot be computed."""
+        return any(np.isnan(e.value) for e in self.position.extremes)
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,7 @@ from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.study.extremes import Extreme, Traced
 from graphkin.study.turn import Output, TurnStudy
-
-UNBOUNDED = "it goes away without bound at an end of the motion"
+from graphkin.words import word
 
 
 def _flywheel(turn: TurnStudy) -> dict[str, Json]:
@@ -114,7 +113,12 @@ def _forces(turn: TurnStudy) -> dict[str, Json]:
 
 
 def _bounded(value: float) -> dict[str, float | str | None]:
-    return {"value": value} if math.isfinite(value) else {"value": None, "why": UNBOUNDED}
+    return {"value": value} if math.isfinite(value) else {"value": None, "why": _why_not(value)}
+
+
+def _why_not(value: float) -> str:
+    """Why there is no value at an end of the motion: infinite, or not a number."""
+    return word("goes away" if math.isinf(value) else "not computed", "en")
 
 
 def _driver(scene: Mechanism, value: float) -> float:
@@ -126,7 +130,7 @@ def _extreme(turn: TurnStudy, traced: Traced, extreme: Extreme) -> dict[str, Jso
     if math.isfinite(extreme.value):
         local = {"local": True} if extreme.local else {}
         return {**found, "value": traced.quantity.unit(turn.scene, radians=True).of(extreme.value), **local}
-    return {**found, "value": None, "why": UNBOUNDED}
+    return {**found, "value": None, "why": _why_not(extreme.value)}
 
 
 def _curve(turn: TurnStudy, traced: Traced) -> dict[str, Json]:
@@ -152,10 +156,8 @@ def _output(turn: TurnStudy, output: Output) -> dict[str, Json]:
     what = "swing" if quantity.kind == "theta" else "stroke"
     data[what] = None if stroke is None else quantity.unit(scene, radians=True).of(stroke)
     data["K"], data["theta"] = back if back else (None, None)
-    if output.unbounded:
-        data["why"] = UNBOUNDED
-    elif stroke is None:
-        data["why"] = "it does not move" if output.position.constant is not None else "it turns on and on"
+    if stroke is None:
+        data["why"] = word(output.without, "en")
     elif back is None:
         data["why"] = "K needs a driver that turns fully and a motion that repeats each turn"
     return data

@@ -475,3 +475,23 @@ def test_the_least_transmission_angle_is_told_where_the_ends_of_the_range_cannot
 
 def test_a_mechanism_that_stands_nowhere_has_no_outputs() -> None:
     assert () == study_turn(driver_range(as_scene(redriven(7504)))).outputs
+
+
+def test_an_angle_has_its_value_at_an_end_where_other_links_go_away() -> None:
+    # link 1 turns against link 4 as its driver does, while blocks run off their guides: from end to end half a turn
+    turn = study_turn(driver_range(as_scene(redriven(7014))))
+    position = next(output for output in turn.outputs if output.quantity.of == "1")
+    assert math.pi == pytest.approx(position.stroke, abs=1e-9)
+    assert "goes away" == next(output.without for output in turn.outputs if output.quantity.of == "3/0")
+
+
+def test_a_rate_that_only_rounding_moves_is_constant() -> None:
+    turn = study_turn(driver_range(as_scene(redriven(7014))))
+    alpha = next(traced for traced in turn.curves if traced.quantity.name == "alpha_1")
+    assert -5.707581566305764 == pytest.approx(alpha.constant, rel=1e-9)
+
+
+def test_an_end_that_cannot_be_computed_is_not_said_to_go_away() -> None:
+    # the solver finds no position nearer than a hundredth of the range to one end
+    outputs = study_turn(driver_range(as_scene(redriven(7054)))).outputs
+    assert {("not computed", None)} == {(output.without, output.stroke) for output in outputs}
