@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 import graphkin
-from graphkin.words import LANGUAGES, Markup, Phrase, as_markup, as_plain, rich_text
+from graphkin.words import LANGUAGES, Markup, Phrase, as_markup, as_plain, gaps_of, rich_text
 from tests.command import start
 
 MARK = "¤"
@@ -49,6 +49,11 @@ def test_a_key_stands_in_one_area_only(language):
 def test_a_sentence_has_the_same_gaps_in_every_language(language):
     english = words("en")
     assert {} == {k: text for k, text in words(language).items() if gaps(text) != gaps(english[k])}
+
+
+def test_every_gap_bears_a_name():
+    sentences = {key: text for area, texts in areas("en").items() if area != "spelling" for key, text in texts.items()}
+    assert {} == {key: text for key, text in sentences.items() if any(gap.isdigit() for gap in gaps_of(key))}
 
 
 def test_english_is_the_first_language():

@@ -52,24 +52,20 @@ def area(name: str, language: str = "en") -> Mapping[str, str]:
 class Phrase:
     """A sentence to be: its key in the table and what stands in its gaps (names, symbols, numbers, phrases).
 
-    The gaps are named (``{link}`` in the table), or counted where ``args`` fill them.  As a text it is English.
+    The gaps are named (``{link}`` in the table).  As a text it is English.
 
     >>> str(Phrase("link is the frame", name="4"))
     'link 4 is the frame'
     """
 
-    __slots__ = ("args", "gaps", "key")
+    __slots__ = ("gaps", "key")
 
-    def __init__(self, key: str, args: tuple[object, ...] = (), /, **gaps: object) -> None:
-        self.key, self.args, self.gaps = key, args, gaps
+    def __init__(self, key: str, /, **gaps: object) -> None:
+        self.key, self.gaps = key, gaps
 
     def __repr__(self) -> str:
-        filled = [
-            repr(self.key),
-            *([repr(self.args)] if self.args else []),
-            *(f"{k}={v!r}" for k, v in self.gaps.items()),
-        ]
-        return f"Phrase({', '.join(filled)})"
+        written = [repr(self.key), *(f"{name}={gap!r}" for name, gap in self.gaps.items())]
+        return f"Phrase({', '.join(written)})"
 
     def __str__(self) -> str:
         return say(self)
@@ -78,7 +74,7 @@ class Phrase:
         return isinstance(other, Phrase) and repr(self) == repr(other)
 
     def __hash__(self) -> int:
-        return hash((self.key, self.args, tuple(self.gaps.items())))
+        return hash((self.key, tuple(self.gaps.items())))
 
 
 Wording: TypeAlias = Phrase | str
@@ -119,7 +115,7 @@ def parts(said: Wording, language: str, show: Callable[[object], str] = str) -> 
         if words:
             yield words
         if gap is not None:
-            fill = said.args[int(gap)] if gap.isdigit() else said.gaps[gap]
+            fill = said.gaps[gap]
             if isinstance(fill, Phrase):
                 yield from parts(fill, language, show)
             else:
@@ -157,7 +153,7 @@ def filled(keys: Iterable[str], gap: Callable[[str], object]) -> Phrase | None:
     gap : what stands in the gap of a name; None: nothing does
 
     >>> symbol = {"bar": "BC", "kind": "omega", "seen": "3", "symbol": "v_C/B", "told": None}
-    >>> str(filled(["{kind} cw", "{kind} zero"], symbol.get))
+    >>> str(filled(["{kind} turning", "{kind} zero"], symbol.get))
     'ω_{3} = v_C/B / BC = 0'
     """
     for pattern in keys:
