@@ -3,10 +3,9 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,23 +18,21 @@ from graphkin.account.notation import in_counting_order
 from graphkin.api.arguments import ON_SHEETS, At, as_scene, for_paper, known_words, own_folder, placed, write_files
 from graphkin.api.checked import solved_here
 from graphkin.api.results import OfScene, Result
-from graphkin.checking.report import Known, in_unit
+from graphkin.checking.centres import TOLERANCE, SpeedByCentres, centre_errors, velocities_by_centres
 from graphkin.construction.centres import Centre, Centres, LinkPair, Turning, find_centres
-from graphkin.construction.projective import normal, wedge
 from graphkin.construction.scales import Room
 from graphkin.errors import CallError, as_text, did_you_mean
 from graphkin.files import Json
-from graphkin.scene.drivers import moves_by_law
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
-from graphkin.scene.symbol import PointRef, Symbol, Value
+from graphkin.scene.symbol import PointRef
 from graphkin.structure import Structure
 from graphkin.words import Phrase, as_plain, languages, rich_text, say, word
 
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
     from graphkin.solver import Motion
-    from graphkin.solver.motion import Centrode
+    from graphkin.study.centrodes import Centrode
     from graphkin.table import Table
 
 
@@ -74,76 +71,7 @@ def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str,
 
 
 MOST_PLAYED = 6  # links all of whose centres are played
-NO_MOTION = 1e-9
-NO_TURNING = 1e-9
-"""Of the fastest link: what turns slower against another has its centre at infinity."""
-FRAMES = 120
-ENDS = 1e-3
-"""Of a range that ends: so far inside it the motion turns back."""
 ROOM = Room(mechanism=(90.0, 75.0))  # mm: the mechanism is drawn small, so that its centres find room around it
-TOLERANCE = 1e-9
-FAIR = 1e-3  # of the largest: a value that may be off by more is not determined by the centres
-SAFETY = 4.0  # the bound of a velocity by centres over its error of first order
-
-
-@dataclass(frozen=True, repr=False)
-class SpeedByCentres(Known):
-    """A velocity or an angular velocity by instant centres beside the exact one (SI, or in the file's units).
-
-    ``tolerance`` is how far the two may be apart: 1e-9 of the largest velocity of the mechanism (of the largest rate,
-    or that velocity over the size), or what rounding does to the centres and to the position where that is more.  Where
-    it exceeds a thousandth of the largest, or where centres are missing, they do not determine the value: ``ok`` is
-    None, and ``by_centres`` is None where there is none at all.  ``chain`` are the centres it was taken through.
-    """
-
-    by_centres: Value | None
-    exact: Value
-    chain: tuple[str, ...]
-    tolerance: float
-    largest: float
-    ok: bool | None
-
-    def in_units(self, scene: Mechanism) -> SpeedByCentres:
-        """The same (SI) in the units of its scene, nothing but rounding being 0."""
-        unit, floor = self.symbol.unit(scene.units), 0.0 if self.ok is None else self.tolerance
-        values = [None if v is None else in_unit(unit, complex(v) if self.symbol.is_vector else float(v.real), floor)
-                  for v in (self.by_centres, self.exact)]  # fmt: skip
-        assert values[1] is not None
-        return replace(self, unit=unit.text, by_centres=values[0], exact=values[1], tolerance=unit.of(self.tolerance))
-
-    def too_near(self, language: str) -> str:
-        """What is said where the centres do not determine it."""
-        return say(Phrase("centres too near", symbol=str(self.symbol)), language)
-
-    def _values(self) -> tuple[tuple[str, Value | None], ...]:
-        return ("by centres", self.by_centres), ("exact", self.exact)
-
-
-def velocities_by_centres(centres: Centres, motion: Motion) -> tuple[SpeedByCentres, ...]:
-    """Velocities (SI) measured through centres beside the exact ones: those the scene asks for, or all."""
-    scene, size = centres.scene, centres.scene.size
-    moving = [name for name in centres.names if name != scene.frame.name]
-    every = [*(Symbol("omega", link=name) for name in moving), *centres.moving_pins]
-    symbols = [s for s in scene.question.find if s.kind in ("v", "omega")] if scene.question.find else every
-    # what is asked may be nought beside the rest: it is judged by the whole mechanism
-    exact = {s: complex(motion.value(s)[0]) for s in dict.fromkeys((*symbols, *every))}
-    largest = {kind: max((abs(x) for s, x in exact.items() if s.kind == kind), default=0.0) for kind in ("v", "omega")}
-    largest["omega"] = max(largest["omega"], largest["v"] / size)
-    speeds = []
-    for symbol in symbols:
-        value = centres.velocity(symbol)
-        wanted = exact[symbol] if symbol.is_vector else exact[symbol].real
-        chain: tuple[str, ...] = ()
-        tolerance, most, ok = math.inf, largest[symbol.kind], None
-        if value is not None:
-            of = centres.turning_of(symbol.of or PointRef("", symbol.link))
-            chain = () if of is None else of.chain
-            most = max(most, 1e-300)
-            rounded = float(motion.rough[0][0]) / (1.0 if symbol.is_vector else size)
-            tolerance = max(TOLERANCE * most, rounded, SAFETY * centres.velocity_error(symbol))
-            ok = None if tolerance > FAIR * most else abs(value - wanted) <= tolerance
-        speeds.append(SpeedByCentres(symbol, "", value, wanted, chain, tolerance, most, ok))
-    return tuple(speeds)
 
 
 @dataclass(frozen=True, repr=False)
@@ -204,10 +132,7 @@ class Centred(OfScene, Result):
     @cached_property
     def compared(self) -> dict[LinkPair, tuple[float, float] | None]:
         """For each centre its error and what it may be."""
-        frame, names = self.centres.scene.frame.name, self.centres.names
-        largest = max(_seen(self.centres, self.motion, (name, frame))[1] for name in names)
-        table = self.centres.table.items()
-        return {pair: _error(self.centres, self.motion, centre, largest) for pair, centre in table}
+        return centre_errors(self.centres, self.motion)
 
     @cached_property
     def velocities(self) -> tuple[SpeedByCentres, ...]:
@@ -258,6 +183,7 @@ class Centred(OfScene, Result):
         """The centres over the whole motion with their paths: an SVG that plays.  Of many links only the centres
         against the frame."""
         from graphkin.drawing.figures.centres_in_motion import centres_in_motion
+        from graphkin.study.centrodes import played, pole_path
 
         frame, whole = self.mechanism.frame.name, self.mechanism.whole
         few = len(self.centres.names) <= MOST_PLAYED
@@ -269,7 +195,7 @@ class Centred(OfScene, Result):
         moving = [p for p in motion.scene.holders if p not in motion.scene.frame.points]
         origins = {name: np.asarray(motion.poses[name].z * mm, np.complex128) for name in turned}
         points = {p: np.asarray(motion.position(p) * mm, np.complex128) for p in moving}
-        paths = {pair: _path(motion, pair) * mm for pair in pairs}
+        paths = {pair: pole_path(motion, pair) * mm for pair in pairs}
         return centres_in_motion(self.centres, origins, turned, points, paths, language=self.language,
                                  convention=self.convention)  # fmt: skip
 
@@ -343,51 +269,6 @@ def found_centres(of: Mechanism | Structure, values: Mapping[str, float] | None)
     return centres.at(centres.sheet.scales_for(ROOM))
 
 
-def steady(scene: Mechanism) -> Mechanism:
-    """The scene with rates for drivers that stand still or move by a law: centres are there at rest too."""
-    if any(d.values[1] for d in scene.drivers) and not moves_by_law(scene):
-        return scene
-    return replace(scene, drivers=tuple(d.at_rate(1.0) for d in scene.drivers))
-
-
-def played(
-    scene: Mechanism, values: Mapping[str, float], frames: int = FRAMES
-) -> tuple[Motion, dict[str, NDArray[np.float64]]]:
-    """The motion over the whole way of the first driver, from these values (rad, m) on: round, or there and back,
-    slower towards its ends, so that the last frame is the first again; and how far each link has turned since then
-    (rad).
-
-    Raises
-    ------
-    Unsolvable : wrong mobility, the start cannot be assembled or reached
-    """
-    from graphkin.solver import driver_range, structure_of
-
-    reach = driver_range(structure_of(steady(scene)), values)
-    low, high = reach.ends
-    offsets = np.linspace(0.0, high, frames + 1)
-    if not reach.full:
-        low, high = low + ENDS * (high - low), high - ENDS * (high - low)
-        begin = np.arccos(np.clip(1.0 + 2.0 * low / (high - low), -1.0, 1.0))
-        offsets = low + (high - low) * (1 - np.cos(begin + np.linspace(0.0, 2 * np.pi, frames + 1))) / 2
-    motion = reach.motion(offsets, extended=False)
-    names = [link.name for link in motion.scene.links]
-    if not motion.ok[0]:
-        return motion, {name: motion.angle(name) for name in names}
-    return motion, {name: reach.angle(motion, name) - reach.angle(motion, name)[0] for name in names}
-
-
-def _path(motion: Motion, pair: LinkPair) -> NDArray[np.complex128]:
-    """The places of a centre over a motion (m), NaN where it is at infinity or none."""
-    from graphkin.solver.quantities import pole
-
-    q, omega = pole(*(motion.poses[link] for link in pair))
-    fastest = np.max([np.abs(p.omega) for p in motion.poses.values()], axis=0)
-    turns = motion.ok & (np.abs(omega) > NO_TURNING * fastest)
-    with np.errstate(all="ignore"):
-        return np.asarray(np.where(turns, q / omega, complex(np.nan, np.nan)))
-
-
 def _name(pair: LinkPair) -> str:
     return "-".join(pair)
 
@@ -395,32 +276,6 @@ def _name(pair: LinkPair) -> str:
 def _crossing(centre: Centre) -> list[list[str]]:
     """What each line goes through on which a centre lies."""
     return [[p if isinstance(p, str) else _name(p) for p in line.through] for line in centre.lines]
-
-
-def _seen(centres: Centres, motion: Motion, pair: LinkPair) -> tuple[tuple[float, float, float], float]:
-    """The exact centre of two links as the chart sees it, and the strength of their relative motion: its length."""
-    from graphkin.solver.quantities import pole
-
-    q, omega = pole(*(motion.poses[link] for link in pair))
-    chart, turn = centres.chart, float(omega[0])
-    away = (complex(q[0]) * centres.mm - turn * chart.middle) / chart.unit
-    return (away.real, away.imag, turn), math.hypot(abs(away), turn)
-
-
-def _error(centres: Centres, motion: Motion, centre: Centre, largest: float) -> tuple[float, float] | None:
-    """How far a drawn centre is from the exact one on the unit sphere, and how far it may be; None for one that moves
-    too little beside the largest motion of a link."""
-    if centre.place is None:
-        return None
-    place, strength = _seen(centres, motion, centre.pair)
-    if strength <= NO_MOTION * largest:
-        return None
-    _, sine = wedge(normal(place), normal(centre.place))
-    # what rounding does to the exact one grows as the relative motion gets small beside the motions themselves
-    unit = centres.chart.unit / centres.mm
-    places = float(motion.bound.position[0]) / unit + float(motion.rough[0][0]) / (unit * strength)
-    # as do the numbers of the file, where they lie far apart
-    return sine, TOLERANCE + 1e-14 * largest / strength + (places if math.isfinite(places) else 0.0)
 
 
 def centres(
@@ -468,10 +323,6 @@ def centres(
 
 
 # -- centrodes ---------------------------------------------------------------------------------------------------------
-
-POSITIONS = 3600
-STILL = 1e-9
-
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Centroded(OfScene, Result):
@@ -523,11 +374,12 @@ class Centroded(OfScene, Result):
     @cached_property
     def figure(self) -> Drawing:
         from graphkin.drawing.figures.centres_in_motion import centrodes_figure
+        from graphkin.study.centrodes import branches
 
         mm, pose, joined = self.centres.mm, self.centres.poses[self.link], self.curves.joined
         moving, path = pose.origin + pose.axis * self.curves.moving * mm, self.path * mm
         whole = np.isfinite(path[:-1]) & np.isfinite(path[1:]) if self.point else np.zeros(0, dtype=bool)
-        curves = _branches(self.curves.fixed * mm, joined), _branches(moving, joined), _branches(path, whole)
+        curves = branches(self.curves.fixed * mm, joined), branches(moving, joined), branches(path, whole)
         return centrodes_figure(self.centres, self.link, *curves, self.point, language=self.language,
                                 convention=self.convention)  # fmt: skip
 
@@ -541,23 +393,6 @@ class Centroded(OfScene, Result):
 
     def __repr__(self) -> str:
         return f"<Centroded {self.mechanism.name}: link {self.link}>"
-
-
-def _branches(places: NDArray[np.complex128], joined: NDArray[np.bool_]) -> list[list[complex]]:
-    """Places in runs that a pen draws without lifting; the end of a turn joins its start."""
-    runs: list[list[complex]] = []
-    run: list[complex] = []
-    for i, z in enumerate(places.tolist()):
-        if np.isfinite(z):
-            run.append(z)
-        if (i == len(places) - 1 or not joined[i]) and run:
-            runs.append(run)
-            run = []
-    if len(places) and np.isfinite(places[0]) and np.isfinite(places[-1]) and joined[0] and joined[-1]:
-        step = abs(places[1] - places[0]) + abs(places[-1] - places[-2])
-        if abs(places[0] - places[-1]) <= step:
-            runs[-1].append(complex(places[0]))
-    return runs
 
 
 def centrodes(
@@ -585,8 +420,7 @@ def centrodes(
     SceneError, CallError : the file or the call is wrong
     Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
     """
-    from graphkin.solver import solve
-    from graphkin.solver.motion import centrode
+    from graphkin.study.centrodes import steady, turning_centrodes
 
     known_words(formats, language, convention, known_languages=ON_SHEETS)
     given = as_scene(scene)
@@ -594,15 +428,7 @@ def centrodes(
     _check_names(given, link, point)
     solved_here(given, values)
     given = steady(given)
-    motion = solve(given, at=values, sweep=POSITIONS)
-    curves = centrode(motion, link)
-    turning = np.abs(motion.omega(link)[motion.ok])
-    if not len(turning) or turning.max() <= STILL * max(abs(d.values[1]) for d in given.drivers):
-        raise CallError.of(f"centrode {link}", "the link never turns its centre is always", "name a link that turns")
-    good = curves.fixed[np.isfinite(curves.fixed)]
-    if np.abs(good - good[0]).max() <= STILL * given.size:
-        raise CallError.of(f"centrode {link}", "the link turns about a fixed pivot its",
-                           "name a link with no fixed pivot")
+    motion, curves = turning_centrodes(given, values, link)
     centroded = Centroded(found_centres(given, values), motion, curves, link, point, language, convention)
     if out is not None:
         centroded.write(out, formats)
