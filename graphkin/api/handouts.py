@@ -145,7 +145,7 @@ class Handout(OfScene, Result):
     def _repr_html_(self) -> str:
         from graphkin.papers.html import blocks_html
 
-        return blocks_html(answer_key(self.lesson).blocks)
+        return blocks_html(answer_key(self.lesson).blocks, languages(self.lesson.language)[0])
 
 
 def handout(

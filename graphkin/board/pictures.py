@@ -276,7 +276,8 @@ def _figures(drawn: Drawn) -> dict[str, str]:
         try:
             made = drawn_figure(drawn, name)
         except GraphkinError as error:
-            figures[name] = f"<p>{words_html(in_markup(_said(error, _spoken(drawn.language, drawn.mechanism))))}</p>"
+            spoken = _spoken(drawn.language, drawn.mechanism)
+            figures[name] = f"<p>{words_html(in_markup(_said(error, spoken)), spoken)}</p>"
             continue
         if made is not None:
             figures[name] = svg_element(made, named=True)
@@ -295,8 +296,8 @@ def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
     except GraphkinError as error:
         limits = {"low": None, "high": None, "turns": False, "why": _said(error, spoken)}
     steps: list[dict[str, Json]] = [
-        {"n": step.number, "figure": step.diagram, "html": words_html(account.step(step, spoken)),
-         "work": [words_html(line) for line in account.work(step)]}
+        {"n": step.number, "figure": step.diagram, "html": words_html(account.step(step, spoken), spoken),
+         "work": [words_html(line, spoken) for line in account.work(step)]}
         for step in sheet.steps
     ]  # fmt: skip
     return {
@@ -325,8 +326,8 @@ def _force_steps(drawn: Drawn, letters: Letters, spoken: str) -> list[dict[str, 
         return []
     sheet = replace(drawn.checked.sheet, scales=replace(drawn.checked.sheet.scales, force=forces.per_mm))
     return [
-        {"n": step.number, "figure": stage.figure, "html": words_html(step.words(spoken)[0][1]),
-         "work": [words_html(line) for line in step.lines(spoken)]}
+        {"n": step.number, "figure": stage.figure, "html": words_html(step.words(spoken)[0][1], spoken),
+         "work": [words_html(line, spoken) for line in step.lines(spoken)]}
         for stage in ForceAccount(sheet, forces, letters).stages() for step in stage.steps
     ]  # fmt: skip
 

@@ -95,7 +95,7 @@ def question_of(lesson: Lesson, what: Plan, motion: Motion, name: str) -> Questi
         symbol = Symbol.parse(row.symbol)
         markup = f"${lesson.letters.vector(symbol)}$"
         slips = tuple(_slips(lesson, evidence, symbol, row.exact, row.tolerance, first))
-        names = row.symbol, words_html(markup), plain_words(markup), row.unit
+        names = row.symbol, words_html(markup, first), plain_words(markup), row.unit
         asked.append(AskedNumber(*names, row.exact, row.tolerance, slips))
     return Question(
         name,

@@ -29,7 +29,7 @@ ALIGNED = {"l": "", "r": Markup(' class="right"'), "c": Markup(' class="middle"'
 PIXEL = 25.4 / 96  # mm
 
 
-def words_html(markup: str, language: str = "en") -> str:
+def words_html(markup: str, language: str) -> str:
     """Words with symbols between dollar signs, which are read aloud in words of a language."""
     parts = []
     for part in parsed(markup):
@@ -60,7 +60,7 @@ def said_html(said: Said, tag: str = "span") -> str:
     )
 
 
-def blocks_html(blocks: Iterable[Block], language: str = "en") -> str:
+def blocks_html(blocks: Iterable[Block], language: str) -> str:
     """Blocks one after the other; what is the same in every language is read aloud in one."""
     return rendered("blocks.html", blocks=blocks, language=language, ALIGNED=ALIGNED)
 

@@ -341,8 +341,8 @@ def _find(lesson: Lesson, symbol: Symbol, name: str, value: complex | float) -> 
     if not value:
         return {}
     size = float(f"{lesson.in_unit(symbol, abs(value)):.5g}")
-    find: dict[str, Json] = {"symbol": str(symbol), "name": words_html(f"${name}$"), "size": size,
-                             "unit": lesson.unit(symbol)}  # fmt: skip
+    named = words_html(f"${name}$", languages(lesson.language)[0])
+    find: dict[str, Json] = {"symbol": str(symbol), "name": named, "size": size, "unit": lesson.unit(symbol)}
     if isinstance(value, complex):
         return {"find": find | {"angle": round(math.degrees(cmath.phase(value)), 1)}}
     return {"find": find | {"sense": 1 if value > 0 else -1}}

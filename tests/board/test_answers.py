@@ -368,3 +368,8 @@ def test_beside_a_limit_the_page_says_the_same_while_a_hand_moves_as_when_it_res
     moving, resting = (shown(scene, {"1": at}, FigureOptions(figures=("velocity",)), quick) for quick in (True, False))
     assert (resting["at"], resting["limit"]) == (moving["at"], moving["limit"])
     assert (at < 30) == (moving["limit"] == "")
+
+
+def test_the_steps_on_the_page_are_read_aloud_in_its_language() -> None:
+    found = told("show", language="zh")
+    assert 'aria-label="B 的速度"' in "".join(step["html"] for step in found["steps"])

@@ -206,3 +206,9 @@ def test_signs_of_markup_in_a_question_are_read_back_as_they_are(made):
     page = files_for(hostile, PLATFORMS)[f"prairielearn/{SCENE}/question.html"].decode()
     texts = numerical.find("questiontext/text").text, page
     assert [words, words] == [html.unescape(re.search(r'alt="([^"]*)"', text)[1]) for text in texts]
+
+
+def test_symbols_of_a_question_in_chinese_are_read_aloud_in_chinese():
+    text = graphkin.handout("slider-crank-offset", language="zh", exports=("moodle",), positions=1).files["moodle.xml"]
+    assert b"velocity of C" not in text
+    assert 'aria-label="C 的速度"'.encode() in text

@@ -110,6 +110,6 @@ def test_an_empty_step_and_a_plate_are_written_with_their_words_escaped():
     from graphkin.papers.blocks import Plate, StepItem, spoken
     from graphkin.papers.html import blocks_html
 
-    page = blocks_html([StepItem(3, spoken("a<b", "en")), Plate("<svg/>", 254.0, 127.0, 'a "b" <c>')])
+    page = blocks_html([StepItem(3, spoken("a<b", "en")), Plate("<svg/>", 254.0, 127.0, 'a "b" <c>')], "en")
     assert '<li value="3"><p lang="en">a&lt;b</p></li>' in page
     assert '<img alt="a &#34;b&#34; &lt;c&gt;" width="960" height="480" src="data:image/svg+xml;base64,PHN2' in page
