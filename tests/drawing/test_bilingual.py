@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from graphkin import centres, draw
+from graphkin import cam, centres, design, draw
 from graphkin.drawing import Text
 from graphkin.drawing.ink.primitives import walk
 from graphkin.words import Neutral, Phrase, in_all, say
@@ -22,6 +22,12 @@ def test_a_formula_that_both_languages_share_is_written_once():
 def test_a_place_is_told_in_each_language_behind_the_masses_that_stand_once():
     said = " ".join(texts(draw("shaper-forces", language="both", figures=("forces",)).figures["forces"]))
     assert "J4=1.2kg·m²atS4在S4;m6=81.633kg" in re.sub(r"\s", "", said)
+
+
+def test_what_a_construction_tells_to_who_does_not_see_ends_its_sentences_as_its_language_does():
+    described = [design("guide-bar-stroke-100", language="zh").figures["design"].desc,
+                 cam("cam-flat-face", language="zh").figures["cam"].desc]  # fmt: skip
+    assert [[], []] == [re.findall(r".\. |.\.$", text) for text in described]
 
 
 def test_formulas_in_another_order_keep_the_sentences_apart():

@@ -16,6 +16,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from graphkin.account.headings import number, term, written
+from graphkin.account.voice import whole_sentence
 from graphkin.checking.closed_form import FoundLength
 from graphkin.construction.cam_sheet import CamSheet, cam_sheet
 from graphkin.construction.scales import Extent, fitting_scale
@@ -126,7 +127,9 @@ def design_figure(
         *(steps(enumerate((step_words(phrase, each) for phrase in phrases), 1)) for each in every),
         _tables(design, sheet.scale, rows, confirmed, language),
     ]  # fmt: skip
-    spoken = " ".join(as_plain(rich_text(phrase, every[0])) + "." for phrase in phrases)
+    first = every[0]
+    sentences = (whole_sentence(as_plain(rich_text(phrase, first)), first) for phrase in phrases)
+    spoken = word("between sentences", first).join(sentences)
     lengths = "; ".join(f"{row.symbol} = {row.measured:.6g} {unit}" for row in rows)
     facts = {"kind": design.task.kind, "units": {"length": unit, "paper": "mm"}, "instrument": sheet.hand.name}
     return worked_page(
@@ -367,7 +370,8 @@ def cam_figure(scene: Mechanism, sheet: CamSheet, notes: Sequence[Phrase], langu
         *(steps(enumerate((say(step, each) for step in sheet.steps), 1)) for each in every),
         _table(scene, sheet, language),
     ]  # fmt: skip
-    spoken = " ".join([*(say(step, first) + "." for step in sheet.steps), *(say(note, first) for note in notes)])
+    sentences = (whole_sentence(say(said, first), first) for said in (*sheet.steps, *notes))
+    spoken = word("between sentences", first).join(sentences)
     facts = {"units": {"length": scene.units.length, "paper": "mm"},
              "scales": {"length": sheet.scale / scene.units.metres}, "instrument": "exact"}  # fmt: skip
     return worked_page(
