@@ -8,10 +8,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import reduce
 from typing import Any, Self
 
-from graphkin.words import Phrase, Wording, clause_of, say, word
+from graphkin.words import Phrase, Wording, clause_of, joined, say, word
 
 PAGE = 4000
 """Characters of a clause that are shown."""
@@ -127,8 +126,8 @@ class Unsolvable(GraphkinError):
     @property
     def reason(self) -> Wording:
         """The reason, to be said in one line of any language."""
-        sentences = (problem.sentence for problem in self.problems)
-        return reduce(lambda one, other: Phrase("one sentence and another", first=one, second=other), sentences)
+        said: Wording = joined("two sentences", (problem.sentence for problem in self.problems))
+        return said
 
 
 class Disagreement(GraphkinError):

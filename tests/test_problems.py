@@ -15,7 +15,7 @@ import pytest
 import graphkin
 import graphkin.scene.designs
 from graphkin.api.report_text import report_text
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError, Problem, SceneError
 from graphkin.scene.scene import library_text
 from graphkin.scene.tables import FileTable, key_of, keys_of, meaning
 from graphkin.words import Phrase, area, from_others, say, word
@@ -156,6 +156,7 @@ def test_in_both_languages_the_english_lines_stand_first(broken):
     (3, "原动件 1 位于 170°：不能装配：构件 4, 5 在 1 = 58.99728087° 处到达运动的尽头；"
         "运动范围从 -58.99728087° 到 58.99728087°",
      ("check", "sixbar-AE70", "--at", "170")),
+    (2, "sweep：0 个位置；请给 1 到 10000000 之间的整数", ("solve", "elliptic-trammel", "--sweep", "0")),
     (2, "缺少参数“SCENE”", ("draw",)),
     (2, "没有命令“drw”；是否指 'draw'？", ("drw",)),
     (2, "没有选项 --positionz；是否指 --positions？", ("sweep", "shaper-scheme-2", "--positionz", "3")),
@@ -163,6 +164,19 @@ def test_in_both_languages_the_english_lines_stand_first(broken):
 def test_a_call_is_refused_in_chinese_with_the_same_status(status, said, call):
     done = run(*call, "--lang", "zh")
     assert (status, f"graphkin: {said}\n") == (done.returncode, done.stderr)
+
+
+@pytest.mark.parametrize(("name", "old", "new", "said"), [
+    ("cam-offset-roller", ', by = "cycloidal"', "", r'没有写运动规律；by = "\w+", .*" 或 "\w+"$'),
+    ("disc-on-disc", '"2.w"]', '"1.k"]', "：1.k 和 1.k 是同一构件 1 的轮廓"),
+    ("oldham-coupling", "[driver]", '[loads.Q]\non = "2"\nforce = 3\nagainst = "2"\n[driver]', "“2”可以是 2/1 或 2/3"),
+])  # fmt: skip
+def test_names_in_a_refusal_are_joined_in_its_language(name, old, new, said):
+    text = library_text(name)
+    assert old in text
+    with pytest.raises(SceneError) as refused:
+        graphkin.read(tomllib.loads(text.replace(old, new)))
+    assert re.search(said, refused.value.text("zh"), re.MULTILINE)
 
 
 def test_what_is_printed_for_programs_says_the_same_in_every_language():

@@ -8,7 +8,6 @@ import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import reduce
 from typing import ClassVar
 
 from graphkin.account.headings import number
@@ -25,7 +24,7 @@ from graphkin.construction.steps import (
 )
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Markup, Neutral, Phrase, in_turn, listed, sense_of
+from graphkin.words import Markup, Neutral, Phrase, in_turn, joined, listed, sense_of
 from graphkin.words.written import in_markup, on_paper, true_minus
 
 SAME = 1e-6  # mm
@@ -256,8 +255,7 @@ class InMechanism(Telling):
 
     def _moved_and_missed(self, table: TrialPositions) -> tuple[Phrase, Phrase]:
         """All that is moved in trial positions, and all that is missed."""
-        moved = reduce(lambda a, b: Phrase("moved too", first=a, second=b), map(self._moved, table.moved))
-        return moved, reduce(lambda a, b: Phrase("missed too", first=a, second=b), map(self._missed, table.missed))
+        return joined("moved too", map(self._moved, table.moved)), joined("missed too", map(self._missed, table.missed))
 
     def _missed(self, missed: Missed) -> Phrase:
         """What is measured: between the ends of a bar, off a guide, or of a list."""

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property, reduce
+from functools import cached_property
 from typing import ClassVar, get_args
 
 from graphkin.account.arithmetic import (
@@ -41,7 +41,7 @@ from graphkin.construction.steps import (
 )
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Markup, Neutral, Phrase, in_turn, languages, listed, sense_of
+from graphkin.words import Markup, Neutral, Phrase, in_turn, joined, languages, listed, sense_of
 from graphkin.words.written import MOST, amount, on_paper, pointing, quotient, true_minus
 
 SEEN = 0.005  # mm on paper: less than that is not taken off
@@ -173,7 +173,7 @@ class InPolygon(Telling):
         side = next((side for side in self.sides if any(t.symbol == own for t in side)), ())
         along = next((t.direction for t in side if t.symbol == own), None)
         unknown: list[object] = [t.symbol for t in side if not t.size_known and t.direction == along]
-        return reduce(lambda one, other: Phrase("sum", first=one, second=other), unknown or [own])
+        return joined("sum", unknown or [own])
 
     @property
     def pole(self) -> str | None:

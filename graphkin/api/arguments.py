@@ -22,7 +22,7 @@ from graphkin.scene.scene import SceneLike, mechanism_of
 from graphkin.scene.scene_tables import Convention
 from graphkin.scene.symbol import Symbol, known_symbol
 from graphkin.structure.assembly import ChangePoint
-from graphkin.words import BOTH, LANGUAGES, Phrase, from_others
+from graphkin.words import BOTH, LANGUAGES, Phrase, Wording, from_others
 
 if TYPE_CHECKING:
     from graphkin.construction import Instrument
@@ -96,13 +96,17 @@ def known_workers(executor: object, workers: int | None) -> int | None:
     return workers
 
 
-def whole_number(where: str, value: object, least: int, most: int, what: str = "") -> int:
-    """A whole number, one of NumPy too.  Raises CallError for anything else, and outside of the limits."""
+def whole_number(where: str, value: object, least: int, most: int, counted: str = "") -> int:
+    """A whole number, one of NumPy too; ``counted`` is the key of what is counted.  Raises CallError for anything else,
+    and outside of the limits."""
     number = isinstance(value, Real) and not isinstance(value, bool)
     if number and isinstance(value, Integral) and least <= int(value) <= most:
         return int(value)
-    found = f"{value}{what}" if number else Phrase("found value", value=f'{value!r:.60}')
-    raise CallError.of(where, found, "give a whole number from to", least=least, most=most)
+    if not number:
+        given: Wording = Phrase("found value", value=f"{value!r:.60}")
+    else:
+        given = Phrase(counted, count=value) if counted else f"{value}"
+    raise CallError.of(where, given, "give a whole number from to", least=least, most=most)
 
 
 At = float | str | Mapping[str, float] | None

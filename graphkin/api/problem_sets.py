@@ -25,7 +25,7 @@ from graphkin.api.arguments import (
     write_files,
 )
 from graphkin.api.results import OfScene, Result, named
-from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable
+from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, printable
 from graphkin.files import Json, OwnTables, Tables, folder_alone, path_of
 from graphkin.jobs import Progress, Workers
 from graphkin.papers.data_rows import Columns, columns_of, replaced
@@ -50,7 +50,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import KeyPath, value_at
 from graphkin.study.designs import applied
 from graphkin.table import Rows, Table, table_of, with_points
-from graphkin.words import Phrase, languages
+from graphkin.words import Phrase, clauses, languages, say
 
 MOST = 100_000
 MOST_OF_A_TURN = 355.0  # degrees: a driver that goes farther is free to stand anywhere
@@ -58,12 +58,14 @@ MOST_OF_A_TURN = 355.0  # degrees: a driver that goes farther is free to stand a
 
 @dataclass(frozen=True, repr=False, eq=False)
 class ProblemSet(OfScene, Result):
-    """A set of problems: what became of each variant, the table of all answers, and the files written."""
+    """A set of problems: what became of each variant, the table of all answers, its remarks in a language, and the
+    files written."""
 
     mechanism: Mechanism
     variants: tuple[Variant, ...]
     unused: tuple[str, ...] = ()
     folder: Path | None = None
+    language: str = "en"
 
     @property
     def answers(self) -> dict[str, tuple[Answer, ...]]:
@@ -87,11 +89,11 @@ class ProblemSet(OfScene, Result):
             {
                 "name": variant.name,
                 "answers": [{"symbol": a.symbol, "value": a.value, "tolerance": a.tolerance} for a in variant.answers],
-                **({"remarks": list(variant.remarks)} if variant.remarks else {}),
+                **({"remarks": [*map(str, variant.remarks)]} if variant.remarks else {}),
             }
             for variant in self.variants if not variant.why
         ]  # fmt: skip
-        failures = [{"name": f.name, "why": f.why} for f in self.failures]
+        failures = [{"name": f.name, "why": str(f.why)} for f in self.failures]
         return {"ok": self.ok, "variants": variants, "failures": failures, "unused": list(self.unused)}
 
     @cached_property
@@ -102,8 +104,9 @@ class ProblemSet(OfScene, Result):
         rows: list[tuple[object, ...]] = []
         for variant in sorted(self.variants, key=lambda variant: bool(variant.why)):
             known = {a.symbol: (a.value, a.tolerance) for a in variant.answers if not variant.why}
-            said = f"failed: {variant.why}" if variant.why else "; ".join(variant.remarks)
-            rows.append((variant.name, *(x for s in symbols for x in known.get(s, (None, None))), said))
+            said = Phrase("variant failed", why=variant.why) if variant.why else clauses(variant.remarks or [""])
+            remark = printable(say(said, self.language))
+            rows.append((variant.name, *(x for s in symbols for x in known.get(s, (None, None))), remark))
         heads = ("name", *(c for s in symbols for c in (s, f"{s} +-")), "remarks")
         beside = ("", *(units.get(s, "") for s in symbols for _ in range(2)), "")
         return Table.of(heads, rows, ("", *[".6g"] * (2 * len(symbols)), ""), beside)
@@ -150,7 +153,7 @@ def problem_set(
     progress : called with the variants done and all
     find : what is asked; the scene's own if None, or else the motion of the last joint and the rates of what turns
         about fixed pivots
-    language : of the table for a class to fill in; the scene's own if None
+    language : of the remarks and of the table for a class to fill in; the scene's own if None
 
     Returns
     -------
@@ -174,6 +177,7 @@ def problem_set(
     given = as_scene(source)
     jobs, unused = _jobs(source, variants, seed, rows, spread or Spread())
     folder = path_of(out) if out is not None else None
+    speaking = languages(language or given.question.sheet.language)[0]
     left: list[Path] = []
     if folder is not None:
         write_files(folder, {})
@@ -190,11 +194,10 @@ def problem_set(
 
     def finish(variants: Sequence[Variant]) -> None:
         if folder is not None:
-            made = ProblemSet(given, tuple(variants), unused)
+            made = ProblemSet(given, tuple(variants), unused, folder, speaking)
             made.write(folder)
             if made.answers:
                 asked = dict.fromkeys(Symbol.parse(a.symbol) for answers in made.answers.values() for a in answers)
-                speaking = languages(language or given.question.sheet.language)[0]
                 lines = [("", "", name) for name in made.answers]
                 blank = answers_template(tuple(asked), given.units, speaking, lines, "variant")
                 write_files(folder, {"answers_template.csv": blank.csv().encode("utf-8-sig")})
@@ -212,7 +215,7 @@ def problem_set(
 
     with folder_alone(folder) if folder is not None else nullcontext(), Workers(executor, workers) as working:
         made = make(jobs, working, folder, keep, render, progress, finish)
-    return ProblemSet(given, made, unused, folder)
+    return ProblemSet(given, made, unused, folder, speaking)
 
 
 def half_written(folder: Path, stem: str) -> list[Path]:

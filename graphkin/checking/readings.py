@@ -15,7 +15,7 @@ from graphkin.construction.steps import DiagramName, Vector
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.symbol import PointRef, Symbol, centre_links
 from graphkin.structure.transmission import joint_between, joint_of_follower, sliding_pair
-from graphkin.words import Phrase
+from graphkin.words import Phrase, joined
 
 if TYPE_CHECKING:
     from graphkin.construction.centres import Centres
@@ -106,8 +106,8 @@ def _centres(sheet: Sheet, instrument: Instrument) -> Callable[[str], complex | 
         centre = centres[0].of(*pair)
         if centre.point is None:
             why = Phrase("lies at infinity here") if centre.place is not None else Phrase("has no place here")
-            raise Unsolvable("not drawn", Problem(name, "the instant centre of links", pair=" and ".join(pair),
-                                                  value=why))
+            raise Unsolvable("not drawn", Problem(name, "the instant centre of links",
+                                                  pair=joined("one and other", pair), value=why))
         return centre.point
 
     return place

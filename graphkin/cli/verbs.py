@@ -434,7 +434,7 @@ def _problem_set(given: Given) -> None:
         tell(say(Phrase("problems in a folder with all answers", **gaps), spoken))
     tell_unused(made.unused)
     for failure in made.failures:
-        complain(Phrase("where and what", where=failure.name, found=failure.why))
+        complain(Problem(failure.name, failure.why))
     if not made.ok:
         raise typer.Exit(min(failure.exit_code for failure in made.failures))
 

@@ -33,7 +33,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import put_at, value_at
 from graphkin.solver import Motion, exact_values, solve
 from graphkin.structure import Dyad, LargerGroup, Pair, analyse
-from graphkin.words import Wording
+from graphkin.words import Phrase, Wording, as_data, from_data
 
 LEAST_READING = 10.0  # mm on paper
 AMPLE = 0.8  # of a tolerance, to which errors that act together may still add
@@ -66,9 +66,9 @@ class Variant:
     name: str
     source: Tables = field(default_factory=dict)
     answers: tuple[Answer, ...] = ()
-    remarks: tuple[str, ...] = ()
+    remarks: tuple[Wording, ...] = ()
     attempt: int = 0
-    why: str = ""
+    why: Wording = ""
     exit_code: int = Unsolvable.exit_code
 
     @property
@@ -82,7 +82,11 @@ class Variant:
 
 
 class Unfit(Exception):
-    """A candidate that makes no good problem; the text says why."""
+    """A candidate that makes no good problem, and why."""
+
+    def __init__(self, why: Wording) -> None:
+        super().__init__(why)
+        self.why = why
 
 
 def asked_of(scene: Mechanism) -> tuple[Symbol, ...]:
@@ -171,8 +175,8 @@ def examined(
         scene = mechanism_of(made)
         motion = solve(scene)
         if motion.status[0] != "ok":
-            raise Unfit(f"{motion.status[0]}: {motion.why[0]}")
-        remarks = [*_flat(motion, bounds), *_uncut(scene)]
+            raise Unfit(motion.said(0))
+        remarks: list[Wording] = [*_flat(motion, bounds), *_uncut(scene)]
         if remarks and strict:
             raise Unfit(remarks[0])
         asked = asked_of(scene)
@@ -187,16 +191,17 @@ def examined(
         if remarks and strict:
             raise Unfit(remarks[0])
     except Unsolvable as error:
-        raise Unfit(f"{error.status}: {error.why}") from None
+        status = Phrase(f"status {error.status}")
+        raise Unfit(Phrase("status and why", status=status, why=error.reason)) from None
     except GraphkinError as error:
-        raise Unfit(str(error).splitlines()[0]) from None
+        raise Unfit(error.problems[0].sentence) from None
     except ArithmeticError as error:
-        raise Unfit(f"the numbers run out of range: {error}") from None
+        raise Unfit(Phrase("unfit out of range", error=str(error))) from None
     if strict:  # what errors do together only adds to it
         unread = {s for s, _ in answers if any(_unread(sheet, (s,)))} if chosen else idle
         read = tuple((s, value) for s, value in answers if (value or not chosen) and s not in unread)  # what moves
         if not read and not idle:
-            raise Unfit(next(_unread(sheet, asked), "nothing that is asked for moves here"))
+            raise Unfit(next(_unread(sheet, asked), Phrase("unfit nothing moves")))
         most = {s: bounds.tolerance * abs(value) for s, value in read}
         spare = max(0, len(read) - fewest) if chosen else 0
         found = predict(what, "pencil", scene.question.sheet.tools, together=False, most=most, spare=spare)
@@ -218,7 +223,7 @@ def examined(
         except Unfit as unfit:
             if strict or not math.isfinite(bound):
                 raise
-            remarks.append(str(unfit))
+            remarks.append(unfit.why)
         bounded.append(Answer(str(symbol), float(f"{unit.of(value):.12g}"), float(f"{unit.of(bound):.6g}"), unit.text))
     return Variant(name, made, tuple(bounded), tuple(remarks))
 
@@ -228,9 +233,9 @@ def _held(answers: Sequence[tuple[Symbol, float]], bounds: Mapping[Symbol, float
     for symbol, value in answers:
         bound = bounds.get(symbol, 0.0)
         if not math.isfinite(bound):
-            raise Unfit(f"{symbol} cannot be drawn: so near a dead point a pencil misses it")
+            raise Unfit(Phrase("unfit near dead point", symbol=str(symbol)))
         if bound > tolerance * abs(value):
-            raise Unfit(f"{symbol} cannot be drawn more closely than to {100 * tolerance:.2g} %")
+            raise Unfit(Phrase("unfit missed", symbol=str(symbol), percent=f"{100 * tolerance:.2g}"))
 
 
 def _within_reach(
@@ -246,7 +251,7 @@ def _moved(source: Tables, base: Tables) -> OwnTables:
     start, goal = mechanism_of(base), mechanism_of(source)
     motion = solve(start, {d.key: d.values[0] for d in goal.drivers})
     if motion.status[0] != "ok":
-        raise Unfit(f"{motion.status[0]}: {motion.why[0]}")
+        raise Unfit(motion.said(0))
     made = copy.deepcopy(dict(source))
     made["sketch"] = _sketch(start, motion)
     return made
@@ -262,21 +267,23 @@ def _sketch(scene: Mechanism, motion: Motion) -> dict[str, list[float]]:
     return places
 
 
-def _flat(motion: Motion, bounds: Bounds) -> Iterator[str]:
+def _flat(motion: Motion, bounds: Bounds) -> Iterator[Phrase]:
     """The groups of two links that pass on forces worse than is allowed."""
     structure = motion.structure
     for dyad in structure.elements:
         if not isinstance(dyad, Dyad) or (not bounds.transmission and bounds.pressure >= math.pi / 2):
             continue
         angle = float(motion.value(Symbol("transmission", name="-".join(dyad.links)))[0])
-        links = " and ".join(dyad.links)
+        first, second = dyad.links
         if dyad.kind == "RRR" and angle < bounds.transmission:
-            yield f"the transmission angle of {links} is {math.degrees(angle):.0f} degrees only"
+            small = f"{math.degrees(angle):.0f}"
+            yield Phrase("unfit transmission", first=first, second=second, degrees=small)
         if dyad.kind != "RRR" and math.pi / 2 - angle > bounds.pressure:
-            yield f"the pressure angle of {links} is {90 - math.degrees(angle):.0f} degrees"
+            large = f"{90 - math.degrees(angle):.0f}"
+            yield Phrase("unfit pressure", first=first, second=second, degrees=large)
 
 
-def _uncut(scene: Mechanism) -> Iterator[str]:
+def _uncut(scene: Mechanism) -> Iterator[Phrase]:
     """The cams whose profile turns back on itself."""
     if not scene.cams:
         return
@@ -284,11 +291,11 @@ def _uncut(scene: Mechanism) -> Iterator[str]:
 
     for cam in scene.cams:
         for start, end in study_cam(cam).undercut:
-            between = f"{math.degrees(start):.0f} and {math.degrees(end):.0f} degrees"
-            yield f"the profile of cam {cam.link} cannot be cut between {between}"
+            begin, last = (f"{math.degrees(angle):.0f}" for angle in (start, end))
+            yield Phrase("unfit profile", link=cam.link, begin=begin, end=last)
 
 
-def _remarks(sheet: Sheet, asked: tuple[Symbol, ...], crossing: float) -> Iterator[str]:
+def _remarks(sheet: Sheet, asked: tuple[Symbol, ...], crossing: float) -> Iterator[Phrase]:
     """What makes a sheet hard to draw or to read."""
     for equation in sheet.equations:
         rays = [s for step in sheet.steps if step.equation == equation.number for s in step.strokes]
@@ -296,22 +303,22 @@ def _remarks(sheet: Sheet, asked: tuple[Symbol, ...], crossing: float) -> Iterat
         for line, two in pairwise(lines):
             angle = math.asin(min(1.0, abs(cross(line.along, two.along))))
             if angle < crossing:
-                yield f"lines cross at {math.degrees(angle):.0f} degrees only"
+                yield Phrase("unfit crossing", degrees=f"{math.degrees(angle):.0f}")
     yield from _unread(sheet, asked)
 
 
-def _unread(sheet: Sheet, asked: tuple[Symbol, ...]) -> Iterator[str]:
+def _unread(sheet: Sheet, asked: tuple[Symbol, ...]) -> Iterator[Phrase]:
     """What of the asked cannot be read well off a sheet."""
     readings = {r.symbol: r for r in read_off(sheet, asked)}
     for symbol in asked:
         if symbol not in readings:
-            yield f"{symbol} is not drawn"
+            yield Phrase("unfit not drawn", symbol=str(symbol))
         elif (mm := readings[symbol].on_paper) is not None and mm < LEAST_READING:
             turning = not symbol.is_vector and symbol.scope == "motion"
             rates = sheet.rates(symbol.kind) if turning else {}
             # not of a rate that is given or shared
             if not turning or (symbol.link in rates and rates[symbol.link].vector is not None):
-                yield f"{symbol} is {mm:.1f} mm on paper only"
+                yield Phrase("unfit short", symbol=str(symbol), mm=f"{mm:.1f}")
 
 
 def _answers(
@@ -363,7 +370,7 @@ def work(job: Job, attempt: int) -> Variant:
     """
     if job.spread is None:
         return _row(job)
-    why: Counter[str] = Counter()
+    refusals: list[Wording] = []
     begun = time.process_time()
     large = bool(analyse(mechanism_of(job.source)).larger_groups)
     lone: Variant | None = None  # of which a pencil finds one quantity
@@ -382,19 +389,18 @@ def work(job: Job, attempt: int) -> Variant:
                 return made
             lone = lone or made
         except Exception as error:  # whatever goes wrong with one must not take the others along
-            why[_reason(error)] += 1
+            refusals.append(_reason(error))
     if lone is not None:
         return lone
-    reason = "every attempt has the answers of another variant"
-    if why:
-        reason = "for example: {} ({} times)".format(*why.most_common(1)[0])
-    easier = 'ask for less in "find", narrow [vary] ranges, or allow more by [vary] tolerance = 0.1 or level = "hard"'
-    return Variant(job.name, why=f"none of {why.total()} attempts is a good problem, {reason}; {easier}")
+    if not refusals:
+        return Variant(job.name, why=Phrase("unfit all alike"))
+    why, times = Counter(refusals).most_common(1)[0]
+    return Variant(job.name, why=Phrase("unfit all", count=len(refusals), why=why, times=times))
 
 
 def _row(job: Job) -> Variant:
     """A row of data as it stands; what makes it hard to draw is a remark."""
-    why = (str(job.trouble).splitlines() or [""])[0]
+    why = job.trouble
     for base in (job.base, None) if job.base is not None else (None,):
         if job.trouble:
             break
@@ -479,7 +485,8 @@ def make(
                 variant = variant.failed(error)
             again = again or bool(variant.why)
         if points is not None and job.number not in done and not (papers is not None and variant.why):
-            points.save(job.number, {**asdict(variant), "files": files})
+            words = {"remarks": [*map(as_data, variant.remarks)], "why": as_data(variant.why)}
+            points.save(job.number, {**asdict(variant), **words, "files": files})
         made.append(variant)
         if progress is not None:
             progress(len(made), len(jobs))
@@ -532,8 +539,9 @@ def _finished(points: Checkpoints | None) -> dict[int, Variant]:
     for number, piece in points.done()[0].items() if points is not None else ():
         facts = dict(piece.facts)
         if points is not None and all((points.place.parent / name).is_file() for name in facts.pop("files")):
-            answers, remarks = tuple(Answer(**one) for one in facts["answers"]), tuple(facts["remarks"])
-            variants[number] = Variant(**{**facts, "answers": answers, "remarks": remarks})
+            answers, remarks = (Answer(**known) for known in facts["answers"]), map(from_data, facts["remarks"])
+            read = {"answers": tuple(answers), "remarks": tuple(remarks), "why": from_data(facts["why"])}
+            variants[number] = Variant(**{**facts, **read})
     return variants
 
 
@@ -545,7 +553,10 @@ def _rendered(render: Render | None, variant: Variant) -> tuple[Variant, Mapping
         return variant.failed(error), {}
 
 
-def _reason(error: Exception) -> str:
-    """What went wrong in one line; what the program did not foresee with the kind of error."""
-    text = (str(error).splitlines() or [""])[0][:300]
-    return text if isinstance(error, GraphkinError | Unfit) else f"{type(error).__name__}: {text}"
+def _reason(error: Exception) -> Wording:
+    """What went wrong; what the program did not foresee in one line with the kind of error."""
+    if isinstance(error, Unfit):
+        return error.why
+    if isinstance(error, GraphkinError) and error.problems:
+        return error.problems[0].sentence
+    return f"{type(error).__name__}: {(str(error).splitlines() or [''])[0][:300]}"

@@ -253,7 +253,7 @@ def _task(raw: OwnTables, problems: list[Problem]) -> DesignTask | None:
 def _kind_meant(kind: str) -> Wording:
     """The kinds that there are, the nearest first."""
     hint, known = did_you_mean(kind, KINDS), Phrase("the kinds are", names=", ".join(KINDS))
-    return Phrase("one sentence and another", first=hint, second=known) if hint.key == "did you mean" else known
+    return Phrase("two sentences", first=hint, second=known) if hint.key == "did you mean" else known
 
 
 def _bar_positions(task: BarPositionsTask, problems: list[Problem]) -> BarPositionsTask | None:

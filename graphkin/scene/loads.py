@@ -15,7 +15,7 @@ from graphkin.scene.bodies import Reading
 from graphkin.scene.model import LinkMass, Loading, LoadOn, SpringOn
 from graphkin.scene.scene_tables import STANDARD_GRAVITY, Balance, Load, LoadPhase, Mass, Spring
 from graphkin.scene.tables import in_si
-from graphkin.words import Phrase
+from graphkin.words import Phrase, alternatives
 
 TURN = math.tau * (1 + 1e-12)
 
@@ -68,8 +68,8 @@ def _pair(reading: Reading, where: str, ref: str) -> str:
     near = [pair for pair in reading.pairs if ref in (pair, pair.split("/")[0])]
     if len(near) == 1:
         return near[0]
-    found = Phrase("is no sliding pair", ref=ref) if not near else Phrase("may be", ref=ref, name=" or ".join(near))
-    reading.say(where, found, did_you_mean(ref, reading.pairs))
+    unclear = Phrase("may be", ref=ref, name=alternatives(near)) if near else Phrase("is no sliding pair", ref=ref)
+    reading.say(where, unclear, did_you_mean(ref, reading.pairs))
     return ""
 
 

@@ -19,7 +19,7 @@ from graphkin.scene.model import Driver, PlacedLink
 from graphkin.scene.pairs import PlacedContact, PlacedDisc, PlacedGuide, SlidingPair
 from graphkin.scene.scene_tables import Compass, Guide, Link, Polar
 from graphkin.scene.tables import in_si
-from graphkin.words import Phrase
+from graphkin.words import Phrase, joined
 
 GIVEN_TWICE = 1e-6
 """Of the size: so far two statements of one place may lie apart."""
@@ -164,7 +164,7 @@ def bodies_of(reading: Reading, drawn: Places) -> dict[str, Placement]:
             if body.length is not None:
                 body.local[ends[1]] = complex(body.length)
             elif not reading.lost_under("links", name, "length") and not reading.lost_under("drawn"):
-                undrawn = " and ".join(p for p in ends if p not in given)
+                undrawn = joined("one and other", [point for point in ends if point not in given])
                 reading.say(f"{body.where}.length", "is missing", "write length or give in drawn", undrawn=undrawn)
         bodies[name] = body
     frame = Placement(reading.frame.name, "frame", (), {}, in_si(reading.frame, reading.units).guides)

@@ -228,7 +228,7 @@ class LawPiece(FileTable):
             yield Problem(where, "has both rise and fall", "give one of them or none for a")
         elif moves and self.by is None:
             *names, last = (f'"{name}"' for name in LAWS)
-            yield Problem(where, "does not say its law", f"by = {', '.join(names)} or {last}")
+            yield Problem(where, "does not say its law", "by is one law", names=", ".join(names), last=last)
         elif self.by is not None and not moves:
             yield Problem(where, "has by without rise or fall", "a dwell has no law", by=self.by)
 

@@ -24,7 +24,7 @@ from graphkin.scene.pairs import (
 )
 from graphkin.scene.scene_tables import Cam, Contact, Gear, LawPiece
 from graphkin.scene.tables import in_si
-from graphkin.words import Phrase
+from graphkin.words import Phrase, joined
 
 AGREE = 1e-6
 """Of the greatest length: so far two statements of one may lie apart; of an angle its sine."""
@@ -101,7 +101,7 @@ def _side(where: str, ref: str, reading: Reading, discs: Discs) -> Side | None:
 
 def _contact_problems(where: str, contact: Contact, first: Side, second: Side) -> Iterator[Problem]:
     """What is wrong with two sides that there are."""
-    refs, between, side = " and ".join(contact.between), f"{where}.between", f"{where}.side"
+    refs, between, side = joined("one and other", contact.between), f"{where}.between", f"{where}.side"
     if first[0] == second[0]:
         yield Problem(between, "are outlines of the same link", "name two links", refs=refs, link=first[0])
         return

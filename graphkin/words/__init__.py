@@ -17,12 +17,12 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache, reduce
 from pathlib import Path
 from string import Formatter
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 __all__ = [
     "BOTH", "LANGUAGES", "Markup", "Neutral", "Phrase", "RichText", "Wording", "about", "alternatives", "area",
-    "as_markup", "as_plain", "class_of", "clause_of", "clauses", "filled", "from_others", "gaps_of", "in_all",
-    "in_turn", "languages", "listed", "parts", "rich_text", "say", "sense_of", "word",
+    "as_data", "as_markup", "as_plain", "class_of", "clause_of", "clauses", "filled", "from_data", "from_others",
+    "gaps_of", "in_all", "in_turn", "joined", "languages", "listed", "parts", "rich_text", "say", "sense_of", "word",
 ]  # fmt: skip
 
 _TABLES = {path.stem: path for path in Path(__file__).parent.glob("*.toml")}
@@ -74,11 +74,30 @@ class Phrase:
         return isinstance(other, Phrase) and repr(self) == repr(other)
 
     def __hash__(self) -> int:
-        return hash((self.key, tuple(self.gaps.items())))
+        return hash(repr(self))
 
 
 Wording: TypeAlias = Phrase | str
 """What is said in the reader's language, or the same in every one: a name, a number, a line of a file."""
+
+
+def as_data(said: object) -> Any:
+    """A statement for a file: a phrase as its key with its gaps, what stands in them as numbers and texts.
+
+    >>> as_data(Phrase("points", link=2, points=Phrase("listed", first="B", second="C")))
+    ['points', {'link': 2, 'points': ['listed', {'first': 'B', 'second': 'C'}]}]
+    """
+    if isinstance(said, Phrase):
+        return [said.key, {name: as_data(gap) for name, gap in said.gaps.items()}]
+    return said if isinstance(said, int | float) else str(said)
+
+
+def from_data(kept: Any) -> Any:
+    """The statement of which ``as_data`` gave these data."""
+    if not isinstance(kept, list):
+        return kept
+    key, gaps = kept
+    return Phrase(key, **{name: from_data(gap) for name, gap in gaps.items()})
 
 
 def say(phrase: Wording, language: str = "en", show: Callable[[object], str] = str) -> str:
@@ -220,9 +239,19 @@ def about(key: str, names: Sequence[object]) -> str:
     return key if len(names) > 1 else f"{key} one"
 
 
+def joined(key: str, parts: Iterable[object]) -> Any:
+    """Names or phrases, one at least, as one: the words of a key, with gaps ``first`` and ``second``, between each two.
+
+    >>> str(joined("one and other", "ABC"))
+    'A and B and C'
+    """
+    return reduce(lambda before, part: Phrase(key, first=before, second=part), parts)
+
+
 def in_turn(sentences: Sequence[Phrase]) -> Phrase:
     """What is done one after the other, one thing at least, as one sentence."""
-    return reduce(lambda one, other: Phrase("in turn", first=one, second=other), sentences)
+    said: Phrase = joined("in turn", sentences)
+    return said
 
 
 def listed(names: Sequence[object]) -> object:
@@ -231,7 +260,7 @@ def listed(names: Sequence[object]) -> object:
     >>> say(Phrase("points", link="2", points=listed(["B", "C", "D"])))
     'mark B, C, D on link 2'
     """
-    return reduce(lambda one, other: Phrase("listed", first=one, second=other), names)
+    return joined("listed", names)
 
 
 def clauses(parts: Sequence[Wording]) -> Wording:
@@ -240,7 +269,8 @@ def clauses(parts: Sequence[Wording]) -> Wording:
     >>> say(clauses(["known only to me", Phrase("give it once")]))
     'known only to me; give it once'
     """
-    return reduce(lambda one, other: Phrase("clauses", first=one, second=other), parts)
+    said: Wording = joined("clauses", parts)
+    return said
 
 
 def alternatives(names: Iterable[str]) -> Wording:
@@ -249,8 +279,8 @@ def alternatives(names: Iterable[str]) -> Wording:
     >>> say(alternatives(["2", "3"]))
     '2 or 3'
     """
-    chosen: Iterable[Wording] = names
-    return reduce(lambda one, other: Phrase("one or other", first=one, second=other), chosen)
+    said: Wording = joined("one or other", names)
+    return said
 
 
 def from_others(sentence: Wording) -> Wording:

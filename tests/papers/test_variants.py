@@ -117,7 +117,7 @@ def test_a_variant_whose_papers_fail_is_listed(tmp_path):
         raise CallError(Problem("papers", "no"))
 
     made = problem_set(FOUR_BAR, variants=2, seed=1, out=tmp_path, render=refuse)
-    assert [("01", "papers: no"), ("02", "papers: no")] == [(f.name, f.why) for f in made.failures]
+    assert [("01", "papers: no"), ("02", "papers: no")] == [(f.name, str(f.why)) for f in made.failures]
 
 
 def test_another_seed_gives_another_set(four_bars):
@@ -186,7 +186,28 @@ def test_a_row_hard_to_draw_is_made_with_a_remark(tmp_path):
     (tmp_path / "rows.csv").write_text("group,phi1\n1,100\n2,80\n")
     made = problem_set(SIXBAR, rows=tmp_path / "rows.csv")
     assert made.ok
-    assert "mm on paper only" in " ".join([remark for one in made.variants for remark in one.remarks])
+    assert "mm on paper only" in " ".join([str(remark) for one in made.variants for remark in one.remarks])
+
+
+def test_remarks_and_failures_are_said_in_the_language_of_the_set(tmp_path):
+    (tmp_path / "rows.csv").write_text("group,phi1\n1,100\n2,wide\n")
+    table = problem_set(SIXBAR, rows=tmp_path / "rows.csv", language="zh").table.csv()
+    assert "mm on paper only" not in table
+    assert re.search(r"在图上只有 [\d.]+ mm[\s\S]*未作成：", table)
+
+
+def test_a_set_that_goes_on_says_the_remarks_of_its_first_run(tmp_path):
+    (tmp_path / "rows.csv").write_text("group,phi1\n1,100\n2,80\n")
+
+    def render(variant):
+        if variant.name == "2" and not (tmp_path / "ready").exists():
+            raise CallError(Problem("papers", "no"))
+        return {}
+
+    problem_set(SIXBAR, rows=tmp_path / "rows.csv", out=tmp_path, render=render)
+    (tmp_path / "ready").touch()
+    problem_set(SIXBAR, rows=tmp_path / "rows.csv", out=tmp_path, render=render, language="zh")
+    assert "在图上只有" in (tmp_path / "answers.csv").read_text(encoding="utf-8-sig")
 
 
 @pytest.mark.parametrize(
@@ -362,4 +383,4 @@ def test_what_cannot_vary_is_refused_in_its_time(monkeypatch):
     begun = time.process_time()
     (failure,) = problem_set(source, variants=1, workers=1).failures
     assert 1.5 > time.process_time() - begun
-    assert re.search(r"cannot be drawn more closely than to 0.1 % \(\d+ times\); ask for less", failure.why)
+    assert re.search(r"cannot be drawn more closely than to 0.1 % \(\d+ times\); ask for less", str(failure.why))
