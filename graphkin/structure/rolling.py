@@ -84,8 +84,8 @@ def relations_of(scene: Mechanism, meshes: Iterable[Mesh]) -> tuple[RollingRelat
     relations = []
     for mesh in meshes:
         part, other_part = mesh.parts
-        # a block turns as its face does
-        carrier = ("angle", mesh.carrier if mesh.carrier in scene.by_name else mesh.wheels[1])
+        # the block on a face turns as the face does; the bar between two centres has an angle of its own
+        carrier = ("angle", mesh.wheels[1] if mesh.slide == mesh.carrier else mesh.carrier)
         wheel, other = ("angle", mesh.wheels[0]), ("angle", mesh.wheels[1])
         rolled: tuple[tuple[Coordinate, Fraction], ...] = ((wheel, part), (other, other_part or Fraction(0)))
         if other_part is None:

@@ -188,6 +188,17 @@ SUN_AND_PLANET = {
     "gears": {"g": {"between": ["2", "4"], "teeth": [20, 20], "carrier": "1"}},
     "driver": {"link": "1", "angle": 40, "omega": 5, "alpha": 2},
 }
+WHEEL_ON_DISC = {
+    "frame": {"points": {"A": [0, 0], "D": [120, 0]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 40, "discs": {"k": {"centre": "B", "r": 50}}},
+        "2": {"points": ["D", "C"], "length": 95},
+        "3": {"points": ["C", "P"], "length": 15, "start": 30, "discs": {"w": {"centre": "C", "r": 20}}},
+    },
+    "contacts": {"K": {"between": ["1.k", "3.w"], "rolling": True}},
+    "sketch": {"C": [70, 80]},
+    "driver": {"link": "1", "angle": 40, "omega": 5, "alpha": 2},
+}
 
 
 def test_a_wheel_at_the_end_of_a_rod_turns_as_far_as_it_rolls():
@@ -195,6 +206,15 @@ def test_a_wheel_at_the_end_of_a_rod_turns_as_far_as_it_rolls():
     rolled = (there["points"]["C@3"]["position"][0] - own["points"]["C@3"]["position"][0]) / 20
     assert np.radians(30) - rolled == pytest.approx(there["links"]["3"]["angle"], abs=1e-12)
     assert [0, 0] == pytest.approx(there["points"]["K@3"]["velocity"], abs=1e-12)
+
+
+def test_where_no_link_holds_both_centres_a_wheel_rolls_on_a_disc_by_the_turn_of_the_line_between_them():
+    own, there = (frame_of(solve(WHEEL_ON_DISC, at=at).data) for at in (40, 70))
+    assert [0, 0] == pytest.approx(own["contacts"]["K"]["slip"], abs=1e-11)
+    between = [np.subtract(at["points"]["C@3"]["position"], at["points"]["B@1"]["position"]) for at in (own, there)]
+    line = np.angle(between[1] @ [1, 1j] / (between[0] @ [1, 1j]))
+    disc, wheel = (there["links"][name]["angle"] - own["links"][name]["angle"] for name in ("1", "3"))
+    assert 50 * (line - disc) + 20 * (line - wheel) == pytest.approx(0, abs=1e-10)
 
 
 def test_the_sun_turns_twice_as_the_crank_less_the_planet_that_the_rod_holds():
@@ -208,7 +228,9 @@ def test_the_sun_goes_on_over_the_turns_of_the_crank():
     assert np.exp(1j * own) == pytest.approx(np.exp(1j * later), abs=1e-12)
 
 
-@pytest.mark.parametrize("scene", [ROD_WITH_WHEEL, SUN_AND_PLANET], ids=["rod with wheel", "sun and planet"])
+@pytest.mark.parametrize(
+    "scene", [ROD_WITH_WHEEL, SUN_AND_PLANET, WHEEL_ON_DISC], ids=["rod with wheel", "sun and planet", "wheel on disc"]
+)
 @pytest.mark.parametrize("at", [40, 150, 500])
 def test_the_drawing_agrees_with_the_solver_where_rods_turn_wheels(scene, at):
     for row in check(scene, at=at).report.rows:
