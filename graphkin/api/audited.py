@@ -17,7 +17,6 @@ import numpy as np
 from graphkin import solver
 from graphkin.api.answers import Answers, AnswersLike, Cell, as_answers
 from graphkin.api.arguments import At, as_scene, driver_values, known_words, placed
-from graphkin.api.checked import solved_here
 from graphkin.api.results import OfScene, Result, named
 from graphkin.checking.audit import judge, judge_table, with_gaps
 from graphkin.checking.report import Known
@@ -33,7 +32,7 @@ from graphkin.scene.asked import spelling_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Printed, Symbol, Value
-from graphkin.solver import Motion, driver_range, exact_values, structure_of
+from graphkin.solver import Motion, driver_range, exact_values, solved_here, structure_of
 from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:

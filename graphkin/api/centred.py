@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from graphkin.account.centres import how_found, place_of, velocity_sentences
 from graphkin.account.notation import in_counting_order
 from graphkin.api.arguments import ON_SHEETS, At, as_scene, for_paper, known_words, own_folder, placed, write_files
-from graphkin.api.checked import solved_here
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.centres import TOLERANCE, SpeedByCentres, centre_errors, velocities_by_centres
 from graphkin.construction.centres import Centre, Centres, LinkPair, Turning, find_centres
@@ -26,6 +25,7 @@ from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import PointRef
+from graphkin.solver import solved_here
 from graphkin.structure import Structure
 from graphkin.words import Phrase, as_plain, languages, rich_text, say, word
 

@@ -13,14 +13,13 @@ from graphkin.api.results import OfScene, Result, named
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import Compared, ReadValue, Report, compare, reading_row, rounding_of, without_residues
 from graphkin.construction import EXACT, Instrument, Plan, Sheet, execute, plan
-from graphkin.errors import Problem, Unsolvable
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Structure, part_of
+from graphkin.structure import part_of
 from graphkin.structure.assembly import ChangePoint
-from graphkin.words import Phrase, listed, say
+from graphkin.words import Phrase, say
 
 if TYPE_CHECKING:
     from graphkin.checking.uncertainty import Advice
@@ -219,7 +218,7 @@ def check(
     given, values = placed(given, at)
     hand, here = hand_of(given, instrument, seed), asked_here(asked)
     structure = solver.structure_of(given)
-    motion = solved_here(structure, values, here)
+    motion = solver.solved_here(structure, values, here)
     return with_elsewhere(checked(plan(structure, values, here), motion, hand), asked, seed)
 
 
@@ -262,6 +261,8 @@ def with_elsewhere(made: Checked, asked: Sequence[Symbol], seed: int = 0) -> Che
     ------
     Unsolvable : a position that cannot be assembled or reached, or that lies on a stroke without a whole turn
     """
+    from graphkin import solver
+
     names = dict.fromkeys(s.at for s in asked if s.at)
     if not names:
         return made
@@ -273,35 +274,8 @@ def with_elsewhere(made: Checked, asked: Sequence[Symbol], seed: int = 0) -> Che
         values = {**made.sheet.drivers, scene.drivers[0].key: value_at(scene, name)}
         what = replace(plan(structure, values, wanted), scales=made.sheet.scales)
         hand = hand_of(scene, made.sheet.instrument, seed)
-        there = checked(what, solved_here(structure, values, wanted), hand).report
+        there = checked(what, solver.solved_here(structure, values, wanted), hand).report
         kept = [row for row in there.rows if row.symbol in wanted]
         rows += [replace(row, reading=replace(row.reading, symbol=replace(row.symbol, at=name))) for row in kept]
         missing += [replace(s, at=name) for s in there.missing]
     return replace(made, report=replace(made.report, rows=tuple(rows), missing=tuple(missing)))
-
-
-def solved_here(
-    of: Mechanism | Structure, values: Mapping[str, float] | None, asked: Sequence[Symbol] = ()
-) -> Motion:
-    """The exact motion at one position, of what leads to the asked.
-
-    It comes before the drawing, because it tells best why a position cannot be had.
-    """
-    from graphkin import solver
-
-    structure = solver.structure_of(of)
-    scene = part_of(structure, asked)
-    if scene is not structure.scene:
-        structure = solver.structure_of(scene)
-        kept = [d.key for d in scene.drivers]
-        values = {k: v for k, v in values.items() if k in kept} if values else values
-    motion = solver.solve(structure, at=values)
-    if motion.status[0] != "ok":
-        drivers = [
-            Phrase("driver at value", driver=d.key, value=scene.unit_of(d).said((values or {}).get(d.key, d.values[0])))
-            for d in scene.drivers
-        ]
-        raise Unsolvable(
-            str(motion.status[0]), Problem(Phrase("driver of driver", driver=listed(drivers)), motion.said(0))
-        )
-    return motion

@@ -20,7 +20,6 @@ from graphkin.api.arguments import (
     require_callable,
     whole_number,
 )
-from graphkin.api.checked import solved_here
 from graphkin.api.drawn import draw
 from graphkin.api.problem_sets import drawn_schemes, schemes_of
 from graphkin.api.results import OfScene, Result
@@ -53,6 +52,7 @@ from graphkin.papers.variants import asked_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike, safe_name
 from graphkin.scene.symbol import Symbol
+from graphkin.solver import solved_here
 from graphkin.solver.named_positions import named_positions
 from graphkin.table import Table, table_of
 from graphkin.words import Phrase, languages

@@ -23,7 +23,7 @@ from graphkin.api.arguments import (
     unknown_words,
 )
 from graphkin.api.cams import cam_table
-from graphkin.api.checked import Checked, checked, solved_here, with_elsewhere
+from graphkin.api.checked import Checked, checked, with_elsewhere
 from graphkin.api.report_text import report_text
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.readings import read_off
@@ -37,6 +37,7 @@ from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Symbol
+from graphkin.solver import solved_here
 from graphkin.structure import Dyad, Structure
 from graphkin.structure.analysis import driven_by
 from graphkin.structure.transmission import joint_of_dyad

@@ -22,7 +22,6 @@ from graphkin.api.arguments import (
     unknown_words,
     whole_number,
 )
-from graphkin.api.checked import solved_here
 from graphkin.api.results import OfScene, Result, named
 from graphkin.drawing.figures.diagrams import diagram_figures
 from graphkin.errors import CallError, as_list
@@ -50,6 +49,7 @@ from graphkin.scene.drivers import moves_by_law
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Symbol
+from graphkin.solver import solved_here
 from graphkin.words import Phrase, languages
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ from graphkin.account.account import Account
 from graphkin.account.forces import ForceAccount
 from graphkin.account.notation import Letters, letters_of
 from graphkin.api.arguments import asked_here, driver_values, hand_of, placed
-from graphkin.api.checked import checked, solved_here
+from graphkin.api.checked import checked
 from graphkin.api.drawn import Drawn, drawn_figure, known_figures
 from graphkin.api.report_text import plain_said, reading_words
 from graphkin.board.building import movable
@@ -29,7 +29,7 @@ from graphkin.files import Json, OwnTables
 from graphkin.papers.html import words_html
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import parsed, resolved
-from graphkin.solver import Motion
+from graphkin.solver import Motion, solved_here
 from graphkin.solver.driver_range import DriverRange
 from graphkin.solver.solve import driver_range
 from graphkin.structure import Structure, mobility_of

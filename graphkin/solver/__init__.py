@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from graphkin.solver.driver_range import DriverRange
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import Motion, Sliding, listed_points, own_slides
-from graphkin.solver.solve import as_drawn, driver_range, over_time, solve, sweep_in_blocks
+from graphkin.solver.solve import as_drawn, driver_range, over_time, solve, solved_here, sweep_in_blocks
 
 if TYPE_CHECKING:
     from graphkin.solver.forces import Forces, forces_of, without_line
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 __all__ = [
     "DriverRange", "Forces", "Motion", "PreparedMechanism", "Sliding", "as_drawn", "driver_range", "entries",
     "exact_values", "forces_of", "head", "json_text", "listed_points", "over_time", "own_slides", "prepare",
-    "senses_along", "solve", "structure_of", "sweep_in_blocks", "value_of", "without_line",
+    "senses_along", "solve", "solved_here", "structure_of", "sweep_in_blocks", "value_of", "without_line",
 ]  # fmt: skip
 
 _PLACES = {

@@ -6,15 +6,16 @@ The motion at moments in time, where drivers move by laws: their rates change fr
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
-from graphkin.errors import CallError, Unsolvable
+from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.scene.drivers import at_time
 from graphkin.scene.model import Mechanism
+from graphkin.scene.symbol import Symbol
 from graphkin.solver.assemblies import choose_modes
 from graphkin.solver.bounds import Accuracy
 from graphkin.solver.driver_range import DriverRange, motion_of, range_from, range_of, stopped_why, way_to
@@ -25,7 +26,7 @@ from graphkin.solver.pose import Array, Drive, Pose, aimed, rest
 from graphkin.solver.sentences import assembly_words
 from graphkin.structure import Structure, part_of
 from graphkin.structure.assembly import ChangePoint
-from graphkin.words import Phrase, Wording
+from graphkin.words import Phrase, Wording, listed
 
 
 def driver_range(scene: Mechanism | Structure, at: Mapping[str, float] | None = None) -> DriverRange:
@@ -76,6 +77,31 @@ def solve(
         structure, drive, here, partial(assembly_words, structure, modes), np.ones(1, dtype=bool), extended=extended
     )
     return replace(found, passed=passed)
+
+
+def solved_here(
+    of: Mechanism | Structure, values: Mapping[str, float] | None, asked: Sequence[Symbol] = ()
+) -> Motion:
+    """The exact motion at one position, of what leads to the asked.
+
+    It comes before the drawing, because it tells best why a position cannot be had.
+    """
+    structure = structure_of(of)
+    scene = part_of(structure, asked)
+    if scene is not structure.scene:
+        structure = structure_of(scene)
+        kept = [d.key for d in scene.drivers]
+        values = {k: v for k, v in values.items() if k in kept} if values else values
+    motion = solve(structure, at=values)
+    if motion.status[0] != "ok":
+        drivers = [
+            Phrase("driver at value", driver=d.key, value=scene.unit_of(d).said((values or {}).get(d.key, d.values[0])))
+            for d in scene.drivers
+        ]
+        raise Unsolvable(
+            str(motion.status[0]), Problem(Phrase("driver of driver", driver=listed(drivers)), motion.said(0))
+        )
+    return motion
 
 
 def sweep_in_blocks(scene: Mechanism | Structure, at: Mapping[str, float] | None, sweep: int) -> Iterator[Motion]:
