@@ -77,7 +77,7 @@ class LoadOn:
         return (since < span) | always, edge & (not always)
 
     def acts_on_stroke(self, part: Any, running: Any) -> tuple[Any, Any]:
-        """The same of one that acts on a part of a stroke.
+        """Whether a load on a part of a stroke acts there, and whether it begins or ends exactly there.
 
         Parameters
         ----------
@@ -119,8 +119,8 @@ class SpringOn:
 
 @dataclass(frozen=True)
 class Loading:
-    """Everything that makes forces; ``gravity`` is 0 where weights do not pull (m/s2); ``balance`` is the load that is
-    unknown besides the joint forces, None where it is what drives."""
+    """The causes of forces; ``gravity`` is 0 where weights do not pull (m/s2); ``balance`` is the load that is unknown
+    besides the joint forces, None where the driver balances them."""
 
     gravity: complex = 0j
     masses: tuple[LinkMass, ...] = ()
@@ -171,22 +171,22 @@ class FromDeadPoint:
 
 @dataclass(frozen=True)
 class Driver:
-    """What gives a link's motion relative to another: the angle of its own x axis, or its travel in a sliding pair.
+    """The given motion of a link relative to another: the angle of its own x axis, or its travel in a sliding pair.
 
     Parameters
     ----------
-    link, relative_to : the driven link and that from which its motion counts; of a travel the link (or the block of a
-        pin in a slot) that slides, and that on which it slides
+    link, relative_to : the driven link and the link from which its motion counts; of a travel the link (or the block of
+        a pin in a slot) that slides, and the link on which it slides
     value, rate, second : an angle (rad, rad/s, rad/s2), or a travel along the guide's sense (m, m/s, m/s2)
     slide : key of the sliding pair or pin in slot of a travel, "" of an angle
-    dead_point : how the value is given, where it is the distance from a dead point
-    position : names the position that is meant, where its angle follows from a stroke that is not known yet
+    dead_point : the dead point and the distance from it, where these give the value
+    position : the name of the position, where its angle follows from a stroke that is not known yet
     rpm : the rate in turns per minute, where the problem gives it so
     given_speed : a point and its speed (m/s, with the sign of the turning), from which the rate follows, 0 until it has
         been found
-    law : how it moves over the time; the rates are those at the moment that the law asks
-    ratios, through : of a follower, whose motion is in constant ratios to the drivers by rolling: its rate by that of
-        each driver (m/rad where lengths and angles mix), and the links that pass the motion on
+    law : its motion over the time; the rates are those at the moment of the law
+    ratios, through : of a follower, whose motion is in constant ratios to the drivers by rolling: its rate over the
+        rate of each driver (m/rad where lengths and angles mix), and the links that pass the motion on
 
     From these follow whether it ``turns`` (gives an angle, not a travel), its ``key`` (the link that it turns, or the
     sliding pair), both ``links``, its three ``values``, what they ``measure``, whether it ``rolls`` (rolling makes it
@@ -223,7 +223,7 @@ class Driver:
         )  # fmt: skip
 
     def span(self, size: float) -> float:
-        """What its values are measured by where they shall have no unit: 1 rad, or a size (m)."""
+        """The divisor that frees its values of their unit: 1 rad, or a size (m)."""
         return 1.0 if self.turns else size
 
     def turns_about(self, link: str) -> bool:
@@ -231,19 +231,19 @@ class Driver:
         return self.turns and self.relative_to == link
 
     def wrapped(self, change: float) -> float:
-        """A change of its value (rad, m), of an angle but for whole turns: from half a turn back to half a turn on."""
+        """A change of its value (rad, m); of an angle without whole turns, from half a turn back to half a turn on."""
         return math.remainder(change, math.tau) if self.turns else change
 
     def at_value(self, value: float) -> Driver:
-        """The same driver at another value (rad, m)."""
+        """This driver at another value (rad, m)."""
         return replace(self, value=value, dead_point=None, position="")
 
     def at_rate(self, rate: float) -> Driver:
-        """The same driver at a steady rate (rad/s, m/s)."""
+        """This driver at a steady rate (rad/s, m/s)."""
         return replace(self, rate=rate, second=0.0, rpm=None, law=None)
 
     def moving(self, law: MotionLaw) -> Driver:
-        """The same driver with the rates of a law at the moment that it asks."""
+        """This driver with the value and rates of a law at the law's moment."""
         now = law.at(law.time)
         return replace(self, rate=now.slope, second=now.bend, law=law)
 
@@ -264,9 +264,9 @@ class PlacedBackground:
 
 @dataclass(frozen=True)
 class PlacedScan:
-    """What was read off the scan of a drawing, in pixels x - iy from its left upper corner, by the names of ends.
+    """Readings from the scan of a drawing, in pixels x - iy from its left upper corner, by the names of ends.
 
-    ``points`` are the two that set scale and direction; ``within`` is what a line may be off, as a part of the longest.
+    ``points`` are the two that set scale and direction; ``within`` the allowed error of a line over the longest line.
     ``kind``, ``width``, ``height`` and ``data`` are those of the picture, "" and 0 where there is none.
     """
 
@@ -296,12 +296,12 @@ class StatedValues:
 
 @dataclass(frozen=True)
 class Question:
-    """What is asked of a mechanism, and how it shall be told.
+    """The question that a problem asks of its mechanism, and the wishes for figures and text.
 
-    ``find`` are the quantities asked for, none where all are; the places of ``positions`` are driver values (rad, m) or
+    ``find`` are the quantities asked for, empty for all; the places of ``positions`` are driver values (rad, m) or
     places on a stroke, the first None for the driver's own value; ``stated`` holds all that somebody printed, digit by
     digit, first that of the scene's own position; ``loops`` are vector loops by name, each through its points;
-    ``vary`` says how a set of problems is drawn from the scene, ``grading`` for what there are points.  ``background``
+    ``vary`` gives the rules by which a set of problems is drawn from the scene, ``grading`` the points.  ``background``
     lies under the drawing; ``scans`` are drawings to be judged.  ``written`` is the file that was read, None where the
     mechanism was made otherwise.
     """
@@ -323,12 +323,12 @@ class Question:
 
     @property
     def printed(self) -> dict[Symbol, float | complex]:
-        """What is printed of this position, by symbol in SI: a float, or a complex number for two components."""
+        """The printed values of this position by symbol, in SI: a float, or a complex number for two components."""
         here = (stated for stated in self.stated if stated.at is None)
         return {symbol: printed.value for stated in here for symbol, printed in stated.values.items()}
 
     def title_in(self, language: str) -> str:
-        """The title in a language: the Chinese one where there is one, else the one there is."""
+        """The title in a language: the Chinese title if there is one and Chinese is asked, else the title."""
         return self.title_zh if language == "zh" and self.title_zh else self.title
 
     def source_in(self, language: str) -> str:
@@ -338,17 +338,16 @@ class Question:
 
 @dataclass(frozen=True)
 class Mechanism:
-    """A mechanism at one position: links, pairs, drivers and sizes.  What is asked of it is its ``question``.
+    """A mechanism at one position: links, pairs, drivers and sizes, with its ``question``.
 
     ``links`` are the moving links in the order of the file (redundant ones included, see ``PlacedLink.redundant``);
     ``sketch`` and ``drawn`` give places of points in world axes (m); ``slots`` are the circular ones, for which bars
     and turning pairs stand among the links.  ``slides`` are the sliding pairs (``slidings``) and the ``pins`` in slots.
-    ``instead_of`` is the mechanism with cams in whose place this one moves alike at this position, in velocity and
-    acceleration.  ``starts`` say where what rolls stands at the scene's own position: the angle of a link's own axis
-    (rad), or the travel (m) of a sliding pair or of a contact by its block.
+    ``instead_of`` is the mechanism with cams that this one replaces: both have the same velocities and accelerations at
+    this position.  ``starts`` give the start of rolling motions at the scene's own position: the angle of a link's own
+    axis (rad), or the travel (m) of a sliding pair or of a contact by its block.
     ``by_name`` has every link, the frame included; ``order`` the place of each in the file, the frame last; ``holders``
-    for each point the links that have it, the frame first; ``size`` (m), the largest distance given in the file, says
-    how large the mechanism is.
+    for each point the links that have it, the frame first; ``size`` (m) is the largest distance given in the file.
     """
 
     name: str
@@ -379,11 +378,11 @@ class Mechanism:
 
     @property
     def whole(self) -> Mechanism:
-        """The mechanism itself: that with cams, in whose place this one may stand."""
+        """The mechanism of the file: the mechanism with cams where this one replaces it, else this one."""
         return self if self.instead_of is None else self.instead_of
 
     def asking(self, **changed: Any) -> Mechanism:
-        """The same mechanism with some of its question changed: ``find``, the wishes of its ``sheet``, and so on."""
+        """This mechanism with parts of its question changed: ``find``, the wishes of its ``sheet``, and so on."""
         return replace(self, question=replace(self.question, **changed))
 
     def unit_of(self, driver: Driver, radians: bool = False) -> Unit:
@@ -466,7 +465,7 @@ _MOVING = ("frame", "links", "slides", "drivers", "cams", "contacts", "gears", "
 
 
 def changed_beside(before: Mechanism, after: Mechanism) -> tuple[str, ...]:
-    """The parts in which two mechanisms move otherwise for something else than these numbers: where a cam stands, the
+    """The parts that move differently in two mechanisms for another reason than these numbers: the place of a cam, the
     radius of a disc, teeth."""
     numbers = dimensions(before)
     alike = [with_dimensions(mechanism, numbers) for mechanism in (before, after)]

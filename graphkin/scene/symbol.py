@@ -29,13 +29,13 @@ _LINK = r"[A-Za-z0-9]+"
 
 
 def forms_of_names(point: str, link: str, lax: bool = False) -> dict[str, str]:
-    """What may stand behind a kind, as patterns: groups "of" and "to" are points (of the links "of_link" and
-    "to_link"), "link" and "other" links.
+    """The patterns of names behind a kind: groups "of" and "to" are points (of the links "of_link" and "to_link"),
+    "link" and "other" are links.
 
     Parameters
     ----------
     point, link : patterns of their names
-    lax : as people write them: signs between names may be left out, and nothing is said of a load
+    lax : as people write them: signs between names may be missing, and loads are not distinguished
     """
     at, plus = ("@?", "") if lax else ("@", r"(?P<plus>\+)?")
 
@@ -75,10 +75,10 @@ _FORMS = forms_of_names(_POINT, _LINK)
 class Kind:
     """A kind of quantity.
 
-    ``form`` says what it is of (a key of the forms above), ``scope`` whether it is a motion drawn in a polygon, a
-    position measured on the mechanism, belongs to the whole turn, stands in a force polygon, or is of a flywheel.
-    ``order`` is how often a place, an angle or a travel is derived by the time in it; None of what is none of these.
-    Sliding pairs have it too, along the guide and with a sign, where it is ``of_pairs``.
+    ``form`` is the form of its names (a key of the forms above), ``scope`` where it belongs: to a polygon of motion, to
+    the mechanism's position, to the whole turn, to a force polygon, or to a flywheel.  ``order`` is the order of its
+    derivative by time of a place, an angle or a travel; None for other kinds.  With ``of_pairs`` sliding pairs have it
+    too, along the guide and with a sign.
     """
 
     name: str
@@ -92,7 +92,7 @@ class Kind:
 
     @property
     def sign(self) -> str:
-        """What parts the names of two links."""
+        """The sign between the names of two links."""
         return "-" if self.form == "links" else "/"
 
 
@@ -161,15 +161,15 @@ class PointRef(NamedTuple):  # looked up by the ten thousand
 class Symbol:
     """A quantity by name.
 
-    ``kind`` is a name of `KINDS`, or "place" for that of a point, or "transmission" for the angle of a group, whose
-    links are its ``name``; ``of`` and ``to`` are its points (``to`` that relative to which it is meant, or the second
-    of two), ``link`` and ``other`` its links (of a sliding pair the sliding and the guiding one; of a pin in a slot
-    ``link`` is the pin).  ``at`` names the position that is meant, "" this one.
+    ``kind`` is a name of `KINDS`, "place" for a point's place, or "transmission" for the angle of a group, whose links
+    are its ``name``; ``of`` and ``to`` are its points (``to`` the reference point, or the second of two), ``link`` and
+    ``other`` its links (of a sliding pair the sliding and the guiding link; of a pin in a slot ``link`` is the pin).
+    ``at`` names the position, "" for this one.
 
-    Of forces ``link`` acts on ``other`` at the joint ``of`` (where they share two); ``name`` is that of a load, or of a
-    force whose arm is meant; with ``plus`` the load that begins or ends exactly there acts.  ``turning`` is a load that
-    is a moment, which no name tells.  ``seen`` is the link from which a vector is seen, with that held still; "" for
-    the frame.  ``axis`` is "x" or "y" of a component of a vector along an axis of the frame.
+    Of forces ``link`` acts on ``other`` at the joint ``of`` (where they share two); ``name`` is the name of a load, or
+    of the force of an arm; with ``plus`` a load that begins or ends exactly there acts.  ``turning`` marks a load that
+    is a moment, which its name does not tell.  ``seen`` is the link held still, from which a vector is seen; "" for the
+    frame.  ``axis`` is "x" or "y" for a component of a vector along an axis of the frame.
 
     >>> Symbol.parse("v_B@3/B@2").id
     'v_B3-B2'
@@ -238,8 +238,8 @@ class Symbol:
 
     @property
     def is_of_tables(self) -> bool:
-        """Whether tables alone give it: the place of a point, a component, a rate of a sliding pair, which no drawing
-        has by itself."""
+        """Whether only tables give it: the place of a point, a component, a rate of a sliding pair; no drawing has
+        these by themselves."""
         return self.kind == "place" or self.axis != "" or self.is_rate_of_pair
 
     @property
@@ -249,7 +249,7 @@ class Symbol:
 
     @property
     def order(self) -> int | None:
-        """How often a place, an angle or a travel is derived by the time in it; None of what else it is."""
+        """The order of its derivative by time of a place, an angle or a travel; None for other quantities."""
         return _OF_ALL[self.kind].order
 
     @property
@@ -267,17 +267,17 @@ class Symbol:
 
     @property
     def here(self) -> Symbol:
-        """The same quantity without the position that is meant."""
+        """This quantity without the name of its position."""
         return replace(self, at="") if self.at else self
 
     @property
     def whole(self) -> Symbol:
-        """The vector of which it is a component; itself where it is none."""
+        """The vector of which it is a component; itself where it is no component."""
         return replace(self, axis="") if self.axis else self
 
     @property
     def opposite(self) -> Symbol:
-        """The force or couple of the second link on the first, ``F_6/5@C`` of ``F_5/6@C``; what is of one link as it
+        """The force or couple of the second link on the first, ``F_6/5@C`` of ``F_5/6@C``; a quantity of one link as it
         is."""
         return replace(self, link=self.other, other=self.link) if self.other else self
 
@@ -287,7 +287,7 @@ class Symbol:
         yield from (ref.link for ref in (self.of, self.to) if ref and ref.link)
 
     def unit(self, units: Units, radians: bool = False) -> Unit:
-        """Its unit in files and tables, where the scene's are these; with ``radians`` that in JSON."""
+        """Its unit in files and tables by the scene's units; with ``radians`` its unit in JSON."""
         return units.of(self.measure, radians)
 
     @property
@@ -321,13 +321,13 @@ _MISSING = {
 
 
 def _no_quantity(text: str) -> Phrase:
-    """What is said of a name of no quantity."""
+    """The sentence on a name that names no quantity."""
     known = ", ".join(re.sub(" or .*|,.*", "", kind.example) for kind in KINDS.values())
     return Phrase("is no quantity known are", text=text, names=known)
 
 
 def centre_links(name: str, links: Container[str]) -> tuple[str, str] | None:
-    """The two links whose instant centre a name means, as books print it; None where it means none.
+    """The two links of an instant centre by its name in books; None for a name of no centre.
 
     >>> centre_links("P12", {"1", "2"}), centre_links("P", {"1"})
     (('1', '2'), None)
@@ -345,12 +345,12 @@ def known_symbol(
     positions: Sequence[str],
     drawn: bool = True,
 ) -> Symbol | list[Problem]:
-    """The quantity that a name means, or what is wrong with it.
+    """The quantity that a name means, or the problem with the name.
 
     Parameters
     ----------
     where : where the name stands, as problems tell it
-    no_link, no_point : the problem there of a name that is no link, or no point; None if it is one
+    no_link, no_point : the problem of a name that is no link, or no point; None where it is one
     links : the names of all links, by which instant centres are named
     positions : the names of the positions
     drawn : whether it is asked of a drawing, which has neither places nor rates of sliding pairs by themselves
@@ -396,7 +396,7 @@ SMALLEST = -300  # power of ten of a last digit that a double still holds
 
 
 class Unreadable(ValueError):
-    """A text that states no such value; ``phrase`` says why, in any language."""
+    """A text that states no value of its quantity; ``phrase`` gives the reason in any language."""
 
     def __init__(self, phrase: Phrase) -> None:
         super().__init__(say(phrase))
@@ -420,10 +420,10 @@ class Printed:
 
     ``value`` (SI) is a float, or a complex number for a vector given by two components; ``step`` (SI) one unit of its
     last digit; ``digits`` the number of its significant digits; ``texts`` its numbers as written, in scene units unless
-    ``shown``, the whole cell, says otherwise.  ``direction`` (rad) is that of a vector given by size and direction,
-    which may be meant otherwise by ``room``, and as its opposite where ``either``; ``lines`` are others along which it
-    is said to lie.  ``signed`` is whether its number means a place on the line of the motion (a guide), also where it
-    is positive; else a positive number is the size of a vector.
+    ``shown``, the whole cell, says otherwise.  ``direction`` (rad) is the direction of a vector given by size and
+    direction, with ``room`` (rad) to either side, and its opposite too where ``either``; the vector is said to lie
+    along each of ``lines``.  ``signed`` tells that its number is a place on the line of the motion (a guide), also
+    where it is positive; else a positive number is the size of a vector.
     """
 
     symbol: Symbol
@@ -445,15 +445,15 @@ class Printed:
 
     @property
     def text(self) -> str:
-        """What was written."""
+        """The cell as it was written."""
         return self.shown or ", ".join(self.texts)
 
     @property
     def rounding(self) -> float:
-        """How far a right value may lie from it (SI): half a unit of the last digit, but of a single digit never more
-        than a hundredth.
+        """The distance within which the true value lies if it was rounded (SI): half a unit of the last digit, but of a
+        single digit never more than a hundredth.
 
-        One digit says what was meant, it pardons nothing.  A zero is zero to the decimals written.
+        A single digit is not taken for a rounded number.  A zero is zero to the decimals written.
         """
         if not self.value:
             return (0.5 if any("." in text for text in self.texts) else MOST_PARDONED) * self.step
@@ -468,8 +468,8 @@ class Printed:
 
     @property
     def coarse(self) -> float:
-        """The same in the person's favour: a whole number that ends in a zero may be rounded to tens (0.52 m/s, written
-        520 mm/s), where that is no more than one in a hundred."""
+        """This value read in the person's favour: a whole number that ends in a zero may be rounded to tens (0.52 m/s,
+        written 520 mm/s), where a ten is no more than a hundredth of it."""
         if any("." in t or not t.endswith("0") for t in self.texts):
             return self.rounding
         return max(self.rounding, min(5.0 * self.step, MOST_PARDONED * abs(self.value)))

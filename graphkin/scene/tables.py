@@ -2,13 +2,13 @@
 by which every wrong key and value in it is told at once.
 
 A table of the file is a class, a key a field of it, whose type tells what may stand there, and `key` in which unit:
-reading (`in_si`) and writing (`in_units`) take it from there, and so does the JSON schema for editors.  What a key
-means is said by the tables of words, by the names of table and key.  A table holds
-what a file says in the file's own names; what may stand in it is asked when a scene is made (`Form.checked`).
+reading (`in_si`) and writing (`in_units`) take it from there, and so does the JSON schema for editors.  The tables of
+words explain each key under the names of table and key.  A table holds the values of a file under the file's names;
+they are checked when a scene is made (`Form.checked`).
 
-A wrong entry is reported and taken out, a misspelt key is reported and read as the key that was meant, and what
-remains is a valid file, so that the questions asked later (do the names exist, do the lengths meet) can still be
-asked of it.  The paths of what was taken out are kept, so that nothing is reported twice.
+A wrong entry is reported and taken out, a misspelt key is reported and read as the key that was meant.  The rest is a
+valid file, of which the later checks (do the names exist, do the lengths meet) can still be made.  The paths of removed
+entries are kept, so that nothing is reported twice.
 """
 
 from __future__ import annotations
@@ -56,13 +56,13 @@ class FileTable:
 def key(
     *, default: Any = MISSING, default_factory: Any = MISSING, name: str = "", unit: str = "", closed: bool = False
 ) -> Any:  # fmt: skip
-    """A key of a table of which more is to be said than its type and what holds without it.
+    """A key of a table with more rules than its type and its default.
 
     Parameters
     ----------
-    default, default_factory : what holds where the key is left out
+    default, default_factory : the value of a key that is left out
     name : the key in the file, where Python has that word for itself
-    unit : the measure of its numbers, in whose unit the file has them; "" of what bears none or is left as written
+    unit : the measure of its numbers, in whose unit the file has them; "" for numbers without one or left as written
     closed : of a table whose keys are names of a pattern: no others may stand in it
     """
     about: dict[str, object] = {"unit": unit}
@@ -83,7 +83,7 @@ def file_table(kind: type[AnyTable]) -> type[AnyTable]:
 
 @dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(key, dataclasses.field))
 def file_table_by_name(kind: type[AnyTable]) -> type[AnyTable]:
-    """The same of a table whose keys are given by name only."""
+    """Make a class of keys a table whose keys are given by name only: an unchangeable dataclass."""
     return dataclass(frozen=True, kw_only=True)(kind)
 
 
@@ -98,7 +98,7 @@ def key_of(each: Field[object]) -> str:
 
 
 def entries(table: FileTable) -> dict[str, object]:
-    """The keys of a table as they stand in a file, without those that say what holds anyway.
+    """The keys of a table as they stand in a file, without those at their defaults.
 
     >>> from graphkin.scene.bodies import Link
     >>> entries(Link(points=["A", "B"], length=120))
@@ -127,7 +127,7 @@ class Unit(NamedTuple):
     """A unit of one measure.
 
     text : as in the heads of tables, "mm/s2", "deg", "N m"; "" of a pure number
-    si : what one of it is in SI
+    si : one of it in SI
     """
 
     text: str
@@ -193,11 +193,11 @@ class Units(FileTable):
 
     @property
     def per_si(self) -> tuple[float, float, float]:
-        """What one metre, one radian and one metre in rates are in the units of tables."""
+        """One metre, one radian and one metre in rates, in the units of tables."""
         return 1.0 / self.metres, math.degrees(1.0), 1.0 / self.rates.metres
 
     def of(self, measure: Measure, radians: bool = False) -> Unit:
-        """The unit of a measure: what people read has its angles in degrees, what programs read in radians."""
+        """The unit of a measure: people read angles in degrees, programs in radians."""
         return _unit(self, measure, radians)
 
 
@@ -223,7 +223,7 @@ def _unit(units: Units, measure: str, radians: bool) -> Unit:
 
 
 def in_si(table: AnyTable, units: Units) -> AnyTable:
-    """A table of a file, and those in it, with every number whose key tells its unit in SI."""
+    """A table of a file, and the tables in it, with every number in SI whose key has a unit."""
     return _converted(table, lambda number, measure: number * _unit(units, measure, False).si)
 
 
@@ -250,7 +250,7 @@ def _converted(table: AnyTable, change: Callable[[float, str], float]) -> AnyTab
 
 
 def tidy(value: float) -> float:
-    """A number without the noise of unit conversion."""
+    """A number without the rounding of a unit's conversion."""
     return float(f"{value:.13g}") + 0.0
 
 
@@ -266,7 +266,7 @@ KeyPath = tuple[str | int, ...]
 
 
 def item_of(part: str, count: int) -> int | None:
-    """Which item of a list of so many a part of a key names: counted from 1, or ``x`` and ``y`` of a place.
+    """The index of the list's item that a part of a key names: counted from 1, or ``x`` and ``y`` of a place.
 
     >>> item_of("2", 3), item_of("y", 2), item_of("0", 2), item_of("z", 3)
     (1, 1, None, None)
@@ -276,7 +276,7 @@ def item_of(part: str, count: int) -> int | None:
 
 
 def path_of_key(tables: Tables, dotted: str) -> KeyPath | None:
-    """The path of a key with dots; None where there is nothing.
+    """The path of a key with dots; None where the tables have no such key.
 
     >>> path_of_key({"frame": {"points": {"D": [3, 4]}}}, "frame.points.D.y")
     ('frame', 'points', 'D', 1)
@@ -295,7 +295,7 @@ def path_of_key(tables: Tables, dotted: str) -> KeyPath | None:
 
 
 def value_at(place: object, path: KeyPath) -> Any:
-    """What stands at a path of tables, or of a part of them; None where there is nothing.
+    """The value at a path of tables, or of a part of them; None where there is none.
 
     >>> value_at({"driver": [{"angle": 40}]}, ("driver", 0, "angle")), value_at({"driver": []}, ("driver", 0, "angle"))
     (40, None)
@@ -332,7 +332,7 @@ class Form(Generic[AnyTable]):
     ----------
     whole : the type of the whole file, a table of tables
     title : what the schema calls it
-    needed : the table without which there is nothing to ask about, "" where there is none
+    needed : the table without which a file is no scene, "" where every table may be missing
     """
 
     def __init__(self, whole: type[AnyTable], title: str, needed: str = "") -> None:
@@ -343,11 +343,10 @@ class Form(Generic[AnyTable]):
         return _rules(self.whole, _when_met())
 
     def checked(self, raw: OwnTables) -> tuple[AnyTable, list[Problem], frozenset[KeyPath]]:
-        """Check the form of a file.  Returns what is valid in it, the problems, and the paths of what was taken out for
-        them.
+        """Check the form of a file.  Returns its valid part, the problems, and the paths of the entries taken out.
 
         ``raw`` comes from `plain` and is changed: wrong entries are taken out of it.
-        Raises SceneError where nothing is left to ask about.
+        Raises SceneError where too little of a scene is left to check.
         """
         problems: dict[KeyPath, Problem] = {}
         gone: set[KeyPath] = set()
@@ -388,7 +387,7 @@ class Form(Generic[AnyTable]):
         return _within(self.whole, tuple(loc))
 
     def keys_at(self, loc: Sequence[str | int]) -> dict[str, Wording]:
-        """The keys that may stand in the table at a place, with what the words tell of each."""
+        """The keys that may stand in the table at a place, with the explanation of each."""
         table = self.table_at(loc)
         return {} if table is None else {key_of(f): meaning(table, key_of(f)) for f in keys_of(table)}
 
@@ -413,7 +412,7 @@ class Form(Generic[AnyTable]):
         return near[0] if near[0] not in table or all(isinstance(t, dict) for t in both) else None
 
     def _sentence(self, loc: KeyPath, path: KeyPath, item: OwnTables) -> tuple[Wording, Wording]:
-        """What was found at a place, and what would be right, by what pydantic found."""
+        """The value found at a place and the right form of it, from pydantic's error."""
         kind, value, ctx = item["type"], item["input"], item.get("ctx", {})
         found: Wording = Phrase("found value", value=shown(value))
         wanted: Wording
@@ -471,7 +470,7 @@ class Form(Generic[AnyTable]):
         return found, from_others(str(item["msg"]))
 
     def _about_key(self, loc: KeyPath) -> Wording:
-        """What an unknown key may mean."""
+        """The known keys that an unknown key may mean."""
         key = str(loc[-1])[:60]
         if key in self.keys_at(()) and len(loc) > 1:
             at_top = key in ("title", "title_zh", "source", "source_zh", "find")
@@ -530,7 +529,7 @@ def plain(source: Mapping[Any, object] | FileTable) -> OwnTables:
 
 
 def _cut(path: KeyPath) -> KeyPath:
-    """The smallest entry of the file that can be taken out for something wrong at ``path``."""
+    """The smallest entry of the file that can be taken out to remove an error at ``path``."""
     head, inside = str(path[0]), str(path[2]) if len(path) > 2 else ""
     if head == "links":
         return path[: 4 if inside in ("at", "guides", "discs") else 3]
@@ -630,7 +629,7 @@ def path_name(path: Iterable[str | int]) -> str:
 
 
 def meaning(table: type[FileTable] | str, key: str) -> Wording:
-    """What a key of a table means and what holds without it, as a clause; "" of one whose name and choices say all."""
+    """The meaning and the default of a table's key as a clause; "" for a key explained by its name and choices."""
     said = f"{table if isinstance(table, str) else table.__name__}.{key}"
     return Phrase(said) if said in area("keys") else ""
 
@@ -646,7 +645,7 @@ def _written_path(loc: KeyPath) -> KeyPath:
 
 
 def _name_rule(ctx: Tables) -> Wording:
-    """How a name is written, by the pattern that it misses."""
+    """The rule for writing a name, by the pattern that it misses."""
     pattern = str(ctx.get("pattern", ""))
     if "max_length" in ctx:
         return Phrase("a name has at most letters and digits", limit=ctx["max_length"])
@@ -671,7 +670,7 @@ def _rules(table: type[AnyTable], others: Mapping[str, object]) -> TypeAdapter[A
 
 @cache
 def _when_met() -> Mapping[str, object]:
-    """Every table by its name, its rules to be made when a file has such a table, since most have few of the kinds."""
+    """Every table by its name; its rules are made when a file has such a table, since most files have few of them."""
     return {table.__name__: Annotated[Any, _when_asked(table)] for table in FileTable.__subclasses__()}
 
 
