@@ -54,8 +54,8 @@ if TYPE_CHECKING:
 class Drawn(OfScene, Result):
     """The figures of a scene by name, with the check of everything on them.
 
-    In a notebook it shows the sheet.  ``wanted`` are the figures asked for.  ``figures["velocity"].save("v.pdf")``
-    picks the format by the name.
+    In a notebook it shows the sheet.  ``wanted`` are the figures asked for, with ``by_name`` each by its name: what
+    cannot be drawn of them is an error.  ``figures["velocity"].save("v.pdf")`` picks the format by the name.
     """
 
     checked: Checked
@@ -67,6 +67,7 @@ class Drawn(OfScene, Result):
     convention: str | None = None
     driver: str = ""
     beside: tuple[str | float, ...] = ()
+    by_name: bool = True
 
     @property
     def mechanism(self) -> Mechanism:
@@ -80,9 +81,18 @@ class Drawn(OfScene, Result):
         fitting = replace(self.plan, scales=self.plan.scales_for(sheet_room(self.mechanism)))
         return checked(fitting, self.motion, hand_of(self.mechanism, self.checked.sheet.instrument, self.seed))
 
-    @cached_property
+    @property
     def with_forces(self) -> Checked | None:
-        """The check of everything, forces included; None of a scene that has neither masses nor loads."""
+        """The check of everything, forces included; None of a scene that has neither masses nor loads, and where
+        nobody asked for forces and they cannot be found."""
+        made = self._all_checked
+        if isinstance(made, Unsolvable) and self.by_name:
+            raise made
+        return None if isinstance(made, Unsolvable) else made
+
+    @cached_property
+    def _all_checked(self) -> Checked | Unsolvable | None:
+        """The check with forces, or why they cannot be found."""
         if self.checked.sheet.has_forces:
             return self.checked
         if not self.mechanism.loading:
@@ -90,7 +100,22 @@ class Drawn(OfScene, Result):
         structure, values = self.plan.structure, self.checked.sheet.drivers
         whole = replace(plan(structure, values, ()), scales=self.plan.scales)
         hand = hand_of(self.mechanism, self.checked.sheet.instrument, self.seed)
-        return checked(whole, solved_here(structure, values), hand)
+        try:
+            return checked(whole, solved_here(structure, values), hand)
+        except Unsolvable as stop:
+            return stop
+
+    @property
+    def not_drawn(self) -> Mapping[str, Wording]:
+        """The figures that were asked for by name, or for which the scene has a table, and that are not there, with the
+        reason."""
+        made = {name.split("-")[0] for name in self.figures}
+        missing = [name for name in self.wanted if name not in made]
+        if self.by_name:
+            return dict.fromkeys(missing, Phrase("the scene has nothing of it"))
+        missing = [name for name in missing if figure_kinds()[name].needs == "forces"]
+        stop = self._all_checked if missing else None
+        return dict.fromkeys(missing, stop.reason) if isinstance(stop, Unsolvable) else {}
 
     @property
     def ok(self) -> bool:
@@ -272,7 +297,7 @@ def draw(
     what = plan(structure, values, asked_here(asked))
     whole = with_elsewhere(checked(what, motion, hand), asked, seed)
     places = tuple(as_list("beside", beside, Phrase("give names of positions or driver values 1")))
-    drawn = Drawn(whole, what, motion, wanted, seed, language, convention, driver, places)
+    drawn = Drawn(whole, what, motion, wanted, seed, language, convention, driver, places, figures is not None)
     if out is not None:
         drawn.write(out, formats)
     return drawn

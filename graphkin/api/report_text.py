@@ -261,9 +261,10 @@ def _forces_of_turn(turn: TurnStudy, language: str) -> list[str]:
         unit = quantity.unit(scene)
         parts = [
             f"{word('greatest' if e.kind == 'max' else 'least', language)} {unit.of(e.value):.6g} @ {_at(scene, e)}"
-            if math.isfinite(e.value) else word("unbounded", language) for e in extremes
+            if math.isfinite(e.value) else say(Phrase("grows without bound at", place=_at(scene, e)), language)
+            for e in extremes
         ]  # fmt: skip
-        lines.append(f"{name} ({unit.text}): {'; '.join(parts)}")
+        lines.append(f"{name} ({unit.text}): {'; '.join(dict.fromkeys(parts))}")
     return lines
 
 
@@ -274,7 +275,7 @@ def _flywheel(turn: TurnStudy, language: str) -> list[str]:
         return []
     head = word("flywheel", language) + word("colon", language)
     if isinstance(flywheel, Unsolvable):
-        return [head + flywheel.why]
+        return [head + say(flywheel.reason, language)]
     moment, inertia = units.of("moment"), units.of("inertia")
     said = [
         say(Phrase("driving moment is", moment=f"{moment.of(flywheel.driving):.8g} {moment.text}"), language),

@@ -101,7 +101,9 @@ class Solved(OfScene, Result):
 
     @property
     def motion(self) -> Motion:
-        """The motion, not solved where forces are not."""
+        """The motion; not solved where forces are asked and not known, as where the balance does no work."""
+        if self.find and not any(quantity.is_load for quantity in quantities_shown(self.mechanism, self.find)):
+            return self._moved
         return self._moved if self.forces is None else self.forces.known_motion
 
     @property

@@ -64,7 +64,8 @@ class Swept(OfScene, Result):
 
     ``swept["v_C"]`` is what is asked by its name, as an array: complex for vectors, in the scene's length unit, degrees
     for angles; over designs of shape (designs, positions).  ``table`` has the drivers' values and the status of each
-    position besides.  Table, study and figures are made when they are first asked for.
+    position besides.  Table, study and figures are made when they are first asked for.  ``paths`` are the files that
+    were written where a folder was given.
     """
 
     figure_formats = CHART_FORMATS
@@ -74,6 +75,7 @@ class Swept(OfScene, Result):
     language: str
     measured: Mapping[Quantity, Sequence[tuple[float, float]]] = field(default_factory=dict)
     on_paper: tuple[tuple[Way, str], ...] = ()
+    paths: list[Path] = field(default_factory=list)
 
     @property
     def mechanism(self) -> Mechanism:
@@ -391,9 +393,9 @@ def sweep(
     finally:
         if scheduler is not None and through is not None:
             through.shutdown()
-    swept = Swept(over, tables, spoken, elsewhere, on_paper)
+    swept = Swept(over, tables, spoken, elsewhere, on_paper, list(tables.files))
     if not made.keys:
-        swept.write_figures(out, formats, text)
+        swept.paths.extend(swept.write_figures(out, formats, text))
     return swept
 
 

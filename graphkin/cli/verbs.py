@@ -105,9 +105,7 @@ def draw(given: Given) -> None:
     with unsolvable_as_json(given.json, UNCHECKED):
         drawn = given.call(drawing)
         paths = drawn.write(given.out, given.formats, given.text)
-    made = {name.split("-")[0] for name in drawn.figures}
-    missing = [name for name in given.figure or () if name not in made]
-    complain(*(Problem(f"figure {name}", Phrase("the scene has nothing of it")) for name in missing))
+    complain(*(Problem(f"figure {name}", why) for name, why in drawn.not_drawn.items()))
     if given.speaks:
         print_paths(paths)
     _tell_check(drawn.checked, languages(given.lang or drawn.mechanism.question.sheet.language)[0], given)
@@ -300,10 +298,14 @@ def sweep(given: Given) -> None:
         print_json(swept.data)
     elif not given.quiet:
         tell(swept.text)
-        print_paths(sorted(p for p in target.iterdir() if not p.name.startswith(".")))
+        print_paths(sorted(swept.paths))
     if not swept.ok:
+        outcomes = swept.found.outcomes
+        wrong = bool(outcomes) and all(outcome.status == "wrong scene" for outcome in outcomes)
+        if wrong:  # the call is at fault, not the mechanism
+            complain(Phrase("where and what", where="--set, --designs", found=outcomes[0].why))
         complain(Phrase("no position could be solved designs.csv or table.csv"))
-        raise typer.Exit(3)
+        raise typer.Exit(2 if wrong else 3)
 
 
 def _replaced(given: Iterable[str]) -> dict[str, str]:

@@ -134,7 +134,8 @@ def forces_here(motion: Motion) -> Forces:
     if not forces.ok[0]:
         drivers = ", ".join(d.key for d in motion.scene.drivers)
         raise Unsolvable("dead point", Problem(Phrase("driver of driver", driver=drivers),
-                                               "the balance does no work in this position of nothing"))
+                                               "the balance does no work in this position of nothing",
+                                               "move the driver or ask for the motion alone"))
     motion.kept["forces here"] = forces
     return forces
 

@@ -234,7 +234,7 @@ class Panel:
 
     curve, dots, laid_over : shape (n, 2), place on the axis and value; the last are values from elsewhere
     extremes : with place and value as they are shown, in ``span`` alone
-    unbounded : whether it grows without bound towards an end of the range
+    unbounded : whether it grows without bound, a motion towards an end of the range
     allowed : the values within which a transmission or pressure angle shall stay; ``falling``: up to which that of a
         cam's follower may go as it falls
     jumps : after which points the curve jumps
@@ -251,6 +251,11 @@ class Panel:
     falling: float | None = None
     laid_over: Array = field(default_factory=lambda: EMPTY)
     jumps: tuple[int, ...] = ()
+
+    @property
+    def without_bound(self) -> str:
+        """The word for it where it grows without bound: a motion does so at ends alone."""
+        return "grows without bound" if self.quantity.is_load else "unbounded"
 
     @property
     def counts_degrees(self) -> bool:
@@ -389,7 +394,8 @@ def chart_page(
         for k, panel in enumerate(panels):
             top, last = TOP + k * (tall + GAP), k == len(panels) - 1
             name = panel.quantity.name.replace("/", "-")
-            headed = panel.title + (word("list comma", language) + word("unbounded", language)) * panel.unbounded
+            without = word("list comma", language) + word(panel.without_bound, language)
+            headed = panel.title + without * panel.unbounded
             axes = chart.add_panel(figure, Box(LEFT, top, WIDTH - RIGHT, top + tall), name, headed, axis.title * last)
             draw_panel(axes, panel, axis, language, limits)
             axes.tick_params(labelbottom=last)

@@ -25,7 +25,12 @@ from graphkin.words import Phrase, say, word
 JUMP = 1e-8
 """Of the range: so far on both sides of where a load begins or ends its two values are taken."""
 GROWS = 50.0
-"""Beside the samples next to an end of the motion: what grows more there goes away without bound."""
+"""Beside the samples next to an end of the motion, and of a hundred times nearer to a place inside: what grows more
+there goes away without bound."""
+BESIDE = np.array([1e-5, 1e-3])
+"""Of the range: so far beside a place inside it is seen whether a force grows without bound there."""
+UNKNOWN_HERE = 1e-5
+"""Of the range: an extreme this near to a sample without forces stands there."""
 NOUGHT = 1e-12
 """Of the greatest force or moment: less is nothing but rounding."""
 TICKS = 12
@@ -71,7 +76,8 @@ def jumps_of(curve: charts.Array) -> list[int]:
 
 def force_extremes(reach: DriverRange) -> dict[str, tuple[Quantity, tuple[Extreme, ...]]]:
     """Of each joint force by its size, each couple and balance that is not nought the greatest and the least over the
-    way of the driver (SI), infinite where it goes away without bound at an end of the motion.
+    way of the driver (SI), infinite where it goes away without bound, at an end of the motion or where a balance does
+    no work.
 
     Raises
     ------
@@ -97,23 +103,43 @@ def _extremes(
     axis: charts.DriverAxis, quantity: Quantity, offsets: charts.Array, values: charts.Array
 ) -> tuple[Extreme, ...]:
     """The greatest and the least of a force or moment (SI), one of a constant; infinite where it goes away without
-    bound at an end of the motion."""
+    bound, at an end of the motion or inside."""
     known = np.flatnonzero(np.isfinite(values))
     if not len(known):
         return ()
     if np.ptp(values[known]) <= NOUGHT * np.abs(values[known]).max():  # it is the same everywhere, but for rounding
         at, value = float(offsets[known[0]]), float(values[known[0]])
         return (Extreme("max", at, axis.driver(at), value),)
-    both = axis.extremes(quantity, offsets, values)
-    if axis.reach.full:
-        return both
     extremes = []
-    for extreme in both:
-        low, high = extreme.offset <= offsets[2], extreme.offset >= offsets[-3]
-        inside = float(np.nanmax(np.abs(values[3:6] if low else values[-6:-3]), initial=0.0))
-        away = (low or high) and abs(extreme.value) > GROWS * inside
+    for extreme in axis.extremes(quantity, offsets, values):
+        low, high = (False, False) if axis.reach.full else (extreme.offset <= offsets[2], extreme.offset >= offsets[-3])
+        if low or high:
+            inside = float(np.nanmax(np.abs(values[3:6] if low else values[-6:-3]), initial=0.0))
+            away = abs(extreme.value) > GROWS * inside
+        else:
+            extreme = _at_idle(axis, extreme, offsets[~np.isfinite(values)])
+            away = _grows_beside(axis, quantity, extreme.offset)
         extremes.append(replace(extreme, value=math.copysign(math.inf, extreme.value)) if away else extreme)
     return tuple(extremes)
+
+
+def _at_idle(axis: charts.DriverAxis, extreme: Extreme, unknown: charts.Array) -> Extreme:
+    """The extreme, at the place without forces that it comes nearest to, as where a balance does no work."""
+    distances = np.abs(unknown - extreme.offset)
+    if not len(unknown) or distances.min() > UNKNOWN_HERE * float(np.ptp(axis.reach.ends)):
+        return extreme
+    place = float(unknown[distances.argmin()])
+    return replace(extreme, offset=place, driver=axis.driver(place))
+
+
+def _grows_beside(axis: charts.DriverAxis, quantity: Quantity, place: float) -> bool:
+    """Whether a force grows without bound towards a place inside of the motion, as where a balance does no work: with
+    the distance from there, hundredfold where that is a hundredth."""
+    low, high = axis.reach.ends
+    beside = place + np.outer([-1.0, 1.0], BESIDE) * (high - low)
+    beside = (beside - low) % (high - low) + low if axis.reach.full else np.clip(beside, low, high)
+    near, far = np.abs(axis.values(quantity, beside.ravel())).reshape(beside.shape).T
+    return bool(np.any(near > GROWS * far))
 
 
 def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> chart.ChartPage:
@@ -127,7 +153,7 @@ def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> chart.C
     name = charts.force_symbol(scene, quantity.symbol)
     title = say(Phrase("polar diagram of", force=name), language)
     mark = "°" if scene.drivers[0].turns else f" {scene.units.length}"
-    facts = [f"{name}{word('colon', language)}{word('unbounded', language)}"]
+    facts = [f"{name}{word('colon', language)}{word(panel.without_bound, language)}"]
     if not panel.unbounded:
         k = int(np.nanargmax(sizes))
         size, place = f"{charts.number(float(sizes[k]))} {unit.text}", f"{charts.number(float(x[k]), 4)}{mark}"

@@ -113,7 +113,7 @@ def _forces(turn: TurnStudy) -> dict[str, Json]:
 
 
 def _bounded(value: float) -> dict[str, float | str | None]:
-    return {"value": value} if math.isfinite(value) else {"value": None, "why": _why_not(value)}
+    return {"value": value} if math.isfinite(value) else {"value": None, "why": word("grows without bound there", "en")}
 
 
 def _why_not(value: float) -> str:

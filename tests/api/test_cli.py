@@ -356,3 +356,19 @@ def test_a_figure_that_is_asked_for_and_cannot_be_drawn_is_told(tmp_path, scene,
     done = run("draw", scene, "--figure", missing or "cam", "-o", str(tmp_path))
     told = f"graphkin: figure {missing}: the scene has nothing of it to draw\n" if missing else ""
     assert (0, told) == (done.returncode, done.stderr)
+
+
+def test_a_sweep_names_the_files_that_it_wrote_and_no_others(tmp_path):
+    (tmp_path / "mine.txt").write_text("kept")
+    done = run("sweep", "four-bar-coupler-point", "--positions", "4", "-o", ".", cwd=tmp_path)
+    assert 0 == done.returncode, done.stderr
+    assert "\ntable.csv" in done.stdout
+    assert "mine.txt" not in done.stdout
+
+
+@pytest.mark.parametrize("values", ["a,b", "1:2", "-5"])
+def test_designs_that_are_no_scenes_are_a_wrong_call(tmp_path, values):
+    call = ["sweep", "four-bar-coupler-point", "--set", f"links.1.length={values}", "-o", "out"]
+    done = run(*call, cwd=tmp_path)
+    assert 2 == done.returncode
+    assert f"links.1.length: found {values.split(',')[0]}" in done.stderr.replace('"', "")

@@ -98,3 +98,53 @@ def test_both_values_of_a_load_that_begins_here_have_names():
     assert here["M_2"] != here["M_2+"]
     assert here["Fi_6"] == here["Fi_6+"]
     assert json.dumps(here)
+
+
+def idle(**tables):
+    """A slider-crank in its outer dead position, whose load on the crank a force on the slider shall balance."""
+    return {
+        "frame": {"name": "4", "points": {"A": [0, 0]}, "guides": {"h": {"through": "A", "angle": 0}}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 30},
+            "2": {"points": ["B", "C"], "length": 80},
+            "3": {"points": ["C"], "on": "4.h"},
+        },
+        "driver": {"link": "1", "angle": 0, "omega": 10},
+        "loads": {"P": {"on": "1", "moment": 4}},
+        "balance": {"on": "3", "at": "C", "angle": 180},
+        **tables,
+    }
+
+
+def test_what_moves_is_known_where_the_balance_does_no_work():
+    solved = graphkin.solve(idle(), find=["v_B", "omega_2"])
+    assert "ok" == solved.data["positions"][0]["status"]
+    assert 300 == pytest.approx(abs(solved["v_B"][0]), rel=1e-12)
+    assert ["ok"] * 4 == graphkin.solve(idle(), find="v_C", sweep=4).table["status"].tolist()
+    assert ["ok"] * 4 == graphkin.sweep(idle(), find=["v_C"], positions=4).table["status"].tolist()
+
+
+@pytest.mark.parametrize("find", [None, ["v_C", "F_1/2"]])
+def test_forces_that_are_asked_make_it_a_dead_point(find):
+    assert "dead point" == graphkin.solve(idle(), find=find).data["positions"][0]["status"]
+    with pytest.raises(graphkin.Unsolvable, match="dead point: the balance does no work") as stop:
+        graphkin.check(idle(), find=find)
+    assert "dead point" == stop.value.status
+
+
+def test_the_motion_is_drawn_without_the_figures_of_forces_that_there_are_not(tmp_path):
+    drawn = graphkin.draw(idle(), find=["v_B"], out=tmp_path)
+    assert drawn.ok
+    assert {"mechanism", "velocity", "sheet", "centres"} == set(drawn.figures)
+    assert ["forces", "lever"] == list(drawn.not_drawn)
+    with pytest.raises(graphkin.Unsolvable):
+        graphkin.draw(idle(), find=["v_B"], figures=["forces"], out=tmp_path)
+
+
+def test_a_force_goes_away_without_bound_where_the_balance_does_no_work():
+    swept = graphkin.sweep(idle(), positions=4)
+    forces = {name: force["extremes"] for name, force in swept.data["forces"].items()}
+    assert [None, pytest.approx(4000 / 30)] == [e["value"] for e in forces["F_1/2"]]
+    assert [pytest.approx(4000 / 50), pytest.approx(4000 / 110)] == [e["value"] for e in forces["F_4/3"]]
+    assert [pytest.approx(np.pi), 0] == [e["driver"] for e in forces["F_4/3"]]
+    assert "F_1/2 (N): grows without bound at 180°; minimum 133.333 @ " in swept.text
