@@ -8,29 +8,33 @@ Moving one thing, what is missed changes its sense between two neighbouring tria
 falsi).  Moving several, what is missed in one trial more than there are of them is taken to change evenly; the position
 so found takes the place of the trial that misses most (Hain, Applied Kinematics; Ortega and Rheinboldt, Iterative
 solution of nonlinear equations in several variables: the sequential secant method).
+
+At the scene's own position the gaps of trial drawings are closed over the whole range of a trial driver, or on a grid
+of several.
 """
 
 from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from itertools import chain, pairwise
+from functools import cache
+from itertools import chain, pairwise, product
 
 import numpy as np
 
-from graphkin.construction.follow import Pace, best_first, drawn_near, fitted, walk
 from graphkin.construction.instruments import EXACT
-from graphkin.construction.links_on_paper import PlacedLinks, Steps, drive, meet
+from graphkin.construction.links_on_paper import Pace, PlacedLinks, Steps, drive, meet, walk
 from graphkin.construction.proportional_division import divide, shares
-from graphkin.construction.reduced_mechanism import ReducedMechanism
+from graphkin.construction.reduced_mechanism import ReducedMechanism, best_first, drawn_near, fitted
 from graphkin.construction.steps import Bar, CompassArc, Missed, Step, Stroke, TrialCurve, TrialPositions, TrialRow
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Pose, Poses
 from graphkin.scene.model import Driver
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Driven
+from graphkin.search import last_true
+from graphkin.structure import Driven, Dyad
 from graphkin.words import Phrase
 
 POINTS = 7  # trial positions drawn
@@ -41,6 +45,9 @@ AT_ONCE = Pace(1.0, 1.0, math.inf, math.inf, 1.0 / 16)  # by which links known a
 BEFORE = 0.45  # part of the trial positions that lie before the place sought; so that none falls on it
 DIVISIONS, UNSEEN = 4, 0.02  # divisions at most, until so little (mm, degrees) is missed
 STEP = 0.06  # from trial to trial of several drivers (rad, or the mechanism's size), as many parts of it before
+GRID = 360  # trial values looked at over a turn
+COARSE = 12  # values of each of several trial drivers
+Branch = tuple[int, ...]  # which assembly each dyad of a reduced mechanism takes, in the order of drawing
 LEAST = 1e-3  # of the largest singular value: trials that tell less about one of what is moved are not divided
 
 
@@ -335,3 +342,126 @@ def _moved(known: PlacedLinks, reduced: ReducedMechanism, driver: Driver) -> tup
     if base in known.poses:  # a link that stands already: its angle is taken to the x axis
         return Symbol("theta", link=driver.link), cmath.phase(known.poses[base].axis)
     return Symbol("theta", link=driver.link, other="" if base == ground else base), 0.0
+
+
+# -- where the gaps of trial drawings close ----------------------------------------------------------------------------
+
+
+def all_fits(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[str, Pose]]:
+    """Every position of the trial drivers and every assembly of the trial dyads at which what was left out fits."""
+    if len(reduced.trial) == 1:
+        yield from fits_between(reduced, known, *_span(reduced, 0))
+    else:
+        yield from _on_a_grid(reduced, known)
+
+
+def _span(reduced: ReducedMechanism, i: int) -> tuple[float, float]:
+    """Where a trial driver may stand: a turn, or four sizes of the mechanism."""
+    return (-math.pi, math.pi) if reduced.trial[i].turns else (-2.0, 2.0)
+
+
+def _on_a_grid(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[str, Pose]]:
+    """Several trial drivers: each place of a grid improved."""
+    axes = []
+    for i in range(len(reduced.trial)):
+        start, end = _span(reduced, i)
+        axes.append([start + (end - start) * (n + 0.5) / COARSE for n in range(COARSE)])
+    trials = []
+    for values in product(*axes):
+        for branches, gaps in _gaps(reduced, known, values).items():
+            trials.append((max(abs(g) for g in gaps), values, branches))
+    trials.sort(key=lambda one: one[0])
+    for _, values, branches in trials[:200]:
+        paper = _drawn(reduced, known, values, branches)
+        if paper is None:
+            continue
+        near = fitted(reduced, known, paper.poses, values)
+        if near is not None:
+            yield near
+
+
+def fits_between(
+    reduced: ReducedMechanism, known: PlacedLinks, start: float, end: float
+) -> Iterator[dict[str, Pose]]:
+    """The positions between two values of the one trial driver in which what was left out fits."""
+    low, high = _span(reduced, 0)
+    parts = max(1, round(GRID * (end - start) / (high - low)))
+    grid = [start + (end - start) * i / parts for i in range(parts + 1)]
+    # a value is drawn once for all assemblies: where one cannot be drawn on, others often cannot either
+    drawn_at = cache(lambda value: _gaps(reduced, known, (value,)))
+    for branches in product((0, 1), repeat=sum(isinstance(e, Dyad) for e in reduced.elements)):
+
+        def gap(value: float, branches: Branch = branches) -> float:
+            return drawn_at(value).get(branches, (math.nan,))[0]
+
+        for one, two in pairwise((value, gap(value)) for value in grid):
+            closed = _closed_between(gap, one, two)
+            paper = None if closed is None else _drawn(reduced, known, (closed,), branches)
+            if paper is not None and abs(reduced.gaps(paper)[0]) < 1e-9:
+                yield reduced.put_back(paper)
+
+
+def _closed_between(
+    gap: Callable[[float], float], one: tuple[float, float], two: tuple[float, float]
+) -> float | None:
+    """The trial value at which a gap closes between two values with what each leaves open, nan of those that cannot be
+    drawn; None where it does not.  By proportional division, halving where that is slow (regula falsi, Illinois
+    variant)."""
+    (a, fa), (b, fb) = (two, one) if math.isnan(one[1]) else (one, two)
+    if math.isnan(fb) and not math.isnan(fa):  # up to the last that can be drawn
+        b = last_true(lambda values: np.array([not math.isnan(gap(float(value))) for value in values]), a, b, 2)
+        fb = gap(b)
+    # nan compares false; a gap that leaps has passed half a turn, not zero
+    if not fa * fb <= 0.0 or abs(fa - fb) > 1.0:
+        return None
+    side = 0
+    for _ in range(100):
+        c = (fa * b - fb * a) / (fa - fb) if fa != fb else (a + b) / 2
+        if not min(a, b) < c < max(a, b):
+            c = (a + b) / 2
+        fc = gap(c)
+        if fc == 0.0 or math.isnan(fc) or abs(b - a) <= 4e-16 * max(abs(a), abs(b), 1.0):
+            return c
+        if (fc > 0) == (fb > 0):
+            b, fb = c, fc
+            fa = fa / 2 if side == -1 else fa
+            side = -1
+        else:
+            a, fa = c, fc
+            fb = fb / 2 if side == 1 else fb
+            side = 1
+    return c
+
+
+def _gaps(reduced: ReducedMechanism, known: PlacedLinks, values: Sequence[float]) -> dict[Branch, list[float]]:
+    """The gaps in every assembly of the trial dyads at some values, those that cannot be drawn left out; a dyad is
+    drawn once for all assemblies of those after it."""
+    papers = each_assembly(reduced.opened(known, values), reduced.elements)
+    return {branches: reduced.gaps(paper) for branches, paper in papers}
+
+
+def each_assembly(
+    paper: PlacedLinks, elements: Sequence[Driven | Dyad], branches: Branch = (), only: Branch | None = None
+) -> Iterator[tuple[Branch, PlacedLinks]]:
+    """Every assembly of some dyads that can be drawn, or one ``only``, with the links as they then lie on the one
+    paper."""
+    if not elements:
+        yield branches, paper
+        return
+    element, *left = elements
+    if isinstance(element, Driven):
+        paper.poses[element.link], _ = drive(paper, element)
+        yield from each_assembly(paper, left, branches, only)
+        return
+    for branch, poses in enumerate(meet(paper, element).poses):
+        if only is None or only[len(branches)] == branch:
+            paper.poses.update(poses)
+            yield from each_assembly(paper, left, (*branches, branch), only)
+
+
+def _drawn(
+    reduced: ReducedMechanism, known: PlacedLinks, values: Sequence[float], branches: Branch
+) -> PlacedLinks | None:
+    """A trial drawing of the group; None where two loci do not meet."""
+    papers = each_assembly(reduced.opened(known, values), reduced.elements, only=branches)
+    return next((paper for _, paper in papers), None)

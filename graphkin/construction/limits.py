@@ -14,10 +14,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from graphkin.construction.follow import Choices, Pace, found_near, moved, walk
 from graphkin.construction.instruments import Instrument
-from graphkin.construction.links_on_paper import travel
-from graphkin.construction.position import Assembly, assembly_at, place, poses_at
+from graphkin.construction.links_on_paper import Pace, moved, travel, walk
+from graphkin.construction.position import Assembly, assembly_at, found_near, place, poses_at
+from graphkin.construction.reduced_mechanism import Choices
 from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import LimitPosition, Limits
 from graphkin.errors import Problem, Unsolvable

@@ -1,5 +1,5 @@
-"""Links on paper: where they lie, how hands prick and place them, how far what rolls has gone, and where the links of
-an element lie, lengths in mm.
+"""Links on paper: where they lie, how hands prick and place them, how far what rolls has gone, where the links of an
+element lie, and how links are followed from one position to another, lengths in mm.
 
 Of a driven link the angle or the travel is laid off.  For each kind of dyad compass arcs and ruler lines meet: a
 `Intersection` tells how well the two loci cross, the possible places of the links, and for each what was drawn.
@@ -441,6 +441,13 @@ def meet(paper: PlacedLinks, dyad: Dyad) -> Intersection:
     return _INTERSECTIONS[dyad.kind](paper, dyad, RigidBody(paper, dyad.first), RigidBody(paper, dyad.second))
 
 
+def met_near(paper: PlacedLinks, dyad: Dyad, guess: Poses) -> Poses | None:
+    """The assembly of a dyad that lies nearest to a guess."""
+    intersection = meet(paper, dyad)
+    branch = intersection.nearest(guess)
+    return None if branch is None else intersection.poses[branch]
+
+
 def refuse(structure: Structure, element: Dyad, intersection: Intersection) -> None:
     """Raise Unsolvable where the loci of a dyad miss each other ("not assembled") or only touch ("dead point")."""
     missed = intersection.gap < -1e-14 and not element.is_two_lines
@@ -507,3 +514,61 @@ def assembled(
 ) -> bool:
     """Place the links of all elements, as `assemble`; whether they could be."""
     return len(list(assemble(paper, elements, choose, rolled))) == len(elements)
+
+
+# -- from one position to another --------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Pace:
+    """How a motion is followed: its longest and its first step, so far from where it was expected a link may be found
+    (in the size of the mechanism; and at the first step), and the step below which it is taken to end."""
+
+    longest: float
+    first: float
+    surprise: float
+    at_first: float
+    shortest: float
+
+
+def walk(
+    near: Callable[[float, Poses, Poses], Poses | None], start: Poses, begin: float, end: float, pace: Pace
+) -> Iterator[tuple[float, Poses]]:
+    """The positions from one to another, each followed from the one before; they end where the motion does.
+
+    Parameters
+    ----------
+    near : the position at a place of the way near which it is guessed, and the one before; None where nothing fits
+    begin, end : places of the way
+    """
+    before, at, t = start, start, begin
+    step = last = pace.first
+    while t < end:
+        step = min(step, pace.longest, end - t)
+        going = t > begin
+        guess = _ahead(before, at, step / last) if going else at
+        found = near(t + step, guess, at)
+        if found is None or moved(guess, found) > (pace.surprise + 0.3 * moved(at, found) if going else pace.at_first):
+            step /= 2
+            if step < pace.shortest:
+                return
+            continue
+        before, at, t, last = at, found, (end if step >= end - t else t + step), step
+        step *= 2
+        yield t, at
+
+
+def _ahead(before: Poses, at: Poses, times: float) -> dict[str, Pose]:
+    """The next position if everything went on as in the last step."""
+    made = {}
+    for name, pose in at.items():
+        old = before[name]
+        axis = pose.axis * cmath.rect(1.0, cmath.phase(pose.axis / old.axis) * times)
+        made[name] = Pose(pose.origin + (pose.origin - old.origin) * times, axis / abs(axis))
+    return made
+
+
+def moved(one: Poses, other: Poses, size: float = 1.0) -> float:
+    """How far the link that moves most does (in the size of the mechanism, and its direction)."""
+    apart = (abs(p.origin - other[n].origin) / size + abs(p.axis - other[n].axis) for n, p in one.items())
+    return max(apart, default=0.0)

@@ -19,18 +19,20 @@ from itertools import product
 from typing import TYPE_CHECKING
 
 from graphkin.construction.elements import draw_element
-from graphkin.construction.follow import Choices
+from graphkin.construction.group_position import each_assembly
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import PlacedLinks, reading, stuck, travel
 from graphkin.construction.polygons import AS_DRAWN, RATE, OwnValues, Polygons, draw_asked
-from graphkin.construction.position import Assembly, assembly_at, cams_in_place, each_assembly, own_position, place
+from graphkin.construction.position import Assembly, assembly_at, cams_in_place, own_position, place
+from graphkin.construction.reduced_mechanism import Choices
 from graphkin.construction.scales import Room, Scales, chosen_scales
 from graphkin.construction.sheet import Board, GroupWay, Limits, Sheet, without_residues
-from graphkin.construction.steps import DIAGRAMS, ORDERS, Order, Step
+from graphkin.construction.steps import ORDERS, Order, Step
 from graphkin.construction.vector_graph import VectorChain, contacts_of
 from graphkin.errors import Unsolvable
 from graphkin.plane import Poses, dot
 from graphkin.scene.model import Loading, Mechanism
+from graphkin.scene.scene_tables import DIAGRAMS
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.structure import (
     Driven,

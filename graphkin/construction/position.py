@@ -1,11 +1,10 @@
 """The mechanism on paper: every link placed by compass and ruler, in the order of solution, and in which assembly: the
 scene's own position as it is meant, others followed from it.
 
-Where larger groups lie is found by trial drawings (method of trial positions).  The trial driver of a reduced mechanism
-is moved until what was left out fits; from one position of the real driver to the next the trial starts where the last
-one ended.  At the scene's own position the gaps of trial drawings are closed over the whole range of a trial driver, on
-a grid of several, or at trial values that the sketch of the problem tells: two sketched points of a link tell its
-direction, sliding pairs and driven angles that of others.
+Larger groups are found by trial drawings: from one position of the driver to the next the trial starts where the last
+one ended.  At the scene's own position all places are found at which a group closes, or trial drawings begin at values
+that the sketch of the problem tells: two sketched points of a link tell its direction, sliding pairs and driven angles
+that of others.
 """
 
 from __future__ import annotations
@@ -14,16 +13,13 @@ import cmath
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cache
-from itertools import combinations, pairwise, product
+from itertools import combinations
 
-import numpy as np
-
-from graphkin.construction.follow import Choices, best_reduced, fitted, moved, moved_to, standing
-from graphkin.construction.group_position import place_by_trial, trial_steps
+from graphkin.construction.group_position import all_fits, each_assembly, place_by_trial, trial_steps
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import (
     Intersection,
+    Pace,
     PlacedLinks,
     Steps,
     assemble,
@@ -32,17 +28,29 @@ from graphkin.construction.links_on_paper import (
     drive,
     meant,
     meet,
+    met_near,
+    moved,
     refuse,
+    rolled_near,
     start_board,
     stuck,
     travel,
+    walk,
 )
-from graphkin.construction.reduced_mechanism import ReducedMechanism
+from graphkin.construction.reduced_mechanism import (
+    Choices,
+    ReducedMechanism,
+    best_reduced,
+    best_trial,
+    closed_from,
+    fitted,
+    standing,
+)
 from graphkin.construction.sheet import Board
 from graphkin.construction.steps import FINDS_A_POINT, Mark, Reason, Step
+from graphkin.errors import Unsolvable
 from graphkin.plane import Pose, Poses, added_up, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.search import last_true
 from graphkin.structure import (
     Driven,
     Dyad,
@@ -56,14 +64,14 @@ from graphkin.structure import (
     needed,
     pick,
 )
+from graphkin.structure.assembly import out_of_reach, ways
 from graphkin.words import Phrase
 
 TRIALS = 3  # trial drivers used, one after the other, to find all assemblies
 TWINS = 1e-6  # of the size: as near as this places are the same
 ROUGHLY = 0.1  # of the size: so far off a sketch may be
-GRID = 360  # trial values looked at over a turn
-COARSE = 12  # values of each of several trial drivers
-Branch = tuple[int, ...]  # which assembly each dyad of a reduced mechanism takes, in the order of drawing
+STEP, LONG_STEP = math.radians(2.0), math.radians(8.0)  # of the driver at most, with larger groups and without
+SURPRISE = 1e-3  # so far from where it was expected a link may be found, in the size of the mechanism
 
 
 @dataclass(frozen=True)
@@ -259,7 +267,67 @@ def cams_in_place(
     return analyse(replace(cams_replaced(scene, in_metres, values, bars), starts=starts))
 
 
-# -- the scene's own position: all the places at which the groups close -----------------------------------------------
+# -- others, followed from a known one ---------------------------------------------------------------------------------
+
+
+def moved_to(
+    choices: Choices, elements: Sequence[Element], own: Mapping[str, float], values: Mapping[str, float], poses: Poses
+) -> dict[str, Pose]:
+    """All links at driver values, from where they lie at others (``own``), on paper of the mechanism's size.
+
+    Raises
+    ------
+    Unsolvable : "not assembled": the motion does not reach the values; the message gives the limit
+    """
+    scene = choices.structure.scene
+    first, goal = [own[d.key] for d in scene.drivers], [values[d.key] for d in scene.drivers]
+    limits: list[Mapping[str, float]] = []
+    for way in ways(scene.drivers, first, goal, choices.structure.rolls):
+        target = dict(zip((d.key for d in scene.drivers), way, strict=True))
+        length = max(abs(target[d.key] - own[d.key]) / d.span(scene.size) for d in scene.drivers)
+        longest = 1.0 / max(1, math.ceil(length / (STEP if choices.of else LONG_STEP)))
+        # nothing says yet where the links go: the first step is small
+        pace = Pace(longest, longest / 64, SURPRISE, SURPRISE, longest / 1e10)
+
+        def at(part: float, target: Mapping[str, float] = target) -> dict[str, float]:
+            return {k: own[k] + part * (target[k] - own[k]) for k in own}
+
+        def near(part: float, guess: Poses, there: Poses, at: Callable[[float], dict[str, float]] = at) -> Poses | None:
+            return found_near(choices, elements, at(part), guess, there)
+
+        part, found = [(0.0, poses), *walk(near, poses, 0.0, 1.0, pace)][-1]
+        if part == 1.0:
+            return dict(found)
+        limits.append(at(part))
+    raise Unsolvable("not assembled", out_of_reach(scene, dict(zip(own, goal, strict=True)), limits))
+
+
+def found_near(
+    choices: Choices, elements: Sequence[Element], values: Mapping[str, float], guess: Poses, start: Poses | None = None
+) -> dict[str, Pose] | None:
+    """All links of the elements at driver values near which a position is guessed, on paper of the mechanism's size;
+    None where nothing fits near by.  What rolls is followed from ``start``."""
+    structure = choices.structure
+    ground = structure.scene.frame.name
+    values = structure.followed(values)
+    paper = PlacedLinks(structure.links, 1.0 / structure.scene.size, values, {ground: Pose(0j, 1 + 0j)})
+    from_there = guess if start is None else start
+
+    def choose(_: int, element: Dyad | LargerGroup) -> Poses | None:
+        if isinstance(element, Dyad):
+            return met_near(paper, element, guess)
+        trial = best_trial(choices, element, paper, guess)
+        if trial is not None and element.rolling:
+            return fitted(choices.last[element].rolled_from(from_there, paper.mm), paper, guess)
+        return None if trial is None else closed_from(trial, paper, guess)
+
+    def rolled(driver: Rolled) -> float:
+        return rolled_near(structure, paper, driver, from_there, guess)
+
+    return dict(paper.poses) if assembled(paper, elements, choose, rolled) else None
+
+
+# -- the scene's own position ------------------------------------------------------------------------------------------
 
 
 def own_position(
@@ -390,126 +458,3 @@ def _without_twins(
         if all(apart > TWINS * structure.scene.size for apart in twins):
             kept.append((poses, places))
     return [poses for poses in found if any(poses is one for one, _ in kept)]
-
-
-# -- where the gaps of trial drawings close ----------------------------------------------------------------------------
-
-
-def all_fits(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[str, Pose]]:
-    """Every position of the trial drivers and every assembly of the trial dyads at which what was left out fits."""
-    if len(reduced.trial) == 1:
-        yield from fits_between(reduced, known, *_span(reduced, 0))
-    else:
-        yield from _on_a_grid(reduced, known)
-
-
-def _span(reduced: ReducedMechanism, i: int) -> tuple[float, float]:
-    """Where a trial driver may stand: a turn, or four sizes of the mechanism."""
-    return (-math.pi, math.pi) if reduced.trial[i].turns else (-2.0, 2.0)
-
-
-def _on_a_grid(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[str, Pose]]:
-    """Several trial drivers: each place of a grid improved."""
-    axes = []
-    for i in range(len(reduced.trial)):
-        start, end = _span(reduced, i)
-        axes.append([start + (end - start) * (n + 0.5) / COARSE for n in range(COARSE)])
-    trials = []
-    for values in product(*axes):
-        for branches, gaps in _gaps(reduced, known, values).items():
-            trials.append((max(abs(g) for g in gaps), values, branches))
-    trials.sort(key=lambda one: one[0])
-    for _, values, branches in trials[:200]:
-        paper = _drawn(reduced, known, values, branches)
-        if paper is None:
-            continue
-        near = fitted(reduced, known, paper.poses, values)
-        if near is not None:
-            yield near
-
-
-def fits_between(
-    reduced: ReducedMechanism, known: PlacedLinks, start: float, end: float
-) -> Iterator[dict[str, Pose]]:
-    """The positions between two values of the one trial driver in which what was left out fits."""
-    low, high = _span(reduced, 0)
-    parts = max(1, round(GRID * (end - start) / (high - low)))
-    grid = [start + (end - start) * i / parts for i in range(parts + 1)]
-    # a value is drawn once for all assemblies: where one cannot be drawn on, others often cannot either
-    drawn_at = cache(lambda value: _gaps(reduced, known, (value,)))
-    for branches in product((0, 1), repeat=sum(isinstance(e, Dyad) for e in reduced.elements)):
-
-        def gap(value: float, branches: Branch = branches) -> float:
-            return drawn_at(value).get(branches, (math.nan,))[0]
-
-        for one, two in pairwise((value, gap(value)) for value in grid):
-            closed = _closed_between(gap, one, two)
-            paper = None if closed is None else _drawn(reduced, known, (closed,), branches)
-            if paper is not None and abs(reduced.gaps(paper)[0]) < 1e-9:
-                yield reduced.put_back(paper)
-
-
-def _closed_between(
-    gap: Callable[[float], float], one: tuple[float, float], two: tuple[float, float]
-) -> float | None:
-    """The trial value at which a gap closes between two values with what each leaves open, nan of those that cannot be
-    drawn; None where it does not.  By proportional division, halving where that is slow (regula falsi, Illinois
-    variant)."""
-    (a, fa), (b, fb) = (two, one) if math.isnan(one[1]) else (one, two)
-    if math.isnan(fb) and not math.isnan(fa):  # up to the last that can be drawn
-        b = last_true(lambda values: np.array([not math.isnan(gap(float(value))) for value in values]), a, b, 2)
-        fb = gap(b)
-    # nan compares false; a gap that leaps has passed half a turn, not zero
-    if not fa * fb <= 0.0 or abs(fa - fb) > 1.0:
-        return None
-    side = 0
-    for _ in range(100):
-        c = (fa * b - fb * a) / (fa - fb) if fa != fb else (a + b) / 2
-        if not min(a, b) < c < max(a, b):
-            c = (a + b) / 2
-        fc = gap(c)
-        if fc == 0.0 or math.isnan(fc) or abs(b - a) <= 4e-16 * max(abs(a), abs(b), 1.0):
-            return c
-        if (fc > 0) == (fb > 0):
-            b, fb = c, fc
-            fa = fa / 2 if side == -1 else fa
-            side = -1
-        else:
-            a, fa = c, fc
-            fb = fb / 2 if side == 1 else fb
-            side = 1
-    return c
-
-
-def _gaps(reduced: ReducedMechanism, known: PlacedLinks, values: Sequence[float]) -> dict[Branch, list[float]]:
-    """The gaps in every assembly of the trial dyads at some values, those that cannot be drawn left out; a dyad is
-    drawn once for all assemblies of those after it."""
-    papers = each_assembly(reduced.opened(known, values), reduced.elements)
-    return {branches: reduced.gaps(paper) for branches, paper in papers}
-
-
-def each_assembly(
-    paper: PlacedLinks, elements: Sequence[Driven | Dyad], branches: Branch = (), only: Branch | None = None
-) -> Iterator[tuple[Branch, PlacedLinks]]:
-    """Every assembly of some dyads that can be drawn, or one ``only``, with the links as they then lie on the one
-    paper."""
-    if not elements:
-        yield branches, paper
-        return
-    element, *left = elements
-    if isinstance(element, Driven):
-        paper.poses[element.link], _ = drive(paper, element)
-        yield from each_assembly(paper, left, branches, only)
-        return
-    for branch, poses in enumerate(meet(paper, element).poses):
-        if only is None or only[len(branches)] == branch:
-            paper.poses.update(poses)
-            yield from each_assembly(paper, left, (*branches, branch), only)
-
-
-def _drawn(
-    reduced: ReducedMechanism, known: PlacedLinks, values: Sequence[float], branches: Branch
-) -> PlacedLinks | None:
-    """A trial drawing of the group; None where two loci do not meet."""
-    papers = each_assembly(reduced.opened(known, values), reduced.elements, only=branches)
-    return next((paper for _, paper in papers), None)

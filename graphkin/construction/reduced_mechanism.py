@@ -3,6 +3,7 @@
 With constraints of the group removed (bars, blocks or drivers) and as many trial drivers in their stead, every part is
 a dyad and can be drawn; the right values of the trial drivers are those at which what was removed fits (method of trial
 positions; Hain, Applied Kinematics; 试凑法).  The fewest constraints that do are removed.
+From a trial drawing near the place sought the right values are found by the gaps that it leaves.
 """
 
 from __future__ import annotations
@@ -11,18 +12,41 @@ import cmath
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from itertools import combinations, islice
 from typing import Literal
 
-from graphkin.construction.links_on_paper import PlacedLinks, across, reading, travel
+import numpy as np
+from numpy.typing import NDArray
+
+from graphkin.construction.links_on_paper import PlacedLinks, across, assembled, met_near, moved, reading, travel
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Pose, Poses, cross, cross_lines, unit
 from graphkin.scene.model import Driver
-from graphkin.structure import Driven, Dyad, LargerGroup, Pair, RollingRelation, Structure, regrouped, unrolled, without
+from graphkin.structure import (
+    Driven,
+    Dyad,
+    Element,
+    LargerGroup,
+    Pair,
+    RollingRelation,
+    Structure,
+    regrouped,
+    started,
+    unrolled,
+    without,
+)
 from graphkin.words import Phrase
 
 MOST_REMOVED = 4
 MOST_KEPT = 24  # reduced mechanisms with several trial drivers that are looked at
+FIT = 1e-12  # what is left out fits, in the size of the mechanism
+NUDGE = 1e-4  # of the trial driver, to see how the gap changes
+ROUNDS = 30
+POOR = 0.01  # below this more constraints are removed than it takes
+GOOD = 0.3  # a reduced mechanism as good as this is taken without a look at the others
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -321,3 +345,198 @@ class RemovedConstraint:
         (slide,) = self.slides
         rail = self._slid(slide, poses) if slide.b == self.left_out else poses[slide.b]
         return rail.axis * slide.guide.direction
+
+
+# -- trial drawings ----------------------------------------------------------------------------------------------------
+
+
+class Choices:
+    """The reduced mechanisms of each larger group of a mechanism, and which of them serve now."""
+
+    def __init__(self, structure: Structure, elements: Sequence[Element]) -> None:
+        self.structure, self.elements = structure, elements
+        wanted = [c for c in structure.larger_groups if c in elements]
+        self.of: Mapping[LargerGroup, list[ReducedMechanism]] = {c: reduced_mechanisms(structure, c) for c in wanted}
+        self.last: dict[LargerGroup, ReducedMechanism] = {}
+        self._further: dict[LargerGroup, list[ReducedMechanism]] = {}
+
+    @cached_property
+    def at_start(self) -> Choices:
+        """Of the mechanism at the scene's own position, where what rolls and moves each other stands as it is given;
+        these themselves where there is nothing of it."""
+        if not any(group.starts for group in self.structure.larger_groups):
+            return self
+        there = started(self.structure)
+        wanted = {n for element in self.elements for n in element.members}
+        return Choices(there, [e for e in there.elements if wanted.intersection(e.members)])
+
+    def further(self, group: LargerGroup) -> list[ReducedMechanism]:
+        """Those with more constraints removed than it takes, for where the others are at dead points."""
+        if group not in self._further:
+            try:
+                fewest = len(self.of[group][0].removed)
+                self._further[group] = reduced_mechanisms(self.structure, group, fewest)
+            except Unsolvable:
+                self._further[group] = []
+        return self._further[group]
+
+
+@dataclass(frozen=True)
+class _Tried:
+    """A trial drawing of a larger group: the trial values, what is drawn, the gaps that it leaves, how these change
+    with the values, and how well it finds the group (0: not at all)."""
+
+    reduced: ReducedMechanism
+    at: Array
+    drawn: PlacedLinks
+    gap: Array
+    slope: Array
+    quality: float
+
+
+def _tried(
+    reduced: ReducedMechanism, known: PlacedLinks, guess: Poses, values: Sequence[float] | None = None
+) -> _Tried | None:
+    """A trial drawing near a guess; a small gap shall mean a small error of every link, and no link outrun the trial
+    driver by much."""
+    at = np.array(reduced.values(guess, known.mm) if values is None else values)
+    one = drawn_near(reduced, known, guess, at)
+    if one is None:
+        return None
+    group = {n: pose for n, pose in one.poses.items() if n in reduced.group.members}
+    gap = np.array(reduced.gaps(one))
+    quality, slopes, each = 1.0, [], []
+    size = known.mm * reduced.structure.scene.size
+    for step in NUDGE * np.eye(len(at)):
+        two = drawn_near(reduced, known, guess, at + step)
+        if two is None:
+            return None
+        slopes.append((np.array(reduced.gaps(two)) - gap) / NUDGE)
+        grown = max(moved(group, two.poses, size), 1e-12) / NUDGE
+        each.append(slopes[-1] / grown)
+        quality = min(quality, 2.0 / grown)
+    least = float(np.linalg.svd(np.array(each), compute_uv=False)[-1]) if len(at) > 1 else abs(float(each[0][0]))
+    return _Tried(reduced, at, one, gap, np.array(slopes).T, quality * least)
+
+
+def fitted(
+    reduced: ReducedMechanism, known: PlacedLinks, guess: Poses, values: Sequence[float] | None = None
+) -> dict[str, Pose] | None:
+    """A larger group near a guess: the trial values by proportional division of the gaps that trial drawings leave,
+    again and again (secant; with several trial drivers that of Broyden, Math. Comp. 19, 1965)."""
+    if not reduced.trial:  # everything stands as it is given
+        drawn = drawn_near(reduced, known, guess, ())
+        return None if drawn is None else reduced.put_back(drawn)
+    start = _tried(reduced, known, guess, values)
+    return None if start is None else closed_from(start, known, guess)
+
+
+def closed_from(start: _Tried, known: PlacedLinks, guess: Poses) -> dict[str, Pose] | None:
+    """``fitted`` from a trial drawing on."""
+    reduced, at, one, gap, slope = start.reduced, start.at, start.drawn, start.gap, start.slope
+    for _ in range(ROUNDS):
+        try:
+            step = np.linalg.solve(slope, -gap)
+        except np.linalg.LinAlgError:
+            break
+        if not np.abs(step).max() <= 1.0:
+            break  # nowhere near, or nothing but rounding is left
+        two = drawn_near(reduced, known, guess, at + step)
+        if two is None:
+            break
+        new = np.array(reduced.gaps(two))
+        if np.abs(new).max() >= np.abs(gap).max() and np.abs(gap).max() < FIT:
+            return reduced.put_back(one)
+        if not step.any():
+            break
+        slope = slope + np.outer(new - gap - slope @ step, step) / (step @ step)
+        at, one, gap = at + step, two, new
+        if not gap.any():
+            break
+    return reduced.put_back(one) if np.abs(gap).max() < FIT else None
+
+
+def drawn_near(
+    reduced: ReducedMechanism, known: PlacedLinks, guess: Poses, values: Sequence[float] | np.ndarray
+) -> PlacedLinks | None:
+    """A trial drawing of a group, each dyad in the assembly nearest to a guess."""
+    paper = reduced.opened(known, [float(v) for v in values])
+
+    def choose(_: int, dyad: Dyad | LargerGroup) -> Poses | None:
+        assert isinstance(dyad, Dyad)
+        return met_near(paper, dyad, guess)
+
+    return paper if assembled(paper, reduced.elements, choose) else None
+
+
+def best_reduced(choices: Choices, group: LargerGroup, known: PlacedLinks, guess: Poses) -> ReducedMechanism | None:
+    """The reduced mechanism that finds the group well; None where all are at dead points."""
+    return None if best_trial(choices, group, known, guess) is None else choices.last[group]
+
+
+def best_trial(choices: Choices, group: LargerGroup, known: PlacedLinks, guess: Poses) -> _Tried | None:
+    """The trial drawing by it, which is the last of the choices then."""
+    last = choices.last.get(group)
+    best = _tried(last.rolled_from(guess, known.mm), known, guess) if last is not None else None
+    if best is not None and best.quality > GOOD / 2:
+        return best
+    best = _best_of(choices.of[group], known, guess)
+    if best is None or best.quality < POOR:
+        further = _best_of(choices.further(group), known, guess)
+        if further is not None and (best is None or further.quality > best.quality):
+            best = further
+    if best is not None:
+        choices.last[group] = best.reduced
+    return best
+
+
+def _best_of(candidates: Sequence[ReducedMechanism], known: PlacedLinks, guess: Poses) -> _Tried | None:
+    best: _Tried | None = None
+    for reduced in candidates:
+        now = _tried(reduced.rolled_from(guess, known.mm), known, guess)
+        if now is not None and now.quality > (0.0 if best is None else best.quality):
+            best = now
+            if now.quality > GOOD:
+                break
+    return best
+
+
+def best_first(
+    structure: Structure, group: LargerGroup, known: PlacedLinks, guess: Poses
+) -> Iterator[ReducedMechanism]:
+    """The reduced mechanisms that can be drawn, those first that find the group best; those with the fewest constraints
+    removed before the others."""
+    choices = Choices(structure, [group])
+    for some in (choices.of[group], choices.further(group)):
+        tried = (_tried(reduced.rolled_from(guess, known.mm), known, guess) for reduced in some)
+        for one in sorted(filter(None, tried), key=lambda one: -one.quality):
+            yield one.reduced
+
+
+def standing(choices: Choices, group: LargerGroup, known: PlacedLinks, guess: Poses) -> ReducedMechanism | None:
+    """A group in which links roll and move each other at the scene's own position, ``choices`` being of the mechanism
+    that drivers hold there: without its rolling.  None where all are at dead points."""
+    removed: list[RemovedConstraint] = []
+    trial: list[Driver] = []
+    drawn: list[Driven | Dyad] = []
+    held: dict[str, tuple[str, float]] = {}
+    before = replace(known, poses=dict(known.poses))
+    mine = [e for e in choices.structure.elements if set(e.members) <= set(group.members)]
+    for k, element in enumerate(mine):
+        if isinstance(element, LargerGroup):
+            # what later ones hang on is not left out
+            wanted = {name for later in mine[k + 1 :] for name in later.outside}
+            few_or_more = (choices.of[element], choices.further(element))
+            served = ([r for r in some if wanted.isdisjoint(x.left_out for x in r.removed)] for some in few_or_more)
+            found = (_best_of(some, before, guess) for some in served)
+            best = next((one for one in found if one is not None), None)
+            if best is None:
+                return None
+            removed += best.reduced.removed
+            trial += best.reduced.trial
+            drawn += best.reduced.elements
+            held.update(best.reduced.held)
+        else:
+            drawn.append(element)
+        before.poses.update({name: guess[name] for name in element.members})
+    return ReducedMechanism(choices.structure, tuple(removed), tuple(trial), group, tuple(drawn), held=held)

@@ -6,9 +6,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from typing import Literal
 
-from graphkin.construction.steps import DIAGRAMS, DiagramName
 from graphkin.scene.model import Mechanism
+from graphkin.scene.scene_tables import DIAGRAMS, Diagram
 
 SERIES = (1.0, 2.0, 2.5, 5.0)
 UNMET = 40.0  # what a wish that a room does not hold costs, as `Room.cost`
@@ -63,7 +64,7 @@ class Scales:
     acceleration: float
     force: float = 0.0
 
-    def of(self, diagram: DiagramName) -> float:
+    def of(self, diagram: Diagram | Literal["force"]) -> float:
         return self.length if diagram == "mechanism" else getattr(self, diagram)
 
 
@@ -83,7 +84,7 @@ class Room:
     keeps_wishes: bool = False
 
 
-def chosen_scales(scene: Mechanism, extents: Mapping[DiagramName, Extent], room: Room | None) -> Scales:
+def chosen_scales(scene: Mechanism, extents: Mapping[Diagram, Extent], room: Room | None) -> Scales:
     """The scene's own scales, and for those it does not give the finest of the series that fit the room."""
     fast = scene.units.rates.metres
     sheet = scene.question.sheet

@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Literal
 from graphkin.construction.instruments import EXACT_NAME, Instrument
 from graphkin.construction.scales import Extent, Room, Scales, chosen_scales
 from graphkin.construction.steps import (
-    DIAGRAMS,
     ORDERS,
     Arrow,
     Cause,
@@ -33,6 +32,7 @@ from graphkin.construction.touching import Touching, outlines_on_paper
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.plane import Pose, cross, cross_lines
 from graphkin.scene.model import Mechanism
+from graphkin.scene.scene_tables import DIAGRAMS, Diagram
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import leading, links_for
 from graphkin.structure.model import Element, LargerGroup, Structure
@@ -335,7 +335,7 @@ class Sheet:
                         yield stroke
 
     @cached_property
-    def extents(self) -> dict[DiagramName, Extent]:
+    def extents(self) -> dict[Diagram, Extent]:
         """Width and height of the mechanism and of both polygons, poles included, by which scales are chosen: special
         points left out, but with vectors seen from held links, and trial polygons a little smaller."""
         special = {step.point for step in self.steps if step.reason in ("special point", "pitch point")}
@@ -344,7 +344,7 @@ class Sheet:
             per = 1.0 / self.scales.length
             places += (z for outline in outlines_on_paper(self.scene, self.poses, per).values() for z in outline)
             places += Touching(self.scene, per, self.poses).outermost()
-        extents: dict[DiagramName, Extent] = {"mechanism": Extent.around(places, self.scales.length)}
+        extents: dict[Diagram, Extent] = {"mechanism": Extent.around(places, self.scales.length)}
         for order in ORDERS:
             drawn: list[Arrow] = [*self.vectors(order).values(), *self.vectors_seen(order)]
             true, every = (

@@ -15,6 +15,7 @@ from operator import mul
 from typing import Any, Literal, Self, TypeAlias, TypeVar
 
 from graphkin.plane import Pose
+from graphkin.scene.scene_tables import Diagram
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, gaps_of, listed, sense_of, word
 from graphkin.words.written import MOST, amount, computed, figures, increase, on_paper, product, true_minus
@@ -196,8 +197,7 @@ class Term(OnPaper):
 
 # -- steps -------------------------------------------------------------------------------------------------------------
 
-DiagramName = Literal["mechanism", "velocity", "acceleration", "force"]
-DIAGRAMS: tuple[DiagramName, ...] = ("mechanism", "velocity", "acceleration")
+DiagramName = Diagram | Literal["force"]
 Verb = Literal["mark", "lay off", "line", "cross", "image", "read", "join", "carry over", "trial", "divide"]
 Reason = Role | Literal[
     "frame", "points", "whole link", "pitch point", "letter",  # mark

@@ -8,10 +8,9 @@ from typing import Literal, TypeAlias
 
 from graphkin.construction import Plan, Room, plan
 from graphkin.construction.scales import Scales
-from graphkin.construction.steps import DIAGRAMS
 from graphkin.drawing.box import Box
 from graphkin.scene.model import Mechanism
-from graphkin.scene.scene_tables import PAPERS
+from graphkin.scene.scene_tables import DIAGRAMS, PAPERS
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Structure
 

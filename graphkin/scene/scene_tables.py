@@ -459,7 +459,8 @@ Convention = Literal["chinese", "us", "british", "russian"]
 EndName = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z][A-Za-z0-9@/_]*$", max_length=80)]
 Range = Annotated[List[Number], Rule(min_length=2, max_length=2)]
 Keys = List[Annotated[str, StringConstraints(strict=True, max_length=80)]]
-Drawing = Literal["mechanism", "velocity", "acceleration"]
+Diagram = Literal["mechanism", "velocity", "acceleration"]
+DIAGRAMS: tuple[Diagram, ...] = ("mechanism", "velocity", "acceleration")
 Level = Literal["easy", "usual", "hard"]
 PAPERS = {
     "A5": (148.0, 210.0), "A4": (210.0, 297.0), "A3": (297.0, 420.0), "A2": (420.0, 594.0), "A1": (594.0, 841.0),
@@ -563,7 +564,7 @@ class SceneTables(FileTable):
     printed: dict[str, Stated] = key(default_factory=dict)
     printed_rows: tuple[dict[str, Stated], ...] = ()
     printed_table: PrintedTable | None = None
-    scans: dict[Drawing, ReadScan] = key(default_factory=dict)
+    scans: dict[Diagram, ReadScan] = key(default_factory=dict)
     positions: Positions | None = None
     loops: dict[LinkName, PointNames] = key(closed=True, default_factory=dict)
     cams: dict[LinkName, Cam] = key(closed=True, default_factory=dict)

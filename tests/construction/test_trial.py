@@ -11,7 +11,7 @@ import pytest
 
 import graphkin
 from graphkin import solver
-from graphkin.construction import position
+from graphkin.construction import group_position
 from graphkin.construction.centres import find_centres, measured
 from graphkin.construction.plan import draft
 from graphkin.construction.reduced_mechanism import reduced_mechanisms
@@ -121,11 +121,11 @@ def test_a_fit_next_to_the_last_value_that_can_be_drawn_is_found(last, sense, mo
     def drawn(reduced, known, values, branches):
         return values[0] if sense * values[0] <= last else None
 
-    monkeypatch.setattr(position, "_drawn", drawn)
-    monkeypatch.setattr(position, "_gaps", lambda reduced, known, values: (
+    monkeypatch.setattr(group_position, "_drawn", drawn)
+    monkeypatch.setattr(group_position, "_gaps", lambda reduced, known, values: (
         {} if drawn(reduced, known, values, ()) is None else {(): reduced.gaps(values[0])}
     ))  # fmt: skip
     reduced = SimpleNamespace(
         elements=(), trial=(SimpleNamespace(turns=True),), gaps=lambda at: [sense * at - fit], put_back=lambda at: at
     )
-    assert [pytest.approx(sense * fit, rel=1e-12)] == list(position.fits_between(reduced, None, -0.1, 0.1))
+    assert [pytest.approx(sense * fit, rel=1e-12)] == list(group_position.fits_between(reduced, None, -0.1, 0.1))

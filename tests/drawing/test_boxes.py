@@ -13,10 +13,10 @@ from graphkin.drawing import figures
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import Block, column, foot, framed, heading, page, pages, panel, prose, row, rows, table
 from graphkin.drawing.figures import figure_kinds
-from graphkin.drawing.figures.diagrams import DIAGRAMS
 from graphkin.drawing.ink.primitives import Line, Polygon, Text, walk
 from graphkin.drawing.place.piece import Piece, ink_box
 from graphkin.drawing.text import text_box
+from graphkin.scene.scene_tables import DIAGRAMS
 from graphkin.words import word
 
 LONG = "the velocity polygon turned by 90 degrees is a rigid lever about its pole " * 3

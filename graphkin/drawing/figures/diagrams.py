@@ -46,9 +46,9 @@ from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, m
 from graphkin.drawing.text import text_box
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.scene.model import Mechanism
+from graphkin.scene.scene_tables import DIAGRAMS
 from graphkin.words import languages
 
-DIAGRAMS: tuple[DiagramName, ...] = ("mechanism", "velocity", "acceleration")
 ROOM = 12.0  # mm around the figure, for names
 
 
