@@ -1,4 +1,4 @@
-"""What a problem says: the scene, its file format and how it is read.
+"""The scene: its file format and how it is read.
 
 Where the format leaves something open, the reader decides as follows.
 
@@ -14,22 +14,23 @@ Where the format leaves something open, the reader decides as follows.
   each other by rounding touch.
 - A guide with ``angle`` and ``toward`` is given twice; both must agree.
 - Between the same two links there is one sliding pair at most, and none where a common point pins them.
-- A length left out is the distance of drawn or fixed points only, never of points that follow from a driver.
+- A length may be left out between drawn or fixed points only, never between points that follow from a driver.
 - Where a drawn position leaves the direction of a swinging guide open, what slides on it (the first in the file)
   lies on its positive side.  A link with one own point, all else of which is drawn and nothing measured from its
   axis, has its x axis toward the first drawn point.
 - A guide with ``centre`` and ``r`` is a slot along a circle: a pin in it is moved by a bar from the centre, a link by
   the guide's name (counted as a higher pair); a link with ``on`` turns about the centre, which lies to the left of the
   guide's sense, and ``angle_on`` counts from that sense.  ``ends`` only say how far it is drawn.
-- Two statements of one thing are compared where they act: an angle by how far it moves the points that gave it.
+- Two statements of one quantity are compared by their effect: an angle by the distance that it moves the points that
+  gave it.
 - Of a driver written as ``[[driver]]``, ``driver.2`` in a message is the second; so are items of lists.
 - ``[printed]`` and ``[[printed_rows]]`` take names as people write them too (``ω₃``, ``omega3``, ``v_B3``),
   and texts with unit, sense and direction (``"0.483 m/s ←"``, ``"2.82 cw"``).
 - ``[printed]`` takes negative numbers for vectors too (a signed velocity of a slider); one number is a magnitude.
-- A misspelt key is reported, and read as the key that was meant for the sake of the other messages.
+- A misspelt key is reported, and read as the key that was meant, so that the other messages stay true.
 - Limits: 1 MB, 200 moving links, 100 points and guides a link, names of 40 and titles of 300 characters, numbers
   up to 1e15, lengths from 1e-15.
-- A file with a byte order mark is read.  A file is taken before a scene of the same name that comes along.
+- A file with a byte order mark is read.  A file goes before a bundled scene of the same name.
 """
 
 from __future__ import annotations

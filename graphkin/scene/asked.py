@@ -1,4 +1,4 @@
-"""What a scene file asks for, what was published about it, and the positions and loops that it names."""
+"""The questions of a scene file, the values published for it, and the positions and loops that it names."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ Stated = float | str | Sequence[float]
 
 
 def _symbol(where: str, text: str, reading: Reading) -> Symbol | Problem:
-    """A symbol whose points, links and position exist, or what is wrong with it first."""
+    """A symbol whose points, links and position exist, or its first problem."""
     symbol = known_symbol(where, text[:120], reading.no_link, reading.no_point, reading.points, reading.positions)
     return symbol if isinstance(symbol, Symbol) else symbol[0]
 
 
 def spelling_of(scene: Mechanism) -> Spelling:
-    """What reads the names of a scene's quantities as people write them."""
+    """The reader of a scene's quantities by names as people write them."""
     from graphkin.scene.spelling import Spelling
 
     points = {link.name: tuple(link.points) for link in (scene.frame, *scene.links)}
@@ -42,15 +42,15 @@ def spelling_of(scene: Mechanism) -> Spelling:
 
 
 def asked(reading: Reading) -> tuple[Symbol, ...]:
-    """The symbols of ``find``, each once, in its order; what is wrong with them is noted."""
+    """The symbols of ``find``, each once, in its order; their problems are noted."""
     symbols = [_symbol(path_name(("find", text)), text, reading) for text in reading.file.find or ()]
     reading.wrong(*(s for s in symbols if isinstance(s, Problem)))
     return tuple(dict.fromkeys(s for s in symbols if isinstance(s, Symbol)))
 
 
 def stated_values(reading: Reading) -> tuple[StatedValues, ...]:
-    """All values that somebody states: ``[printed]``, ``[[printed_rows]]``, and the file of ``[printed_table]``; what
-    is wrong with them is noted."""
+    """All stated values: ``[printed]``, ``[[printed_rows]]``, and the file of ``[printed_table]``; their problems are
+    noted."""
     file, positions = reading.file, reading.positions
     stated = []
 
@@ -83,7 +83,7 @@ def stated_values(reading: Reading) -> tuple[StatedValues, ...]:
 def _values(table: str, values: Mapping[str, Stated], reading: Reading) -> dict[Symbol, Printed]:
     """Stated values by symbol, each as a number or as people write it in a cell (``"0.483 m/s"``, ``"2.82 cw"``).
 
-    A name that is no symbol may be one as people spell it, with a unit (``ω₃``, ``"v_B (m/s)"``).
+    A name that is no symbol may be a spelling of one, with a unit (``ω₃``, ``"v_B (m/s)"``).
     """
     printed: dict[Symbol, Printed] = {}
     for text, value in values.items():
@@ -137,7 +137,7 @@ def _digits_of(number: float) -> str:
 
 
 def positions_named(table: Positions, reading: Reading) -> Positions:
-    """The positions that a scene names, in SI; what is wrong with them is noted."""
+    """The positions that a scene names, in SI; their problems are noted."""
     slides = reading.along
     if any(driver.law is not None for driver in reading.drivers.values()):
         reading.say("positions", "stand beside a driver with a law", "name a moment at time 0.25")
@@ -177,7 +177,7 @@ def at_its_position(driver: Driver, positions: Positions) -> Driver:
 
 
 def loops_named(reading: Reading) -> dict[str, tuple[str, ...]]:
-    """The vector loops that a scene names; what is wrong with their points is noted."""
+    """The vector loops that a scene names; problems of their points are noted."""
     loops = reading.file.loops
     for name, points in loops.items():
         where = f"loops.{name}"

@@ -1,8 +1,8 @@
 """The bodies of a scene file and what joins them: the frame and the moving links, their points, guides and outlines;
-sliding pairs, pins in slots; whether what refers to them finds them, and whether every link is held.
+sliding pairs, pins in slots; and the checks that references name existing things and that every link is held.
 
-What a file says as people measure and draw it (circular slots, carriages with two pins) is written first as the
-tables that say the same by links, lengths and angles.
+Circular slots and carriages with two pins, which people measure and draw, are first replaced by tables of links,
+lengths and angles.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def listed(refs: str | Sequence[str] | None) -> list[str]:
 
 
 def references(entry: object) -> tuple[str, ...]:
-    """The points of a link from which one is placed."""
+    """The points of a link from which an entry places a point."""
     if isinstance(entry, Polar):
         return (entry.origin,) if entry.toward is None else (entry.origin, entry.toward)
     return tuple(entry.origins) if isinstance(entry, Compass) else ()
@@ -46,8 +46,8 @@ def references(entry: object) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class Reading:
-    """A file under reading, the paths of what was taken out of it, and the problems found so far, to which each reader
-    adds its own; and what was read of it already.
+    """A file under reading, the paths of the entries taken out of it, the problems so far, to which each reader adds
+    its own, and the parts that are read already.
 
     ``frame``, ``links`` and ``pins`` are the tables of the file, with bars in place of circular ``slots``;
     ``slides`` are its sliding pairs and pins in slots; ``places`` the points of each link in its own
@@ -119,8 +119,8 @@ class Reading:
 
     @cached_property
     def unsure(self) -> frozenset[str]:
-        """The links of which a wrong entry was taken out that may have held names, so that a name not found there is no
-        second problem; "" stands for all links."""
+        """The links that lost a wrong entry with names in it, so that a name missing there is no second problem; ""
+        stands for all links."""
         harmless = {"length", "on", "angle_on", "redundant"}
         damaged = {str(p[1]) for p in self.lost if p[0] == "links" and len(p) == 3 and p[2] not in harmless}
         unsure = self.lost_names("links") | damaged
@@ -129,7 +129,7 @@ class Reading:
         return frozenset(unsure | {""} if unsure else unsure)
 
     def lost_under(self, *prefix: str) -> bool:
-        """True where something at or under this path, or a table that holds it, was taken out."""
+        """Whether an entry at or under this path, or a table that holds it, was taken out."""
         n = len(prefix)
         return any(p[:n] == prefix or p == prefix[: len(p)] for p in self.lost)
 
@@ -149,13 +149,13 @@ class Reading:
         self.problems.append(Problem(where, found, wanted, **gaps))
 
     def wrong(self, *problems: Problem | None) -> bool:
-        """Note what of these is a problem; whether there is one."""
+        """Note the problems among these; whether there is any."""
         there = [problem for problem in problems if problem is not None]
         self.problems.extend(there)
         return bool(there)
 
     def no_link(self, where: str, name: str, moving: bool = False) -> Problem | None:
-        """The problem of a link that does not exist, None if it does; ``moving`` where the frame would not do."""
+        """The problem of a link that does not exist, None if it does; ``moving`` where the frame is not allowed."""
         if name in self.points or ("" in self.unsure and self.frame.name in self.unsure):
             return None
         known = [link for link in self.points if not (moving and link == self.frame.name)]
@@ -190,7 +190,7 @@ class Reading:
 
 
 def check_own_points(reading: Reading) -> None:
-    """Note what is wrong with the own points of the links."""
+    """Note the problems of the links' own points."""
     frame, say = reading.frame.name, reading.say
     if frame in reading.links:
         say("frame.name", "the frame is named as a moving link", "give the frame a name of its own", frame=frame)
@@ -244,7 +244,7 @@ def check_references(reading: Reading) -> None:
 
 
 def _circle_of_references(link: Link) -> list[str]:
-    """Points of ``at`` that are placed from one another in a circle, [] if there is no circle."""
+    """Points of ``at`` that are placed from each other in a circle, [] if there is no circle."""
     needs = {point: set(refs) for point, entry in link.at.items()
              if point not in link.points and (refs := references(entry))}
     left = set(needs)
@@ -343,8 +343,8 @@ def _pin_problem(
 def islands(reading: Reading) -> list[tuple[str, ...]]:
     """The sets of links that no chain of joints connects with the frame, in the order of the file.
 
-    A link that does not exist is taken for the one with the nearest name; empty where there is none near, since it may
-    stand for the one that seems unheld.
+    A link that does not exist is taken for the link with the nearest name; without such a name nothing is returned,
+    since the misspelt link may be the link that seems unheld.
     """
     slides = [(name, ref) for name, link in reading.links.items() for ref in listed(link.on)]
     slides += [(pin.of, ref) for pin in reading.pins.values() for ref in listed(pin.slots)]
@@ -378,7 +378,7 @@ def islands(reading: Reading) -> list[tuple[str, ...]]:
 
 
 def not_held(group: tuple[str, ...], frame: str) -> Problem:
-    """The problem of links that nothing holds."""
+    """The problem of links that no joint connects with the frame."""
     hint = Phrase("share a point with another link or slide", frame=frame)
     if len(group) == 1:
         return Problem(f"links.{group[0]}", "nothing holds this link", hint)

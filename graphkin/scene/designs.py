@@ -1,8 +1,8 @@
-"""Design files: what a mechanism shall do, from which its lengths are to be found; found, read, every problem of a file
-told at once.
+"""Design files: a task that a mechanism shall fulfil, from which its lengths are found; all problems of a file are told
+at once.
 
-Each kind of task is a table whose fields are the keys of ``[design]``.  A wish that no mechanism can meet is not asked
-here: a file may be right and its wish impossible.
+Each kind of task is a table whose fields are the keys of ``[design]``.  A wish that no mechanism can meet is no problem
+of the file.
 """
 
 from __future__ import annotations
@@ -97,7 +97,7 @@ class BarPlace(FileTable):
     angle: Number | None = None
 
     def moved(self, place: complex, to: BarPlace) -> complex:
-        """Where a place carried along with the bar lies when the bar lies ``to``."""
+        """The place of a point carried along with the bar when the bar lies ``to``."""
         turn = (to.C - to.B) / (self.C - self.B)
         return to.B + (place - self.B) * turn / abs(turn)
 
@@ -132,7 +132,7 @@ KINDS: dict[str, type[DesignTask]] = {
 
 @file_table
 class _DesignTables(FileTable):
-    """A design file but for its task."""
+    """A design file without its task."""
 
     title: Text = ""
     title_zh: Text = ""
@@ -166,12 +166,12 @@ def _shelf() -> Traversable:
 
 
 def designs() -> tuple[str, ...]:
-    """Names of the design files that come along, sorted."""
+    """Names of the bundled design files, sorted."""
     return files_named(_shelf())
 
 
 def is_design(source: object) -> bool:
-    """Whether this is a design file, the name of one that comes along, or a mapping of the same shape, and no scene."""
+    """Whether this is a design file, the name of a bundled one, or a mapping of the same shape, and no scene."""
     if isinstance(source, Mapping):
         return "design" in source and "links" not in source
     if not isinstance(source, str | os.PathLike):
@@ -191,11 +191,11 @@ def design_of(source: DesignLike) -> Design:
 
     Parameters
     ----------
-    source : a path, the name of a design that comes along, or what a TOML parser makes of a design file
+    source : a path, the name of a bundled design, or the mapping that a TOML parser makes of a design file
 
     Raises
     ------
-    SceneError : everything that is wrong with the file
+    SceneError : with all problems of the file
     """
 
     if isinstance(source, Design):
@@ -231,7 +231,7 @@ def _read(raw: Tables, name: str) -> Design:
 
 
 def _task(raw: OwnTables, problems: list[Problem]) -> DesignTask | None:
-    """The task that a table says; None where something is wrong with it, which is added to ``problems``."""
+    """The task of a table; None where it has problems, which are added to ``problems``."""
     kind = raw.pop("kind", None)
     if kind is None:
         problems.append(Problem("design.kind", "is missing", "one of", names=", ".join(KINDS)))
@@ -251,7 +251,7 @@ def _task(raw: OwnTables, problems: list[Problem]) -> DesignTask | None:
 
 
 def _kind_meant(kind: str) -> Wording:
-    """The kinds that there are, the nearest first."""
+    """All kinds, the nearest first."""
     hint, known = did_you_mean(kind, KINDS), Phrase("the kinds are", names=", ".join(KINDS))
     return Phrase("two sentences", first=hint, second=known) if hint.key == "did you mean" else known
 
@@ -296,7 +296,7 @@ def _bar_positions(task: BarPositionsTask, problems: list[Problem]) -> BarPositi
 
 
 def scene_table(design: Design, lengths: Mapping[str, float], places: Mapping[str, complex]) -> dict[str, Json]:
-    """The scene of a mechanism that was found, as a mapping, in the position in which its points lie at ``places``.
+    """The scene of a designed mechanism, as a mapping, in the position with its points at ``places``.
 
     Frame 0, crank 1, coupler or block 2, output 3 (slider, rocker, guide bar), of a guide bar rod 4 and ram 5.
     """

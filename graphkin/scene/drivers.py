@@ -1,10 +1,10 @@
-"""What drives a mechanism, read from its file: an angle or a travel, its rates, or the law by which it moves over the
-time; and how a mechanism stands at a moment of such laws.
+"""The drivers of a mechanism, read from its file: an angle or a travel, its rates, or its law over time; and the
+mechanism at a moment of such laws.
 
 With ``from = "dead point"`` a driver's angle or travel is the distance from a dead point of the mechanism, given
 without loss however small it is: positive beyond a dead point at which the motion begins (as the driver's value grows),
 negative before one where it ends; at a change point, through which the motion goes on, either.  ``near`` (degrees, or
-travel) tells which one is meant where there are several.
+travel) chooses one where there are several.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ from graphkin.words import Phrase, alternatives
 
 
 def drives(reading: Reading) -> dict[str, model.Driver]:
-    """The drivers of the file by their places in it; what is wrong with them is noted.
+    """The drivers of the file by their places in it; their problems are noted.
 
-    The value of one that is to be taken from the drawn points, or from a named position, is not a number.
+    A value that follows from the drawn points, or from a named position, is not a number.
     """
     drivers: dict[str, model.Driver] = {}
     tables = reading.drivers
@@ -73,7 +73,7 @@ def drives(reading: Reading) -> dict[str, model.Driver]:
 
 
 def _law(where: str, driver: Driver | DrivenSlide, reading: Reading) -> MotionLaw | None:
-    """How a driver moves over the time, at the moment that the file asks."""
+    """The law of a driver, at the moment that the file asks for."""
     if driver.law is None:
         if driver.time is not None:
             reading.say(f"{where}.time", "tells the moment of a law", "write law with it")
@@ -120,7 +120,7 @@ def _origin_problems(where: str, driver: Driver | DrivenSlide, reading: Reading)
 
 
 def _angle_problems(where: str, driver: Driver, reading: Reading, lost: set[str]) -> Iterator[Problem]:
-    """What is wrong with a driven angle of which the keys ``lost`` were taken out."""
+    """The problems of a driven angle whose keys ``lost`` were taken out."""
     links, frame = reading.links, reading.frame.name
     for name, link in (("link", driver.link), ("relative_to", driver.relative_to)):
         if link is None:
@@ -164,7 +164,7 @@ def _angle_problems(where: str, driver: Driver, reading: Reading, lost: set[str]
 
 
 def _position_problems(where: str, i: int, driver: Driver, reading: Reading) -> Iterator[Problem]:
-    """What is wrong with driver number i, which names its position."""
+    """The problems of driver number i, which names its position."""
     named, here, known = str(driver.position), f"{where}.position", reading.positions
     positions = reading.file.positions or Positions()
     if i > 0:
@@ -181,7 +181,7 @@ def _position_problems(where: str, i: int, driver: Driver, reading: Reading) -> 
 
 
 def _pair_of(where: str, driver: DrivenSlide, reading: Reading, lost: set[str]) -> str:
-    """The key of the pair that a table drives, as far as it is known; what is wrong with it is noted."""
+    """The key of the pair that a table drives, if it is known; its problems are noted."""
     if driver.velocity is None and driver.law is None and not lost & {"velocity", "law"}:
         reading.say(f"{where}.velocity", "is missing", "write velocity per second it may be 0")
     what, _, on = driver.slide.partition("/")
@@ -210,7 +210,7 @@ def _pair_of(where: str, driver: DrivenSlide, reading: Reading, lost: set[str]) 
 
 
 def _driven_twice(where: str, name: str, base: str, before: Mapping[str, model.Driver]) -> list[Problem]:
-    """What a driver does that another does already; ``base`` is "" of a travel."""
+    """The problem of a motion that another driver gives already; ``base`` is "" for a travel."""
     for place, other in before.items():
         if other.key == name:
             what = Phrase("link of name", name=name) if base else name
@@ -225,9 +225,9 @@ def _driven_twice(where: str, name: str, base: str, before: Mapping[str, model.D
 
 
 def placed_driver(where: str, driver: model.Driver, value: float, reading: Reading) -> model.Driver:
-    """The driver with its value, and the rates that its law gives it there; what is wrong is noted.
+    """The driver with its value, and with the rates by its law there; problems are noted.
 
-    ``value`` is what the file or its drawn points give (rad, m); not a number where they give none.
+    ``value`` comes from the file or its drawn points (rad, m); it is not a number where they give none.
     """
     # where drawn points are wrong, that they give no value is no second problem
     problems = [] if reading.problems and (reading.file.drawn or reading.lost_under("drawn")) else reading.problems
@@ -259,7 +259,7 @@ def placed_driver(where: str, driver: model.Driver, value: float, reading: Readi
 
 
 def stated_driver(table: Driver | DrivenSlide, driver: model.Driver, units: Units) -> Driver | DrivenSlide:
-    """The table of a driver with its value and rates as they are; of one that moves by a law, with its moment."""
+    """The table of a driver with its present value and rates; with a law, at its present moment."""
     value, rate, second = (None, None, 0.0) if driver.law is not None else driver.values
     time = None if driver.law is None else driver.law.time
     made: Driver | DrivenSlide
@@ -274,7 +274,7 @@ def stated_driver(table: Driver | DrivenSlide, driver: model.Driver, units: Unit
 
 
 def motion_law(where: str, law: DriverLaw, unit: float, reading: Reading) -> MotionLaw | None:
-    """The law that a driver's table says, in rad or m and s; what is wrong with it is noted."""
+    """The law in a driver's table, in rad or m and s; its problems are noted."""
     ways = {
         "table": bool(law.table),
         "pieces": bool(law.pieces),
@@ -369,18 +369,18 @@ def moves_by_law(scene: Mechanism) -> bool:
 
 
 def asked_time(scene: Mechanism) -> float:
-    """The moment (s) at which the scene stands as it is: that of its first law."""
+    """The moment (s) of the scene's position: the moment of its first law."""
     return next((d.law.time for d in scene.drivers if d.law is not None), 0.0)
 
 
 def time_span(scene: Mechanism) -> tuple[float, float]:
-    """The moments (s) from which and to which laws say how drivers move."""
+    """The first and the last moment (s) of the drivers' laws."""
     laws = [d.law for d in scene.drivers if d.law is not None]
     return min(law.pieces[0].start for law in laws), max(law.duration for law in laws)
 
 
 def moments(scene: Mechanism, count: int) -> tuple[float, ...]:
-    """So many moments (s), evenly from the beginning of the laws to their end."""
+    """``count`` moments (s), evenly from the beginning of the laws to their end."""
     low, high = time_span(scene)
     return (*(low + (high - low) * k / max(count - 1, 1) for k in range(count - 1)), high)
 
@@ -388,7 +388,7 @@ def moments(scene: Mechanism, count: int) -> tuple[float, ...]:
 def at_time(scene: Mechanism, time: float) -> tuple[Mechanism, dict[str, float]]:
     """The scene with the rates of its drivers at a moment (s), and their values (rad, m) by their keys.
 
-    A driver without a law goes on from its own value, at the moment that the scene asks, with its omega and alpha.
+    A driver without a law moves on from its value at the scene's moment with its omega and alpha.
 
     Raises
     ------

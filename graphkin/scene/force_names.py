@@ -1,4 +1,4 @@
-"""Which joints carry forces in a mechanism, and which forces and moments it has, by name."""
+"""The joints of a mechanism that carry forces, and its forces and moments by name."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from graphkin.scene.symbol import PointRef, Symbol
 
 @dataclass(frozen=True)
 class ForceJoint:
-    """A joint, with a force of link ``first`` on link ``second``: a turning pair or a pin in a slot at ``point``, or a
-    sliding pair (``point`` is the sliding link's first point, or empty), or a cam (``first``) with its follower, or
-    what slides or rolls on each other, or meshes, in a contact or gear ``point``.  ``second`` slides, or has the pin.
+    """A joint, with a force of link ``first`` on link ``second``: a turning pair or a pin in a slot at ``point``, a
+    sliding pair (``point`` is the sliding link's first point, or empty), a cam (``first``) with its follower, or a
+    contact or gear ``point``.  ``second`` slides, or has the pin.
 
     several : whether the two share further joints
     """
@@ -76,16 +76,15 @@ def forces_named(mechanism: Mechanism) -> tuple[Symbol, ...]:
 
 
 def force_of(mechanism: Mechanism, symbol: Symbol) -> Symbol | None:
-    """A force or moment as the mechanism has it, or its opposite, which tells whether a load is a moment; None for one
-    that it does not have."""
+    """A force or moment of the mechanism or its opposite, with the mark of a load that is a moment; None for a name
+    that the mechanism does not have."""
     plain = replace(symbol, at="", plus=False, axis="")
     known = next((force for force in forces_named(mechanism) if force in (plain, plain.opposite)), None)
     return known and replace(symbol, turning=known.turning)
 
 
 def no_force(mechanism: Mechanism, where: str, symbol: Symbol) -> Problem | None:
-    """What is wrong with a symbol of a force or a flywheel that the mechanism does not have; None for one that it
-    has."""
+    """The problem of a symbol of a force or a flywheel that the mechanism does not have; None if it has it."""
     if symbol.scope == "cycle" and mechanism.loading.flywheel is None:
         return Problem(where, "belongs to a flywheel but there is none", "give flywheel", symbol=symbol)
     if not symbol.is_load:

@@ -93,15 +93,16 @@ are extreme at their ends."""
 
 
 def form_of(by: str | None) -> str:
-    """The name of a law, however people write it: "3-4-5" is "345"; "" of a dwell."""
+    """The name of a law in its plain spelling: "3-4-5" is "345"; "" for a dwell."""
     return (by or "").replace("-", "")
 
 
 @dataclass(frozen=True)
 class LiftPiece:
     """A piece of a law between two angles of the cam (rad) or moments (s), from one value to another (m or rad); ``by``
-    is the law, "" of a dwell.  Its ``parts`` have derivatives of every order: the piece itself, or of a parabolic piece
-    the halves, told by ``which``.  Between two rows of a table it is the cubic with these ``rates`` at its ends."""
+    is the law, "" for a dwell.  Its ``parts`` have derivatives of every order: the piece itself, or of a parabolic
+    piece the halves, told by ``which``.  Between two rows of a table it is the cubic with these ``rates`` at its
+    ends."""
 
     start: float
     end: float
@@ -143,7 +144,7 @@ class LiftPiece:
 
     @property
     def _bends(self) -> tuple[float, float]:
-        """Of a cubic the factors of the square and of the cube of the time since its start."""
+        """The factors of the square and the cube of the time since the start of a cubic."""
         (first, last), wide = self.rates or (0.0, 0.0), self.end - self.start
         mean = (self.high - self.low) / wide
         return (3 * mean - 2 * first - last) / wide, (first + last - 2 * mean) / wide**2
@@ -216,7 +217,7 @@ class FollowerLaw:
 class MotionLaw:
     """A driver's value (rad, m) over the time (s), which begins at 0; a seam belongs to the later piece.
 
-    ``time`` is the moment that is asked.
+    ``time`` is the moment of the question.
 
     >>> law = MotionLaw((LiftPiece(0.0, 2.0, 1.0, 4.0, "harmonic"),))
     >>> law.at(1.0).lift, round(law.at(1.0).slope, 6), law.reached(2.5)

@@ -1,4 +1,4 @@
-"""What a mechanism weighs and carries, read from its file: masses, loads, springs, gravity, balance and flywheel.
+"""Masses, loads, springs, gravity, balance and flywheel of a mechanism, read from its file.
 
 In a file forces are in its force unit, moments in it times metre, masses in its mass unit, angles in degrees.
 """
@@ -23,7 +23,7 @@ TURN = math.tau * (1 + 1e-12)
 
 
 def loading_of(reading: Reading) -> Loading:
-    """What the tables of a file say of forces; what is wrong is noted."""
+    """The causes of forces in the tables of a file; their problems are noted."""
     file = reading.file
     g = file.gravity.g if file.gravity else STANDARD_GRAVITY
     down = g * direction(file.gravity.angle) if file.gravity else 0j
@@ -43,7 +43,7 @@ def loading_of(reading: Reading) -> Loading:
 
 
 def _not_moving(reading: Reading, where: str, link: str) -> bool:
-    """Whether this is no moving link, which is noted."""
+    """Note a name that is no moving link; whether it is so."""
     if reading.wrong(reading.no_link(where, link)):
         return True
     if link == reading.frame.name:
@@ -122,7 +122,7 @@ def _load(reading: Reading, name: str, load: Load) -> LoadOn | None:
 
 
 def _spring(reading: Reading, name: str, table: Spring) -> SpringOn | None:
-    """A spring, whose name is none of a load."""
+    """A spring; it may not have the name of a load."""
     where, say, known = f"springs.{name}", reading.say, len(reading.problems)
     if name in reading.file.loads:
         say(where, "a load is called too", "another name both would be p_", name=name)
@@ -147,8 +147,7 @@ def _spring(reading: Reading, name: str, table: Spring) -> SpringOn | None:
 
 
 def _end(reading: Reading, where: str, point: str, link: str) -> str:
-    """The link that an end of a spring is on: as it is said, or the first that has the point, the frame if it
-    does."""
+    """The link of a spring's end: the given link, or the first link with the point, the frame before others."""
     if not link:
         missing = reading.wrong(reading.no_point(f"{where}.between", point))
         order = [reading.frame.name, *(n for n, each in reading.links.items() if not each.redundant)]
@@ -192,7 +191,7 @@ def _phase(reading: Reading, where: str, when: LoadPhase) -> LoadPhase | None:
 
 
 def _balance(reading: Reading, table: Balance | None) -> LoadOn | None:
-    """What balances, of no size yet."""
+    """The balancing load, its size still unknown."""
     if table is None or _not_moving(reading, "balance.on", table.on):
         return None
     say, si = reading.say, in_si(table, reading.units)

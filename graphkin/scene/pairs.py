@@ -1,5 +1,5 @@
-"""The pairs of a mechanism, in SI units: what slides on a guide or runs in a slot, what touches or meshes, and what a
-cam moves by a law.
+"""The pairs of a mechanism, in SI units: sliding pairs, pins in slots, contacts, gears, and cams with the laws of their
+followers.
 
 A hollow outline (a ring) has a negative radius.  With the signs of the radii two discs touch, inside or outside, where
 their centres are r1 + r2 apart, and the point of contact parts the line of centres as r1 : r2.
@@ -32,7 +32,7 @@ class PlacedGuide:
 
     ``name`` is "" for the link's own x axis.  ``through`` (m) is the guide's origin, from which travel
     counts; ``direction`` is a unit complex number, its sense.  With a ``curvature`` (1/m, positive where it bends to
-    the left of its sense) it is the tangent of a curved one at what slides there now.
+    the left of its sense) it is the tangent of a curved guide at the point that slides there now.
     """
 
     name: str
@@ -77,7 +77,7 @@ class SlidingPair:
 class CircularSlot:
     """A slot of link ``on`` along a circle about its point ``centre`` (``radius`` in m), in which ``point`` runs.
 
-    ``bar`` is the link that moves it so: one that replaces a pin in the slot, or the block itself (``block``).
+    ``bar`` is the link that guides the point: a bar in place of a pin in the slot, or the block itself (``block``).
     ``ends`` are the angles (rad, from the own x axis of ``on``) between which it is drawn, if the file has them.
     """
 
@@ -158,9 +158,9 @@ class PlacedContact:
 class PlacedGear:
     """Two wheels with teeth: pitch circles that roll on each other, their axes held by ``carrier``.
 
-    ``teeth`` are numbers with signs (negative: internal), None for a rack; ``axes`` the points of the wheels' axes on
-    the carrier (and on the wheels), "" for a rack, whose pitch line is ``guide`` of the second link and whose sliding
-    pair with the carrier is ``slide``.
+    ``teeth`` are numbers of teeth with signs (negative: internal), None for a rack; ``axes`` the points of the wheels'
+    axes on the carrier (and on the wheels), "" for a rack, whose pitch line is ``guide`` of the second link and whose
+    sliding pair with the carrier is ``slide``.
     """
 
     name: str
@@ -209,7 +209,8 @@ class SwingingFollower:
 
 class Course(NamedTuple):
     """The follower's point from the cam's axis (m), its first to third derivative by the cam's own angle, and the
-    direction in which it moves, unit; complex, or arrays of complex numbers.  ``turning`` is how fast that turns."""
+    direction in which it moves, unit; complex, or arrays of complex numbers.  ``turning`` is the rate at which that
+    direction turns."""
 
     point: Values
     first: Values
@@ -240,7 +241,7 @@ class LawCam:
 
     The cam degree is ``sense`` times the link's own angle.  ``base`` is the radius of the base circle of the pitch
     curve (of the profile, where the face is flat), ``roller`` 0 of a knife edge or a flat face (m); ``allowed`` are the
-    greatest pressure angles of rise and fall (rad), where they are given.
+    greatest pressure angles of rise and fall (rad), if the file gives them.
     """
 
     link: str
@@ -261,7 +262,7 @@ class LawCam:
 
     @property
     def key(self) -> str:
-        """What it is told from drivers by."""
+        """The key by which it is distinguished from drivers."""
         return f"cam {self.link}"
 
     @property
@@ -297,7 +298,7 @@ class LawCam:
         return min(self.sense * end % math.tau for end in ends)
 
     def course(self, lift: Lift, exp: Callable[[Values], Values] = cmath.exp) -> Course:
-        """The follower's point where it has some lift.  Raises Unsolvable as `beginning`.
+        """The follower's point at a lift.  Raises Unsolvable as `beginning`.
 
         Parameters
         ----------
@@ -323,7 +324,7 @@ class LawCam:
 
         Parameters
         ----------
-        units : in which the message tells lengths
+        units : units of lengths in the message
 
         Raises
         ------
@@ -348,7 +349,7 @@ class LawCam:
         raise Unsolvable("not assembled", Problem(f"cams.{self.link}", said, wanted))
 
     def follower_at(self, angle: float) -> float:
-        """Where the follower stands at an angle of the cam's own axis (rad): the travel of its sliding pair (m), or the
+        """The follower's place at an angle of the cam's own axis (rad): the travel of its sliding pair (m), or the
         angle of its own axis (rad).  Raises Unsolvable as `beginning`."""
         motion, moved = self.motion, self.beginning() + float(self.law.at(self.sense * angle).lift)
         if isinstance(motion, SlidingFollower):

@@ -1,5 +1,5 @@
 """Pictures that a scene file names: a photograph or scan to lie under the mechanism, laid by two points, and scans of
-drawings to be judged, with what was read off them.
+drawings to be judged, with their readings.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ TURNED = 0x0112
 
 
 def scans_of(reading: Reading) -> tuple[PlacedScan, ...]:
-    """The scans of a file; what is wrong with them is noted."""
+    """The scans of a file; their problems are noted."""
     made = []
     for diagram, scan in reading.file.scans.items():
         where, before = f"scans.{diagram}", len(reading.problems)
@@ -43,7 +43,7 @@ def scans_of(reading: Reading) -> tuple[PlacedScan, ...]:
 
 
 def background_of(wish: Background, known: Mapping[str, complex], reading: Reading) -> PlacedBackground | None:
-    """The picture that a file asks for, laid by two points whose places (m) are known; None where something is wrong,
+    """The picture that a file asks for, laid by two points whose places (m) are known; None where there is a problem,
     which is noted."""
     where, before = "sheet.background", len(reading.problems)
     picture = _picture(f"{where}.file", wish.file)

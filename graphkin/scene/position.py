@@ -1,8 +1,8 @@
-"""Where the points and guides of a file lie: in their link's own axes, from the ways in which a file may give them, and
-at the scene's own position, as far as the file says it outright; and whether what it gives twice agrees.
+"""The places of a file's points and guides: in their link's own axes, from every form in which a file may give them,
+and at the scene's own position, if the file gives it; and the check that data given twice agree.
 
-The functions that place one thing answer with a plane vector (m), None while something that it refers to is not known
-yet, or a ``Problem`` where what is known does not fit.
+A function that places a point or a guide returns a plane vector (m), None while a reference of it is still unknown, or
+a ``Problem`` where the data contradict each other.
 """
 
 from __future__ import annotations
@@ -142,7 +142,7 @@ direction in its axes, and the angle as a unit complex number."""
 
 
 def bodies_of(reading: Reading, drawn: Places) -> dict[str, Placement]:
-    """Every link with its own points placed, where its length is known; what is wrong with them is noted.
+    """Every link with its own points placed, if its length is known; their problems are noted.
 
     ``drawn`` are the drawn points (m).
     """
@@ -200,7 +200,7 @@ def _fixed(reading: Reading) -> dict[str, complex]:
 
 @dataclass
 class DrawnPosition:
-    """What is known of the scene's own position while it is being collected.
+    """The known part of the scene's own position while it is collected.
 
     ``drawn`` are the places of points that the file draws in the world, ``given`` these and the fixed ones, ``places``
     also those found from them (m).
@@ -228,7 +228,7 @@ class DrawnPosition:
 
     @property
     def tolerance(self) -> float:
-        """How far apart two statements of one place may be (m)."""
+        """The allowed distance between two statements of a place (m)."""
         return GIVEN_TWICE * self.size
 
     def number(self, length: float) -> str:
@@ -240,12 +240,12 @@ class DrawnPosition:
         return f"[{z.real / self.reading.metres:.8g}, {z.imag / self.reading.metres:.8g}]"
 
     def set_turn(self, body: Placement, turn: complex, arm: float) -> None:
-        """Note the direction of a link, if it is news."""
+        """Note the direction of a link, unless it is known."""
         if body.turn is None:
             body.turn, body.arm, self.news = turn, arm, True
 
     def set_origin(self, body: Placement, origin: complex) -> None:
-        """Note the place of a link's origin, if it is news."""
+        """Note the place of a link's origin, unless it is known."""
         if body.origin is None:
             body.origin, self.news = origin, True
 
@@ -259,7 +259,7 @@ class DrawnPosition:
         return PlacedLink(name, {p: body.local[p] for p in points}, body.own, guides, redundant, outlines)
 
     def running(self, pair: SlidingPair) -> complex | None:
-        """Where the point lies that runs in a guide (m), None if it is not known."""
+        """The place of the point that runs in a guide (m), None if it is unknown."""
         return self.places.get(pair.pin) if pair.pin else self.bodies[pair.link].origin
 
     def travel_of(self, key: str) -> float | None:
@@ -268,7 +268,7 @@ class DrawnPosition:
         return None if pair is None else _along(self.bodies[pair.on], pair.guide, self.running(pair))
 
     def relations(self) -> Iterator[AngleBetween]:
-        """The given angles between links: of what slides, by its guide, and of drivers."""
+        """The given angles between links: of sliding links, by their guides, and of drivers."""
         for pair in self.reading.slides:
             guide = self.bodies[pair.on].guides.get(pair.guide)
             if not pair.of and guide is not None:
@@ -278,8 +278,7 @@ class DrawnPosition:
             yield "", self.bodies[link], self.bodies[base], 1 + 0j, turn
 
     def value_of(self, driver: Driver) -> float:
-        """The value of a driver (rad, m): its own, or what the known position gives; not a number if that is not
-        known."""
+        """The value of a driver (rad, m), given or from the known position; not a number if it is unknown."""
         if not math.isnan(driver.value):
             return driver.value
         if not driver.turns:
@@ -292,9 +291,8 @@ class DrawnPosition:
 
 
 def drawn_position(reading: Reading, drivers: Collection[Driver]) -> DrawnPosition:
-    """Everything placed that can be placed, in the links' own axes and in the world; what is wrong is noted.
-
-    Those of the drivers whose value is not known yet have none.
+    """The places that can be found, in the links' own axes and in the world; problems are noted.  Drivers of unknown
+    value have none.
     """
     given = [d for d in drivers if not math.isnan(d.value)]
     drawn = {point: complex(*place) * reading.metres for point, place in reading.file.drawn.items()}
@@ -312,7 +310,7 @@ def drawn_position(reading: Reading, drivers: Collection[Driver]) -> DrawnPositi
 
 
 def _find(position: DrawnPosition) -> None:
-    """Place everything that can be placed."""
+    """Place all points and links that follow from placed ones."""
     while True:
         position.news = False
         for body in position.bodies.values():
@@ -412,7 +410,8 @@ def _move_by_travels(position: DrawnPosition) -> None:
 
 
 def _turn_to_positive_side(position: DrawnPosition) -> bool:
-    """Turn one guide about its link's origin until it passes through what runs in it; True if there was one.
+    """Turn a guide about its link's origin until it passes through the point that runs in it; whether there was such a
+    guide.
 
     With k the guide's place seen along its own direction, the running point lies at (k + s) w from the origin,
     w the guide's direction in the world and s its travel, here the larger root of |k + s| = distance.
@@ -436,7 +435,8 @@ def _turn_to_positive_side(position: DrawnPosition) -> bool:
 
 
 def _turn_to_drawn_point(position: DrawnPosition) -> bool:
-    """Choose the x axis of a link that has one own point and nothing measured from its axis; True if there was one."""
+    """Choose the x axis of a link that has one own point and nothing measured from its axis; whether there was such a
+    link."""
     slides = position.reading.slides
     used = {p.on for p in slides if not p.guide} | {p.link for p in slides}
     used |= {name for link, base, _ in position.angles for name in (link, base)}
@@ -465,8 +465,8 @@ def _along(rail: Placement, guide_name: str, place: complex | None) -> float | N
 
 
 def check_starts(position: DrawnPosition) -> None:
-    """Note where rolling is said to start of links that stand elsewhere by given places.  Of a driven link it starts
-    where the driver stands."""
+    """Note starts of rolling that contradict the given places of a link.  A driven link starts at the driver's
+    value."""
     driven = {*position.travels, *(link for link, _, _ in position.angles)}
     said = starts_of(position, ())
     for name, link in position.reading.links.items():
@@ -485,8 +485,8 @@ def check_starts(position: DrawnPosition) -> None:
 
 
 def starts_of(position: DrawnPosition, contacts: Iterable[PlacedContact]) -> dict[str, float]:
-    """Where what rolls stands: angles of links (rad), travels of sliding pairs and of contacts with a face (m), as far
-    as the file or its drawn points tell."""
+    """The start of rolling motions: angles of links (rad), travels of sliding pairs and of contacts with a face (m),
+    from the file or its drawn points."""
     slides, bodies = [pair for pair in position.reading.slides if not pair.of], position.bodies
     turns = {name: bodies[name].turn for name, link in position.reading.links.items() if link.start is None}
     seen = {name: cmath.phase(turn) for name, turn in turns.items() if turn is not None}
@@ -536,7 +536,7 @@ def check_all_found(position: DrawnPosition) -> None:
 
 
 def check_distances(position: DrawnPosition) -> None:
-    """Note places so far away that the digits of a number do not hold a bar of the mechanism beside them."""
+    """Note places so far away that the digits of a coordinate lose the length of a bar."""
     bars = [(b.length, b) for b in position.bodies.values() if b.length]
     if not bars:
         return
@@ -556,7 +556,7 @@ def check_distances(position: DrawnPosition) -> None:
 
 
 def check_agreement(position: DrawnPosition) -> None:
-    """Note what is given twice and differs by more than 1e-6 of the size, both values named."""
+    """Note data given twice that differ by more than 1e-6 of the size, with both values."""
     metres = position.reading.metres
     for body in position.bodies.values():
         _check_points(position, body)
@@ -587,7 +587,7 @@ def check_agreement(position: DrawnPosition) -> None:
 
 
 def _reach(body: Placement, local: complex) -> float:
-    """How much an error of the places that gave a link's direction grows out at ``local``."""
+    """The factor by which an error of the places that gave a link's direction grows at ``local``."""
     return max(1.0, abs(local) / body.arm)
 
 

@@ -1,7 +1,6 @@
-"""The reading of a scene file: the mechanism that its tables say, or all that is wrong with them; and the file that
-says a mechanism again.
+"""The reading of a scene file: the mechanism of its tables, or all their problems; and the file of a mechanism.
 
-Where the format leaves something open, the docstring of `graphkin.scene` says how it is read.
+The docstring of `graphkin.scene` settles the points that the format leaves open.
 """
 
 from __future__ import annotations
@@ -51,14 +50,14 @@ def mechanism_said(file: SceneTables, name: str, problems: list[Problem], lost: 
 
     Parameters
     ----------
-    file : what is valid in the file
+    file : the valid part of the file
     name : the scene's name
-    problems : what was found wrong with the file's form so far
-    lost : the paths of what was taken out for it
+    problems : the problems of the file's form
+    lost : the paths of the entries taken out for them
 
     Raises
     ------
-    SceneError : with everything that is wrong, the form first
+    SceneError : with all problems, those of the form first
     """
     reading = Reading(file, lost, list(problems), file.frame, file.links, file.pins)
     problems, metres = reading.problems, reading.metres
@@ -171,10 +170,10 @@ def _cams(reading: Reading, position: places.DrawnPosition) -> tuple[LawCam, ...
 
 
 def as_mapping(scene: Mechanism) -> OwnTables:
-    """The mapping of a scene file that reads as this mechanism: the file that it was read from, with its drivers as
-    they are now and everything placed in the links' own axes.
+    """The mapping of a scene file of this mechanism: the file that it was read from, with its drivers as they are now
+    and all places in the links' own axes.
 
-    What was given by drawn points, arcs or polar entries stands there as lengths and places.
+    Drawn points, arcs and polar entries become lengths and places.
     """
     file = scene.question.written
     assert file is not None  # a mechanism is made by reading
@@ -197,7 +196,7 @@ def as_mapping(scene: Mechanism) -> OwnTables:
 
 
 def _link(scene: Mechanism, link: PlacedLink, table: Link) -> Link:
-    """The table of a link with all its places in its own axes; where it rolls, with where it stands."""
+    """The table of a link with all its places in its own axes; of a rolling link with its start."""
     pairs = [pair for pair in scene.slidings if pair.link == link.name]
     start, angle_on = table.start, table.angle_on
     if scene.gears or any(contact.rolling for contact in scene.contacts):

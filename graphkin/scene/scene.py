@@ -1,6 +1,6 @@
 """A scene as a user holds it: found, read, built in Python, changed by key, saved as a file; scene files as texts.
 
-`Scene` is what is written.  What it says, resolved and in SI units, is its ``mechanism``.
+`Scene` holds the file's entries; its ``mechanism`` is their meaning, resolved and in SI units.
 """
 
 from __future__ import annotations
@@ -45,17 +45,17 @@ def files_named(folder: Traversable) -> tuple[str, ...]:
 
 
 def shelf() -> Traversable:
-    """The folder of what comes along."""
+    """The folder of the bundled scenes."""
     return files("graphkin.scene") / "library"
 
 
 def library() -> tuple[str, ...]:
-    """Names of the scenes that come along, sorted."""
+    """Names of the bundled scenes, sorted."""
     return files_named(shelf())
 
 
 def library_text(name: str) -> str:
-    """The text of a scene that comes along.  Raises SceneError for a name that is not there."""
+    """The text of a bundled scene.  Raises SceneError for an unknown name."""
     if name not in library():
         raise SceneError(_no_scene(name))
     return (shelf() / f"{name}.toml").read_text(encoding="utf-8")
@@ -83,7 +83,7 @@ def parsed(text: str) -> OwnTables:
 
 
 def _depth(text: str) -> int:
-    """The most parts that a key of a TOML text has, or brackets that stand in each other."""
+    """The greatest number of parts of a key in a TOML text, or of brackets inside each other."""
     most = brackets = dots = 0
     for part in _PARTS.finditer(text):
         sign = part[0]
@@ -100,7 +100,7 @@ def _depth(text: str) -> int:
 
 
 def file_text(path: str) -> str:
-    """The text of a file.  Raises SceneError where there is no such text."""
+    """The text of a file.  Raises SceneError where it is missing or no text."""
     shown = path if path.isprintable() and len(path) <= 200 else ascii(path)[:200]
     try:
         if os.path.isdir(path):
@@ -136,7 +136,7 @@ def _no_scene(name: str, shown: str = "") -> Problem:
 
 
 def _syntax(message: str, text: str) -> Problem:
-    """What the TOML parser says, with the line it happened in."""
+    """The TOML parser's message, with its line."""
     match = _AT_LINE.match(message)
     if not match:
         return Problem(Phrase("the file"), "is not toml of message", message=message)
@@ -222,7 +222,7 @@ def _is_table(value: object) -> bool:
 
 
 def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[SceneTables, Mechanism]:
-    """What is written in a scene, checked, and what it says.  Raises SceneError with all that is wrong."""
+    """The checked entries of a scene, and its mechanism.  Raises SceneError with all problems."""
     folder = safe_name(name)
     tables, problems, lost = SCENE.checked(plain(source))
     return tables, mechanism_said(tables, folder, problems, lost)
@@ -240,7 +240,7 @@ def safe_name(name: str) -> str:
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Scene(SceneTables):
-    """A mechanism at one position, with what is asked of it: the keys of a scene file, in its names and units.
+    """A mechanism at one position, and its question: the keys of a scene file, in its names and units.
 
     Lengths are in the scene's unit, angles in degrees.  A scene is checked when it is made, as a file is when it is
     read; every problem is told at once.  ``name`` names the folder of its files.
@@ -285,8 +285,8 @@ class Scene(SceneTables):
 
     @classmethod
     def saying(cls, mechanism: Mechanism) -> Scene:
-        """The scene that says a mechanism: what it was read from, or where links or drivers were replaced since,
-        everything placed in the links' own axes."""
+        """The scene of a mechanism: the scene that it was read from, or, where links or drivers were replaced since,
+        all places in the links' own axes."""
         scene = cls.of(plain(mechanism.question.written or {}), mechanism.name)
         read, bodies = scene.mechanism, (mechanism.frame, *mechanism.links)
         kept = all(driver in read.drivers for driver in mechanism.drivers)
@@ -295,7 +295,7 @@ class Scene(SceneTables):
 
     @property
     def mechanism(self) -> Mechanism:
-        """What the scene says: everything placed, in SI units."""
+        """The scene's mechanism: all places known, in SI units."""
         mechanism: Mechanism = vars(self)["_mechanism"]
         return mechanism
 
@@ -318,7 +318,7 @@ class Scene(SceneTables):
         return Scene.of(made, self.name)
 
     def to_dict(self) -> OwnTables:
-        """The scene as a mapping, as a TOML parser gives it; what holds anyway is left out."""
+        """The scene as a mapping, as a TOML parser gives it, without entries at their defaults."""
         return plain(self)
 
     def save(self, path: str | os.PathLike[str]) -> Path:
@@ -356,7 +356,7 @@ def read(source: str | os.PathLike[str] | Tables) -> Scene:
 
     Parameters
     ----------
-    source : a path, the name of a scene that comes along, or what a TOML parser makes of a scene file
+    source : a path, the name of a bundled scene, or the mapping that a TOML parser makes of a scene file
 
     Raises
     ------
@@ -373,23 +373,23 @@ def read(source: str | os.PathLike[str] | Tables) -> Scene:
 
 
 def mechanism_of(source: SceneLike) -> Mechanism:
-    """What a scene says, in any of its forms: everything placed, in SI units.  Raises SceneError."""
+    """The mechanism of a scene in any of its forms: all places known, in SI units.  Raises SceneError."""
     if isinstance(source, Mechanism):
         return source
     return source.mechanism if isinstance(source, Scene) else resolved(*written(source))[1]
 
 
 def mechanism_of_text(text: str, name: str) -> Mechanism:
-    """What the text of a scene file says; ``name`` is the scene's name.  Raises SceneError."""
+    """The mechanism of a scene file's text; ``name`` is the scene's name.  Raises SceneError."""
     return resolved(parsed(text), name)[1]
 
 
 def written(source: SceneLike) -> tuple[OwnTables, str]:
-    """The mapping of a scene's file, as it was written where that is known, and the scene's name.
+    """The mapping of a scene's file, as it was written if that is known, and the scene's name.
 
     Raises
     ------
-    SceneError : there is no such scene, or it is no TOML; what stands in it is not looked at
+    SceneError : there is no such scene, or it is no TOML; its entries are not checked
     """
     if isinstance(source, Mechanism):
         return as_mapping(source), source.name
@@ -471,7 +471,7 @@ def new_scene(kind: str, given: Mapping[str, float]) -> str:
 
     Parameters
     ----------
-    given : lengths and driver by their names, as far as they are not to be the usual ones
+    given : lengths and driver by their names, where they differ from the usual ones
 
     Raises
     ------

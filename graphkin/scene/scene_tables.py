@@ -1,9 +1,9 @@
-"""The scene file, table by table: every key that may stand in it, its unit, what holds without it.
+"""The scene file, table by table: every key, its unit, and its default.
 
-What each key means stands in the tables of words (``[keys]``), by the names of its table and its own.
+The tables of words explain each key (``[keys]``), under the names of its table and the key.
 
-What a table says is read where the mechanism gets it (`graphkin.scene.scene`).  Where the format leaves something
-open, the docstring of `graphkin.scene` says how it is read.
+The mechanism is made from the tables in `graphkin.scene.reading`.  The docstring of `graphkin.scene` settles the points
+that the format leaves open.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ Symbols = List[Annotated[str, Strict()]]
 
 
 def _form(value: object) -> str | None:
-    """Which of the forms of a value that may be written in several ways this is."""
+    """The form of a value that may be written in several forms."""
     if isinstance(value, str):
         return "<name>"
     if isinstance(value, list):
@@ -71,7 +71,7 @@ def _form(value: object) -> str | None:
 
 
 def forms(wanted: str) -> Discriminator:
-    """What tells the forms of a value apart; ``wanted`` is the key of the phrase that says which there are."""
+    """The rule that tells the forms of a value apart; ``wanted`` is the key of the phrase that lists them."""
     return Discriminator(_form, custom_error_type="form", custom_error_message=wanted)
 
 
@@ -218,11 +218,11 @@ class LawPiece(FileTable):
 
     @property
     def height(self) -> float:
-        """By how much it rises, in the unit of the file."""
+        """Its rise, in the unit of the file."""
         return (self.rise or 0.0) - (self.fall or 0.0)
 
     def problems(self, where: str) -> Iterator[Problem]:
-        """What is wrong with it by itself."""
+        """The problems of this piece by itself."""
         moves = self.rise is not None or self.fall is not None
         if self.rise is not None and self.fall is not None:
             yield Problem(where, "has both rise and fall", "give one of them or none for a")
@@ -235,7 +235,7 @@ class LawPiece(FileTable):
 
 @file_table
 class DriverLaw(FileTable):
-    """How a driver moves over the time, from 0 s on: by one law, by several one after the other, or by a table."""
+    """The motion of a driver over time, from 0 s on: by one law, by several one after the other, or by a table."""
 
     origin: Number | None = key(name="from", default=None)
     to: Number | None = None
@@ -336,7 +336,7 @@ STANDARD_GRAVITY = 9.80665
 
 @file_table
 class Gravity(FileTable):
-    """Where weights pull, and how much."""
+    """Direction and size of gravity."""
 
     g: Magnitude = STANDARD_GRAVITY
     angle: Number = -90.0
@@ -390,7 +390,7 @@ class Spring(FileTable):
 
 @file_table
 class Balance(FileTable):
-    """What keeps the mechanism in its motion: a moment, or a force through a point along a known line."""
+    """The load that keeps the mechanism in its motion: a moment, or a force through a point along a known line."""
 
     on: LinkName
     at: NameOrPlace | None = key(unit="length", default=None)
@@ -437,8 +437,8 @@ class Positions(FileTable):
         return *map(str, range(1, (self.count or 0) + 1)), *self.also
 
     def place(self, name: str, first: float | None, sense: float) -> float | StrokeStart | None:
-        """Where a position lies; of a numbered one (rad) from ``first``, the value of position 1, None if that is not
-        known.  ``sense`` is that of the driver (1 or -1)."""
+        """The place of a position; of a numbered one an angle (rad) from ``first``, the value of position 1, None if
+        that is unknown.  ``sense`` is the driver's sense (1 or -1)."""
         if name in self.also:
             return self.also[name]
         return None if first is None else first + sense * math.tau * (int(name) - 1) / (self.count or 1)
@@ -472,7 +472,7 @@ PAPERS = {
 class Tools(FileTable):
     """What the tools of a pencil drawing can do; used with --instrument pencil.
 
-    A step is that to which a value is read or laid off; the others are standard deviations.
+    A step is the fineness to which a value is read or laid off; the others are standard deviations.
     """
 
     line_width: Tool = 0.2
@@ -492,7 +492,7 @@ class Background(FileTable):
 
 @file_table
 class ReadScan(FileTable):
-    """A drawing that somebody made of a figure, with what was read off the scan of it, in pixels."""
+    """A drawing that somebody made of a figure, with the readings from its scan, in pixels."""
 
     points: dict[EndName, Place]
     read: dict[EndName, Place]
@@ -502,7 +502,7 @@ class ReadScan(FileTable):
 
 @file_table
 class SheetWishes(FileTable):
-    """Wishes for the drawn sheet; scales are None where graphkin is to choose."""
+    """Wishes for the drawn sheet; scales are None where graphkin chooses them."""
 
     paper: Literal["A5", "A4", "A3", "A2", "A1", "A0"] = "A4"
     orientation: Literal["portrait", "landscape"] = "portrait"
@@ -525,7 +525,7 @@ class SheetWishes(FileTable):
 
 @file_table
 class Vary(FileTable):
-    """How a set of problems is drawn from a scene."""
+    """The rules by which a set of problems is drawn from a scene."""
 
     ranges: dict[str, Range] = key(default_factory=dict)
     only: bool = False
@@ -545,7 +545,7 @@ class Vary(FileTable):
 
 @file_table_by_name
 class SceneTables(FileTable):
-    """A mechanism at one position, with what is asked of it: the whole file."""
+    """The whole file: a mechanism at one position, and its question."""
 
     title: Text = ""
     title_zh: Text = ""

@@ -51,8 +51,8 @@ def plain_text(text: str) -> str:
 
 @dataclass(frozen=True)
 class Spelling:
-    """Reads names of quantities of one scene: its points, each with the links that own it (none owns one at which
-    outlines touch), its links with the frame, and its units."""
+    """Reads names of quantities of one scene: its points, each with the links that own it (none for a point of
+    contact), its links with the frame, and its units."""
 
     points: Mapping[str, frozenset[str]]
     links: frozenset[str]
@@ -83,7 +83,7 @@ class Spelling:
         return plain, ""
 
     def symbol(self, text: str) -> Symbol | None:
-        """The quantity that a text means; None where it means none of this scene."""
+        """The quantity of this scene that a text means; None where it means none."""
         plain = plain_text(text)
         for one in dict.fromkeys((plain, _WORDS_ASIDE.sub("", plain).strip())):
             found = next(self._meanings(one), None)
@@ -115,12 +115,12 @@ class Spelling:
 
     @cached_property
     def _forms(self) -> dict[str, str]:
-        """What may stand behind a kind, with the names that the scene has."""
+        """The patterns of names behind a kind, with the names of the scene."""
         points, links = (sorted(map(re.escape, names), key=len, reverse=True) for names in (self.points, self.links))
         return forms_of_names("|".join(points), "|".join(links), lax=True)
 
     def _of_kind(self, spoken: str, names: str) -> Iterator[Symbol]:
-        """The quantities of a kind, as it is spoken of, that names behind it may mean: in their own case, or any."""
+        """The quantities of a kind that the names behind it may mean, in their own case or in any."""
         kind = _WRITTEN[spoken]
         form = "pair" if spoken.endswith("R") else KINDS[kind].form  # a reaction is of two links
         for flags in (re.NOFLAG, re.IGNORECASE) if form in self._forms else ():
@@ -156,7 +156,7 @@ class Spelling:
 
 
 def _said(key: str, signs: str = "(?!)") -> re.Pattern[str]:
-    """How people say something, in any language (``[spelling]`` in the tables of words) or by signs."""
+    """The pattern of a word in any language (``[spelling]`` in the tables of words) or of signs."""
     words = (area("spelling", language)[f"spelt {key}"] for language in LANGUAGES)
     return re.compile("|".join((*words, signs)), re.IGNORECASE)
 
@@ -172,7 +172,7 @@ _RATE = re.compile(r"(?P<what>[a-z°\"1]*?)(?:/(?P<over>s|sec|min|h)(?P<power>2?
 
 
 def unit_factor(text: str, symbol: Symbol, units: Units) -> float | None:
-    """What a unit that people write is in SI, None where it is none of this quantity.
+    """The value in SI of a unit as people write it, None where it is no unit of this quantity.
 
     >>> unit_factor("m/s", Symbol.parse("v_B"), Units()), unit_factor("mm·s⁻²", Symbol.parse("a_B"), Units())
     (1.0, 0.001)
@@ -302,8 +302,8 @@ ROUGH = math.radians(45.0)  # an arrow or a word is meant for all that lies near
 
 @dataclass(frozen=True)
 class Way:
-    """A direction as written (rad, counter-clockwise from the x axis) with how far it may be meant otherwise, its
-    opposite too where ``either``; a sense (+1 counter-clockwise, -1 clockwise); or lines that it lies along."""
+    """A direction as written (rad, counter-clockwise from the x axis) with the room to either side of it, and its
+    opposite where ``either``; a sense (+1 counter-clockwise, -1 clockwise); or the lines along which it lies."""
 
     angle: float | None = None
     room: float = 0.0
@@ -313,12 +313,12 @@ class Way:
 
     @property
     def says(self) -> bool:
-        """Whether anything is said."""
+        """Whether it holds a direction, a sense or a line."""
         return bool(self.sense or self.angle is not None or self.lines)
 
 
 def read_way(text: str, symbol: Symbol) -> Way:
-    """What a cell of a column of directions says: an angle, an arrow, words.  Raises Unreadable."""
+    """The direction in a cell of a column of directions: an angle, an arrow, words.  Raises Unreadable."""
     way, rest = way_in(plain_text(text), symbol)
     if symbol.is_vector and not way.says:
         bare = rest.strip(" °;,()")
@@ -359,7 +359,7 @@ def _without(text: str, match: re.Match[str]) -> str:
 
 
 def _lines(text: str, symbol: Symbol) -> tuple[tuple[Line, ...], str]:
-    """Along or square to which bars, from where to where, something is said to lie, and the text without it."""
+    """The bars along or square to which a vector is said to lie, with their senses, and the text without them."""
     found: list[Line] = []
     while match := _LINE.search(text):
         found.append(Line(match["one"], match["two"], square=bool(match["square"])))
@@ -491,25 +491,25 @@ _COMPLEX = re.compile(rf"({NUMBER})\s*([+-])\s*({NUMBER})\s*[*·]?\s*[ij]\b")
 
 
 def is_blank(text: str) -> bool:
-    """Whether a cell says that there is no answer."""
+    """Whether a cell holds no answer."""
     return _NOTHING.fullmatch(plain_text(text)) is not None
 
 
 def read_cell(
     text: str, symbol: Symbol, units: Units, unit: str = "", sign: str = ",", way: Way | None = None
 ) -> Printed:
-    """What a cell states.
+    """The value that a cell states.
 
     Parameters
     ----------
     units : of the scene
-    unit : of the column's head; the scene's own where there is none; one in the cell counts more
-    sign : what parts the cells of the table; where that is a comma, one in a number may be one of thousands
-    way : from a column of directions
+    unit : of the column's head; the scene's unit if it has none; a unit in the cell goes before both
+    sign : the sign between the table's cells; where it is a comma, a comma in a number may part thousands
+    way : the direction from a column of directions
 
     Raises
     ------
-    Unreadable : what is no such value
+    Unreadable : a text that is no value of the quantity
 
     >>> read_cell("482,7 mm/s", Symbol.parse("v_B"), Units(), sign=";").value
     0.4827

@@ -1,4 +1,4 @@
-"""What touches in a scene, read from its file: round outlines, contacts, wheels with teeth, cams by the law of their
+"""Higher pairs of a scene, read from its file: round outlines, contacts, wheels with teeth, cams by the law of their
 follower; names are looked up, radii get the signs with which they meet, the carriers of wheels are found.
 """
 
@@ -37,7 +37,7 @@ Discs = Mapping[tuple[str, str], PlacedDisc]
 
 
 def discs_of(reading: Reading) -> dict[tuple[str, str], PlacedDisc]:
-    """Every round outline by its link and its name; what is wrong with them is noted."""
+    """Every round outline by its link and its name; their problems are noted."""
     discs: dict[tuple[str, str], PlacedDisc] = {}
     for where, link, body in reading.bodies:
         for name, disc in body.discs.items():
@@ -58,7 +58,7 @@ Side = tuple[str, PlacedDisc | None, str]
 
 
 def contacts_of(reading: Reading, discs: Discs) -> tuple[PlacedContact, ...]:
-    """The contacts of a file; what is wrong with them is noted."""
+    """The contacts of a file; their problems are noted."""
     contacts: list[PlacedContact] = []
     blocks: set[str] = set()
     for name, contact in reading.file.contacts.items():
@@ -78,7 +78,7 @@ def contacts_of(reading: Reading, discs: Discs) -> tuple[PlacedContact, ...]:
 
 
 def _side(where: str, ref: str, reading: Reading, discs: Discs) -> Side | None:
-    """A side of a contact by its name; None where there is none, which is noted here or was before."""
+    """A side of a contact by its name; None where it does not exist, which is noted here or was before."""
     link, _, part = ref.partition(".")
     if reading.wrong(reading.no_link(where, link)):
         return None
@@ -100,7 +100,7 @@ def _side(where: str, ref: str, reading: Reading, discs: Discs) -> Side | None:
 
 
 def _contact_problems(where: str, contact: Contact, first: Side, second: Side) -> Iterator[Problem]:
-    """What is wrong with two sides that there are."""
+    """The problems of a contact whose two sides exist."""
     refs, between, side = joined("one and other", contact.between), f"{where}.between", f"{where}.side"
     if first[0] == second[0]:
         yield Problem(between, "are outlines of the same link", "name two links", refs=refs, link=first[0])
@@ -154,7 +154,7 @@ def _contact(name: str, contact: Contact, side: Side, other_side: Side, reading:
 
 
 def gears_of(reading: Reading) -> tuple[PlacedGear, ...]:
-    """The wheels with teeth of a file, with their carriers; what is wrong with them is noted."""
+    """The wheels with teeth of a file, with their carriers; their problems are noted."""
     gears = (_gear(f"gears.{name}", name, gear, reading) for name, gear in reading.file.gears.items())
     return tuple(placed for placed in gears if placed is not None)
 
@@ -224,7 +224,7 @@ def wrong_distances(
     contacts: tuple[PlacedContact, ...], gears: tuple[PlacedGear, ...], guides: Mapping[str, Mapping[str, PlacedGuide]],
     reading: Reading,
 ) -> None:  # fmt: skip
-    """Note wheels whose carrier does not hold them as far apart as their radii say, or at no distance; pitch lines that
+    """Note wheels whose carrier holds them at another distance than their radii give, or at none; pitch lines that
     are not parallel to their slide; centres on the other body.
 
     Parameters
@@ -262,7 +262,7 @@ def rack_place(
     gear: PlacedGear, slidings: tuple[SlidingPair, ...],
     points: Mapping[str, Mapping[str, complex]], guides: Mapping[str, Mapping[str, PlacedGuide]],
 ) -> tuple[float, float, float]:
-    """How far the pitch line of a rack lies to the left of the wheel's axis, seen along the guide of its slide (m); the
+    """The distance of a rack's pitch line to the left of the wheel's axis, seen along the guide of its slide (m); the
     sine of its angle with the guide; and a length to compare with (m)."""
     pair = next(s for s in slidings if s.key == gear.slide)
     rail = guides[pair.on][pair.guide]
@@ -286,12 +286,12 @@ Line = tuple[str, complex, complex]
 
 
 def cams_of(reading: Reading, lines: Mapping[str, Line], drawn: Mapping[str, complex]) -> tuple[LawCam, ...]:
-    """The cams of a file; what is wrong with them is noted.
+    """The cams of a file; their problems are noted.
 
     Parameters
     ----------
     lines : of each link that slides on the frame
-    drawn : roughly where points of moving links lie (m)
+    drawn : rough places of points of moving links (m)
     """
     moved: dict[str, str] = {}
     cams = []
@@ -423,7 +423,7 @@ def _swinging(
 
 
 def follower_law(where: str, pieces: Sequence[LawPiece], unit: float, reading: Reading) -> FollowerLaw | None:
-    """The law of a cam's follower, over rad, in SI; what is wrong with it is noted.
+    """The law of a cam's follower, over rad, in SI; its problems are noted.
 
     Parameters
     ----------
