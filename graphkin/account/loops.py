@@ -1,15 +1,13 @@
 """Vector loops in words and as data: the equation of each, its projections, its root, and the two matrix equations of
 its rates; those of a position as lines for a terminal, as LaTeX, and for programs (``graphkin solve --loops``).
 
-Lines stand in the notation of `graphkin.drawing.text` (symbols between dollar signs); `as_plain` and `as_latex` give
-them to terminals and to papers.
+Lines stand in the notation of `graphkin.words.symbols`; `plain_words` and `as_latex` give them to terminals and papers.
 """
 
 from __future__ import annotations
 
 import cmath
 import math
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -26,6 +24,7 @@ from graphkin.scene.scene_tables import Convention
 from graphkin.structure.loops import Arrow, Loop, LoopBlock, Root, loops_in_numbers
 from graphkin.structure.model import Coordinate
 from graphkin.words import Phrase, say, word
+from graphkin.words.symbols import Atom, parsed, plain, plain_words, symbol
 
 if TYPE_CHECKING:
     from graphkin.solver import Motion
@@ -162,43 +161,49 @@ def _clean(rows: Sequence[Sequence[float]]) -> list[list[float]]:
 
 # -- for terminals and for papers --------------------------------------------------------------------------------------
 
-_GREEK = {"θ": r"\theta", "ω": r"\omega", "α": r"\alpha", "−": "-", "·": r"\cdot ", "°": r"^{\circ}", "±": r"\pm "}
-
-
-def as_plain(markup: str) -> str:
-    """A line for a terminal."""
-    text = re.sub(r"\\(?:mathbf|vec)\{(\w)\}", r"\1", markup.replace("$", ""))
-    return re.sub(r"[_^]\{([^{}]*)\}", r"_\1", text)
+_IN_LATEX = {"θ": r"\theta", "ω": r"\omega", "α": r"\alpha", "−": "-", "·": r"\cdot ", "°": r"^{\circ}",
+             "cos": r"\cos", "sin": r"\sin"}  # fmt: skip
+_SIGNS = str.maketrans({sign: command for sign, command in _IN_LATEX.items() if len(sign) == 1})
 
 
 def as_latex(markup: str) -> str:
-    """A line as LaTeX, symbols and functions in mathematics."""
-    text = markup.replace("$", "").replace("√", r"\sqrt ")
-    for sign, command in _GREEK.items():
-        text = text.replace(sign, command + (" " if command[-1].isalpha() else ""))
-    text = re.sub(r"\\(theta|omega|alpha) _", r"\\\1_", text)
-    text = text.replace("atan2", r"\operatorname{atan2}")
-    return re.sub(r"\b(cos|sin)\b", r"\\\1", text)
+    """A line as LaTeX, all of it in mathematics."""
+    return "".join(_words_in_latex(p) if isinstance(p, str) else _symbol_in_latex(p) for p in parsed(markup))
+
+
+def _words_in_latex(words: str) -> str:
+    return " ".join(_IN_LATEX.get(word, word.translate(_SIGNS)) for word in words.split(" "))
+
+
+def _symbol_in_latex(atoms: Sequence[Atom]) -> str:
+    written = ""
+    for atom in atoms:
+        letter = _IN_LATEX.get(atom.text, atom.text)
+        letter = rf"\mathbf{{{letter}}}" if atom.bold else rf"\vec{{{letter}}}" if atom.arrow else letter
+        above, below = (_symbol_in_latex(part) for part in (atom.sup, atom.sub))
+        written += letter + (f"^{{{above}}}" if above else "") + (f"_{{{below}}}" if below else "")
+    return written
 
 
 def matrix_lines(matrix: MatrixEquation) -> list[str]:
     """A matrix equation in lines for a terminal."""
-    wide = [max(len(row[k]) for row in matrix.rows) for k in range(len(matrix.unknowns))]
-    names = [as_plain(n) for n in matrix.unknowns]
-    high = max(map(len, names))
-    right = max(map(len, matrix.right))
+    rows = [[*map(plain_words, row)] for row in matrix.rows]
+    wide = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    names, right_side = [plain(symbol(name)) for name in matrix.unknowns], [*map(plain_words, matrix.right)]
+    high, right = (max(map(len, column)) for column in (names, right_side))
     lines = []
-    for k, row in enumerate(matrix.rows):
+    for k, row in enumerate(rows):
         cells = "  ".join(cell.rjust(w) for cell, w in zip(row, wide, strict=True))
-        equals = "=" if k == (len(matrix.rows) - 1) // 2 else " "
-        lines.append(f"  | {cells} |  | {names[k].ljust(high)} |  {equals}  | {matrix.right[k].rjust(right)} |")
+        equals = "=" if k == (len(rows) - 1) // 2 else " "
+        lines.append(f"  | {cells} |  | {names[k].ljust(high)} |  {equals}  | {right_side[k].rjust(right)} |")
     return lines
 
 
 def matrix_latex(matrix: MatrixEquation) -> str:
     """A matrix equation as LaTeX."""
     rows = r" \\ ".join(" & ".join(map(as_latex, row)) for row in matrix.rows)
-    names, right = (r" \\ ".join(map(as_latex, column)) for column in (matrix.unknowns, matrix.right))
+    names = r" \\ ".join(_symbol_in_latex(symbol(name)) for name in matrix.unknowns)
+    right = r" \\ ".join(map(as_latex, matrix.right))
     return " ".join(rf"\begin{{bmatrix}} {part} \end{{bmatrix}}" if part != "=" else "="
                     for part in (rows, names, "=", right))  # fmt: skip
 
@@ -259,9 +264,9 @@ class LoopText:
                 links, sum_ = ", ".join(loop.links), equation(loop, letters)
                 head = Phrase("loop heading", loop=loop.name, links=links, equation=sum_)
                 x, y = projections(loop, block, self.scene)
-                lines += [as_plain(say(head, self.language)), f"  x: {as_plain(x)}", f"  y: {as_plain(y)}"]
+                lines += [plain_words(say(head, self.language)), f"  x: {plain_words(x)}", f"  y: {plain_words(y)}"]
                 if loop.root is not None:
-                    lines.append(f"  {as_plain(root(loop.root, self.scene, self.language))}")
+                    lines.append(f"  {plain_words(root(loop.root, self.scene, self.language))}")
                 longest = max(abs(arrow.vector) for arrow in loop.arrows)
                 if abs(loop.gap) <= ROUNDED * longest:
                     lines.append(f"  {word('loop closes', self.language)}")
@@ -270,7 +275,7 @@ class LoopText:
                     lines.append(f"  {say(Phrase('loop gap', gap=gap, unit=self.scene.units.length), self.language)}")
             for matrix in matrices(block, self.scene):
                 lines += [f"  {word(matrix.key, self.language)}", *matrix_lines(matrix)]
-                lines.append("  " + ", ".join(map(as_plain, matrix.solution)))
+                lines.append("  " + ", ".join(map(plain_words, matrix.solution)))
             lines.append("")
         return "\n".join(lines or [word("no loops", self.language)]).rstrip()
 

@@ -5,7 +5,6 @@ of the study of a turn.
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
@@ -17,6 +16,7 @@ from graphkin.construction.steps import Term, plain_in
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import Mechanism
 from graphkin.words import Phrase, about, as_plain, rich_text, say, word
+from graphkin.words.symbols import plain_words
 from graphkin.words.written import MOST, amount
 
 if TYPE_CHECKING:
@@ -91,7 +91,7 @@ def _forces(checked: Checked, language: str) -> list[str]:
             lines.append(say(account.caption(group, count), language))
             steps = (s for s in account.of_group(state, group) if s.kind in ("moments", "system", "couples"))
             lines += [f"    {say(told, language)}" for step in steps for told in (step.why, *step.work)]
-    return [*(re.sub(r"[${}]", "", line) for line in lines), ""]
+    return [*map(plain_words, lines), ""]
 
 
 def lever_lines(checked: Checked, language: str) -> list[str]:

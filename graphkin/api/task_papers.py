@@ -40,12 +40,12 @@ from graphkin.papers.blocks import (
     table_of,
 )
 from graphkin.papers.documents import accepted, labelled
-from graphkin.papers.lesson import plain_words
 from graphkin.papers.paper import Paper
 from graphkin.papers.pdf import papers_as
 from graphkin.papers.pictures import bare_picture
 from graphkin.scene.pairs import SwingingFollower
 from graphkin.words import languages, say, word
+from graphkin.words.symbols import plain_words
 from graphkin.words.written import in_markup
 
 MANY = 6  # steps that stand in two columns

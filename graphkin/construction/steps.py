@@ -8,7 +8,6 @@ stands for, and with it how the step is told (`SENTENCES`) and which arguments i
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from operator import mul
@@ -112,17 +111,17 @@ class Size:
 GIVEN = Size("given")
 
 
-_SEEN = re.compile(r" seen from (\w+)")
-
-
 def plain_in(language: str) -> Callable[[object], str]:
     """What writes symbols, points, sizes and directions as plain text of a language: ``v_B@3/B@2``, ``⊥BC``."""
 
     def written(thing: object) -> str:
-        text = str(thing).replace("{", "").replace("}", "")
-        if text == str(GIVEN):
+        if thing == GIVEN:
             return word("given size", language)
-        return _SEEN.sub(lambda found: word("symbol seen", language).format(link=found[1]), text)
+        if isinstance(thing, Symbol) and thing.seen:
+            return str(replace(thing, seen="")) + word("symbol seen", language).format(link=thing.seen)
+        if isinstance(thing, Size) and isinstance(thing.factor, Symbol):
+            thing = thing.written(written(thing.factor))
+        return str(thing).replace("{", "").replace("}", "")
 
     return written
 

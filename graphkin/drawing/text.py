@@ -14,33 +14,22 @@ import re
 import unicodedata
 from bisect import bisect_right
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.font import EM, Style, glyph, style_of
 from graphkin.drawing.ink.primitives import Run, Text
 from graphkin.plane import added_up
+from graphkin.words.symbols import Atom, in_turn
+from graphkin.words.symbols import symbol as atoms_of
 
 LETTER, INDEX, SMALLEST = 3.5, 2.5, 2.0  # mm
 _DROP, _DROP_STACKED, _RISE = 0.24, 0.30, 0.40  # of the size of the letter, after the usual practice of typesetting
 _GAP_SUB, _GAP_SUPER = 0.02, 0.06
 _LEADING = 1.4  # from line to line
 _UNBROKEN = re.compile("[顺逆]时针")  # Chinese words that stay whole, since they often stand last
-_BOLD, _ARROWED = r"\mathbf", r"\vec"
 _ARROW = "→"
 _ARROW_SIZE, _ARROW_GAP, _SLANT = 0.57, 0.05, 0.04  # of the size of the letter under it
-
-
-@dataclass(frozen=True)
-class Atom:
-    """A stretch of symbol text with what hangs on it."""
-
-    text: str
-    sub: tuple[Atom, ...] = ()
-    sup: tuple[Atom, ...] = ()
-    bold: bool = False
-    arrow: bool = False
 
 
 def plain(text: str, size: float = LETTER, italic: bool = False, bold: bool = False) -> tuple[Run, ...]:
@@ -57,33 +46,12 @@ def symbol(markup: str, size: float = LETTER) -> tuple[Run, ...]:
     return _symbol(markup, size)[0]
 
 
-def parsed(markup: str) -> tuple[str | tuple[Atom, ...], ...]:
-    """Words with symbols between dollar signs, taken apart: stretches of words, and symbols as atoms, for writers that
-    set them themselves.  Raises ValueError as ``symbol``."""
-    found: list[str | tuple[Atom, ...]] = []
-    for index, part in enumerate(_parts(markup)):
-        if index % 2:
-            found.append(_read(part, 0)[0])
-        elif part:
-            found.append(part.replace("\0", "$"))
-    return tuple(found)
-
-
-def _parts(markup: str) -> list[str]:
-    """Words and symbols in turn, with a NUL for a dollar sign itself."""
-    parts = markup.replace("$$", "\0").split("$")
-    if len(parts) % 2 == 0:
-        raise ValueError(f"a dollar sign is not closed in {markup!r}; a dollar sign itself is written $$")
-    return parts
-
-
 @lru_cache(maxsize=1024)
 def rich(markup: str, size: float = LETTER, bold: bool = False) -> tuple[Run, ...]:
     """Words with symbols between dollar signs, set as runs one after the other.  Raises ValueError as ``symbol``."""
     runs: list[Run] = []
     x = 0.0
-    for index, part in enumerate(_parts(markup)):
-        part = part.replace("\0", "$")
+    for index, part in enumerate(in_turn(markup)):
         if index % 2:
             set_part, advance = _symbol(part, size)
             runs += [Run(r.text, r.x + x, r.y, r.size, r.italic, r.bold) for r in set_part]
@@ -157,52 +125,8 @@ def _pieces(markup: str) -> Sequence[str]:
 
 @lru_cache(maxsize=1024)
 def _symbol(markup: str, size: float) -> tuple[tuple[Run, ...], float]:
-    atoms, end = _read(markup, 0)
-    if end < len(markup):
-        raise ValueError(f"a brace is closed but not opened in {markup!r}")
-    runs, advance = _set(atoms, 0.0, 0.0, size, 0, size)
+    runs, advance = _set(atoms_of(markup), 0.0, 0.0, size, 0, size)
     return tuple(runs), advance
-
-
-def _read(markup: str, at: int) -> tuple[tuple[Atom, ...], int]:
-    """Atoms from a place up to the closing brace or the end, and where that is."""
-    atoms: list[Atom] = []
-    while at < len(markup) and markup[at] != "}":
-        character = markup[at]
-        if character in "_^":
-            if not atoms:
-                raise ValueError(f"an index has nothing to stand at in {markup!r}")
-            inner, at = _argument(markup, at + 1)
-            last = atoms[-1]
-            if last.sub if character == "_" else last.sup:
-                raise ValueError(f"two indices in the same place in {markup!r}; put both in one pair of braces")
-            atoms[-1] = replace(last, sub=inner) if character == "_" else replace(last, sup=inner)
-        elif character == "{":
-            inner, at = _argument(markup, at)
-            atoms += inner
-        elif markup.startswith(_BOLD, at):
-            inner, at = _argument(markup, at + len(_BOLD))
-            atoms += [replace(atom, bold=True) for atom in inner]
-        elif markup.startswith(_ARROWED, at):
-            inner, at = _argument(markup, at + len(_ARROWED))
-            atoms += [replace(atom, arrow=True) for atom in inner]
-        else:
-            atoms.append(Atom("′" if character == "'" else character))
-            at += 1
-    return tuple(atoms), at
-
-
-def _argument(markup: str, at: int) -> tuple[tuple[Atom, ...], int]:
-    if at >= len(markup) or markup[at] == "}":
-        raise ValueError(f"an index is empty in {markup!r}")
-    if markup[at] != "{":
-        return (Atom("′" if markup[at] == "'" else markup[at]),), at + 1
-    inner, end = _read(markup, at + 1)
-    if end >= len(markup):
-        raise ValueError(f"a brace is not closed in {markup!r}")
-    if not inner:
-        raise ValueError(f"there is nothing between braces in {markup!r}")
-    return inner, end + 1
 
 
 def _set(atoms: tuple[Atom, ...], x: float, y: float, size: float, level: int, base: float) -> tuple[list[Run], float]:

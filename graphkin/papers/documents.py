@@ -55,13 +55,14 @@ from graphkin.papers.blocks import (
     spoken,
     table_of,
 )
-from graphkin.papers.lesson import Lesson, Stage, plain_words
+from graphkin.papers.lesson import Lesson, Stage
 from graphkin.papers.paper import A4, Paper, paper_of
 from graphkin.plane import added_up
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
 from graphkin.words import Phrase, about, languages, say, sense_of, word
+from graphkin.words.symbols import plain_words
 from graphkin.words.written import LEAST, amount, in_markup, true_minus
 
 BOUND = "\u00a0"  # between a number and its unit no line ends

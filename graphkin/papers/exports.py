@@ -24,11 +24,12 @@ from graphkin.errors import GraphkinError
 from graphkin.papers.blocks import clean, in_each
 from graphkin.papers.documents import given, key_rows, scene_title
 from graphkin.papers.html import rendered, said_html, words_html
-from graphkin.papers.lesson import Lesson, plain_words
+from graphkin.papers.lesson import Lesson
 from graphkin.papers.pictures import mechanism_picture
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
 from graphkin.words import languages, say, word
+from graphkin.words.symbols import plain_words
 
 PLATFORMS = ("moodle", "gift", "prairielearn")
 BANKED = ("moodle.xml", "questions.gift")

@@ -17,10 +17,11 @@ from typing import TYPE_CHECKING
 from markupsafe import Markup
 
 from graphkin.drawing.font import Style, face_rules, families
-from graphkin.drawing.text import Atom, is_italic, parsed
+from graphkin.drawing.text import is_italic
 from graphkin.drawing.write.svg import svg_element
 from graphkin.papers.blocks import Block, Document, Said, clean
 from graphkin.words import Phrase, area, say, word
+from graphkin.words.symbols import Atom, parsed
 
 if TYPE_CHECKING:
     from jinja2 import Environment

@@ -24,7 +24,6 @@ from graphkin.construction.sheet import Equation, Sheet
 from graphkin.construction.steps import DiagramName, Step
 from graphkin.drawing.box import Box
 from graphkin.drawing.parts.polygon import extent
-from graphkin.drawing.text import Atom, parsed
 from graphkin.errors import Unsolvable
 from graphkin.jobs import Progress
 from graphkin.papers.blocks import Said, in_each
@@ -173,17 +172,6 @@ class Lesson:
     def in_unit(self, symbol: Symbol, value: float) -> float:
         """A value (SI) in that unit."""
         return float(symbol.unit(self.sheet.scene.units).of(value))
-
-
-def plain_words(markup: str) -> str:
-    """Words with symbols as one plain line, for titles and for readers of screens: ``v_B3B2``."""
-    return "".join(p if isinstance(p, str) else "".join(map(_plain_atom, p)) for p in parsed(markup))
-
-
-def _plain_atom(atom: Atom) -> str:
-    up = "".join(map(_plain_atom, atom.sup))
-    down = "".join(map(_plain_atom, atom.sub))
-    return atom.text + (f"^{up}" if up else "") + (f"_{down}" if down else "")
 
 
 # -- lessons of a scene ------------------------------------------------------------------------------------------------

@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from graphkin.drawing.font import FAMILY, FOLDER
 from graphkin.drawing.ink.primitives import Scan, map_tree
-from graphkin.drawing.text import Atom, is_italic, parsed
+from graphkin.drawing.text import is_italic
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.drawing.write.svg import svg_element
 from graphkin.papers.blocks import (
@@ -47,6 +47,7 @@ from graphkin.papers.html import document_page
 from graphkin.papers.paper import BOTTOM, SIDE, TOP
 from graphkin.plane import added_up
 from graphkin.words import word
+from graphkin.words.symbols import Atom, parsed
 
 if TYPE_CHECKING:
     import typst

@@ -24,10 +24,11 @@ from graphkin.drawing.place.piece import ink_box, joined, layer_groups, moved_pi
 from graphkin.drawing.stepwise import so_far, stepped
 from graphkin.drawing.text import rich, runs_width, symbol
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.papers.lesson import Lesson, plain_words
+from graphkin.papers.lesson import Lesson
 from graphkin.papers.paper import paper_of
 from graphkin.plane import added_up
 from graphkin.words import languages
+from graphkin.words.symbols import plain_words
 
 ROOM = 11.0  # mm around a figure, for names
 AROUND = 14.0  # mm around a polygon that is still to be drawn

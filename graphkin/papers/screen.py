@@ -53,13 +53,14 @@ from graphkin.papers.documents import (
     way,
 )
 from graphkin.papers.html import blocks_html, rendered, said_html, spoken_words, whole_page, words_html
-from graphkin.papers.lesson import MECHANISM, Lesson, plain_words, rows_in_order
+from graphkin.papers.lesson import MECHANISM, Lesson, rows_in_order
 from graphkin.papers.pictures import POLYGONS, ROOM, bare_picture, equation_picture
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion, solve
 from graphkin.solver.pose import Array
 from graphkin.solver.quantities import pole
 from graphkin.words import about, gaps_of, languages, word
+from graphkin.words.symbols import plain_words
 
 WIDE = 96.0  # mm of the sketch of a group, its polygon below
 LISTED = ("figures", "steps")

@@ -6,7 +6,7 @@ same keys, and every command knows it.
 
 Rich text: a sentence as words and symbols, kept apart from the table of words to the page.
 
-Symbols are written in the notation of `graphkin.drawing.text`.  Words of a table hold theirs between dollar signs, or
+Symbols are written in the notation of `graphkin.words.symbols`.  Words of a table hold theirs between dollar signs, or
 as a rate with its index (``ω_{2}``); those of the gaps are what ``show`` gives as `Markup`.
 """
 
@@ -18,6 +18,8 @@ from functools import cache, reduce
 from pathlib import Path
 from string import Formatter
 from typing import Any, TypeAlias
+
+from graphkin.words.symbols import plain, symbol
 
 __all__ = [
     "BOTH", "LANGUAGES", "Markup", "Neutral", "Phrase", "RichText", "Wording", "about", "alternatives", "area",
@@ -396,5 +398,5 @@ def as_markup(text: RichText) -> str:
 
 def as_plain(text: RichText, index: str = "") -> str:
     """For a terminal, and for who does not see: ``v_B2`` or ``vB2``, as ``index`` stands before an index."""
-    plain = (p.replace("_{", index).replace("{", "").replace("}", "") if isinstance(p, Markup) else p for p in text)
-    return "".join(plain).replace("$$", "$")
+    shown = (plain(symbol(part), index) if isinstance(part, Markup) else part.replace("$$", "$") for part in text)
+    return "".join(shown)

@@ -15,10 +15,11 @@ from graphkin.account.notation import letters_of
 from graphkin.api.handouts import handout
 from graphkin.construction import draft
 from graphkin.construction.steps import Reason
-from graphkin.papers.lesson import plain_words, stages
+from graphkin.papers.lesson import stages
 from graphkin.papers.screen import motion_data
 from graphkin.scene import library, mechanism_of
 from graphkin.words import Phrase
+from graphkin.words.symbols import plain_words
 
 pytestmark = pytest.mark.quick
 
@@ -137,7 +138,7 @@ def _steps(name, language, convention="chinese"):
 
 def test_a_vector_is_laid_off_from_a_lettered_point_in_a_sense_to_a_lettered_point():
     said = _steps("sixbar-guide-40deg", "en")[21:23]
-    normal = "From the pole p′ lay off p′n_3′ = a^n_B3C = ω^2_3 l_CB (normal component), 30.33 mm, B→C: point n_3′."
+    normal = "From the pole p′ lay off p′n_3′ = a^n_B3C = ω_3^2 l_CB (normal component), 30.33 mm, B→C: point n_3′."
     assert normal == said[0]
     assert "⊥CB, pointing to −11.9°: point k_2′" in said[1]
 

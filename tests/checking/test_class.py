@@ -153,7 +153,7 @@ def test_a_direction_turned_back_is_called_so():
 def test_the_words_of_the_key_are_right(tmp_path):
     from graphkin.papers.blocks import TableBlock
     from graphkin.papers.documents import answer_key
-    from graphkin.papers.lesson import plain_words
+    from graphkin.words.symbols import plain_words
 
     for language in ("en", "zh"):
         lesson = graphkin.handout(SIXBAR, language=language).lesson

@@ -12,8 +12,9 @@ from graphkin.account.account import Account
 from graphkin.account.notation import letters_of
 from graphkin.api.handouts import handout
 from graphkin.construction import draft
-from graphkin.papers.lesson import plain_words, stages
+from graphkin.papers.lesson import stages
 from graphkin.scene import library, mechanism_of
+from graphkin.words.symbols import plain_words
 
 
 def test_stages_hold_every_step_once_in_order():
