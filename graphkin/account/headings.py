@@ -9,10 +9,10 @@ import re
 from collections.abc import Callable, Mapping
 
 from graphkin.account.notation import unit_of
+from graphkin.account.spoken import spoken_vector
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName, Direction, plain_in
 from graphkin.scene.model import Mechanism
-from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Measure
 from graphkin.version import __version__
 from graphkin.words import Neutral, Phrase, as_plain, in_all, languages, listed, rich_text, say, word
@@ -110,23 +110,6 @@ def facts(sheet: Sheet, figure: str) -> dict[str, object]:
     }
 
 
-def spoken_ref(ref: PointRef, language: str) -> str:
-    """A point in words: "B of link 3"."""
-    return " / ".join(_ref(ref, each) for each in languages(language))
-
-
-def spoken_vector(symbol: Symbol, language: str) -> str:
-    """A vector in words: "velocity of B of link 3 relative to B of link 2"."""
-    said = []
-    for each in languages(language):
-        assert symbol.of is not None
-        text = say(Phrase(f"{symbol.kind} of", point=_ref(symbol.of, each)), each)
-        if symbol.to is not None:
-            text += say(Phrase("relative to", reference=_ref(symbol.to, each)), each)
-        said.append(text)
-    return " / ".join(said)
-
-
 def _plain_symbol(language: str) -> Callable[[object], str]:
     """The same without marks between point and link, ``v_B3/B2``, and a direction that was found as a line."""
     plain = plain_in(language)
@@ -214,10 +197,6 @@ def _vectors(sheet: Sheet, diagram: DiagramName, language: str) -> list[str]:
         )  # fmt: skip
         said.append(say(phrase, language))
     return said
-
-
-def _ref(ref: PointRef, language: str) -> str:
-    return say(Phrase("point of link", point=ref.point, link=ref.link), language) if ref.link else ref.point
 
 
 def _sentence(said: Phrase, language: str) -> str:

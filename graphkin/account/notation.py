@@ -38,6 +38,8 @@ _PARTS: Mapping[str, tuple[str, str, str, str]] = {
 }
 _ROWS: Mapping[str, Rows] = {"chinese": "rows", "us": "over", "british": "table", "russian": "underlines"}
 _ORDER = ("an", "at", "ak", "ar")
+PART_MARKS = {mark: kind for marks in _PARTS.values() for mark, kind in zip(marks, _ORDER, strict=True)}
+"""The part of an acceleration by the mark that it bears in some convention."""
 _ROLES = {"normal": 0, "tangential": 1, "coriolis": 2, "sliding": 3}
 # letters of positions, and what stands above them to tell them from others
 _PLACES: Mapping[str, tuple[str, str]] = {

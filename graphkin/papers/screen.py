@@ -20,6 +20,7 @@ from graphkin.account.forces import ForceAccount, ForceStage, ForceStep
 from graphkin.account.given import drivers
 from graphkin.account.headings import FIGURE_WORDS, number, term
 from graphkin.account.notation import Letters, scale_statement
+from graphkin.account.spoken import spoken_words
 from graphkin.account.voice import capital
 from graphkin.checking.uncertainty import COVERAGE
 from graphkin.construction.sheet import Sheet
@@ -52,7 +53,7 @@ from graphkin.papers.documents import (
     step_items,
     way,
 )
-from graphkin.papers.html import blocks_html, rendered, said_html, spoken_words, whole_page, words_html
+from graphkin.papers.html import blocks_html, rendered, said_html, whole_page, words_html
 from graphkin.papers.lesson import MECHANISM, Lesson, rows_in_order
 from graphkin.papers.pictures import POLYGONS, ROOM, bare_picture, equation_picture
 from graphkin.scene.symbol import PointRef, Symbol

@@ -16,8 +16,8 @@ from functools import cached_property
 
 import numpy as np
 
-from graphkin.account.headings import spoken_ref, spoken_vector
 from graphkin.account.notation import Letters, pole
+from graphkin.account.spoken import spoken_ref, spoken_vector
 from graphkin.account.voice import SAME, NamedPoint, PolygonPoints, numeral
 from graphkin.construction.scales import SERIES
 from graphkin.construction.sheet import Sheet
