@@ -22,4 +22,6 @@ def test_a_symbol_of_each_convention_is_read_as_what_it_is(english: str, chinese
 
 def test_a_vector_is_named_in_each_language_of_a_sheet():
     said = spoken_vector(Symbol.parse("ar_B@3/B@2"), "both")
-    assert said == "sliding acceleration of B of link 3 relative to B of link 2 / 构件 3 上的 B 相对 构件 2 上的 B 的相对加速度"
+    english, chinese = said.split(" / ")
+    assert "sliding acceleration of B of link 3 relative to B of link 2" == english
+    assert "构件 3 上的 B 相对 构件 2 上的 B 的相对加速度" == chinese
