@@ -1,4 +1,4 @@
-"""What can go wrong, as data: where, what was found, what would be right.
+"""Errors as data: the place, the value found, the right form.
 
 Text for the terminal, the notebook and the tests is made here and nowhere else.
 """
@@ -19,14 +19,14 @@ _LONG_WORD = re.compile("[!-~\x00]{300,}")
 
 @dataclass(frozen=True, init=False)
 class Problem:
-    """One thing that is wrong.
+    """One problem.
 
     Parameters
     ----------
-    where : what it is about, by name as in the file ("links.3.length", "point D")
-    found : what was found, as a clause: its id in the tables of words, or a phrase ("-5, a length must be positive")
-    wanted : what would be right, as a clause; empty where ``found`` says it all
-    gaps : what stands in the gaps of both, by their names
+    where : its subject, by name as in the file ("links.3.length", "point D")
+    found : the value found, as a clause: its id in the tables of words, or a phrase ("-5, a length must be positive")
+    wanted : the right form, as a clause; empty where ``found`` is enough
+    gaps : the values for the gaps of both, by their names
 
     >>> print(Problem("link 3", "link is the frame", "give one of them", name="3"))
     link 3: link 3 is the frame; give one of them
@@ -44,8 +44,8 @@ class Problem:
 
     @property
     def data(self) -> dict[str, str | None]:
-        """The problem for a program: its clauses in English, ``id`` the key of what was found, the same in every
-        language; None where that is a sentence of no table."""
+        """The problem for a program: its clauses in English, and ``id``, the key of ``found``, the same in every
+        language; None for a sentence of no table."""
         return {
             "where": str(self.where), "found": str(self.found), "wanted": str(self.wanted),
             "id": self.found.key if isinstance(self.found, Phrase) else None,
@@ -53,7 +53,7 @@ class Problem:
 
     @property
     def sentence(self) -> Phrase:
-        """The problem as a sentence to be."""
+        """The problem as a phrase."""
         sentence = Phrase("where and what", where=self.where, found=self.found)
         return Phrase("and what is wanted", text=sentence, wanted=self.wanted) if self.wanted else sentence
 
@@ -67,13 +67,13 @@ class Problem:
 
 
 def _shortened(text: str) -> str:
-    """A text of what somebody wrote, with words that no one reads cut, and no longer than a page."""
+    """A text that somebody wrote, with its overlong words cut, and no longer than a page."""
     text = _LONG_WORD.sub(lambda word: f"{word[0][:80]}…{word[0][-20:]}", text)
     return text if len(text) <= PAGE else f"{text[:PAGE]}…"
 
 
 class GraphkinError(Exception):
-    """Root of everything graphkin raises on purpose.  ``problems`` holds the facts."""
+    """The base of all errors that graphkin raises on purpose.  ``problems`` holds the facts."""
 
     exit_code = 2
 
@@ -87,7 +87,7 @@ class GraphkinError(Exception):
         return cls(Problem(where, found, wanted, **gaps))
 
     def text(self, language: str = "en") -> str:
-        """What is wrong, a line for each problem, in a language."""
+        """The problems in a language, a line for each."""
         return "\n".join(p.text(language) for p in self.problems)
 
     def __reduce__(self) -> tuple[type[GraphkinError], tuple[Problem, ...]]:
@@ -95,7 +95,7 @@ class GraphkinError(Exception):
 
 
 class SceneError(GraphkinError):
-    """The scene file does not say a mechanism; every problem of the file is listed (exit status 2)."""
+    """The scene file gives no mechanism; every problem of the file is listed (exit status 2)."""
 
 
 class CallError(GraphkinError):
@@ -125,13 +125,13 @@ class Unsolvable(GraphkinError):
 
     @property
     def reason(self) -> Wording:
-        """The reason, to be said in one line of any language."""
+        """The reason as a phrase of one line."""
         said: Wording = joined("two sentences", (problem.sentence for problem in self.problems))
         return said
 
 
 class Disagreement(GraphkinError):
-    """A drawing does not agree with the analytic solver: no paper is made of it (exit status 1)."""
+    """A drawing that disagrees with the analytic solver: no paper is made of it (exit status 1)."""
 
     exit_code = 1
 
@@ -147,7 +147,7 @@ _CONTROL = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069
 
 
 def printable(text: str) -> str:
-    """A text in one line in which nothing commands a terminal: control characters are written out.
+    """A text in one line without commands to a terminal: control characters are written out.
 
     >>> printable("a title \x1b[2J")
     'a title \\\\x1b[2J'
@@ -156,7 +156,7 @@ def printable(text: str) -> str:
 
 
 def unfit(where: Wording, value: object, wanted: Wording, **gaps: object) -> CallError:
-    """The error of a value that is not what is wanted.
+    """The error of a value of the wrong kind.
 
     >>> print(unfit("seed", [1], "give a whole number"))
     seed: found [1]; give a whole number
@@ -165,7 +165,7 @@ def unfit(where: Wording, value: object, wanted: Wording, **gaps: object) -> Cal
 
 
 def as_text(where: str, value: object) -> str:
-    """What a caller gives as a name: a text, or what stands for one.  Raises CallError for numbers, lists and nothing.
+    """A caller's name as a text.  Raises CallError for numbers, lists and None.
 
     >>> as_text("link", "2")
     '2'
@@ -176,7 +176,7 @@ def as_text(where: str, value: object) -> str:
 
 
 def as_list(where: str, value: object, wanted: Wording) -> list[Any]:
-    """What a caller gives one after the other; a text stands for itself alone.  Raises CallError for what is no list.
+    """A caller's items as a list; a text is one item.  Raises CallError for a value that is no list.
 
     >>> as_list("find", ("v_B", "v_C"), "give symbols"), as_list("find", "v_B", "give symbols")
     (['v_B', 'v_C'], ['v_B'])
@@ -188,7 +188,7 @@ def as_list(where: str, value: object, wanted: Wording) -> list[Any]:
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> Phrase:
-    """Return a clause that names the known words, the nearest first if one is near.
+    """A clause that proposes the nearest known word, or names the known words if none is near.
 
     >>> print(did_you_mean("lenght", ["length", "points"]))
     did you mean "length"?

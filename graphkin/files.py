@@ -29,7 +29,7 @@ _WORD_OR_ZERO = re.compile(r'"(?:[^"\\]|\\.)*"|-0\.0(?![0-9e])')
 
 
 def json_text(data: object) -> str:
-    """Data as the text of JSON on one line: what would command a terminal is escaped, and 0 has no sign.
+    """Data as the text of JSON on one line: control characters are escaped, and 0 has no sign.
 
     >>> json_text({"v": -0.0, "w": [-0.05, "-0.0"]})
     '{"v": 0.0, "w": [-0.05, "-0.0"]}'
@@ -41,7 +41,7 @@ def json_text(data: object) -> str:
 
 
 def path_of(place: str | os.PathLike[str]) -> Path:
-    """A path as callers give it.  Raises CallError for what is none."""
+    """A caller's path.  Raises CallError for a value that is no path."""
     path: object = None
     with suppress(TypeError, UnicodeEncodeError):
         os.fsencode(place)  # half a pair of UTF-16 is in no name
@@ -52,13 +52,13 @@ def path_of(place: str | os.PathLike[str]) -> Path:
 
 
 def opened(path: str | os.PathLike[str]) -> IO[bytes]:
-    """Open a file for reading: no device, which may never end, and no pipe into which perhaps nobody writes, unless the
-    shell hands it over open.
+    """Open a file for reading, but no device, which may never end, and no pipe without a writer, unless the shell hands
+    it over open.
 
     Raises
     ------
     OSError : there is no such file, or it cannot be read
-    ValueError : the name is one that no file can have
+    ValueError : no file can have this name
     """
     mode = os.stat(path).st_mode
     if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode) or _HANDED_OVER.fullmatch(os.fspath(path))):
@@ -68,8 +68,8 @@ def opened(path: str | os.PathLike[str]) -> IO[bytes]:
 
 @contextmanager
 def whole_file(path: Path, beside: Path | None = None) -> Iterator[IO[bytes]]:
-    """Open a file that takes its name only when it is whole; one of the same name is replaced.  Until then it is in its
-    own folder, or in another one.  Who may read it the user's own rule for new files says.  Raises OSError."""
+    """Open a file that gets its name only when it is whole; a file of that name is replaced.  Until then it is in its
+    own folder, or in ``beside``.  Its permissions follow the user's rule for new files.  Raises OSError."""
     temporary = (beside or path.parent) / f".{path.name}.{os.urandom(4).hex()}"
     handle = os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY | getattr(os, "O_BINARY", 0), 0o666)
     try:
@@ -87,9 +87,9 @@ def whole_file(path: Path, beside: Path | None = None) -> Iterator[IO[bytes]]:
 
 @contextmanager
 def folder_alone(folder: Path) -> Iterator[None]:
-    """Have a folder of results for oneself for a long job: a second program that wants it is told who is there.
+    """Hold a folder of results for one long job: a second program that wants it gets an error that names the first.
 
-    A file is held locked in it, which the system lets go of when the program ends, however that comes about.
+    A file in it is locked; the system unlocks it when the program ends, however it ends.
 
     Raises
     ------
@@ -117,7 +117,7 @@ def folder_alone(folder: Path) -> Iterator[None]:
 
 
 def _locked(path: Path) -> int | None:
-    """A handle of the file, locked; None where another has it."""
+    """A locked handle of the file; None where another program has the lock."""
     while True:
         handle = os.open(path, os.O_CREAT | os.O_RDWR, 0o666)
         if not _lock(handle):

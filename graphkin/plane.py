@@ -1,5 +1,5 @@
-"""Points and directions of the plane as complex numbers: products, crossings, compass arcs in closed form; and where a
-link lies in it."""
+"""Points and directions of the plane as complex numbers: products, crossings, compass arcs in closed form; and the pose
+of a link."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ def added_up(values: Iterable[complex], start: complex) -> complex: ...
 def added_up(values: Iterable[Values], start: Values = 0) -> Values:
     """Numbers added from left to right, each sum rounded.
 
-    The builtin ``sum`` carries along what rounding lost, of floats from Python 3.12 on, of complex numbers from 3.14
-    on: what is written would depend on the Python that writes it.
+    The builtin ``sum`` compensates for rounding, of floats from Python 3.12 on, of complex numbers from 3.14 on: files
+    would depend on the Python that writes them.
     """
     return reduce(add, values, start)
 
@@ -52,7 +52,7 @@ def cross(a: Points, b: Points) -> Floats: ...
 @overload
 def cross(a: Values, b: Values) -> Values: ...
 def cross(a: Values, b: Values) -> Values:
-    """Vector product (its z part) of the same: positive where b lies counter-clockwise of a."""
+    """Vector product (its z part) of two plane vectors: positive where b lies counter-clockwise of a."""
     return a.real * b.imag - a.imag * b.real
 
 
@@ -90,7 +90,7 @@ def cross_lines(p: complex, d: complex, q: complex, e: complex) -> complex | Non
 
 
 def cross_line_arc(p: complex, d: complex, centre: complex, radius: float) -> tuple[complex, complex] | None:
-    """The two points where a line through p along unit d cuts a circle, the one further along d first."""
+    """The two points where a line through p along unit d cuts a circle, the point farther along d first."""
     foot = p + d * dot(centre - p, d)
     offset = abs(centre - foot)
     inside = (radius - offset) * (radius + offset)
@@ -101,8 +101,8 @@ def cross_line_arc(p: complex, d: complex, centre: complex, radius: float) -> tu
 
 
 def cross_arcs(p: complex, r: float, q: complex, s: float) -> tuple[complex, complex] | None:
-    """The two points where the circle about p (radius r) cuts the circle about q (radius s), the one to the
-    left of the directed line from p to q first; None where they do not meet.
+    """The two points where the circle about p (radius r) cuts the circle about q (radius s), the point to the left of
+    the directed line from p to q first; None where they do not meet.
 
     The height over the line of centres comes from Heron's product with the small factors formed first, which
     keeps its digits where r**2 - x**2 loses them (Kahan, Miscalculating area and angles of a needle-like triangle).
@@ -123,21 +123,21 @@ def cross_arcs(p: complex, r: float, q: complex, s: float) -> tuple[complex, com
 
 @dataclass(frozen=True)
 class Pose:
-    """Where a link lies: its origin (m, or mm on paper) and the unit direction of its own x axis."""
+    """The pose of a link: its origin (m, or mm on paper) and the unit direction of its own x axis."""
 
     origin: complex
     axis: complex
 
     def place(self, local: complex) -> complex:
-        """A place that is given in the link's own axes."""
+        """The place (in the frame) of a place in the link's own axes."""
         return self.origin + self.axis * local
 
     def local(self, place: complex) -> complex:
-        """A place in the link's own axes."""
+        """The place in the link's own axes of a place in the frame."""
         return (place - self.origin) / self.axis
 
     def scaled(self, times: float) -> Pose:
-        """The same where lengths are so many times as large."""
+        """The pose with lengths multiplied by ``times``."""
         return Pose(self.origin * times, self.axis)
 
 

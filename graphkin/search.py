@@ -1,10 +1,10 @@
 """Zeros, extremes and intervals of a function of one variable: the one search of the house.
 
-What is only true or false, or dear to compute, is looked for by sections.  Smooth curves are represented as Chebyshev
-polynomials, for zeros and extremes to full accuracy, not to a grid: a curve is cut into as many pieces as it takes
-until the last coefficients vanish in rounding; zeros are roots of the polynomials, extremes roots of their derivatives
-(Boyd, Computing zeros on a real interval through Chebyshev expansion and polynomial rootfinding, SIAM J. Numer. Anal.
-40, 2002; Trefethen, Approximation Theory and Approximation Practice).
+Conditions, which are only true or false, and functions that take long to compute are searched by sections.  Smooth
+curves are represented as Chebyshev polynomials, for zeros and extremes to full accuracy, not to a grid: a curve is cut
+into pieces until the last coefficients vanish in rounding; zeros are roots of the polynomials, extremes roots of their
+derivatives (Boyd, Computing zeros on a real interval through Chebyshev expansion and polynomial rootfinding, SIAM J.
+Numer. Anal. 40, 2002; Trefethen, Approximation Theory and Approximation Practice).
 """
 
 from __future__ import annotations
@@ -30,13 +30,13 @@ SAME_VALUE = 1e-12
 def last_true(
     holds: Callable[[Array], Array], low: float, high: float, sections: int = SECTIONS, within: float = 0.0
 ) -> float:
-    """The place up to which a condition holds that is true at ``low`` and false at ``high``, in either order.
+    """The last place at which a condition holds that is true at ``low`` and false at ``high``, in either order.
 
     Parameters
     ----------
     holds : function of places, shape (n,), to bool, shape (n,)
-    sections : how many are looked at together; 2 where each place is dear
-    within : how near is near enough; 0 for the last digit
+    sections : the number of sections computed together; 2 where each place takes long
+    within : the accuracy of the place; 0 for the last digit
     """
     while True:
         at = np.linspace(low, high, sections + 1)
@@ -48,15 +48,16 @@ def last_true(
 
 
 def changes(holds: Callable[[Array], Array], grid: Array, within: float = 0.0) -> list[float]:
-    """Where a condition begins or ceases to hold along a grid that is fine enough to see every change, to the last
-    digit (as near as ``within``): places where it still holds."""
+    """The ends of the intervals in which a condition holds, along a grid fine enough to see every change, to the last
+    digit (or ``within``): places where it still holds."""
     true = holds(grid)
     pairs = ((k, k + 1) if true[k] else (k + 1, k) for k in np.flatnonzero(true[1:] != true[:-1]))
     return [last_true(holds, float(grid[inside]), float(grid[outside]), within=within) for inside, outside in pairs]
 
 
 def intervals(holds: Callable[[Array], Array], grid: Array) -> list[tuple[float, float]]:
-    """Where a condition holds along a grid, as for ``changes``; at most from its first to its last place."""
+    """The intervals in which a condition holds along a grid, as for ``changes``; at most from its first to its last
+    place."""
     first, last = holds(grid[[0, -1]]).tolist()
     places = [*([float(grid[0])] if first else []), *changes(holds, grid), *([float(grid[-1])] if last else [])]
     return list(zip(places[::2], places[1::2], strict=True))
@@ -65,8 +66,8 @@ def intervals(holds: Callable[[Array], Array], grid: Array) -> list[tuple[float,
 def least_value(
     function: Callable[[Array], Array], low: float, high: float, enough: float = -np.inf, within: float = NARROW
 ) -> tuple[float, float]:
-    """Place (as near as ``within``) and value of the least value between two places, with one valley between them; less
-    than ``enough`` is not looked into."""
+    """Place (to ``within``) and value of the least value between two places, with one valley between them; a value
+    below ``enough`` ends the search."""
     while True:
         at = np.linspace(low, high, LEAST_SECTIONS + 1)
         value = function(at)
@@ -79,8 +80,8 @@ def least_value(
 def greatest_and_least(
     function: Callable[[Array], Array], places: Array, values: Array, within: float
 ) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Place and value of the greatest and of the least of a course that was sampled, each sought between the neighbours
-    of its sample; not where these stand in another order, as where a turn begins anew."""
+    """Place and value of the greatest and of the least value of a sampled course, each sought between the neighbours of
+    its sample; not where these are out of order, as where a turn begins anew."""
     found = []
     for sign in (-1.0, 1.0):
         k = int(np.nanargmin(sign * values))
@@ -123,8 +124,8 @@ _FIT = np.linalg.inv(chebyshev.chebvander(_NODES, POINTS - 1))
 
 
 class Turn(NamedTuple):
-    """Where a curve turns: its parameter and value, 1 at a greatest and -1 at a least value, and whether a seam lies
-    there."""
+    """A turning point of a curve: its parameter and value, 1 at a greatest and -1 at a least value, and whether a seam
+    lies there."""
 
     place: float
     value: float
@@ -138,11 +139,11 @@ class Pieces:
 
     low, high : shape (pieces,), the ends of each piece, in increasing order
     coefficients : shape (pieces, points, curves)
-    weight : shape (2, curves), the powers of the sine and of the cosine of half the parameter that the curves were
-        multiplied by to stay finite at the lower and at the upper end
+    weight : shape (2, curves), the powers of the sine and of the cosine of half the parameter by which the curves were
+        multiplied to stay finite at the lower and at the upper end
     seams : parameters at which curves may jump or bend, each between two pieces
-    scale : shape (curves,), the largest value of each curve (the usual one, where it grows without bound), or the floor
-    doubt : shape (pieces, curves), how far the values of each piece may be off; infinite where a piece is left out
+    scale : shape (curves,), the largest value of each curve (a typical one where it grows without bound), or the floor
+    doubt : shape (pieces, curves), the bound of the error of each piece; infinite where a piece is left out
     """
 
     low: Array
@@ -155,7 +156,7 @@ class Pieces:
     seams: Array
 
     def zeros(self, curve: int) -> Array:
-        """Parameters at which a curve is zero, in increasing order; of a stretch along which it is, the ends."""
+        """Parameters at which a curve is zero, in increasing order; of a stretch along which it is zero, the ends."""
         found = self._roots(self.coefficients[:, :, curve], self.scale[curve], self.doubt[:, curve])
         whole = self.high[-1] - self.low[0]
         nothing = np.abs(self.levels(curve)).min(axis=0) <= NOTHING * self.scale[curve]
@@ -167,7 +168,8 @@ class Pieces:
         return np.sort(found)
 
     def near_zero(self, curve: int, within: float) -> tuple[Array, Array]:
-        """Zeros and extremes of a curve, from the pieces alone in which it may come so near to zero; seams aside."""
+        """Zeros and extremes of a curve from the pieces in which it may come within ``within`` of zero; without
+        seams."""
         c = self.coefficients[:, :, curve]
         near = np.abs(c[:, 0]) <= np.abs(c[:, 1:]).sum(axis=1) + within
         if not near.any():
@@ -194,13 +196,13 @@ class Pieces:
         return self._roots(slopes, self.scale[curve] * POINTS, self.doubt[:, curve] * POINTS)
 
     def turns(self, curve: int, at_rest: bool = True) -> list[Turn]:
-        """Where a curve has a greatest or a least value among those beside it, in increasing order; none where it only
-        stands still for a moment.  At a seam it may jump, or leave a stretch along which it stands still, whose end is
-        meant.
+        """The greatest and least values of a curve among their neighbours, in increasing order of the parameter; none
+        where it only stands still for a moment.  At a seam it may jump, or leave a stretch along which it is constant;
+        then the end of the stretch counts.
 
         Parameters
         ----------
-        at_rest : whether a seam counts at which the curve is nothing
+        at_rest : whether a seam counts at which the curve is zero
         """
         low, high, slack = float(self.low[0]), float(self.high[-1]), SAME_AT_SEAM * self.scale[curve]
         found, levels = list[Turn](), self.levels(curve)
@@ -230,20 +232,20 @@ class Pieces:
         return [turn for turn in turns if turn not in parted]
 
     def _room(self) -> Array:
-        """How far each seam is from what is next to it: another seam, or an end of the range."""
+        """The distance of each seam from its neighbour: another seam, or an end of the range."""
         wide = self.high[-1] - self.low[0]
         ends = (self.seams[-1:] - wide, self.seams[:1] + wide) if self.periodic else (self.low[:1], self.high[-1:])
         gaps = np.diff(np.concatenate([ends[0], self.seams, ends[1]]))
         return np.minimum(gaps[:-1], gaps[1:])
 
     def _within(self, parameter: Array) -> Array:
-        """Parameters; of a turn within it."""
+        """The parameters, of a periodic range reduced to it."""
         low, high = self.low[0], self.high[-1]
         return low + np.remainder(parameter - low, high - low) if self.periodic else np.clip(parameter, low, high)
 
     def at(self, parameter: ArrayLike, curve: int, after: bool = False) -> Array:
-        """The values of a curve, by its polynomials: also at an end where the curve itself cannot be computed, of a
-        seam before or ``after`` it; not a number in a piece that was left out."""
+        """The values of a curve by its polynomials, also at an end where the curve itself cannot be computed; at a seam
+        the value before or ``after`` it; not a number in a piece that was left out."""
         places = np.asarray(parameter, dtype=float)
         piece = np.minimum(np.searchsorted(self.high, places, "right" if after else "left"), len(self.high) - 1)
         low, high = self.low[piece], self.high[piece]
@@ -259,7 +261,7 @@ class Pieces:
         return np.stack([self.at(before, curve), self.at(self.seams, curve, after=True)])
 
     def is_constant(self, curve: int) -> bool:
-        """Whether a curve does not change beyond rounding, as far as it is known."""
+        """Whether the known part of a curve changes by rounding alone."""
         c = self.coefficients[np.isfinite(self.doubt[:, curve]), :, curve]
         level = c[:1] * np.eye(1, c.shape[1])  # the constant of the first piece
         most = float(np.max(np.abs(c - level), initial=0.0))
@@ -338,14 +340,14 @@ def resolve(
 
     Parameters
     ----------
-    curves : function of parameters, shape (n,), to values and how far each may be off, shape (n, curves); where values
-        are not finite, a short piece is left out: it has no roots
+    curves : function of parameters, shape (n,), to values and bounds of their errors, shape (n, curves); a short piece
+        with values that are not finite is left out: it has no roots
     low, high : range of the parameter
     periodic : whether both ends are the same position
     weight : shape (2, curves), powers of the sine and of the cosine of half the parameter that the curves are
-        multiplied by: over a range 0 .. pi, for curves that grow without bound at its lower or upper end.  The zeros
-        stay, the extremes found are those of the curve itself.
-    floor : shape (curves,), values that are as good as zero relative to it are not looked into
+        multiplied by: over a range 0 .. pi, for curves that grow without bound at its lower or upper end.  Zeros and
+        extremes are those of the curve itself.
+    floor : shape (curves,), values that vanish in rounding beside it count as zero
     seams : parameters inside the range at which curves may jump or bend: pieces end there
     """
     seams = np.zeros(0) if seams is None else np.sort(seams)

@@ -1,9 +1,9 @@
 """From a scene to its structure: mobility, and the elements in the order of solution; or why there is no such order.
 
-Hinges, slides, drivers and what rolls are equations between coordinates of links and points.  A matching gives each
-equation a coordinate of its own; strongly connected components of what needs what are solved together, and are driven
-links, dyads of one of their kinds, or larger groups.  A scene has no such order with too many or too few drivers, and
-where parts are held too much beside parts left free.
+Hinges, slides, drivers and rolling pairs are equations between coordinates of links and points.  A matching gives each
+equation a coordinate of its own; strongly connected components of the graph of dependences are solved together: they
+are driven links, dyads of some kind, or larger groups.  A scene has no such order with too many or too few drivers, or
+where some parts are overconstrained and others free.
 
 The matching and the components are our own 60 lines: a graph of some ten nodes does not call for one more dependency
 (networkx), or for scipy.sparse.csgraph, which takes longer to import than a mechanism to solve.
@@ -50,16 +50,14 @@ def analyse(scene: Mechanism | Structure) -> Structure:
     """Find the mobility and the order of solution; a structure is handed back as it is.
 
     Each constraint is assigned one coordinate that it gives (a perfect matching exists just when every part of the
-    mechanism has as many constraints as coordinates); the strongly connected components of what needs what are then
+    mechanism has as many constraints as coordinates); the strongly connected components of the graph of dependences are
     the Assur groups, in the order of solution.
 
     Raises
     ------
     Unsolvable
-        status "mobility": the number of drivers is not the mobility, or a part of the mechanism is held too much
-        while another is free.
-    NoDriver
-        of that status: a mechanism that can move has no driver at all.
+        status "mobility": the number of drivers is not the mobility, or a part of the mechanism is overconstrained
+        while another is free. NoDriver of that status: a mechanism that can move has no driver at all.
     """
     if isinstance(scene, Structure):
         return scene
@@ -294,7 +292,7 @@ def _element_of(structure: Structure, members: list[str], known: set[str]) -> El
 
 
 def _touches(structure: Structure, relation: RollingRelation, inside: set[str], known: set[str]) -> bool:
-    """Whether a relation holds members of a group, all else in it being known."""
+    """Whether a relation holds members of a group and otherwise known links only."""
     slides = (structure.slide(name) for kind, name in relation.terms if kind == "travel")
     within = {*relation.links, *(n for s in slides for n in s.links)} - {structure.scene.frame.name}
     return bool(within & inside) and within <= inside | known
@@ -316,7 +314,7 @@ def _pairs(structure: Structure, members: list[str], known: set[str]) -> list[Pa
 def _bodies(
     structure: Structure, members: list[str], drivers: Sequence[Driver]
 ) -> tuple[list[Body], list[Driver]]:
-    """Links of the group that drivers hold together, and the drivers that act at no pair inside it."""
+    """The bodies of a group, links that drivers hold together, and the drivers that act at no pair inside it."""
     joints: list[DrivenJoint] = []
     loose: list[Driver] = []
     for driver in drivers:
@@ -366,8 +364,8 @@ def _dyad(structure: Structure, bodies: list[Body], pairs: list[Pair], links: tu
 def _rolls_like_a_dyad(
     members: Sequence[str], pairs: Sequence[Pair], drivers: Sequence[Driver], rolling: Sequence[RollingRelation]
 ) -> bool:
-    """Whether for velocities a group is two links with three joints, one of them where it rolls, as if hinged there: a
-    link that only carries a wheel follows it, links that a driver joins are one."""
+    """Whether a group has the velocities of two links with three joints, one of them at the point of rolling, as if
+    hinged there: a link that only carries a wheel follows it, links joined by a driver count as one."""
     carriers = {carrier for relation in rolling for carrier in relation.links[2:]}
     bodies = sum(name not in carriers for name in members)
     joints = sum(not carriers & {pair.a, pair.b} for pair in pairs) + len(rolling)
@@ -395,7 +393,7 @@ def _order(members: list[str], pairs: list[Pair]) -> int:
 
 
 def _triangles(structure: Structure, group: LargerGroup, taken: set[str]) -> tuple[DrivenTriangle, ...]:
-    """The driven triangles of a larger group; ``taken`` are the keys of drivers, which no other may bear."""
+    """The driven triangles of a larger group; ``taken`` are the keys of drivers, which no other driver may have."""
     triangles: list[DrivenTriangle] = []
     for driver in group.drivers:
         for triangle in _closed_by(structure, group, driver):
@@ -410,9 +408,9 @@ def _closed_by(structure: Structure, group: LargerGroup, driver: Driver) -> Iter
     """The triangles that a driven slide closes with a pair of two links not yet known: of tippers, scissor lifts,
     excavators.
 
-    The rod and the cylinder hang on two links that a pair joins.  Seen with one of these held still, the other, the rod
-    and the cylinder are a dyad with a given travel between: the triangle is rigid at the moment, and the motion at the
-    common pair follows at once, whatever the rest of the mechanism does.
+    The rod and the cylinder hang on two links that a pair joins.  With one of these held still, the other, the rod and
+    the cylinder are a dyad with a given travel in it: the triangle is rigid for the moment, and the motion at the
+    common pair follows, whatever the rest of the mechanism does.
     """
     if not driver.slide or not {*driver.links} <= {*group.members}:
         return
@@ -438,7 +436,7 @@ def _closed_by(structure: Structure, group: LargerGroup, driver: Driver) -> Iter
 
 
 def _in_parts(structure: Structure) -> Structure:
-    """Larger groups that driven triangles turn into dyads, told as such: of class II."""
+    """The elements with the larger groups that driven triangles turn into dyads marked as groups of class II."""
     taken = {d.key for d in structure.drivers}
     triangles_of = {group: _triangles(structure, group, taken) for group in structure.larger_groups}
     instead = {t.driver: t.equivalent for triangles in triangles_of.values() for t in triangles}
@@ -460,7 +458,7 @@ def _in_parts(structure: Structure) -> Structure:
 
 
 def _with_starts(structure: Structure) -> Structure:
-    """Groups with links that roll and move each other, told where they stand at the scene's own position."""
+    """The elements with the starts of groups whose links move each other by rolling, at the scene's own position."""
     groups = [e for e in structure.larger_groups if e.rolling]
     if not groups:
         return structure
@@ -479,8 +477,8 @@ def _with_starts(structure: Structure) -> Structure:
 
 
 def started(structure: Structure) -> Structure:
-    """The mechanism at the scene's own position, without the rolling of groups in which links move each other by it:
-    drivers say where they stand.  Itself where there are none."""
+    """The mechanism at the scene's own position, in which drivers replace the rolling of groups whose links move each
+    other by it.  The structure itself where there are none."""
     groups = [e for e in structure.larger_groups if e.starts]
     if not groups:
         return structure
@@ -491,8 +489,8 @@ def started(structure: Structure) -> Structure:
 
 
 def regrouped(scene: Mechanism, known: Iterable[str], members: Iterable[str]) -> tuple[Element, ...] | None:
-    """The elements that place some links of a scene, others being known; None where what holds them does not place
-    them, neither more nor less."""
+    """The elements that place some links of a scene when others are known; None where the constraints between them are
+    too few or too many."""
     structure = _placed(scene)
     placed, wanted = set(known), set(members)
 
@@ -501,7 +499,7 @@ def regrouped(scene: Mechanism, known: Iterable[str], members: Iterable[str]) ->
         return name in placed if kind == "link" else not placed.isdisjoint(structure.hinges[name])
 
     def is_open(node: Node) -> bool:
-        """Whether a node is to be placed: a wanted link, or a hinge of one that no known link has."""
+        """Whether a node must be placed: a wanted link, or a hinge of a wanted link that no known link has."""
         kind, name = node
         return name in wanted if kind == "link" else not (wanted.isdisjoint(structure.hinges[name]) or settled(node))
 
@@ -556,7 +554,7 @@ def _sliding_loop(structure: Structure) -> list[str]:
 
 
 def _wrong_part(structure: Structure, unknowns: list[list[Unknown]], given: Mapping[int, Unknown]) -> Problem:
-    """Name the links that are held too much and those that are free (the parts of Dulmage and Mendelsohn)."""
+    """Name the overconstrained links and the free ones (the parts of Dulmage and Mendelsohn)."""
     users: dict[Unknown, list[int]] = {}
     for i, row in enumerate(unknowns):
         for u in row:
@@ -580,8 +578,8 @@ def _wrong_part(structure: Structure, unknowns: list[list[Unknown]], given: Mapp
 
 
 def _loose_ends(structure: Structure) -> Iterator[Problem]:
-    """Why a mechanism has more freedom than was meant, by name: points that nothing joins, links that hang on one pin;
-    nothing where all hang together.
+    """The reasons why a mechanism has more freedom than was meant, by name: points that join nothing, links that hang
+    on one pin; none where all links hang together.
 
     The commonest cause is a slip of the hand, a name written in two ways; the next a roller, whose own turning moves
     nothing else.
@@ -613,7 +611,7 @@ def _loose_ends(structure: Structure) -> Iterator[Problem]:
 
 
 def _like(point: str, names: Sequence[str]) -> str:
-    """The name that resembles a point's most, "" if none does."""
+    """The name most like a point's, "" if none is like it."""
     near = get_close_matches(point, names, n=1, cutoff=0.5)
     return near[0] if near else next((n for n in names if n.lower()[:1] == point.lower()[:1]), "")
 
@@ -624,7 +622,7 @@ def driven_by(scene: Mechanism, link: str) -> Structure:
     Raises
     ------
     CallError : there is no such link, or it neither turns about the frame nor slides on it
-    Unsolvable : so driven it is no mechanism
+    Unsolvable : with this driver it is no mechanism
     """
     frame, where = scene.frame, Phrase("driver of driver", driver=link)
     known = [body.name for body in scene.links]

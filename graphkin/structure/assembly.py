@@ -1,4 +1,4 @@
-"""Which of the possible assemblies a scene means, and which ways of the drivers lead to a goal."""
+"""The choice of a scene's assembly, and the paths of the drivers to a goal."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from graphkin.words import Phrase, Wording, listed
 def pick(
     scene: Mechanism, links: Sequence[str], candidates: Sequence[Mapping[str, complex]], default: int | None
 ) -> int:
-    """Choose the assembly of a group at the scene's own position, by its place among the candidates: the one that the
-    drawn points tell, else the sketch, else the rule.
+    """Choose the assembly of a group at the scene's own position, by its index among the candidates: from the drawn
+    points, else the sketch, else the rule.
 
     Parameters
     ----------
     links : the group's links, for the message
     candidates : for each possible assembly the places (m) of the group's points that were not known before
-    default : index of the assembly that the rule for the kind gives; None where there is no rule
+    default : index of the assembly by the rule of the kind; None where there is no rule
 
     Raises
     ------
     SceneError
-        drawn points lie in no assembly, or a group without a rule has several assemblies and no sketch tells which;
+        drawn points lie in no assembly, or a group without a rule has several assemblies and no sketch chooses;
         the message lists them, ready to paste
     """
     def shown(z: complex) -> str:
@@ -65,7 +65,7 @@ FOLD = 12 * 2 * math.pi
 
 
 def out_of_reach(scene: Mechanism, values: Mapping[str, float], limits: Sequence[Mapping[str, float]]) -> Problem:
-    """What is said of driver values that the motion does not reach: it ends at the limits."""
+    """The sentence on driver values that the motion does not reach: it ends at the limits."""
 
     def shown(key: str, value: float) -> Wording:
         unit = scene.unit_of(next(d for d in scene.drivers if d.key == key))
@@ -84,9 +84,9 @@ def out_of_reach(scene: Mechanism, values: Mapping[str, float], limits: Sequence
 def ways(
     drivers: Sequence[Driver], start: Sequence[float], goal: Sequence[float], direct: bool = False
 ) -> Iterator[tuple[float, ...]]:
-    """Driver values (rad, m) to which the motion may be followed to come to a goal: straight on to the goal itself,
-    whole turns included; then, for drivers that turn, to where they stand the same way within a turn, the nearer first.
-    Only the first where it must be ``direct``, for what rolls does not close with the turn.
+    """Driver values (rad, m) to which the motion may be followed to reach a goal: first the goal itself, whole turns
+    included; then, for drivers that turn, the same angle within a turn, the nearer first.  With ``direct`` only the
+    first, since rolling does not close with the turn.
     """
     if direct:
         yield tuple(goal)
@@ -108,7 +108,7 @@ SAME_ANGLE = 1e-9
 
 @dataclass(frozen=True)
 class ChangePoint:
-    """Where two assemblies of the group of some ``links`` meet: the drivers' ``values`` there (rad, m)."""
+    """A position where two assemblies of the group of some ``links`` meet: the drivers' ``values`` (rad, m)."""
 
     links: tuple[str, ...]
     values: tuple[float, ...]

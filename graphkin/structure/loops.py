@@ -5,7 +5,7 @@ the link; along a guide it is an arrow whose size is the travel.  The sum of all
 and second rate (Norton, Design of Machinery, ch. 4, 6, 7; Raven, Velocity and acceleration analysis of plane and space
 mechanisms by means of independent-position equations, 1958).
 
-In numbers: how far a loop is from closing, its rates as matrix equations, and its root.  With the angular velocities w
+In numbers: the gap of a loop, its rates as matrix equations, and its root.  With the angular velocities w
 of the arrows z and, along guides (unit vector u), sliding velocities v the rates are sum(i w z + v u) = 0 and
 sum((i a - w^2) z + 2 i w v u + b u) = 0, a and b being the second rates: two linear equations a loop.
 """
@@ -33,7 +33,7 @@ class Arrow:
     Parameters
     ----------
     coefficient : the arrow in the axes of its link (m); where ``slide`` is set the unit vector along the guide
-    names : the points from which to which it leads, as far as they have names
+    names : its first and last point, where they have names
     slide : the sliding pair whose travel is its size, "" for a fixed size
     axis, travel : of the link, and of the pair (m, else 1), at a position
     """
@@ -58,9 +58,9 @@ class Arrow:
 
 @dataclass(frozen=True)
 class Root:
-    """The closed-form root of a loop: ``key`` tells the kind, ``unknown`` what it gives, ``numbers`` are its
-    coefficients (SI), ``sign`` of the square root is that of the assembly (0: there is one root only), ``value`` is
-    what comes out (rad, m)."""
+    """The closed-form root of a loop: ``key`` is its kind, ``unknown`` its quantity, ``numbers`` are its coefficients
+    (SI), ``sign`` of the square root belongs to the assembly (0: there is one root only), ``value`` is the result (rad,
+    m)."""
 
     key: str
     unknown: Coordinate
@@ -71,9 +71,9 @@ class Root:
 
 @dataclass(frozen=True)
 class Loop:
-    """A closed loop of arrows.  ``links`` are those of its group, whose motion it gives together with the other loops
-    of the same ``block``, and ``unknowns`` what they give; ``ties`` name for each link the one whose angle stands for
-    its own.  At a position it has a ``root``, unless it is solved together with others."""
+    """A closed loop of arrows.  ``links`` are the links of its group, whose motion it gives together with the other
+    loops of the same ``block``, and ``unknowns`` the quantities that these give; ``ties`` name for each link the link
+    whose angle it shares.  At a position it has a ``root``, unless it is solved together with others."""
 
     name: str
     arrows: tuple[Arrow, ...]
@@ -85,12 +85,12 @@ class Loop:
 
     @cached_property
     def points(self) -> tuple[str, ...]:
-        """The points that it goes through, in order, as far as they have names."""
+        """The named points on it, in order."""
         return tuple(dict.fromkeys(a.names[0] for a in self.arrows if a.names[0]))
 
     @property
     def gap(self) -> complex:
-        """The sum of its arrows (m), which is nothing but rounding."""
+        """The sum of its arrows (m): rounding alone."""
         return added_up((a.vector for a in self.arrows), 0j)
 
 
@@ -99,8 +99,8 @@ Turning = Mapping[str, tuple[str, float, float]]
 
 
 def _turning(structure: Structure) -> Turning:
-    """Links that slide on each other, or are held by a driver, turn alike: a guide's angle stands for its blocks', the
-    frame's for all that never turn or are given."""
+    """For each link the link whose angle it shares: links that slide on each other, or are held by a driver, turn
+    alike; a block has its guide's angle, a link that never turns or is given the frame's."""
     joins = [(s.b, s.a, 0.0, 0.0) for s in structure.slides]
     joins += [(d.relative_to, d.link, d.rate, d.second) for d in structure.scene.drivers if d.turns]
     order, frame, blocks = structure.scene.order, structure.scene.frame.name, {s.a for s in structure.slides}
@@ -124,12 +124,12 @@ def _turning(structure: Structure) -> Turning:
 
 
 def loops_of(structure: Structure) -> tuple[Loop, ...]:
-    """The loops of a mechanism, in the order in which they can be solved: those that the scene chooses, else as many as
-    each group has, the frame's way round.
+    """The loops of a mechanism, in the order in which they can be solved: those that the scene chooses, else the loops
+    of each group, through the frame.
 
     Raises
     ------
-    CallError : a chosen loop goes from a point to another that no link and no guide joins
+    CallError : a chosen loop joins two points that no link and no guide joins
     """
     ties = {name: first for name, (first, _, _) in _turning(structure).items()}
     waiting = _chosen(structure) if structure.scene.question.loops else _found(structure)
@@ -156,7 +156,7 @@ def _variables(loop: Loop, ties: Mapping[str, str]) -> set[Coordinate]:
 
 
 def _next_block(waiting: Sequence[Loop], ties: Mapping[str, str], known: set[Coordinate]) -> Sequence[Loop]:
-    """The first loop that two unknowns are left in; else the first few with twice as many unknowns as loops."""
+    """The first loop with two unknowns; else the first few loops with twice as many unknowns as loops."""
     for loop in waiting:
         if len(_variables(loop, ties) - known) <= 2:
             return [loop]
@@ -197,7 +197,7 @@ def _roman(number: int) -> str:
 def _cycles(
     structure: Structure, element: Element, edges: Sequence[Edge], known: Sequence[Edge]
 ) -> list[Sequence[Edge]]:
-    """Independent cycles: a tree from the known links over the group; each pair that is left over closes one."""
+    """Independent cycles: a tree from the known links over the group; each pair outside the tree closes a cycle."""
     reached = {n for a, _, b in edges for n in (a, b)}.difference(element.members)
     path: dict[str, list[Edge]] = {name: [] for name in reached}  # from a known link
     left, grown = list(edges), True
@@ -220,7 +220,7 @@ def _cycles(
 
 
 def _over_known(structure: Structure, start: str, end: str, known: Sequence[Edge]) -> list[Edge]:
-    """The shortest way over links placed before."""
+    """The shortest path over links placed before."""
     placed = {n for a, _, b in known for n in (a, b)} | {structure.scene.frame.name}
     shared = [(a, Pair(p, a, b), b) for p, names in structure.hinges.items() for a in names for b in names
               if a < b and {a, b} <= placed]  # fmt: skip
@@ -237,8 +237,8 @@ def _over_known(structure: Structure, start: str, end: str, known: Sequence[Edge
 
 
 def _oriented(structure: Structure, cycle: list[Edge]) -> Sequence[Edge]:
-    """A cycle whose first edge leads to a driven link if it has one, else to the frame; the crank is gone along from
-    the frame outwards."""
+    """A cycle whose first edge leads to a driven link if it has one, else to the frame; it passes the crank from the
+    frame outwards."""
     driven, frame = {e.link for e in structure.driven}, structure.scene.frame.name
     links = [link for _, _, link in cycle]
     first = next((k for k, link in enumerate(links) if link in driven), links.index(frame) if frame in links else 0)
@@ -249,7 +249,7 @@ def _oriented(structure: Structure, cycle: list[Edge]) -> Sequence[Edge]:
 
 
 def _place(structure: Structure, link: str, pair: Pair) -> tuple[complex, str]:
-    """Where a pair is on a link, and the name of the point there."""
+    """The place of a pair on a link, and the name of the point there."""
     if pair.turns:
         return structure.links[link].points[pair.point], pair.point
     if link == pair.a:
@@ -277,7 +277,7 @@ def _travel(structure: Structure, slide: Pair, sign: float) -> Arrow:
 
 
 def _named(arrows: Sequence[Arrow]) -> tuple[Arrow, ...]:
-    """Arrows tip to tail: where one has no name for its end, the next one's beginning has."""
+    """Arrows tip to tail, with a name for each end: an end without a name takes it from the next arrow's beginning."""
     around = zip((arrows[-1], *arrows), arrows, (*arrows[1:], arrows[0]), strict=False)
     return tuple(
         replace(arrow, names=(arrow.names[0] or before.names[1], arrow.names[1] or after.names[0]))
@@ -323,7 +323,7 @@ Matrix = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class LoopBlock:
-    """Loops that are solved together: ``matrix`` times the rates of ``unknowns`` is ``velocity``, times their second
+    """Loops that are solved together: ``matrix`` times the rates of ``unknowns`` gives ``velocity``, times their second
     rates ``acceleration``; rows are the x and y components of the loops in turn (m, or 1 for a travel)."""
 
     loops: tuple[Loop, ...]
@@ -343,7 +343,7 @@ Rates = Mapping[Coordinate, tuple[float, float]]
 def loops_in_numbers(
     structure: Structure, axes: Mapping[str, complex], travels: Mapping[str, float]
 ) -> tuple[LoopBlock, ...]:
-    """Every loop at one position, in the order of solution, as far as its links are placed.
+    """The loops at one position, in the order of solution, whose links are placed.
 
     Parameters
     ----------
@@ -405,12 +405,12 @@ def _solved(
 
 
 def _components(vectors: NDArray[np.complex128]) -> Matrix:
-    """Rows of complex numbers as twice as many of their x and y components in turn."""
+    """Rows of complex numbers as rows of their x and y components in turn."""
     return np.stack([vectors.real, vectors.imag], axis=1).reshape(2 * len(vectors), *vectors.shape[1:])
 
 
 def _right_side(loops: Sequence[Loop], turning: Turning, rates: Rates, order: int) -> NDArray[np.complex128]:
-    """What the known rates leave open of each loop, by the sum of its arrows' first or second rates."""
+    """The part of each loop's rate that the known rates leave open, by the sum of its arrows' first or second rates."""
     left_open = np.zeros(len(loops), complex)
     for n, loop in enumerate(loops):
         for arrow in loop.arrows:

@@ -1,4 +1,4 @@
-"""What analysis finds in a scene: pairs, mobility, and the elements in the order of solution.
+"""The structure of a scene: pairs, mobility, and the elements in the order of solution.
 
 A pin in a slot is treated as a block without mass between pin and slot (replacement of the higher pair by a lower
 one, 高副低代); such a block is a link named ``B/3`` like its pair, and is not counted in the mobility.
@@ -32,10 +32,10 @@ class Pair:
     Parameters
     ----------
     key : the point of a turning pair; SLIDING/GUIDING of a sliding one, POINT/GUIDING of a pin in a slot
-    guide : of link b, along which a slides
+    guide : the guide of link b along which a slides
     turn : unit complex number from the guide's sense to a's own x axis
     pin : a's first point, if it has one
-    of : the link that has the pin in a slot, or the disc on a face, for which the block ``a`` only stands; else ""
+    of : the link with the pin in a slot, or with the disc on a face, that the block ``a`` replaces; else ""
 
     From these follow whether it ``turns`` or is a ``slot`` with such a block, both ``links``, the ``point`` about which
     they turn ("" of a sliding pair) and its ``letter``, R (revolute) or P (prismatic).
@@ -63,12 +63,12 @@ class Pair:
         )  # fmt: skip
 
     def other(self, link: str) -> str:
-        """The link that it joins to one of its links."""
+        """The other link of the pair."""
         return self.b if link == self.a else self.a
 
 
 def slide_pair(scene: Mechanism, s: SlidingPair) -> Pair:
-    """A sliding pair or a pin in a slot of the file with its guide, that of a redundant link too."""
+    """A sliding pair or a pin in a slot of the file with its guide, also of a redundant link."""
     return Pair(s.key, s.link, s.on, scene.by_name[s.on].guides[s.guide], s.turn, s.pin, s.of)
 
 
@@ -88,7 +88,7 @@ class DrivenJoint:
 
 @dataclass(frozen=True)
 class Body:
-    """Links that move as one but for the given motion of the drivers between them; ``links[0]`` is the base.
+    """Links that move as one except for the given motion of the drivers between them; ``links[0]`` is the base.
 
     ``joints`` are in an order in which each ``a`` is the base or a ``b`` of an earlier one.
     """
@@ -103,7 +103,7 @@ Coordinate = tuple[str, str]
 
 @dataclass(frozen=True)
 class RollingRelation:
-    """A sum of coordinates with factors that keeps its value; ``links`` are all that it is between."""
+    """A sum of coordinates with factors that keeps its value; ``links`` are the links that it ties."""
 
     name: str
     terms: Mapping[Coordinate, Fraction] = field(hash=False)
@@ -122,10 +122,10 @@ class RollingRelation:
 
 @dataclass(frozen=True)
 class Rolled:
-    """What moves a link that rolls on others whose motion is known: its angle or travel follows from theirs.
+    """The motion of a link that rolls on links of known motion: its angle or travel follows from theirs.
 
-    ``start`` is its value (rad, m) in the scene's own position, from which it goes by ``factors`` as these coordinates
-    go; ``links`` are all that take part.
+    ``start`` is its value (rad, m) in the scene's own position; it changes by ``factors`` times the changes of these
+    coordinates; ``links`` are the links of the relation.
     """
 
     name: str
@@ -146,12 +146,13 @@ class Rolled:
 
 @dataclass(frozen=True)
 class Driven:
-    """A link that a driver, or a cam by its law, moves from links already known: crank, driven slider, follower.
+    """A link that a driver, or a cam by its law, moves from known links: crank, driven slider, follower.
 
     ``pair`` joins it (``a``) to a known link (``b``); for a slide driver it is the slide itself, in which the
-    driven link may be the sliding or the guiding one.  It answers as groups do: of ``links`` and ``members`` it is the
-    only one; ``drivers`` has the driver unless that is a cam or rolling; ``outside`` are the links that it hangs on;
-    it is ``explicit``, given by formulas of the drivers alone, unless it follows a cam, whose law has pieces, or rolls.
+    driven link may be the sliding or the guiding one.  It has the properties of groups: ``links`` and ``members`` hold
+    this link alone; ``drivers`` has the driver unless that is a cam or rolling; ``outside`` are the known links of its
+    pair; it is ``explicit``, given by formulas of the drivers alone, unless it follows a cam, whose law has pieces, or
+    rolls.
     """
 
     link: str
@@ -191,12 +192,12 @@ class Dyad:
     images PRR and PPR are turned so that ``first`` is the body with two turning pairs (RRP) or with the outer turning
     pair (RPP).  In RRR and PRP ``first`` is the body whose outer pair is on the link written first; in RPR ``first`` is
     the sliding one.  In ``outer_first`` and ``outer_second`` a turning pair has ``a`` in the body and ``b`` known; a
-    slide has its own direction (see ``Pair``), either side may be the known one.
+    slide has its own direction (see ``Pair``), and either side may be known.
     ``links`` are the real links of the group in the order of the file.
 
     From these follow its ``bodies``, all ``members`` (blocks of pins included), ``pairs`` in the order of its kind,
-    the ``outer`` ones, the driven ``joints`` and ``drivers`` inside its bodies, the links ``outside`` it hangs on,
-    whether it ``is_two_lines``: found by two straight lines that cross, and so in one way only, and whether it
+    the ``outer`` ones, the driven ``joints`` and ``drivers`` inside its bodies, the known links ``outside``, whether it
+    ``is_two_lines``: two straight lines cross in it, so that it has one assembly only, and whether it
     ``is_slider_on_bar``: one body slides on the other, and both turn about known points.
     """
 
@@ -237,8 +238,8 @@ class Dyad:
 class DrivenTriangle:
     """Two links of a group that a pair joins, and a driven slide hung on both.
 
-    With ``held`` at rest the other three ``links`` (the other of the two, then the slide's) are a dyad, whatever the
-    group does; what it gives at ``pair`` is what the driver ``equivalent`` there would give.
+    With ``held`` at rest the other three ``links`` (the second link of the pair, then the slide's) are a dyad, whatever
+    the group does; it moves ``pair`` as the driver ``equivalent`` there would move it.
     """
 
     held: str
@@ -251,13 +252,12 @@ class DrivenTriangle:
 @dataclass(frozen=True)
 class LargerGroup:
     """A larger group (class III and higher, with a driver that joins no common pair, or with links that roll and move
-    each other): solved as a whole.
+    each other), solved as a whole.
 
     ``members`` are all its links, blocks of pins included; ``pairs`` all pairs that hold them (each with at least one
-    side among the members); ``drivers`` those inside the group; ``rolling`` the relations of what rolls in it, and
-    ``starts`` as many drivers that tell where it stands at the scene's own position.  With ``triangles`` it is drawn
-    like dyads: ``parts`` are the elements that it falls into where each triangle's stand-in takes the place of its
-    driver.
+    side among the members); ``drivers`` those inside the group; ``rolling`` its rolling relations, and ``starts`` as
+    many drivers that give its place at the scene's own position.  With ``triangles`` it is drawn like dyads: ``parts``
+    are the elements into which it falls when each triangle's equivalent driver replaces its driver.
     """
 
     members: tuple[str, ...]
@@ -304,14 +304,15 @@ class Structure:
     """The mechanism in the order of solution.
 
     ``links`` holds every link that takes part, the frame and the blocks of pins included, redundant links left out;
-    ``hinges`` maps each point shared by links to those links.  ``followers`` are what rolling makes follow the drivers,
-    ``relations`` what else it ties, ``cams`` those that move a follower by their law.
+    ``hinges`` maps each point shared by links to those links.  ``followers`` are the drivers of links that follow the
+    scene's drivers by rolling, ``relations`` the other rolling relations, ``cams`` the cams that move a follower by
+    their law.
 
     From these follow all ``drivers``, those of the scene first; the Assur ``groups`` in the order of solution, among
     them the ``dyads`` by their places in it and the ``larger_groups`` that are solved as a whole; the ``driven`` links,
-    which drivers, cams and rolling move; ``place_of`` each link the place of the element that places it.  ``kept`` is
-    what is made of the structure once and serves again, by what it is: layouts of groups, programs, the range of its
-    driver that was followed last; it is neither compared nor pickled.
+    which drivers, cams and rolling move; ``place_of`` each link the place of the element that places it.  ``kept``
+    holds results that are made of the structure once and used again, by name: layouts of groups, programs, the last
+    range of its driver; it is neither compared nor pickled.
     """
 
     scene: Mechanism
@@ -348,12 +349,12 @@ class Structure:
 
     @property
     def rolls(self) -> bool:
-        """Whether something rolls, so that the motion need not close with a turn of the driver."""
+        """Whether links roll, so that the motion need not close with a turn of the driver."""
         coupled = any(element.rolling for element in self.elements)
         return bool(self.followers) or coupled or any(element.driver.rolls for element in self.driven)
 
     def followed(self, values: Mapping[str, float]) -> dict[str, float]:
-        """Driver values by key (rad, m), with those of what follows them."""
+        """Driver values by key (rad, m), with the values of their followers."""
         drivers = self.scene.drivers
         moved = [values.get(d.key, d.values[0]) - d.values[0] for d in drivers]
         followed = {f.key: f.values[0] + added_up(r * change for r, change in zip(f.ratios, moved, strict=True))
@@ -362,8 +363,8 @@ class Structure:
 
     @cached_property
     def led_by(self) -> tuple[frozenset[int], ...]:
-        """For each element the places of all that it hangs on, by one or more others, and its own; what stands for a
-        contact is there only with both links of it, and what rolls may follow through links that come later."""
+        """For each element the indices of all elements that it depends on, directly or through others, and its own; the
+        link that replaces a contact needs both links of it, and a rolling link may depend on later links."""
         outside = [element.outside for element in self.elements]
         for contact in self.scene.contacts:
             if (place := self.place_of.get(contact.block)) is not None:
@@ -373,7 +374,7 @@ class Structure:
 
     @property
     def whole(self) -> Structure | Mechanism:
-        """Itself, or the mechanism with cams in whose place its own may stand."""
+        """Its mechanism, or the mechanism with cams that this one replaces."""
         return self if self.scene.instead_of is None else self.scene.instead_of
 
     def slide(self, key: str) -> Pair:
@@ -382,7 +383,7 @@ class Structure:
 
 
 def named_with_contact(structure: Structure, dyad: Dyad) -> Phrase:
-    """The links of a group, and the contact that one of them stands for: ``contact K of links 1, 2``."""
+    """The links of a group, and the contact that one of them replaces: ``contact K of links 1, 2``."""
     inside = {n for body in dyad.bodies for n in body.links}
     contact = next((c for c in structure.scene.contacts if not c.carrier and c.block in inside), None)
     if contact is not None:
@@ -394,7 +395,7 @@ N = TypeVar("N", bound=Hashable)
 
 
 def reached(start: Iterable[N], onward: Callable[[N], Iterable[N]]) -> dict[N, None]:
-    """What can be reached from some nodes, these included."""
+    """All nodes that can be reached from some nodes, these included."""
     nodes = dict.fromkeys(start)
     queue = list(nodes)
     while queue:
@@ -416,7 +417,7 @@ def driver_pair(driver: Driver, links: Mapping[str, PlacedLink], slides: tuple[P
 
 
 def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
-    """The elements on the way to what is asked, in the order of solution; all of them if nothing is asked.
+    """The elements that the asked quantities need, in the order of solution; all of them if nothing is asked.
 
     Raises
     ------
@@ -429,14 +430,14 @@ def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
 
 
 def leading(structure: Structure, links: Iterable[str]) -> set[int]:
-    """The places of the elements on the way to some links."""
+    """The indices of the elements that some links need."""
     places = (structure.place_of.get(name) for name in links)
     return {before for place in places if place is not None for before in structure.led_by[place]}
 
 
 def by_drivers_alone(structure: Structure, symbol: Symbol) -> bool:
-    """Whether a quantity of the motion hangs on no group, but on links that drivers and cams move from the frame: it is
-    known where a group is lost in rounding."""
+    """Whether a quantity of the motion depends on no group, but only on links that drivers and cams move from the
+    frame: it is known where a group is lost in rounding."""
     if symbol.seen or not structure.links.keys() >= set(symbol.links()):  # of redundant links nothing is asked
         return False
     try:
@@ -447,10 +448,10 @@ def by_drivers_alone(structure: Structure, symbol: Symbol) -> bool:
 
 
 def part_of(structure: Structure, asked: Sequence[Symbol]) -> Mechanism:
-    """The scene with only the links, pairs and drivers on the way to what is asked; itself if nothing is asked or
+    """The scene with only the links, pairs and drivers that the asked quantities need; itself if nothing is asked or
     nothing is left out.
 
-    A link that only repeats others is not on the way to anything, unless it is asked for itself: then all is kept.
+    No quantity needs a redundant link, unless it is asked for itself: then all is kept.
     """
     scene = structure.scene
     named = {name for s in asked for name in s.links()}
@@ -475,8 +476,8 @@ def _part_scene(scene: Mechanism, kept: set[str], asked: tuple[Symbol, ...]) -> 
 
 
 def without(scene: Mechanism, gone: Collection[str]) -> Mechanism:
-    """The scene without some links, or blocks that stand for higher pairs, and without what joins them to others; its
-    drivers stay, and nothing is asked or stated."""
+    """The scene without some links, or blocks that replace higher pairs, and without their pairs; its drivers stay, and
+    nothing is asked or stated."""
     lost = set(gone)
     return replace(
         scene,
@@ -490,7 +491,7 @@ def without(scene: Mechanism, gone: Collection[str]) -> Mechanism:
 
 
 def links_for(structure: Structure, symbol: Symbol) -> frozenset[str]:
-    """The links that a quantity names, and those that hold its points.  Raises CallError where there are none."""
+    """The links that a quantity names, and the links that hold its points.  Raises CallError where there are none."""
     known: dict[Symbol, frozenset[str]] = structure.kept.setdefault("links for", {})
     if symbol not in known:
         known[symbol] = frozenset(_links_for(structure, symbol))

@@ -1,13 +1,13 @@
 """Higher pairs replaced by lower ones (高副低代): contacts at every position, cams at one of them.
 
-A contact of two discs is replaced by a bar between their centres, of a disc and a flat face by a block at the centre
-that slides along the face: outlines of constant curvature make that hold at every position.
+A contact of two discs is replaced by a bar between their centres, a contact of a disc and a flat face by a block at the
+centre that slides along the face: this holds at every position, since the outlines have constant curvature.
 
-A mechanism without cams moves as one with cams at one position, in velocity and acceleration.  The roller's centre, or
-the edge, turns about the centre of curvature of the pitch curve, on a bar; a flat face is moved by the centre of
-curvature of the profile, a pin in a slot along the face.  Or, at the contact itself and where the pitch curve is nearly
-straight: the centre runs as a pin on the pitch curve, of which a straight guide stands for the tangent and carries the
-curvature; a flat face touches the circle of curvature of the profile.
+A mechanism with cams is replaced by one without, of the same velocities and accelerations at one position.  The
+roller's centre, or the edge, turns about the centre of curvature of the pitch curve, on a bar; a flat face is moved by
+the centre of curvature of the profile, a pin in a slot along the face.  Or, at the contact itself and where the pitch
+curve is nearly straight: the centre runs as a pin on the pitch curve, given by a straight guide along the tangent with
+the curvature; a flat face touches the circle of curvature of the profile.
 
 Source: Artobolevsky, Theory of Machines and Mechanisms, on substitute linkages.
 """
@@ -27,8 +27,8 @@ from graphkin.words import Phrase
 
 
 def replacing_link(contact: PlacedContact, links: Mapping[str, PlacedLink]) -> tuple[PlacedLink, Pair | None]:
-    """The link that stands for a contact, and for a flat face the sliding pair.  The point of contact is a point of it.
-    Where another link holds both centres of a rolling pair, it is that link with the point of contact."""
+    """The link that replaces a contact, and for a flat face the sliding pair.  The point of contact is a point of it.
+    Where another link holds both centres of a rolling pair, that link gets the point of contact."""
     disc = contact.round[0]
     if contact.flat:
         face = links[contact.face].guides[contact.guide]
@@ -49,8 +49,8 @@ def replacing_link(contact: PlacedContact, links: Mapping[str, PlacedLink]) -> t
 
 
 def pins_on_circles(scene: Mechanism, poses: Poses, values: Mapping[str, float]) -> Mechanism:
-    """The mechanism at one position with pins in its circular slots, instead of the bars that stand for them: in a
-    straight guide along the tangent that carries the curvature; ``poses`` are those of its links (m), ``values`` of the
+    """The mechanism at one position with pins in its circular slots, instead of the bars that replace them: each in a
+    straight guide along the tangent, with the curvature; ``poses`` are those of its links (m), ``values`` of the
     drivers, by key (rad, m).
     """
     links, slides = dict(scene.by_name), list(scene.slides)
@@ -71,7 +71,7 @@ def pins_on_circles(scene: Mechanism, poses: Poses, values: Mapping[str, float])
 
 
 def _standing(scene: Mechanism, poses: Poses, values: Mapping[str, float]) -> Mechanism:
-    """The mechanism at other driver values, where links lie so: their points are sketched there."""
+    """The mechanism at other driver values and poses of its links: their points are sketched there."""
     lying = (link for link in scene.links if link.name in poses)
     places = {p: poses[link.name].place(z) for link in lying for p, z in link.points.items()}
     return replace(scene, drivers=tuple(d.at_value(values[d.key]) for d in scene.drivers),
@@ -79,7 +79,7 @@ def _standing(scene: Mechanism, poses: Poses, values: Mapping[str, float]) -> Me
 
 
 def replacement_told(structure: Structure) -> tuple[Phrase, ...]:
-    """The higher pairs in words, what replaces each, and the mobility counted after the replacement."""
+    """The higher pairs in words, the replacement of each, and the mobility counted after it."""
     scene, m, said = structure.scene, structure.mobility, list[Phrase]()
     sliding = [c for c in scene.contacts if not c.rolling]
     for contact in scene.contacts:
@@ -108,13 +108,13 @@ ROUNDED = 1e-13
 
 
 def cams_replaced(scene: Mechanism, poses: Poses, values: Mapping[str, float], bars: bool = True) -> Mechanism:
-    """The mechanism that stands for one with cams at a position.
+    """The mechanism that replaces one with cams at a position.
 
     Parameters
     ----------
-    poses : where its links lie (m), all cams among them
+    poses : the poses of its links (m), all cams among them
     values : of the drivers, by key (rad, m)
-    bars : whether bars stand for rollers and edges, as far as they can, and pins for what moves faces
+    bars : whether bars replace rollers and edges, where they can, and pins the points that move faces
 
     Raises
     ------
@@ -181,13 +181,13 @@ def cams_replaced(scene: Mechanism, poses: Poses, values: Mapping[str, float], b
 
 
 def _guide(link: PlacedLink, name: str, through: complex, direction: complex, bends: float) -> PlacedGuide:
-    """A guide for a link, by this name where none of its own has it."""
+    """A guide for a link, by this name if the link has no guide of that name."""
     while name in link.guides:
         name += "1"
     return PlacedGuide(name, through, direction, bends)
 
 
 def _free_names(scene: Mechanism, *first: str) -> Iterator[str]:
-    """Letters that no point and no contact has: these, then the first of them with numbers."""
+    """Letters that no point and no contact has: free single letters, then the first of them with numbers."""
     taken = {*scene.holders, *(contact.name for contact in scene.contacts)}
     return (name for name in (*first, *(f"{first[0]}{k}" for k in range(1, 1000))) if name not in taken)

@@ -1,13 +1,13 @@
-"""What rolls without slip: relations between the angles of links and the travels of slides, and what follows from the
-drivers by them alone; and where what rolls and moves each other stands at the scene's own position.
+"""Rolling without slip: relations between the angles of links and the travels of slides, the motions that follow from
+the drivers by them alone, and the start of links that move each other by rolling.
 
 A gear gives z1 (w1 - wc) + z2 (w2 - wc) = 0 (Willis 1841), with internal teeth negative, two rolling discs the same
 with their radii, a rack or a rolling disc on a face s' + r (w1 - w2) = 0 along the pitch line.  Angles that these
-determine from the drivers' are as good as driven: their drivers are found here, in exact fractions.
+determine from the drivers' count as driven: their drivers are found here, in exact fractions.
 
-Rolling keeps a sum of angles and travels, but does not say which: at one position as many of them are given as there
-are relations, by ``start``, by drawn or sketched points, else an angle of 0.  Without its rolling, and driven so, the
-mechanism is one that stands at that position.
+Rolling keeps a sum of angles and travels, but leaves its value open: at one position as many of them are given as there
+are relations, by ``start``, by drawn or sketched points, else an angle of 0.  With drivers of these values instead of
+its rolling the mechanism stands at that position.
 """
 
 from __future__ import annotations
@@ -27,12 +27,13 @@ from graphkin.structure.model import Coordinate, LargerGroup, Pair, Rolled, Roll
 
 @dataclass(frozen=True)
 class Mesh:
-    """What rolls on what: ``wheels`` about ``axes``, points of the ``carrier``, or a wheel on a rack or a flat face.
+    """Two bodies that roll on each other: ``wheels`` about ``axes``, points of the ``carrier``, or a wheel on a rack or
+    a flat face.
 
-    ``parts`` say how the point of contact parts the way from the first axis to the second (numbers of teeth, or radii,
-    negative for what is hollow).  A rack's second axis is "", its second part None, and its first the signed distance
-    (m) of its line from the axis, positive to the left of the guide of ``slide``; ``sense`` is +1 where the rack is
-    what slides there, else -1.
+    ``parts`` are the parts in which the point of contact divides the line from the first axis to the second (numbers of
+    teeth, or radii, negative for a hollow outline).  A rack's second axis is "", its second part None, and its first
+    the signed distance (m) of its line from the axis, positive to the left of the guide of ``slide``; ``sense`` is +1
+    where the rack is the sliding link there, else -1.
     """
 
     name: str
@@ -45,14 +46,14 @@ class Mesh:
 
     @property
     def links(self) -> tuple[str, ...]:
-        """All links that take part."""
+        """All links of the mesh."""
         return tuple(dict.fromkeys((*self.wheels, self.carrier)))
 
 
 def meshes_of(
     scene: Mechanism, contacts: Iterable[PlacedContact], gears: Iterable[PlacedGear], links: Mapping[str, PlacedLink]
 ) -> tuple[Mesh, ...]:
-    """Everything that rolls."""
+    """All pairs of bodies that roll on each other."""
     meshes = []
     for contact in contacts:
         if contact.rolling and contact.flat:
@@ -80,7 +81,7 @@ def meshes_of(
 
 
 def relations_of(scene: Mechanism, meshes: Iterable[Mesh]) -> tuple[RollingRelation, ...]:
-    """The relations of everything that rolls."""
+    """The relations of all rolling pairs."""
     relations = []
     for mesh in meshes:
         part, other_part = mesh.parts
@@ -106,7 +107,7 @@ Rows = dict[Unknown, Row]
 
 
 def _add(rows: Rows, terms: Mapping[Coordinate, Fraction] | Mapping[Unknown, Fraction]) -> bool:
-    """Take one more equation, a sum that is 0; False where it says nothing new.  Numbers stand for drivers."""
+    """Add an equation, a sum that is 0; False where it follows from the others.  Numbers are the indices of drivers."""
     rest = dict[Unknown, Fraction](terms.items())
     for key in rows.keys() & rest.keys():
         rest = _less(rest, rest[key], rows[key])
@@ -127,7 +128,7 @@ def _less(row: Row, factor: Fraction, other: Row) -> Row:
 
 
 def _ratios(rows: Rows, coordinate: Coordinate, drivers: int) -> tuple[Fraction, ...] | None:
-    """A coordinate's rate by those of the drivers; None where they do not determine it."""
+    """A coordinate's rate by the rates of the drivers; None where they do not determine it."""
     row = rows.get(coordinate)
     if row is None or any(k != coordinate and not isinstance(k, int) for k in row):
         return None
@@ -137,8 +138,8 @@ def _ratios(rows: Rows, coordinate: Coordinate, drivers: int) -> tuple[Fraction,
 def followers_of(
     scene: Mechanism, relations: Sequence[RollingRelation], links: Mapping[str, PlacedLink], slides: Sequence[Pair]
 ) -> tuple[tuple[Driver, ...], tuple[RollingRelation, ...]]:
-    """What rolling makes follow the drivers in constant ratios, as drivers of their own; and the relations that are
-    left, between coordinates that also depend on lengths."""
+    """The drivers of links that follow the scene's drivers by rolling in constant ratios; and the other relations,
+    between coordinates that also depend on lengths."""
     frame, count = scene.frame.name, len(scene.drivers)
 
     def turned(link: str, base: str) -> Row:
@@ -178,14 +179,15 @@ def followers_of(
 
 
 def drawn_angle(scene: Mechanism, link: PlacedLink) -> float | None:
-    """The angle of a bar whose ends are given, in the frame or drawn or else sketched; None where they are not."""
+    """The angle of a bar whose ends are given, in the frame or drawn or else sketched; None without them."""
     given = {**scene.sketch, **scene.drawn, **scene.frame.points}
     ends = [given[p] for p in link.bar if p in given]
     return cmath.phase(ends[1] - ends[0]) if len(ends) == 2 and ends[0] != ends[1] else None
 
 
 def rolled_by(scene: Mechanism, relation: RollingRelation, member: str, pair: Pair) -> Rolled | None:
-    """What moves a link that one pair joins to known links, by a relation to them; None where it does not."""
+    """The motion by a relation of a link that one pair joins to known links; None where the relation does not give
+    it."""
     coordinate: Coordinate = ("angle", member) if pair.turns else ("travel", pair.key)
     if coordinate not in relation.terms or (coordinate[0] == "travel" and ("angle", member) in relation.terms):
         return None
@@ -198,7 +200,7 @@ MOST = 200  # choices that are looked at
 
 
 def unrolled(scene: Mechanism, names: Sequence[str]) -> Mechanism:
-    """The scene in which some contacts slide that roll, and some wheels do not mesh."""
+    """The scene with sliding contacts in place of some rolling ones, and without the mesh of some wheels."""
     contacts = (replace(c, rolling=False) if c.name in names else c for c in scene.contacts)
     return replace(
         scene,
@@ -208,8 +210,8 @@ def unrolled(scene: Mechanism, names: Sequence[str]) -> Mechanism:
 
 
 def start_drivers(structure: Structure, groups: Sequence[LargerGroup]) -> Iterator[tuple[Driver, ...]]:
-    """A driver for each rolling relation of some groups, in the order of the groups: those that the scene tells first.
-    Which of them hold the mechanism remains to be seen."""
+    """Drivers for the rolling relations of some groups, in the order of the groups, given ones first.  The caller finds
+    which of them hold the mechanism."""
     each = [_of(structure, group, relation) for group in groups for relation in group.rolling]
     taken = {d.key for d in structure.drivers}
     ranked = sorted(
@@ -223,8 +225,8 @@ def start_drivers(structure: Structure, groups: Sequence[LargerGroup]) -> Iterat
 
 
 def _of(structure: Structure, group: LargerGroup, relation: RollingRelation) -> list[tuple[int, Driver]]:
-    """What can be given for a relation, and how well it is told: as the start of what rolls, of another link of the
-    group, by a sketched bar, not at all."""
+    """The drivers that may give a coordinate of a relation, with their ranks: the start of the rolling link, of another
+    link of the group, a sketched bar, or no data."""
     scene, inside = structure.scene, set(group.members)
     ranked: list[tuple[int, Driver]] = []
     others = [("angle", n) for n in group.links if ("angle", n) not in relation.terms and n in scene.starts]
@@ -243,8 +245,8 @@ def _of(structure: Structure, group: LargerGroup, relation: RollingRelation) -> 
 
 
 def _turned(structure: Structure, name: str, angle: float) -> Driver:
-    """A driver by which a link's own axis stands at an angle (rad): from a link to which it is pinned and that never
-    turns, for it slides on the frame, or on such a link, where there is one."""
+    """A driver that puts a link's own axis at an angle (rad): from a link pinned to it that never turns, because it
+    slides on the frame, or on such a link, if there is one."""
     frame = structure.scene.frame.name
     still, grown = {frame: 1 + 0j}, True  # own axes
     while grown:

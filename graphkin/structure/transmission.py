@@ -1,6 +1,6 @@
-"""Between which two directions the transmission angle of a joint lies.
+"""The two directions between which the transmission angle of a joint lies.
 
-Taken is the acute angle between the two paths on which the inner joint of a group can move as a point of either link
+It is the acute angle between the two paths on which the inner joint of a group can move as a point of either link
 (Hall, Kinematics and Linkage Design; Norton, Design of Machinery, ch. 3; 孙桓 《机械原理》, ch. 8):
 
 - RRR: between coupler and rocker, at their common pin
@@ -11,8 +11,7 @@ Taken is the acute angle between the two paths on which the inner joint of a gro
 
 At a sliding contact the force acts along the common normal, on the link's point at the contact.
 
-The pressure angle, between the force that drives a link and the velocity of where it acts, is what it lacks to 90
-degrees.
+The pressure angle, between the force that drives a link and the velocity of its point, is its complement to 90 degrees.
 """
 
 from __future__ import annotations
@@ -34,14 +33,14 @@ Way = tuple[Spot, Spot]
 
 @dataclass(frozen=True)
 class TransmissionAngle:
-    """Two directions; where they are ``square``, the angle is that from one to the normal of the other."""
+    """Two directions; where they are ``square``, the angle is measured from the first to the normal of the second."""
 
     first: Way
     second: Way
     square: bool = False
 
     def directions(self, place: Callable[[str, complex], complex]) -> tuple[complex, complex]:
-        """The two directions between which the angle lies, by where places of links are (link, m in its axes)."""
+        """The two directions between which the angle lies; ``place`` gives places of links (link, m in its axes)."""
         first, second = (place(*end) - place(*start) for start, end in (self.first, self.second))
         return first, second * (1j if self.square else 1.0)
 
@@ -55,7 +54,7 @@ def _spot(structure: Structure, turn: Pair) -> Spot:
 
 
 def joint_of_dyad(structure: Structure, dyad: Dyad) -> TransmissionAngle:
-    """The joint of a group of two links; where one of them stands for a sliding contact, the contact itself."""
+    """The joint of a group of two links; where one of them replaces a sliding contact, the contact itself."""
     for contact in structure.scene.contacts:
         if not contact.rolling and any(contact.block in body.links for body in dyad.bodies):
             moved = [n for body in dyad.bodies for n in body.links if n in contact.links]
@@ -103,7 +102,8 @@ def _arm(structure: Structure, name: str, point: str) -> Way | None:
 
 
 def joint_of_follower(structure: Structure, name: str, symbol: Symbol) -> TransmissionAngle:
-    """The joint through which a link is driven, a sliding contact first.  Raises CallError where none can be told."""
+    """The joint through which a link is driven, a sliding contact first.  Raises CallError where no joint can be
+    named."""
     for contact in structure.scene.contacts:
         joint = _at_contact(structure, contact, name) if not contact.rolling and name in contact.links else None
         if joint is not None:
@@ -128,7 +128,7 @@ def joint_of_follower(structure: Structure, name: str, symbol: Symbol) -> Transm
 
 
 def _at_contact(structure: Structure, contact: PlacedContact, name: str) -> TransmissionAngle | None:
-    """A link is pushed along the common normal."""
+    """The directions at a contact: a link is pushed along the common normal."""
     if contact.block not in structure.links or name not in structure.links:
         return None
     block, points = contact.block, structure.links[contact.block].points
@@ -138,8 +138,8 @@ def _at_contact(structure: Structure, contact: PlacedContact, name: str) -> Tran
 
 
 def _pushed(structure: Structure, name: str, line: Way, at: Spot) -> TransmissionAngle | None:
-    """Between the line along which a link is pushed at a place and what the velocity of the link there is square to: a
-    guide of the frame on which it slides, or the line to its fixed pivot."""
+    """Between the line along which a link is pushed at a place and the normal of its velocity there: square to a guide
+    of the frame on which it slides, or along the line to its fixed pivot."""
     frame, points = structure.scene.frame, structure.links[name].points
     slide = next((s for s in structure.slides if s.a == name and s.b == frame.name and not s.slot), None)
     if slide is not None:
