@@ -194,7 +194,7 @@ def finished(task: Task, polygons: Polygons) -> Sheet:
         asked=task.asked,
         acting=task.acting,
         growing=task.growing,
-        trains=tuple(polygons.trains.values()),
+        trains=polygons.trains,
         limits=limits,
         readings=dict(board.readings),
     )

@@ -35,7 +35,7 @@ from graphkin.construction.steps import (
     Vector,
 )
 from graphkin.construction.touching import Touch, Touching
-from graphkin.construction.trains import PlansDrawn
+from graphkin.construction.trains import TrainPlan
 from graphkin.construction.vector_graph import VectorChain, node
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.plane import added_up, cross, dot, unit
@@ -85,7 +85,7 @@ class Polygons:
         self.ties: dict[tuple[Order, str], complex] = {}  # by a special point of two links: that of the second from it
         self.trial = 0  # number of the trial polygon that this is; 0: it is none
         self.tried: dict[tuple[Order, str], float] = {}  # rates of sliding pairs moved at a trial speed
-        self.trains: PlansDrawn = {}
+        self.trains: tuple[TrainPlan, ...] = ()
         self.at_contacts = False  # whether sliding contacts are drawn themselves, instead of what replaces them
         # how each group is drawn: found once, for all drawings of a task
         self.chains: dict[Dyad, VectorChain] = {}

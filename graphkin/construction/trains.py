@@ -218,6 +218,11 @@ class TrainPlan:
         steps = [step for (_, name), step in self.lines.items() if name == link]
         return next((step for step in steps if step.reason == "plan"), steps[0] if steps else None)
 
+    def step(self, wanted: Coordinate) -> Step | None:
+        """The step that reads a rate, or the speed of a sliding pair, or lays it off."""
+        kind, name = wanted
+        return self.line(name) if kind == "angle" else self.travels.get(name)
+
     def leads(self, wanted: Coordinate) -> bool:
         """Whether a rate, or the speed of a sliding pair, is found."""
         return wanted[1] in self.rates if wanted[0] == "angle" else {*self.travels, *self.speeds} >= {wanted[1]}
@@ -387,19 +392,17 @@ def _scaled(plan: TrainPlan, rough: TrainPlan, units: float) -> TrainPlan:
 
 # -- the trains of a mechanism -----------------------------------------------------------------------------------------
 
-PlansDrawn = Mapping[tuple[Order, int], TrainPlan]
-"""The plans of a mechanism drawn so far, by their order and the number of the train."""
-
-
 def rolled(
-    structure: Structure, drawn: PlansDrawn, order: Order, wanted: Coordinate, rates: Mapping[str, float],
+    structure: Structure, drawn: tuple[TrainPlan, ...], order: Order, wanted: Coordinate, rates: Mapping[str, float],
     travel: Callable[[str], float | None], turns: list[Turned], hand: Instrument,
-) -> tuple[PlansDrawn, float, float, list[Step]]:  # fmt: skip
+) -> tuple[tuple[TrainPlan, ...], float, float, list[Step]]:  # fmt: skip
     """The plans with that which leads to a rate (rad/s, rad/s2) or to the speed of a slide (m/s, m/s2), that value, the
-    length read for it (mm), and what was drawn for it.
+    length read for it (mm), and what was drawn for it.  What moves only after others were found gets a plan of its own,
+    at scales that suit it, in which the rates known then are laid off.
 
     Parameters
     ----------
+    drawn : the plans of the mechanism drawn so far
     rates : known rates by link (rad/s, rad/s2)
     travel : the known speed (m/s, m/s2) of a sliding pair, None where it is not known
     turns : links that turn from one another at given rates
@@ -412,26 +415,26 @@ def rolled(
     alike = _alike(structure, name) if kind == "angle" else {name}
     touching = [c for c in scene.contacts if {*c.links} <= links.keys()]
     meshes = meshes_of(scene, touching, [g for g in scene.gears if {*g.wheels, g.carrier} <= links.keys()], links)
-    for k, train in enumerate(trains(meshes, scene.frame.name)):
+    for train in trains(meshes, scene.frame.name):
         on = centre_lines(train, links, scene.frame.name)
         slides = [mesh.slide for mesh in train if mesh.slide]
         members = {n for line in on for n in line.links} if kind == "angle" else slides
         inside = sorted(alike.intersection(members), key=lambda n: n != name)
         if not inside:
             continue
-        plan, had = drawn.get((order, k)), drawn.get((order, k))
         here: Coordinate = (kind, inside[0])
-        if plan is None or (plan.line(here[1]) is None if kind == "angle" else here[1] not in plan.travels):
+        there = (plan for plan in drawn if plan.order == order and plan.on == on)
+        plan, steps = next((plan for plan in there if plan.step(here) is not None), None), list[Step]()
+        if plan is None:
             speeds = {key: speed for key in slides if (speed := travel(key)) is not None}
             begun = TrainPlan(order, on, {**rates, scene.frame.name: 0.0}, speeds, turns)
             plan = train_plan(begun, here, scene.units.rates.metres, hand)
             if plan is None:
                 continue
-        steps = [] if plan is had else list(_steps(scene, plan, had))
-        made = {**drawn, (order, k): plan}
-        step = plan.travels[inside[0]] if kind == "travel" else plan.line(inside[0])
+            drawn, steps = (*drawn, plan), list(_steps(scene, plan))
+        step = plan.step(here)
         assert step is not None
-        return made, step.value, step.mm, steps
+        return drawn, step.value, step.mm, steps
     raise Unsolvable("not drawn", Problem(Phrase("link of name", name=name),
                                           "no velocity plan leads to what rolls here"))
 
@@ -445,11 +448,10 @@ def _alike(structure: Structure, name: str) -> set[str]:
     return alike
 
 
-def _steps(scene: Mechanism, plan: TrainPlan, had: TrainPlan | None) -> Iterator[Step]:
-    """What was drawn of a plan since another state of it."""
+def _steps(scene: Mechanism, plan: TrainPlan) -> Iterator[Step]:
+    """How a plan was drawn."""
     if plan.trial is not None:
         yield Step("divide", "plans", plan.order, kind=plan.rate, per_mm=plan.turning, data=plan.trial)
-    lines = (step for key, step in plan.lines.items() if had is None or key not in had.lines)
     # drawn beside the train, not on the polygon
-    yield from (replace(step, strokes=()) for step in lines if step.link in scene.by_name)
-    yield from (step for slide, step in plan.travels.items() if had is None or slide not in had.travels)
+    yield from (replace(step, strokes=()) for step in plan.lines.values() if step.link in scene.by_name)
+    yield from plan.travels.values()

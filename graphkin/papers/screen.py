@@ -288,7 +288,8 @@ def _plans(lesson: Lesson) -> Iterator[Figure]:
     sheet, language = lesson.sheet, lesson.language
     figure = train_figure(sheet, language=language, convention=lesson.convention)
     for plan, page in zip(moving_plans(sheet), (figure, *figure.further) if figure else (), strict=True):
-        last = [step.number for step in sheet.steps if step.diagram == plan.order and step.per_mm][-1:]
+        drawn_by = [replace(step, strokes=()) for step in (*plan.lines.values(), *plan.travels.values())]
+        last = [step.number for step in sheet.steps if replace(step, number=0) in drawn_by][-1:]
         bare = bare_picture(page)
         drawn = replace(bare, children=(Group(bare.children, classes=(f"step-{last[0]}",)),)) if last else bare
         title = said("plan" if plan.order == "velocity" else "plan accelerations", language)

@@ -114,3 +114,30 @@ def test_a_straight_carrier_stays_straight_on_its_line_of_centres():
     scene = {"frame": AXIS, "links": links, "gears": gears, "driver": drivers}
     (line,) = check(scene).sheet.trains[0].on
     assert [0, 50, 90] == pytest.approx([1e3 * line.spot(axis).height for axis in "ABC"])
+
+
+FOUND_LATER = {
+    "frame": {"points": {"A": [0, 0], "D": [90, 0]}},
+    "links": {"1": {"points": ["A"]}, "2": {"points": ["D", "E"], "length": 25},
+              "4": {"points": ["E", "F"], "length": 80},
+              "5": {"points": ["A", "F"], "length": 60, "at": {"G": [50, 0]}}, "6": {"points": ["G"]}},
+    "gears": {"s": {"between": ["1", "2"], "teeth": [20, 40]},
+              "m": {"between": ["1", "6"], "teeth": [30, 20], "carrier": "5"}},
+    "driver": {"link": "1", "angle": 100, "omega": 10, "alpha": 4},
+}  # fmt: skip
+"""Wheel 2 drives a four-bar, and its rocker 5 carries wheel 6 of the same train."""
+
+
+@pytest.mark.parametrize("link", ["2", "6"])
+def test_a_rate_is_read_off_a_plan_that_is_shown_though_others_of_the_train_are_found_later(link):
+    sheet = check(FOUND_LATER).sheet
+    (step,) = (s for s in sheet.steps if s.diagram == "velocity" and s.reason == "plan" and s.link == link)
+    shown = [(plan.turning, plan.line(link).mm) for plan in sheet.trains if plan.order == "velocity"
+             and plan.line(link) is not None and plan.line(link).reason == "plan"]  # fmt: skip
+    assert [(step.per_mm, step.mm)] == shown
+
+
+def test_a_wheel_on_a_carrier_that_is_found_later_has_the_rate_of_willis():
+    result = check(FOUND_LATER)
+    carrier = result["omega_5"].measured
+    assert carrier - 1.5 * (10 - carrier) == pytest.approx(result["omega_6"].measured, rel=1e-9)

@@ -10,6 +10,7 @@ import pytest
 import tests.papers
 from graphkin.api.handouts import handout
 from tests import EVERYTHING
+from tests.construction.test_trains import FOUND_LATER
 
 
 def _data(page: str) -> dict:
@@ -95,6 +96,14 @@ def test_a_velocity_plan_and_the_inversion_of_a_cam_are_figures_of_the_page():
         assert f'class="step-{ends[-1]}"' in plan["svg"]
     cam = _data(_page(handout("cam-offset-roller", positions=2, formats=("html",))))["positions"]
     assert [["cam-diagram-0", "cam-figure-0"]] * 2 == [[f["name"] for f in p["figures"]][-2:] for p in cam]
+
+
+def test_each_velocity_plan_stands_there_from_its_own_last_step_on():
+    (position,) = _data(_page(handout(FOUND_LATER, positions=1, formats=("html",))))["positions"]
+    first, later = (f["svg"] for f in position["figures"] if f["name"] == "plan-velocity")
+    two, six = (s["n"] for s in position["steps"] if s["text"].startswith("Velocity plan: line of link"))
+    assert f'class="step-{two}"' in first
+    assert f'class="step-{six}"' in later
 
 
 def test_a_template_without_one_of_its_values_is_refused():
