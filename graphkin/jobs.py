@@ -1,9 +1,9 @@
 """Long work in pieces: on processes, on a cluster, on any executor; interrupted at any moment, it goes on from there.
 
-`Workers` do the pieces, `Checkpoints` hold what is done.  A piece depends on nothing but what it is given, so that it
-comes out the same wherever it is made, and is made again where a worker was lost.  A checkpoint is a file that is there
-whole or not at all: a process may be killed between any two instructions, and nothing is lost but the pieces it was
-working on, nothing is doubled, nothing is half written.
+`Workers` do the pieces, `Checkpoints` hold the finished ones.  A piece depends on its input alone, so that its result
+is the same on every machine, and it is done again if its worker was lost.  A checkpoint is a file that appears whole or
+not at all: a process may be killed between any two instructions, and only the pieces under work are lost; nothing is
+doubled or half written.
 """
 
 from __future__ import annotations
@@ -78,22 +78,22 @@ class FinishedPiece:
 
 @dataclass(frozen=True)
 class Checkpoints:
-    """The finished pieces of one job, each a file in a hidden folder: a line with the digest (SHA-256) of all that
-    follows, a line of facts (JSON), then any content.
+    """The finished pieces of one job, each a file in a hidden folder: a line with the digest (SHA-256) of the rest, a
+    line of facts (JSON), then any content.
 
-    The folder's name holds a key of the job, so that nothing of another job is ever used; a piece whose digest does not
-    fit is as good as none.
+    The folder's name holds a key of the job, so that pieces of other jobs are never used; a piece with a wrong digest
+    counts as missing.
     """
 
     place: Path
 
     @classmethod
     def of(cls, folder: Path, kind: str, key: str) -> Checkpoints:
-        """Those of a job in a folder."""
+        """The checkpoints of a job in a folder."""
         return cls(folder / f".{kind}-{key}")
 
     def open(self, **facts: object) -> None:
-        """Make the folder, with a file that says in words what it holds."""
+        """Make the folder, with a file that explains its content."""
         self.place.mkdir(parents=True, exist_ok=True)
         about = self.place / "about.json"
         if not about.exists():
@@ -117,7 +117,7 @@ class Checkpoints:
             out.write(content)
 
     def load(self, number: int) -> FinishedPiece | None:
-        """A finished piece; None where there is none, or a damaged one."""
+        """A finished piece; None where it is missing or damaged."""
         path = self.place / f"{number:07d}"
         if not path.is_file():
             return None
@@ -131,7 +131,7 @@ class Checkpoints:
         return FinishedPiece(json.loads(line), path, len(told) + len(line))
 
     def close(self) -> None:
-        """Take them away: the job is done."""
+        """Remove them: the job is done."""
         shutil.rmtree(self.place, ignore_errors=True)
 
 
@@ -139,11 +139,10 @@ class Checkpoints:
 
 
 class Workers:
-    """Whoever does the pieces: an executor that is given (it stays open), so many processes of one's own, or this
-    process alone.
+    """The workers of a job: a given executor (it stays open), a number of own processes, or this process alone.
 
-    Used in a ``with`` statement.  Where that is left by an exception (an interruption, above all) nothing is waited
-    for: what has not begun is cancelled, and processes of one's own are ended.
+    Used in a ``with`` statement.  An exception (above all an interruption) ends it at once: waiting pieces are
+    cancelled, and own processes are ended.
     """
 
     def __init__(self, executor: Executor | None = None, processes: int | None = None, renewed: int = RENEWED) -> None:
@@ -163,14 +162,14 @@ class Workers:
 
     @property
     def width(self) -> int:
-        """How many pieces can be done at once, as far as the executor tells; 1 in this process alone."""
+        """The number of pieces done at once, if the executor tells it; 1 in this process alone."""
         if self._processes is not None:
             return self._processes
         return 1 if self._given is None else _width(self._given)
 
     @property
     def ahead(self) -> int:
-        """How many pieces to give out beyond the one that is waited for."""
+        """The number of pieces given out beyond the awaited one."""
         return 0 if self._given is None and self._processes is None else AHEAD * max(2, self.width)
 
     def start(self, task: Callable[..., Result], *given: object) -> Started[Result]:
@@ -178,7 +177,7 @@ class Workers:
         return Started(self, task, given)
 
     def results(self, task: Callable[..., Result], pieces: Iterable[tuple[object, ...]]) -> Iterator[Result]:
-        """What each piece gives, in their order; a few are always given out ahead."""
+        """The results of the pieces in their order; a few pieces are always given out ahead."""
         queue: deque[Started[Result]] = deque()
         for given in pieces:
             queue.append(self.start(task, *given))
@@ -201,7 +200,7 @@ class Workers:
             _end(pool, old)
 
     def _submit(self, task: Callable[..., Result], given: tuple[object, ...]) -> Future[Result] | None:
-        """The future of a piece; None where there is no executor, or none that takes it."""
+        """The future of a piece; None where no executor takes it."""
         future: Future[Result] | None = None
         if self._given is not None:
             with suppress(Exception):
@@ -231,17 +230,17 @@ class Workers:
 
 
 class Started(Generic[Result]):
-    """A piece that is given out."""
+    """A piece under work."""
 
     def __init__(self, workers: Workers, task: Callable[..., Result], given: tuple[object, ...]) -> None:
         self._workers, self._task, self._given = workers, task, given
         self._future = workers._submit(task, given)
 
     def result(self) -> Result:
-        """What it gives.
+        """The result of the piece.
 
-        A piece whose worker was lost is given out again.  Where there is no executor, or it is broken, or could not do
-        the piece, it is done here, which raises what is wrong with it.
+        A piece whose worker was lost is given out again.  Without an executor, or where it is broken or could not do
+        the piece, the piece is done here, which raises its error.
         """
         for _ in range(MOST_LOSSES):
             if self._future is None:
@@ -261,9 +260,9 @@ class Started(Generic[Result]):
 
 
 def process_pool(processes: int) -> ProcessPoolExecutor:
-    """A pool of so many fresh processes, not copies of this one: safe beside threads, the same on every system.
+    """A pool of fresh processes, not copies of this one: safe with threads, the same on every system.
 
-    They end by themselves when the one that started them is killed; what interrupts it is not theirs to answer.
+    They end by themselves when their parent is killed; only the parent answers an interruption.
     """
     before = os.environ.get("PYTHONWARNINGS")
     # what is killed leaves semaphores behind: they are cleared away by a process that need not tell the user of it
@@ -279,7 +278,7 @@ def process_pool(processes: int) -> ProcessPoolExecutor:
 
 
 def _end(pool: ProcessPoolExecutor, others: Iterable[BaseProcess]) -> None:
-    """End a pool at once, and processes of pools before it, whatever they are about."""
+    """End a pool at once, and processes of earlier pools, whatever they are doing."""
     running = _processes(pool)
     with suppress(AttributeError, OSError):
         # a result that is half written would be waited for while anybody can write, and this process could
@@ -291,7 +290,7 @@ def _end(pool: ProcessPoolExecutor, others: Iterable[BaseProcess]) -> None:
 
 @contextmanager
 def _uninterrupted() -> Iterator[None]:
-    """What is started here is not told of an interruption, which comes to this process alone, and a moment later."""
+    """A context in which started processes ignore interruptions; this process gets them at its end."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
@@ -330,7 +329,7 @@ def _width(executor: Executor) -> int:
 
 
 def cluster(address: str) -> Executor:
-    """An executor that runs on the Dask cluster at an address; to shut it down is to leave the cluster.
+    """An executor on the Dask cluster at an address; shutting it down leaves the cluster running.
 
     Raises
     ------

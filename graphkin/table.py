@@ -1,13 +1,11 @@
-"""A table: columns of numbers or words, each with its name, its unit and its symbol; and everything it is written as.
+"""A table: columns of numbers or words, each with its name, its unit and its symbol; and its writers.
 
-Columns are arrays from one end to the other: no row is ever an object.  What writes them is a library where one is
-installed (pyarrow), and Python's own loops in C where none is; both give the same bytes.  pyarrow, pandas and xarray
-are imported when a table is first written so, and never before.
+Columns are arrays; no row is ever an object. pyarrow writes them where it is installed, else Python's own loops in C;
+both give the same bytes.  pyarrow, pandas and xarray are imported when a table is first written so, and never before.
 
 Numbers in text are the shortest decimals that read back as the same double.  From 0.000001 to below 10000000000 they
-are written out (0.00025, 12, 1500.25), beyond that with a power (1.5e-7, 2e+10): pyarrow's own way, which the other
-writer follows.  A column may say another format.  What has no value (NaN) is an empty cell in CSV and HTML, ``null`` in
-JSON, Parquet and Arrow.
+are written out (0.00025, 12, 1500.25), beyond that with a power (1.5e-7, 2e+10), as pyarrow does.  A column may have
+another format.  A missing value (NaN) is an empty cell in CSV and HTML, ``null`` in JSON, Parquet and Arrow.
 """
 
 from __future__ import annotations
@@ -57,7 +55,7 @@ def have(library: str) -> bool:
 
 
 class Values(np.ndarray[Any, np.dtype[Any]]):
-    """Values of a quantity, as an array that shows its unit; what is computed of it is a plain array.
+    """Values of a quantity, as an array that shows its unit; results computed from it are plain arrays.
 
     >>> speeds = Values.of(np.array([1.5, 3.0]), "m/s")
     >>> speeds
@@ -92,8 +90,8 @@ class Column:
     values : shape (rows,): floats (NaN: no value), whole numbers, bools ("yes" and "no" in text), or words (an object
         array of str)
     unit : "" for pure numbers and words
-    symbol : of the quantity it belongs to: "v_C" for the column "v_C.x"
-    form : how numbers look in text, as for ``format``; "" is the shortest decimal that reads back the same
+    symbol : the symbol of its quantity: "v_C" for the column "v_C.x"
+    form : the format of numbers in text, as for ``format``; "" is the shortest decimal that reads back the same
     """
 
     name: str
@@ -169,7 +167,7 @@ class Table:
         forms: Sequence[str] = (),
         units: Sequence[str] = (),
     ) -> Table:
-        """A small table from rows as they are found: numbers (None: no value), bools or words.
+        """A small table from rows of numbers (None: no value), bools or words.
 
         Parameters
         ----------
@@ -227,7 +225,7 @@ class Table:
         return Table(tuple(replace(c, values=c.values[some]) for c in self.columns), self.index)
 
     def harmless(self) -> Table:
-        """The same with words that a spreadsheet would take for a formula marked as words.
+        """The table with words marked as text where a spreadsheet would take them for formulas.
 
         >>> print(Table.of(["name"], [["=1+1"], ["-2.5"], ["@x"]]).harmless().csv(), end="")
         name
@@ -307,7 +305,7 @@ class Table:
         return {c.name: {**_facts(c), "values": plain(c.values)} for c in self.columns}
 
     def write_json(self, out: IO[bytes]) -> None:
-        """Write ``data`` as JSON, as it goes."""
+        """Write ``data`` as JSON, piece by piece."""
         for k, column in enumerate(self.columns):
             facts = json.dumps(_facts(column), ensure_ascii=False)[:-1]
             mark = "{" if k == 0 else ", "
@@ -418,7 +416,7 @@ def as_array(cells: Sequence[object]) -> Array:
 
 
 def plain(values: Array) -> list[Json]:
-    """Cells for programs: ``None`` where there is no number."""
+    """Cells for programs: ``None`` for a missing number."""
     cells: list[Json] = (values + 0.0 if values.dtype.kind == "f" else values).tolist()
     if values.dtype.kind == "f" and not np.isfinite(values).all():
         return [x if known else None for x, known in zip(cells, np.isfinite(values).tolist(), strict=True)]
@@ -426,7 +424,7 @@ def plain(values: Array) -> list[Json]:
 
 
 def formatted(values: Array, form: str) -> list[str]:
-    """Numbers in a format, "" where there is none."""
+    """Numbers in a format, "" for a missing number."""
     # "a: b" and "a: b" alike: one call for each cell, none of them in Python
     cells = list(map(("{:" + form + "}").format, values.tolist()))
     cells = [text[1:] if text.startswith("-0") and not text.strip("-0.") else text for text in cells]
@@ -456,7 +454,7 @@ def _shown(value: float) -> str:
 
 
 def no_formula(cell: str) -> str:
-    """A cell that no spreadsheet takes for a formula."""
+    """The cell, marked as text where a spreadsheet would take it for a formula."""
     begins = cell.lstrip(" ")[:1]
     number = re.fullmatch(r"[+\-]?[\d.,\s]*(?:[eE][+\-]?\d+)?[ °%]*", cell)
     return "'" + cell if begins in tuple("=@+-\t\r") and begins and not number else cell
@@ -468,7 +466,7 @@ def quoted(cell: str) -> str:
 
 
 def all_quoted(cells: list[str]) -> list[str]:
-    """Cells as CSV has them; words repeat, so each is looked at once."""
+    """Cells as CSV has them; each different word is quoted once."""
     some = {cell: quoted(cell) for cell in set(cells)}
     return list(map(some.__getitem__, cells))
 
@@ -498,7 +496,7 @@ def words_to_arrow(words: list[str]) -> pyarrow.Array:
 
 
 def table_of_csv(path: str | Path, like: Table) -> Table:
-    """A table from a CSV file that was written of one with the same columns (``like``, which may be empty)."""
+    """A table from a CSV file written from a table with the columns of ``like`` (which may be empty)."""
     if have("pyarrow"):
         csv_file = import_module("pyarrow.csv")
         whole = csv_file.read_csv(path, convert_options=_arrow_types(like))
@@ -516,7 +514,7 @@ def table_of_csv(path: str | Path, like: Table) -> Table:
 
 
 def _read(cells: Array, like: Column) -> Array:
-    """Cells of a CSV file as what a column holds."""
+    """Cells of a CSV file as values of a column."""
     kind = like.values.dtype.kind
     if kind == "b":
         return np.asarray(cells == "yes")
@@ -595,7 +593,7 @@ def table_of(path: str | os.PathLike[str], largest: int = LARGEST) -> Rows:
 
 
 def with_points(sheet: Rows) -> Rows:
-    """A table with decimal points, where commas do not part its cells."""
+    """A table with decimal points in place of commas, where commas do not part its cells."""
     if sheet.sign == ",":
         return sheet
     rows = ((line, tuple(re.sub(r"(?<=\d),(?=\d)", ".", cell) for cell in cells)) for line, cells in sheet.rows)

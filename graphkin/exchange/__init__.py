@@ -1,5 +1,5 @@
-"""Other people's mechanisms: files of PMKS and PMKS+, Linkage, pyslvs, pylinkage and GeoGebra, read and written; which
-program a file is of, by its name and by what stands in it."""
+"""Other programs' mechanisms: files of PMKS and PMKS+, Linkage, pyslvs, pylinkage and GeoGebra, read and written; a
+file's program is known by its name and its content."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def read_bodies(source: str) -> Bodies:
 
     Raises
     ------
-    CallError : there is no such file, or it is of no program that is known here
+    CallError : there is no such file, or its program is unknown
     """
     if "://" in source or (is_address(source) and not Path(source[:200]).exists()):
         return read_address(source, "PMKS") if is_address(source) else read_table(source, "PMKS")

@@ -1,5 +1,4 @@
-"""A mechanism as other programs keep it: bodies with points at places, joined by pins and slides, and the scene that it
-makes."""
+"""A mechanism as other programs keep it: bodies with points at places, joined by pins and slides; and its scene."""
 
 from __future__ import annotations
 
@@ -36,7 +35,7 @@ class BodySlide:
 
 @dataclass
 class BodyDrive:
-    """What drives: a body that turns (rate in rad/s), or a slide by its body and point (rate in the length unit/s)."""
+    """A driver: a body that turns (rate in rad/s), or a slide by its body and point (rate in the length unit/s)."""
 
     body: str
     rate: float
@@ -46,8 +45,8 @@ class BodyDrive:
 @dataclass
 class Bodies:
     """Points at places in the world (length unit), bodies with the points that they have, the fixed one by the name
-    ``FRAME``; ``names`` are the names of points by their keys in the file that is read.  ``lost`` are things that move,
-    drive or load and cannot be carried over, each by its name, ``left`` what else cannot."""
+    ``FRAME``; ``names`` are the names of points by their keys in the file that is read.  ``lost`` names the parts that
+    move, drive or load and cannot be carried over, ``left`` other parts that cannot."""
 
     title: str
     places: dict[str, complex] = field(default_factory=dict)
@@ -60,7 +59,8 @@ class Bodies:
     names: dict[str, str] = field(default_factory=dict)
 
     def point(self, name: str, place: complex, key: str = "") -> str:
-        """A point by a name that a scene may have, which is returned; ``key`` where the file calls it otherwise."""
+        """Add a point under a name that a scene may have, which is returned; ``key`` is its name in the file, where
+        that differs."""
         made = _fresh(_point_name(name), self.places)
         if not abs(place) <= FARTHEST:
             where = Phrase("point", point=made)
@@ -69,24 +69,25 @@ class Bodies:
         return made
 
     def place(self, key: str) -> complex:
-        """Where a point of the file lies."""
+        """The place of a point of the file."""
         return self.places[self.names[key]]
 
     def body(self, name: str, keys: Iterable[str]) -> str:
-        """A body by a name that a scene may have, which is returned; of the frame all points come together.  Keys of no
-        point are left out."""
+        """Add a body under a name that a scene may have, which is returned; points of the frame are collected.  Keys of
+        no point are left out."""
         made = FRAME if name == FRAME else _fresh(_link_name(name), {*self.bodies, FRAME})
         points = self.bodies.setdefault(made, [])
         points += [p for p in dict.fromkeys(self.names[k] for k in keys if k in self.names) if p not in points]
         return made
 
     def holder(self, keys: Iterable[str], but: str | None = None) -> str | None:
-        """The first body that has these points, but for one."""
+        """The first body with these points, except one."""
         points = {self.names[key] for key in keys}
         return next((name for name, held in self.bodies.items() if name != but and points <= {*held}), None)
 
     def slide_on(self, key: str, line: tuple[str, str], otherwise: str) -> None:
-        """A pin at a point runs on the line through two others; where no body has these, ``otherwise`` is lost."""
+        """Add a pin at a point that runs on the line through two others; where no body has these, ``otherwise`` is
+        noted as lost."""
         on = self.holder(line)
         body = self.holder((key,), but=on)
         if on is None or body is None:
@@ -96,7 +97,8 @@ class Bodies:
         self.slides.append(BodySlide(body, self.names[key], on, start, cmath.phase(end - start), turns=True))
 
     def turn(self, keys: Iterable[str], rate: float, otherwise: str = "") -> None:
-        """What has these points turns at a rate (rad/s); where nothing that moves has them, ``otherwise`` is lost."""
+        """Let the body with these points turn at a rate (rad/s); where no moving body has them, ``otherwise`` is noted
+        as lost."""
         body = self.holder(keys, but=FRAME)
         if body is not None:
             self.drives.append(BodyDrive(body, rate))
@@ -108,7 +110,7 @@ class Bodies:
 
         Raises
         ------
-        CallError : nothing moves, nothing is fixed, or nothing drives
+        CallError : no body moves, no body is fixed, or there is no driver
         """
         self._tidy()
         moving = [name for name in self.bodies if name != FRAME]
@@ -144,8 +146,8 @@ class Bodies:
         return made
 
     def with_pins(self) -> Bodies:
-        """The same with pins in slots instead of blocks that only have one pin, and two points of its body on every
-        line that bodies slide on: for programs that know no others."""
+        """These bodies with pins in slots instead of blocks of a single pin, and with two points of its body on every
+        line on which bodies slide: for programs that know no other slides."""
         made = Bodies(self.title, dict(self.places), {n: list(points) for n, points in self.bodies.items()}, [],
                       list(self.drives), self.unit, self.left, self.lost)  # fmt: skip
         guides, driven = {s.on for s in self.slides}, {d.body for d in self.drives if d.point}
@@ -168,7 +170,8 @@ class Bodies:
         return made
 
     def _tidy(self) -> None:
-        """A body of one point that only hangs on another is that other's pin; one with none is nothing."""
+        """Remove bodies of a single point that only hang on another body, whose pin it is, and bodies without
+        points."""
         for name in [n for n, points in self.bodies.items() if not points and n != FRAME]:
             del self.bodies[name]
             self.lost += [f"slide of {s.body} on {s.on}" for s in self.slides if name in (s.body, s.on)]
@@ -203,8 +206,8 @@ class Bodies:
         return origin, cmath.rect(1.0, line.angle) if line is not None else 1 + 0j
 
     def _ordered(self, name: str) -> tuple[list[str], list[str]]:
-        """The points of a body that give its own axes (first the one that slides, then one that lies elsewhere, if
-        there is one), and the others."""
+        """The points of a body that give its own axes (first the sliding point, then a point at another place, if there
+        is one), and the others."""
         points = list(self.bodies[name])
         first = next((s.point for s in self.slides if s.body == name and not s.turns), points[0] if points else "")
         rest = [p for p in points if p != first]
@@ -233,7 +236,7 @@ class Bodies:
         return table
 
     def _on(self, slide: BodySlide, ref: str, table: dict[str, Json]) -> dict[str, Json]:
-        """What a link says of a line that it slides on, beside what it says already."""
+        """Add the line on which a link slides to the link's table."""
         angle = _degrees(cmath.phase(self._axis(slide.body)[1]) - slide.angle)
         before, angles = table.get("on"), table.get("angle_on", 0)
         if before is None:
@@ -254,7 +257,7 @@ class Bodies:
 
 
 def number(value: float) -> float:
-    """A number without the noise of its last digits, such as people write."""
+    """A number as people write it, without the rounding of its last digits."""
     near = float(f"{value:.15g}")
     return int(near) if near == int(near) and abs(near) < 1e15 else near
 

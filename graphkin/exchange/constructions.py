@@ -1,10 +1,10 @@
-"""Mechanisms that are constructed point by point, each from those before it: linkages in GeoGebra (.ggb), and the older
+"""Mechanisms constructed point by point, each from earlier ones: linkages in GeoGebra (.ggb), and the older
 linkages of pylinkage.
 
 - A file of GeoGebra is a ZIP archive with ``geogebra.xml``: elements with their coordinates (homogeneous), commands
   with inputs and outputs.  Free points are the frame, a point on a circle is a crank's end, crossings of circles and
-  lines are joints, segments say which points belong together.
-- A linkage of pylinkage has joints that refer to those before them: Static, Crank (distance, angle a step), Fixed
+  lines are joints, segments join the points of a body.
+- A linkage of pylinkage has joints that refer to earlier ones: Static, Crank (distance, angle a step), Fixed
   (distance and angle from one, against the line to another), Revolute or Pivot (two distances), Linear (a distance from
   one, on the line of two others).
 
@@ -40,11 +40,11 @@ DAMAGED = (BadZipFile, LookupError, ElementTree.ParseError, OSError, ValueError,
 
 @dataclass
 class _Construction:
-    """Points, each constructed from others, and what holds them, all by the labels of the file.
+    """Points, each constructed from others, with their bars and slides, all by the labels of the file.
 
-    moving : points that do
-    bars : points that keep their distances
-    slid : a point, the two points of the line it runs on, and what is said where no link has that line
+    moving : points that move
+    bars : pairs of points at a constant distance
+    slid : a point, the two points of its line, and the sentence for a line that no link has
     driven : pivot and end of a crank, and its rate (rad/s)
     """
 
@@ -55,7 +55,7 @@ class _Construction:
     driven: list[tuple[str, str, float]] = field(default_factory=list)
 
     def bodies(self, frame: Sequence[str]) -> Bodies:
-        """The bodies that the bars make beside the frame, what slides on them, and what drives."""
+        """The bodies that the bars make with the frame, their slides, and the driver."""
         self.made.body(FRAME, frame)
         for bar in self._plates():
             if not set(bar) <= set(frame):
@@ -67,7 +67,8 @@ class _Construction:
         return self.made
 
     def _plates(self) -> list[list[str]]:
-        """Bars that share two points are one body; three bars that close a triangle of moving points too."""
+        """The bodies of the bars: bars that share two points are one body, and three bars that close a triangle of
+        moving points."""
         bodies = [list(dict.fromkeys(bar)) for bar in self.bars]
         changed = True
         while changed:
@@ -96,7 +97,7 @@ def _closed(a: list[str], b: list[str], c: list[str]) -> bool:
 
 
 def read_geogebra(data: bytes, title: str) -> Bodies:
-    """The bodies of a construction.  Raises CallError where it is none."""
+    """The bodies of a construction.  Raises CallError for a file that is none."""
     try:
         with ZipFile(BytesIO(data)) as archive:
             entry = archive.getinfo("geogebra.xml")
@@ -188,7 +189,7 @@ def _place(element: ElementTree.Element) -> complex:
 
 
 def construct_linkage(bodies: Bodies, joints: Sequence[Tables]) -> None:
-    """Add the bodies of a list of joints.  Raises ValueError, LookupError, TypeError where it is none."""
+    """Add the bodies of a list of joints.  Raises ValueError, LookupError, TypeError for a list that is none."""
     made = _Construction(bodies)
     fixed: list[str] = []
 

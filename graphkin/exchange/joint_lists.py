@@ -5,8 +5,8 @@
   ``input`` drives.
 - The address of PMKS+ holds, parted by points, its settings, joints, links and forces in a numeral system of base 64,
   lengths in thousandths (``string-transcoder.ts``).
-- An expression of pyslvs, ``M[J[R, P[0, 0], L[ground, link_1]], ...]``, stands alone or in a project, which also says
-  what drives.  A joint has its kind (R, P, RP), of a slide the angle ``A[90]`` of its line in degrees on the first of
+- An expression of pyslvs, ``M[J[R, P[0, 0], L[ground, link_1]], ...]``, stands alone or in a project, which also names
+  the driver.  A joint has its kind (R, P, RP), of a slide the angle ``A[90]`` of its line in degrees on the first of
   its links, any colour, its place and its links (grammar of ``pyslvs.expression_parser``).
 """
 
@@ -37,14 +37,14 @@ _JOINT = re.compile(
 def _join(
     made: Bodies, known: dict[str, str], name: str, kind: str, place: complex, links: Sequence[str], angle: float
 ) -> None:
-    """Add a joint of so many links, of which ``ground`` is the frame.
+    """Add a joint of some links, of which ``ground`` is the frame.
 
     Parameters
     ----------
     known : the bodies of links by the file's names
-    kind : "R" turning; "P" the others slide on a line of the first link and keep their angle; "RP" a pin of the others
-        runs on a line of the first link
-    angle : of the line in the world (rad)
+    kind : "R" turning; "P" the other links slide on a line of the first link at a fixed angle; "RP" a pin of the other
+        links runs on a line of the first link
+    angle : the line's angle in the world (rad)
     """
     for link in links:
         if link not in known:
@@ -70,7 +70,7 @@ def _letter(number: int) -> str:
 
 
 def is_address(text: str) -> bool:
-    """Whether a text is a shared link of PMKS+, or what stands behind its question mark."""
+    """Whether a text is a shared link of PMKS+, or the part of it behind the question mark."""
     body = _payload(text)
     return body.count(".") > 6 and re.fullmatch(r"[0-9A-Za-z_\-.,# %+*]+", body) is not None and ".." in body
 
@@ -81,7 +81,7 @@ def _payload(text: str) -> str:
 
 
 def read_table(text: str, title: str) -> Bodies:
-    """The bodies of a table of joints.  Raises CallError naming every row that is none."""
+    """The bodies of a table of joints.  Raises CallError naming every wrong row."""
     try:
         query = parse_qs(urlparse(text.strip()).query)
     except ValueError:
@@ -129,7 +129,7 @@ def _whole(text: str, title: str) -> int:
 
 
 def read_address(text: str, title: str) -> Bodies:
-    """The bodies of a shared link of PMKS+.  Raises CallError where it is none."""
+    """The bodies of a shared link of PMKS+. Raises CallError for a text that is none."""
     body = _payload(text)
     if "*" in body:
         raise CallError.of(title, "is a link of today's pmks with a", "draw it anew as a scene")
@@ -184,8 +184,8 @@ def read_address(text: str, title: str) -> Bodies:
 
 
 class _SharedJoint:
-    """A joint of the address: flags (slides, driven, grounded, welded), name, place, angle of its line and what carries
-    it."""
+    """A joint of the address: flags (slides, driven, grounded, welded), name, place, angle of its line and its
+    carrier."""
 
     def __init__(self, text: str, title: str) -> None:
         cells = text[1:].split(",")
@@ -200,7 +200,7 @@ class _SharedJoint:
 
 
 def _block(made: Bodies, ends: list[str], joints: dict[str, _SharedJoint], links: dict[str, str], rate: float) -> None:
-    """A block that slides on a line of the frame or of its carrier; welded to a link it is part of that."""
+    """Add a block that slides on a line of the frame or of its carrier; a welded block is part of its link."""
     line = next((joints[k] for k in ends if k in joints and joints[k].slides), None)
     pin = next((joints[k] for k in ends if k in joints and not joints[k].slides), None)
     if line is None or pin is None or not (line.grounded or line.carrier in links):
@@ -221,7 +221,7 @@ def _block(made: Bodies, ends: list[str], joints: dict[str, _SharedJoint], links
 
 
 def _exact(angle: float) -> float:
-    """An angle that was rounded to a thousandth of a radian, of which whole degrees are meant."""
+    """An angle rounded to a thousandth of a radian, taken for the whole degrees that it may be."""
     near = math.radians(round(math.degrees(angle)))
     return near if abs(near - angle) <= 6e-4 else angle
 
@@ -230,7 +230,7 @@ def _exact(angle: float) -> float:
 
 
 def read_pyslvs(text: str, title: str) -> Bodies:
-    """The bodies of an expression or a project.  Raises CallError where there is none, or it cannot be read."""
+    """The bodies of an expression or a project.  Raises CallError for a text without a readable one."""
     plain = re.sub(r"#\[[\s\S]*?#\][^\n]*|#[^\n]*", "", text)
     begin = re.search(r"\bM\s*\[", plain)
     if begin is None:
@@ -264,7 +264,7 @@ def read_pyslvs(text: str, title: str) -> Bodies:
 
 
 def _inside(text: str, begin: int, title: str) -> tuple[str, int]:
-    """What stands in the brackets that open before ``begin``, and where they close."""
+    """The content of the brackets that open before ``begin``, and the place where they close."""
     depth = 1
     for k in range(begin, len(text)):
         depth += {"[": 1, "]": -1}.get(text[k], 0)
@@ -274,7 +274,7 @@ def _inside(text: str, begin: int, title: str) -> tuple[str, int]:
 
 
 def _first_crank(made: Bodies) -> list[tuple[str, str]]:
-    """The first bar about a fixed pivot, where nothing says what drives."""
+    """The first bar about a fixed pivot, the driver of a file that names none."""
     points = list(made.places)
     for name, held in made.bodies.items():
         fixed = [p for p in held if p in made.bodies[FRAME]]
@@ -285,7 +285,7 @@ def _first_crank(made: Bodies) -> list[tuple[str, str]]:
 
 
 def write_pyslvs(bodies: Bodies) -> str:
-    """The expression of bodies; what it cannot hold is added to ``left``."""
+    """The expression of bodies; parts that it cannot hold are added to ``left``."""
     joints = []
 
     def joint(kind: str, place: complex, names: Iterable[str], angle: float | None = None) -> None:

@@ -93,7 +93,7 @@ def _fastened(node: ElementTree.Element) -> bool:
 
 
 def _slider(made: Bodies, node: ElementTree.Element, holders: list[str], names: dict[str, list[str]]) -> None:
-    """A connector that runs on the straight line between two others, which lie on one body."""
+    """Add a connector that runs on the straight line between two others of one body."""
     limits = [c.get("id", "") for c in node if c.tag == "slidelimit"][:2]
     label = node.get("name") or node.get("id")
     if len(limits) < 2 or any(k not in made.names for k in limits) or not holders:
@@ -117,7 +117,7 @@ def _slider(made: Bodies, node: ElementTree.Element, holders: list[str], names: 
 
 
 def _cylinder(made: Bodies, element: ElementTree.Element, label: str, ends: list[str]) -> None:
-    """A bar whose length is driven: a cylinder about its first end, and a rod that slides in it."""
+    """Add a bar whose length is driven: a cylinder about its first end, and a rod that slides in it."""
     start, end = map(made.place, ends)
     cylinder, rod = made.body(f"{label}c", ends[:1]), made.body(f"{label}r", ends[1:])
     made.slides.append(BodySlide(rod, made.names[ends[1]], cylinder, start, cmath.phase(end - start)))
@@ -127,7 +127,7 @@ def _cylinder(made: Bodies, element: ElementTree.Element, label: str, ends: list
 
 
 def write_linkage2(bodies: Bodies) -> str:
-    """The text of a file; what it cannot hold is added to ``lost``."""
+    """The text of a file; parts that it cannot hold are added to ``lost``."""
     bodies = bodies.with_pins()
     root = ElementTree.Element("linkage2")
     ElementTree.SubElement(root, "program", units="Millimeters", zoom="1.000000")
@@ -227,7 +227,7 @@ def _mechanism(made: Bodies, data: Tables) -> None:
 
 
 def write_pylinkage(bodies: Bodies) -> str:
-    """The JSON of a mechanism; what it cannot hold is added to ``lost`` or ``left``."""
+    """The JSON of a mechanism; parts that it cannot hold are added to ``lost`` or ``left``."""
     bodies = bodies.with_pins()
     fixed = set(bodies.bodies.get(FRAME, ()))
     slides = {s.point: s for s in bodies.slides}

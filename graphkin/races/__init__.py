@@ -1,6 +1,6 @@
 """Speed against accuracy: all methods and other programs on the same work, in one run; as a table, as data for
-programs, and as a chart: cost of a position against the largest error, velocity and acceleration side by side.  Nothing
-but ``graphkin study`` needs it."""
+programs, and as a chart: cost of a position against the largest error, velocity and acceleration side by side.  Only
+``graphkin study`` needs it."""
 
 from __future__ import annotations
 
@@ -41,12 +41,12 @@ PEERS_FILE = Path(__file__).parents[2] / "tests" / "bench" / "raced_peers.py"
 
 @dataclass(frozen=True)
 class Race:
-    """What every method costs and how far it is off.
+    """The cost and the error of every method.
 
     copying : cost of copying the velocities of a position, and with the accelerations (s)
     acts : acts of the hand in one drawing
     skipped : peers left out, with the reason
-    asked : what the limited runs were asked for
+    asked : the quantities of the limited runs
     """
 
     scene: Mechanism
@@ -69,12 +69,12 @@ def race(scene: Mechanism, repeats: int, count: int = COUNT) -> Race:
 
     Parameters
     ----------
-    repeats : runs of each, of which the fastest counts
-    count : positions of which the time is taken, for the methods that compute many at once
+    repeats : runs of each method, the fastest counts
+    count : positions in a timed run, for the methods that compute many at once
 
     Raises
     ------
-    CallError : mpmath is not installed, a group larger than a dyad, nothing that moves
+    CallError : mpmath is not installed, a group larger than a dyad, no moving link
     Unsolvable : as for ``solver.solve``
     """
     mp: MPContext = context()
@@ -95,7 +95,7 @@ def race(scene: Mechanism, repeats: int, count: int = COUNT) -> Race:
 
 
 def _peer(name: str, work: Work, repeats: int) -> Iterator[Entry]:
-    """Another program on the work.  Raises Skipped where it cannot do it, or is not raced from here."""
+    """Another program on the work.  Raises Skipped where it cannot do the work, or cannot be run from here."""
     spec = spec_from_file_location("raced_peers", PEERS_FILE)
     if spec is None or spec.loader is None or not PEERS_FILE.is_file():
         raise Skipped("wheel")
@@ -116,7 +116,7 @@ def race_table(race: Race) -> Table:
 
 
 def to_json(race: Race, language: str = "en") -> dict[str, Json]:
-    """Costs in s for a position, errors in parts of the largest value, and what it was measured on."""
+    """Costs in s for a position, errors in parts of the largest value, and the machine."""
     return {
         "scene": race.scene.name,
         "machine": {
@@ -202,7 +202,8 @@ def race_page(race: Race, language: str = "en") -> ChartPage:
 
 
 def lessons(race: Race) -> tuple[Phrase, ...]:
-    """What the entries say of drawing and computing accelerations: every number is one of theirs, or a quotient."""
+    """The conclusions from the entries on drawing and computing accelerations: every number is one of theirs, or a
+    quotient."""
 
     def error(entry: Entry) -> str:
         off = max(entry.velocity_error or 0.0, entry.acceleration_error or 0.0)
@@ -255,7 +256,7 @@ def _lines(paragraphs: Sequence[str], y: float, letters: float, step: float) -> 
 
 
 def _points(entries: Sequence[Entry], kind: str) -> list[tuple[Entry, float, float]]:
-    """Entries that give something, with cost and error."""
+    """Entries with a value of this kind, with cost and error."""
     points = []
     for e in entries:
         cost, error = (
@@ -292,7 +293,7 @@ def _draw(figure: Figure, race: Race, kind: str, box: Box, language: str) -> Non
 
 
 def _words(race: Race, entry: Entry, points: Sequence[tuple[Entry, float, float]], language: str) -> str:
-    """The name of a method at its point; of a curve's points the first bears the name, some their numbers."""
+    """The name of a method at its point; of a curve's points the first has the name, some have their numbers."""
     if entry.tag == "asked":
         return say(Phrase("only asked", method=word(entry.key, language), quantity=_written(race.asked[0])), language)
     if not entry.tag:
@@ -309,7 +310,7 @@ def _words(race: Race, entry: Entry, points: Sequence[tuple[Entry, float, float]
 
 
 def _written(symbol: Symbol) -> str:
-    """A symbol as it is set: v_B@3 with B3 as its index."""
+    """A symbol as markup: v_B@3 with B3 as its index."""
     if symbol.link:
         return f"${'ω' if symbol.kind == 'omega' else 'α'}_{{{symbol.link}}}$"
     parts = [f"{ref.point}{ref.link}" for ref in (symbol.of, symbol.to) if ref is not None]

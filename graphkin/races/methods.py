@@ -1,5 +1,6 @@
-"""graphkin's methods on the same work: the closed form in its several dresses, Newton's method, differences, a complex
-step; and those that draw: the exact board, a drafting program, pencil and ruler at several scales, instant centres."""
+"""graphkin's methods on the same work: the closed form in its several forms, Newton's method, differences, a complex
+step; and the drawing methods: the exact board, a drafting program, pencil and ruler at several scales, instant
+centres."""
 
 from __future__ import annotations
 
@@ -37,7 +38,7 @@ SECONDS = 20.0
 
 
 def copy_time(work: Work, repeats: int) -> tuple[float, float]:
-    """What it costs to copy the velocities of a position, and these with the accelerations (s): the floor."""
+    """The time to copy the velocities of a position, and velocities with accelerations (s): the floor."""
     whole = np.ones((4 * len(work.outputs), work.count))
     target = np.empty_like(whole)
     half = 2 * len(work.outputs)
@@ -66,7 +67,7 @@ def _closed(work: Work, key: str, tag: str, columns: Array, costs: Sequence[floa
 
 
 def _prepared(work: Work) -> tuple[PreparedMechanism, PreparedMechanism]:
-    """For velocities alone, and with accelerations."""
+    """The prepared mechanism for velocities alone, and with accelerations."""
     slow, both = (solver.prepare(work.structure, columns_of(work, kinds)) for kinds in ("v", "va"))
     return slow, both
 
@@ -98,7 +99,7 @@ def closed_forms(work: Work, repeats: int) -> Iterator[Entry]:
 
 @contextmanager
 def _one_core() -> Iterator[None]:
-    """Compiled code on one core, like all the other methods."""
+    """A context with compiled code on one core, like all the other methods."""
     import numba
 
     threads = numba.get_num_threads()
@@ -151,7 +152,7 @@ def whole_solve(work: Work, repeats: int) -> Iterator[Entry]:
 
 
 class Numeric:
-    """The closure equations at the places, and at a batch of which the time is taken."""
+    """The closure equations at the places, and at the positions of a timed batch."""
 
     def __init__(self, work: Work) -> None:
         self.work = work
@@ -203,7 +204,8 @@ def newton(work: Work, repeats: int) -> Iterator[Entry]:
 
 
 def complex_step(work: Work, repeats: int) -> Iterator[Entry]:
-    """Velocities as the imaginary part of places, accelerations as that of velocities, the time being i h."""
+    """Velocities as the imaginary part of places, accelerations as the imaginary part of velocities, at the time i
+    h."""
     numeric = Numeric(work)
     h = 1e-30
 
@@ -254,7 +256,7 @@ def differences(work: Work, repeats: int) -> Iterator[Entry]:
 
 
 def drawn(work: Work, repeats: int) -> Iterator[Entry]:
-    """The whole construction with each instrument; and the exact one only as far as what is asked for."""
+    """The whole construction with each instrument, and the exact construction of the asked quantities alone."""
     kept, few = work.some(EVERY)
     plans = [plan(work.scene, work.at(k), ()) for k in kept]
     yield _drawn(few, plans, "exact drawing", "", [EXACT], repeats)
@@ -279,7 +281,8 @@ def _larger(what: Plan, factor: float) -> Plan:
 
 
 def acts(what: Plan, order: str) -> int:
-    """Acts of the hand in drawing a plan and reading it off, as far as velocities or with accelerations."""
+    """The number of acts of the hand in drawing a plan and reading it off, for velocities alone or with
+    accelerations."""
     hand = pencil(what.structure.scene.question.sheet.tools, 0)
     sheet = execute(what, hand)
     read_off(sheet, (), hand)
@@ -290,7 +293,7 @@ def acts(what: Plan, order: str) -> int:
 
 
 def _drawn(work: Work, plans: Sequence[Plan], key: str, tag: str, hands: Sequence[Instrument], repeats: int) -> Entry:
-    """The worst of some hands."""
+    """The entry of a drawn plan with the largest errors of some hands."""
     worst: list[float | None] = [0.0, 0.0]
     for hand in hands:
         tables = [{r.symbol: complex(r.value) for r in read_off(execute(p, hand), (), hand)} for p in plans]

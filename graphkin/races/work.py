@@ -1,6 +1,6 @@
-"""The work that all methods are given: some positions of a scene, what is looked at there, and the 50-digit truth.
+"""The work of all methods: some positions of a scene, the compared points, and the 50-digit truth.
 
-A measurement: what a method costs and how far it is off, and the machine it was made on.
+A measurement: the cost and the error of a method, and the machine.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class ComparedPoint:
 
     @property
     def ref(self) -> PointRef:
-        """How it is written in a symbol."""
+        """Its name in a symbol."""
         return PointRef(self.point) if self.own else PointRef(self.point, self.link)
 
 
@@ -78,10 +78,10 @@ def point_rates(equations: Equations, solution: Solution, outputs: Sequence[Comp
 
 @dataclass(frozen=True)
 class Work:
-    """A scene, the positions at which errors are taken, and what is right there.
+    """A scene, the positions at which errors are taken, and the true values there.
 
     values : driver values, shape (places, drivers)
-    count : how many positions the time is taken of, for methods that compute many at once
+    count : positions in a timed run, for methods that compute many at once
     full : whether the driver turns fully
     velocity, acceleration : numbers of mpmath of 50 digits, of shape (outputs, places)
     motion : the solver's, at the places
@@ -105,7 +105,7 @@ class Work:
         return _error(self.velocity, velocity), _error(self.acceleration, acceleration)
 
     def some(self, every: int) -> tuple[list[int], Work]:
-        """Every so many of the places alone, with their numbers."""
+        """Every n-th of the places, with their indices."""
         kept = list(range(0, len(self.values), every))
         return kept, self._only(kept, range(len(self.outputs)))
 
@@ -126,7 +126,8 @@ class Work:
 
     @property
     def asked(self) -> tuple[Symbol, ...]:
-        """What the scene asks for; of a scene that asks for everything, the motion of a point of its first group."""
+        """The quantities that the scene asks for; of a scene that asks for all, the motion of a point of its first
+        group."""
         if self.scene.question.find:
             return self.scene.question.find
         group = next((e for e in self.structure.elements if isinstance(e, Dyad)), None)
@@ -135,7 +136,7 @@ class Work:
         return Symbol("v", first.ref), Symbol("a", first.ref)
 
     def asked_outputs(self) -> tuple[ComparedPoint, ...]:
-        """The outputs that are asked for: their points, or points of links whose turning is asked for."""
+        """The asked outputs: points, or points of links whose turning is asked for."""
         refs = {ref for s in self.asked for ref in (s.of, s.to) if ref is not None}
         turning = {s.link for s in self.asked if s.link}
         asked = [
@@ -154,7 +155,7 @@ def _error(right: Array, measured: Array | None) -> float | None:
 
 
 def work_of(scene: Mechanism, mp: MPContext, count: int) -> Work:
-    """Positions over the turn of the driver (over its range, for one that does not turn fully), and the truth there.
+    """Positions over the turn of the driver (over its range, if it does not turn fully), and the truth there.
 
     Parameters
     ----------
@@ -162,7 +163,7 @@ def work_of(scene: Mechanism, mp: MPContext, count: int) -> Work:
 
     Raises
     ------
-    CallError : nothing moves, or a group larger than a dyad, which has no closed form
+    CallError : no link moves, or a group larger than a dyad, which has no closed form
     Unsolvable : as for ``solver.solve``
     """
     structure = solver.structure_of(scene)
@@ -211,9 +212,9 @@ class Entry:
 
     Parameters
     ----------
-    key : word for it, ``tag`` what tells it from others of that name ("3" iterations, "1e-4" step, scale)
+    key : its word, ``tag`` the difference from others of that word ("3" iterations, "1e-4" step, scale)
     velocity_cost, acceleration_cost : s for a position, as far as velocities, and with accelerations
-    velocity_error, acceleration_error : the largest, in parts of the largest value; None where it gives none
+    velocity_error, acceleration_error : the largest, in parts of the largest value; None where the method gives none
     """
 
     family: Family
@@ -226,7 +227,7 @@ class Entry:
 
 
 class Skipped(Exception):
-    """A peer that is left out, and why: a key of the table of words with what stands in its gaps."""
+    """A peer that is left out, with the reason: a key of the table of words with its gaps."""
 
     def __init__(self, key: str, **gaps: str) -> None:
         super().__init__(key, *gaps.values())
@@ -234,7 +235,7 @@ class Skipped(Exception):
 
 
 def best_time(run: Callable[[], object], repeats: int, least: float = 2e-3) -> float:
-    """The shortest of some runs (s), each made long enough to be timed; other work on the machine only adds.
+    """The shortest time of some runs (s), each long enough to be timed; other work on the machine only adds time.
 
     There are more runs than asked for where they are short, since a busy machine interrupts many of them.
     """
@@ -257,7 +258,7 @@ PACKAGES = ("numpy", "numba", "scipy", "pylinkage", "mpmath")
 
 @dataclass(frozen=True)
 class Machine:
-    """Cores and processor, and the versions of what took part."""
+    """Cores and processor, and the versions of the programs."""
 
     cores: int
     processor: str
@@ -265,7 +266,7 @@ class Machine:
 
 
 def this_machine() -> Machine:
-    """The machine that this runs on."""
+    """This machine."""
     from graphkin.version import __version__
 
     versions = [("graphkin", __version__), ("Python", platform.python_version())]

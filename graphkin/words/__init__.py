@@ -1,8 +1,8 @@
 """Words in each language: one table for each, of all sentences for steps, notes and headings.
 
 A phrase is a key with its arguments; the sentence is made where it is shown, in the reader's language.
-The tables are the files of this folder, ``en.toml`` and ``zh.toml``: a further language is one more of them, with the
-same keys, and every command knows it.
+The tables are the files of this folder, ``en.toml`` and ``zh.toml``: a further language is one more file with the same
+keys, and every command knows it.
 
 Rich text: a sentence as words and symbols, kept apart from the table of words to the page.
 
@@ -52,7 +52,7 @@ def area(name: str, language: str = "en") -> Mapping[str, str]:
 
 
 class Phrase:
-    """A sentence to be: its key in the table and what stands in its gaps (names, symbols, numbers, phrases).
+    """A sentence before it is said: its key in the table and the values of its gaps (names, symbols, numbers, phrases).
 
     The gaps are named (``{link}`` in the table).  As a text it is English.
 
@@ -84,7 +84,7 @@ Wording: TypeAlias = Phrase | str
 
 
 def as_data(said: object) -> Any:
-    """A statement for a file: a phrase as its key with its gaps, what stands in them as numbers and texts.
+    """A statement for a file: a phrase as its key with its gaps, whose values become numbers and texts.
 
     >>> as_data(Phrase("points", link=2, points=Phrase("listed", first="B", second="C")))
     ['points', {'link': 2, 'points': ['listed', {'first': 'B', 'second': 'C'}]}]
@@ -112,7 +112,7 @@ def say(phrase: Wording, language: str = "en", show: Callable[[object], str] = s
 
 
 def clause_of(said: Wording, gaps: Mapping[str, object]) -> Wording:
-    """The sentence of a problem by its id, with those of some gaps that its words have; what is no such id stays as it
+    """The sentence of a problem by its id, with the given gaps that its words have; a text that is no id stays as it
     is: a phrase, or a name, a number, a command that is the same in every language."""
     if isinstance(said, Phrase) or said not in area("problems"):
         return said
@@ -124,7 +124,7 @@ class Neutral(str):
 
 
 def parts(said: Wording, language: str, show: Callable[[object], str] = str) -> Iterator[str]:
-    """A sentence taken apart: the words of the table, and what ``show`` makes of each gap, in their order.
+    """The parts of a sentence in their order: the words of the table, and each gap as ``show`` writes it.
 
     >>> list(parts(Phrase("points", link="2", points="B, C"), "en"))
     ['mark ', 'B, C', ' on link ', '2']
@@ -166,12 +166,12 @@ def gaps_of(key: str) -> tuple[str, ...]:
 
 
 def filled(keys: Iterable[str], gap: Callable[[str], object]) -> Phrase | None:
-    """The first of some sentences all of whose gaps can be filled by their names; None where there is none.
+    """The first of some sentences whose gaps can all be filled by their names; None where there is none.
 
     Parameters
     ----------
     keys : of the sentences, from the fullest to the barest; a key may have gaps of its own
-    gap : what stands in the gap of a name; None: nothing does
+    gap : the value of a gap by its name; None where it has none
 
     >>> symbol = {"bar": "BC", "kind": "omega", "seen": "3", "symbol": "v_C/B", "told": None}
     >>> str(filled(["{kind} turning", "{kind} zero"], symbol.get))
@@ -189,8 +189,8 @@ def filled(keys: Iterable[str], gap: Callable[[str], object]) -> Phrase | None:
 
 
 def in_all(said: Wording, language: str) -> tuple[str, ...]:
-    """A statement in every language of a sheet, as lines: one where what is `Neutral` in it stands in one order, with
-    the words of both languages around it, else a line for each language.
+    """A statement in every language of a sheet, as lines: one line where its `Neutral` parts stand in one order, with
+    the words of both languages around them, else a line for each language.
 
     >>> in_all(Phrase("force line shifted", force="$F$", distance="2", unit="mm"), "both")
     ('The line of action of $F$ lies 2 mm off that point.', '$F$ 的作用线偏离该点 2 mm。')
@@ -213,7 +213,7 @@ def _as_it_is(gap: object) -> str:
 
 
 def _around_neutral(said: Wording, language: str) -> tuple[list[str], list[str]]:
-    """The words around what is neutral, one more than that, and what is neutral."""
+    """The words around the neutral parts, and the neutral parts, which are one fewer."""
     words, neutral = [""], list[str]()
     for part in parts(said, language, _as_it_is):
         if isinstance(part, Neutral):
@@ -237,12 +237,12 @@ def _both(one: str, other: str) -> str:
 
 
 def about(key: str, names: Sequence[object]) -> str:
-    """The key of a sentence about several things, or of the one about a single one."""
+    """The key of a sentence about several things, or of the sentence about a single one."""
     return key if len(names) > 1 else f"{key} one"
 
 
 def joined(key: str, parts: Iterable[object]) -> Any:
-    """Names or phrases, one at least, as one: the words of a key, with gaps ``first`` and ``second``, between each two.
+    """Names or phrases, at least one, joined: the words of a key, with gaps ``first`` and ``second``, between each two.
 
     >>> str(joined("one and other", "ABC"))
     'A and B and C'
@@ -251,13 +251,13 @@ def joined(key: str, parts: Iterable[object]) -> Any:
 
 
 def in_turn(sentences: Sequence[Phrase]) -> Phrase:
-    """What is done one after the other, one thing at least, as one sentence."""
+    """Actions in turn, at least one, as one sentence."""
     said: Phrase = joined("in turn", sentences)
     return said
 
 
 def listed(names: Sequence[object]) -> object:
-    """Names or phrases, one at least, as an argument of a sentence: a list with the marks of its language.
+    """Names or phrases, at least one, as an argument of a sentence: a list with the marks of its language.
 
     >>> say(Phrase("points", link="2", points=listed(["B", "C", "D"])))
     'mark B, C, D on link 2'
@@ -266,7 +266,7 @@ def listed(names: Sequence[object]) -> object:
 
 
 def clauses(parts: Sequence[Wording]) -> Wording:
-    """Clauses, one at least, with the marks of the language between them.
+    """Clauses, at least one, with the marks of the language between them.
 
     >>> say(clauses(["known only to me", Phrase("give it once")]))
     'known only to me; give it once'
@@ -276,7 +276,7 @@ def clauses(parts: Sequence[Wording]) -> Wording:
 
 
 def alternatives(names: Iterable[str]) -> Wording:
-    """Names, one at least, of which one is chosen.
+    """Names, at least one, joined as alternatives.
 
     >>> say(alternatives(["2", "3"]))
     '2 or 3'
@@ -287,7 +287,7 @@ def alternatives(names: Iterable[str]) -> Wording:
 
 def from_others(sentence: Wording) -> Wording:
     """A sentence of another program (the operating system, the TOML parser, the command line), known by its words in
-    the table of English; one that is not there stays as it is.
+    the table of English; an unknown sentence stays as it is.
 
     >>> say(from_others("No such command 'drw'."), "zh")
     '没有命令“drw”'
@@ -325,12 +325,12 @@ def class_of(order: int) -> Phrase | str:
 
 
 def word(key: str, language: str = "en", otherwise: str | None = None) -> str:
-    """A heading or a term in a language; ``otherwise`` stands for one that the table does not have."""
+    """A heading or a term in a language; ``otherwise`` where the table does not have it."""
     return _table(language)[key] if otherwise is None else _table(language).get(key, otherwise)
 
 
 def languages(language: str) -> tuple[str, ...]:
-    """The languages that stand on a sheet: `BOTH` are two.
+    """The languages of a sheet: `BOTH` means two.
 
     >>> languages("both"), languages("zh")
     (('en', 'zh'), ('zh',))
@@ -357,7 +357,7 @@ def rich_text(said: Wording, language: str, show: Callable[[object], str] = _as_
 
     Parameters
     ----------
-    show : writes what stands in a gap, a symbol as `Markup`
+    show : writes the value of a gap, a symbol as `Markup`
 
     >>> from graphkin.words import Phrase
     >>> rich_text(Phrase("design trial", pair="2"), "en")[:2]
@@ -392,11 +392,11 @@ def rich_text(said: Wording, language: str, show: Callable[[object], str] = _as_
 
 
 def as_markup(text: RichText) -> str:
-    """With symbols between dollar signs, as figures and papers set it."""
+    """The text with symbols between dollar signs, as figures and papers set it."""
     return "".join(f"${part}$" if isinstance(part, Markup) else part for part in text)
 
 
 def as_plain(text: RichText, index: str = "") -> str:
-    """For a terminal, and for who does not see: ``v_B2`` or ``vB2``, as ``index`` stands before an index."""
+    """The text for a terminal and for screen readers: ``v_B2`` or ``vB2``, with ``index`` before an index."""
     shown = (plain(symbol(part), index) if isinstance(part, Markup) else part.replace("$$", "$") for part in text)
     return "".join(shown)

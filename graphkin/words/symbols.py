@@ -1,4 +1,4 @@
-r"""Symbols in text: the notation that all texts share, read in one place; each writer sets what was read.
+r"""Symbols in text: the common notation of all texts, read in one place; each writer sets the atoms.
 
 A symbol stands between dollar signs: ``$v_{B3B2}$``, ``$a^{n}_{C/B}$``.  An index or a superscript is one character or
 stands in braces, a prime is ``'``, ``\mathbf{v}`` is bold, ``\vec{v}`` has an arrow; a dollar sign itself is ``$$``.
@@ -14,7 +14,7 @@ _BOLD, _ARROWED = r"\mathbf", r"\vec"
 
 @dataclass(frozen=True)
 class Atom:
-    """A character of a symbol with what hangs on it."""
+    """A character of a symbol with its index, superscript, prime and marks."""
 
     text: str
     sub: tuple[Atom, ...] = ()
@@ -24,11 +24,11 @@ class Atom:
 
 
 def parsed(markup: str) -> tuple[str | tuple[Atom, ...], ...]:
-    """Words with symbols between dollar signs, taken apart: stretches of words, and symbols as atoms.
+    """The parts of words with symbols between dollar signs: stretches of words, and symbols as atoms.
 
     Raises
     ------
-    ValueError : a dollar sign or a brace is not closed, or an index has nothing to stand at
+    ValueError : a dollar sign or a brace is not closed, or an index follows no character
 
     >>> parsed("so $v_{B}$ is found")[::2]
     ('so ', ' is found')
@@ -63,8 +63,8 @@ def plain_words(markup: str) -> str:
 
 
 def plain(atoms: Sequence[Atom], index: str = "_") -> str:
-    """Atoms as plain text: ``v_B2`` or ``vB2``, as ``index`` stands before an index; a power follows it, a mark of a
-    component comes first."""
+    """Atoms as plain text: ``v_B2`` or ``vB2``, with ``index`` before an index; a power follows the index, a mark of a
+    component precedes it."""
     written = ""
     for atom in atoms:
         above, below = plain(atom.sup, index), plain(atom.sub, index)
@@ -74,7 +74,7 @@ def plain(atoms: Sequence[Atom], index: str = "_") -> str:
 
 
 def _read(markup: str, at: int) -> tuple[tuple[Atom, ...], int]:
-    """Atoms from a place up to the closing brace or the end, and where that is."""
+    """Atoms from a place up to the closing brace or the end, and the place of that."""
     atoms: list[Atom] = []
     while at < len(markup) and markup[at] != "}":
         character = markup[at]
@@ -102,7 +102,7 @@ def _read(markup: str, at: int) -> tuple[tuple[Atom, ...], int]:
 
 
 def _argument(markup: str, at: int) -> tuple[tuple[Atom, ...], int]:
-    """What stands in braces from a place, or its one character; and the place behind it."""
+    """The content of the braces at a place, or its one character; and the place behind it."""
     if at >= len(markup) or markup[at] == "}":
         raise ValueError(f"an index is empty in {markup!r}")
     if markup[at] != "{":

@@ -1,7 +1,7 @@
 """Numbers as they stand on a sheet: lengths as a ruler gives them, and products and quotients that are true as written.
 
-A length on paper is written to 0.01 mm; what is computed from it has the figures that it carries, and is computed from
-what is written, so that whoever does the sum gets the same.
+A length on paper is written to 0.01 mm; a result has as many figures as its data, and is computed from the written
+numbers, so that a reader who does the sum gets the same.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ LONGEST = 9  # figures that somebody writes
 
 
 def on_paper(mm: float) -> str:
-    """A length on paper (mm): to 0.01 mm; of one that only a drawing at its own scale shows, three figures; what
-    rounding leaves of zero on a sheet is 0.
+    """A length on paper (mm): to 0.01 mm; three figures of a length that only a drawing at its own scale shows; 0 of a
+    length that is rounding alone.
 
     >>> on_paper(107.5778), on_paper(0.0612), on_paper(1e-15), on_paper(3.21e-7)
     ('107.58', '0.06', '0', '3.21e-7')
@@ -31,7 +31,7 @@ def on_paper(mm: float) -> str:
 
 
 def figures(*written: str) -> int:
-    """How many figures a number carries that is computed from these: as many as the poorest has.
+    """The number of figures of a result of these numbers: the least of theirs.
 
     >>> figures("0.06"), figures("107.58", "3.00")
     (1, 3)
@@ -40,7 +40,7 @@ def figures(*written: str) -> int:
 
 
 def product(*factors: str, carried: int | None = None) -> str:
-    """The product of numbers as they are written, exact, or to so many figures.
+    """The product of numbers as they are written, exact, or to ``carried`` figures.
 
     >>> product("5.55", "100"), product("0.06", "200"), product("2", "2.8193", "575.4", carried=4)
     ('555', '12', '3244')
@@ -53,7 +53,7 @@ def product(*factors: str, carried: int | None = None) -> str:
 
 
 def difference(one: str, other: str) -> str:
-    """How far two numbers are apart, as they are written.
+    """The distance of two numbers as they are written.
 
     >>> difference("-10", "-2.8191"), difference("0.5", "0.5")
     ('7.1809', '0')
@@ -63,14 +63,14 @@ def difference(one: str, other: str) -> str:
 
 
 def quotient(over: str, under: str, carried: int) -> str:
-    """The quotient of two numbers as they are written, to so many figures."""
+    """The quotient of two numbers as they are written, to ``carried`` figures."""
     with localcontext(prec=DIGITS):
         return _plain(_rounded(_number(over) / _number(under), carried))
 
 
 def to_lay_off(value: float, per: float, mm: float) -> tuple[str, str]:
-    """A value of which so much goes on one mm, with as many figures as the quotient wants to be true as it is written;
-    and the length on paper (mm) that it is.
+    """A value at a scale of ``per`` for one mm, with the figures that make the written quotient true; and its length on
+    paper (mm).
 
     >>> to_lay_off(228.0374, 2.5, 91.21496), to_lay_off(9000.0, 100.0, 90.0)
     (('228.037', '91.21'), ('9000', '90.00'))
@@ -102,8 +102,8 @@ def increased(value: str, more: str) -> str:
 
 
 def increase(value: float, more: float) -> str:
-    """The sum of two numbers that are computed, in figures: what its terms give as they are written, and in brackets
-    what it is where that differs.
+    """The sum of two computed numbers, in figures: the sum of the terms as they are written, and in brackets the true
+    sum where it differs.
 
     >>> increase(-0.0416166, 0.0832332), increase(2.0, -3.0)
     ('−0.041617 + 0.083233 = 0.041616 (0.041617)', '2 − 3 = −1')
@@ -117,7 +117,7 @@ def increase(value: float, more: float) -> str:
 
 
 def amount(value: float, carried: int = 6) -> str:
-    """A number that is given, to at most so many figures, without noise behind them.
+    """A given number to at most ``carried`` figures, without the rounding behind them.
 
     >>> amount(0.1 + 0.2), amount(1e6 / 3), amount(120.0)
     ('0.3', '333333', '120')
@@ -126,7 +126,8 @@ def amount(value: float, carried: int = 6) -> str:
 
 
 def as_given(value: float, carried: int = MOST + 1) -> str:
-    """A number of the problem with all its figures; a distance that only the places of two points give, to so many.
+    """A number of the problem with all its figures; a distance given by the places of two points, to ``carried``
+    figures.
 
     >>> as_given(113.442), as_given(1234.5678), as_given(50**0.5)
     ('113.442', '1234.5678', '7.07107')
@@ -136,7 +137,7 @@ def as_given(value: float, carried: int = MOST + 1) -> str:
 
 
 def computed(value: float, carried: int) -> str:
-    """A number that is computed, to so many figures; whole places before the point are never cut, as of a product.
+    """A computed number to ``carried`` figures; places before the point are never cut.
 
     >>> computed(31472.0465, 4), computed(-0.367949, 4), computed(120.0, 2)
     ('31472', '-0.3679', '120')
@@ -163,7 +164,7 @@ def pointing(span: complex) -> str:
 
 
 def in_markup(text: str) -> str:
-    """A text that stands in markup as it is: a dollar sign of its own begins no symbol."""
+    """A text as markup that shows it unchanged: its dollar signs begin no symbol."""
     return text.replace("$", "$$")
 
 
@@ -172,7 +173,7 @@ def _number(text: str) -> Decimal:
 
 
 def _rounded(value: Decimal, carried: int) -> Decimal:
-    """To so many figures; whole places before the point are never cut."""
+    """The number to ``carried`` figures; places before the point are never cut."""
     if not value:
         return Decimal(0)
     step = Decimal(1).scaleb(min(value.adjusted() - carried + 1, 0))
@@ -180,7 +181,7 @@ def _rounded(value: Decimal, carried: int) -> Decimal:
 
 
 def _plain(value: Decimal) -> str:
-    """Without an exponent where it can be helped, without zeros that say nothing."""
+    """The number without an exponent where possible, and without needless zeros."""
     if not value:
         return "0"
     value = value.normalize()
