@@ -163,7 +163,7 @@ def _why(sheet: Sheet, equation: Equation, term: Term) -> Iterator[Phrase]:
         elif symbol.kind == "an":
             yield Phrase("why curved", point=of, path=to)
     elif symbol.kind in ("v", "an"):
-        fixed = symbol.kind == "an" and to.point in sheet.scene.frame.points
+        fixed = symbol.kind == "an" and _rests(sheet, to)
         alone = not any(t.symbol == Symbol("at", of, to) for side in equation.sides for t in side)
         if term.link not in sheet.scene.by_name:  # a bar that stands for a contact
             yield Phrase("why centres", point=of, other=to)
@@ -190,6 +190,11 @@ def _found_before(sheet: Sheet, equation: Equation, term: Term) -> int:
     return next(
         (s.number for s in earlier for v in s.strokes if isinstance(v, Arrow) and v.symbol == term.symbol), 0
     )
+
+
+def _rests(sheet: Sheet, ref: PointRef) -> bool:
+    """Whether a point is a pivot on the frame, not just the point of a moving link that lies over one."""
+    return ref.point in sheet.scene.frame.points and (not ref.link or ref.link in sheet.scene.holders[ref.point])
 
 
 def _coincident(of: PointRef, to: PointRef, slide: Pair) -> Phrase:
@@ -228,7 +233,7 @@ def _coriolis(sheet: Sheet, term: Term) -> Iterator[Phrase]:
     symbol = term.symbol
     moving = sheet.vectors("velocity")
     slip = moving.get(Symbol("v", symbol.of, symbol.to))
-    if slip is None and symbol.to is not None and symbol.to.point in sheet.scene.frame.points:
+    if slip is None and symbol.to is not None and _rests(sheet, symbol.to):
         slip = moving.get(Symbol("v", symbol.of))  # relative to a point at rest
     drawn = sheet.vectors("acceleration").get(symbol)
     guide = sheet.structure.slide(term.pair) if term.pair else None

@@ -408,8 +408,11 @@ class InPolygon(Telling):
         divided, symbol = self._divided, self.voice.symbol
         trials = trials_of(self.sheet, self.step, divided)
         numerals = [Markup(numeral(trial.number)) for trial in trials]
-        closing = ", ".join(divided.closing)
-        yield Phrase("written trials", trials=listed(numerals), vectors=closing, open=self._left_open())
+        closing = listed([
+            Phrase("open pair", pair=name) if "/" in name else Phrase("open link", link=name)
+            for name in divided.closing
+        ])  # fmt: skip
+        yield Phrase("written trials", trials=listed(numerals), left_out=closing, open=self._left_open())
         for trial, mark, row in zip(trials, numerals, divided.apart, strict=True):
             rates = ", ".join(f"{symbol(s)} = {number(v, 5)} {self._unit(s)}" for s, v in trial.assumed)
             apart = ", ".join(written(on_paper(mm)) for mm in row)
@@ -464,7 +467,8 @@ class InPolygon(Telling):
         "direction": (
             "direction from {pole}", "direction from lettered end", "direction from end", "direction from point"
         ),
-        "lines": ("meet in",), "letter": ("name letter",), "pole to end": ("join",), "asked": ("asked lettered",),
+        "lines": ("meet in",), "letter": ("name letter",), "pole to end": ("{nought}", "join"),
+        "asked": ("asked lettered",),
         "before its turn": ("{nought}", "carry lettered", "carry from"), "similar": _image, "division": _image,
         "rates": _by_rates, "polygon": _trial, "open ends": _superposed,
     }  # fmt: skip

@@ -154,10 +154,12 @@ class Polygons:
 
     def symbol(self, kind: str, end: PointRef, start: PointRef | None = None) -> Symbol:
         """The motion of a point, or a part of it, from the pole or from that of another point, by its letters.  Seen
-        from a held link a point's own is that relative to the coincident point of it; others bear its name."""
+        from a held link a point's own is that relative to the coincident point of it; others bear its name, and all
+        accelerations do."""
         symbol = Symbol(kind, self.label(end), start and self.label(start))
         if self.held and start is None:
-            return replace(symbol, to=PointRef(end.point, self.held))
+            seen = "" if kind == "v" else self.held  # the difference of accelerations holds the term of Coriolis, too
+            return replace(symbol, to=PointRef(end.point, self.held), seen=seen)
         return replace(symbol, seen=self.held) if self.held else symbol
 
     def label(self, ref: PointRef) -> PointRef:

@@ -81,7 +81,7 @@ def test_every_length_in_a_product_is_given_or_measured(name):
 def test_what_trial_polygons_leave_open_is_told_with_its_sense():
     lines = told("double-butterfly")
     start = next(i for i, line in enumerate(lines) if line.startswith("trial polygons"))
-    assert "without 8; on paper is open from $k$ to $p$ along $KD$, positive from $K$ to $D$:" in lines[start]
+    assert "without link 8; on paper is open from $k$ to $p$ along $KD$, positive from $K$ to $D$:" in lines[start]
     trials = ["$I$: $ω_{3}$ = −1 rad/s;  open 34.63 mm", "$II$: $ω_{3}$ = −1.6 rad/s;  open −9.23 mm"]
     divided = "nothing open: $ω_{3}$ = −1 − 34.63 / (9.23 + 34.63) × 0.6 = −1.4737 rad/s"
     assert [*trials, divided] == lines[start + 1 : start + 4]
@@ -151,8 +151,8 @@ def test_what_is_carried_over_from_a_held_link_is_told_by_its_parts():
     sheet, _ = drafted("scissor-lift")
     (line,) = (line for line in told("scissor-lift") if line.startswith("$a^{r}_{A3A2}$"))
     # a point of 3, seen from 2: less what 2 does seen from 3, and twice how 3 turns in 2 times the relative velocity
-    given = re.fullmatch(r".* = −\$a_\{A2A3\}\$ and from its end .* = ([\d.]+) mm/s², along \$v_\{A3\}\$ turned 90° "
-                         r"(clockwise|counter-clockwise)", line)  # fmt: skip
+    given = re.fullmatch(r".* = −\$a\^\{\(3\)\}_\{A2A3\}\$ and from its end .* = ([\d.]+) mm/s², "
+                         r"along \$v_\{A3\}\$ turned 90° (clockwise|counter-clockwise)", line)  # fmt: skip
     assert given
     seen = next(s.span for step in sheet.steps if step.diagram == "acceleration" for s in step.strokes
                 if getattr(s, "symbol", None) is not None and s.symbol.of == PointRef("A")
@@ -197,3 +197,23 @@ def test_chinese_lists_break_after_their_commas():
     lines = wrapped("与 x 轴夹角取 147.72°、151.06°、154.41°、157.75°、161.09°", 2.6, 30.0)
     assert all(runs_width(line) <= 30.0 for line in lines)
     assert not any("".join(run.text for run in line).startswith("、") for line in lines)
+
+
+def test_an_acceleration_as_seen_from_a_held_link_bears_its_mark():
+    sheet, _ = drafted("scissor-lift")
+    speaker = Account(sheet, letters_of(sheet, "chinese"))
+    said = " ".join(speaker.step(step, "en") for step in sheet.steps if step.diagram == "acceleration")
+    assert "$a^{(3)}_{FF3}$" in said
+    assert "$a_{FF3}$" not in said
+
+
+def test_trial_polygons_say_that_a_link_is_left_out_not_an_equation():
+    assert any("drawn by the equations below without link 5;" in line for line in told("contour-four-bars"))
+
+
+def test_a_moving_point_over_a_pivot_is_no_fixed_pivot():
+    sheet, _ = drafted("scissor-lift")
+    speaker = Account(sheet, letters_of(sheet, "chinese"))
+    said = " ".join(speaker.why(equation, "en") for equation in sheet.equations)
+    assert "fixed pivot $A_{3}$" not in said
+    assert "$B$ and $A_{3}$ are points of the rigid link 3: the relative acceleration has a part" in said
