@@ -2,6 +2,6 @@
 
 The page shows the text of a scene, a form of it, and the figures; every change of one shows in the others.  Nothing is
 computed in the browser: each message is a question that `graphkin.board.answers.answer` answers from the scene's text
-alone.  ``static`` is what is served: page and style as they are written, and the script, which ``npm run build`` in
-``web`` makes of the sources there.
+alone.  ``static`` holds the served files: page and style, and the script, which ``npm run build`` in ``web`` makes of
+the sources there.
 """

@@ -1,6 +1,7 @@
-"""What the page asks, message by message, and what it is told: values in, values out, no state between two questions.
+"""The questions of the page and their answers, message by message: values in, values out, no state between two
+questions.
 
-A message is a mapping with ``do``, one of `QUESTIONS`, and what that needs; the answer is a mapping for JSON.  The text
+A message is a mapping with ``do``, one of `QUESTIONS`, and its arguments; the answer is a mapping for JSON.  The text
 of the scene comes with each question, so that nothing is lost when a server ends.
 """
 
@@ -45,7 +46,7 @@ Answer = dict[str, Json]
 
 @dataclass(frozen=True)
 class Desk:
-    """What a page may reach: its scenes, and the link or text that it begins with."""
+    """The access of a page: its scenes, and the link or text that it begins with."""
 
     shelf: Shelf = field(default_factory=Shelf)
     first: str = ""
@@ -53,8 +54,8 @@ class Desk:
 
 
 def answer(desk: Desk, message: object) -> Answer:
-    """What a message is told.  Whatever it holds, the answer is one: ``ok``, or ``problems`` in sentences with the
-    lines of the text that they are about.
+    """The answer to a message.  For every message it has ``ok``, or ``problems`` in sentences with the lines of the
+    text concerned.
 
     >>> answer(Desk(), {"do": "opne"})["problems"][0]["text"]
     'question: "opne"; did you mean "open"?'
@@ -77,7 +78,7 @@ def answer(desk: Desk, message: object) -> Answer:
 
 
 def language_of(message: object) -> str:
-    """The language in which a message wants its answer, English where it does not say."""
+    """The language that a message asks for, English by default."""
     language = message.get("language") if isinstance(message, Mapping) else None
     return language if language in LANGUAGES else LANGUAGES[0]
 
@@ -94,7 +95,7 @@ def _problems(desk: Desk, error: GraphkinError, message: object) -> Answer:
 
 
 def _draft_of(desk: Desk, text: str, message: object) -> Answer:
-    """What can be shown of a scene that does not move yet: its sketch and its mobility."""
+    """The figures of a scene that does not move yet: its sketch and its mobility."""
     language = message.get("language") if isinstance(message, Mapping) else None
     try:
         made = parsed(text)
@@ -118,7 +119,7 @@ def _draft_of(desk: Desk, text: str, message: object) -> Answer:
 
 
 class Message(BaseModel):
-    """A message of the page, of whatever question.  What is left out or null is as the page begins."""
+    """A message of the page.  Missing or null values are those with which the page begins."""
 
     model_config = ConfigDict(strict=True, frozen=True, allow_inf_nan=False)
 
@@ -150,7 +151,7 @@ class Message(BaseModel):
 
     @classmethod
     def of(cls, message: Mapping[str, Any], needed: Collection[str]) -> Message:
-        """A message that has all that its question needs.  Raises CallError, naming what is missing or wrong."""
+        """A message with all arguments of its question.  Raises CallError, naming those that are missing or wrong."""
         given = {key: value for key, value in message.items() if value is not None}
         wrong = {key: None for key in cls.model_fields if key in needed and key not in given}
         try:
@@ -163,7 +164,7 @@ class Message(BaseModel):
 
     @property
     def spoken(self) -> str:
-        """The language of the answer, English where the message does not say."""
+        """The language of the answer, English by default."""
         return self.language if self.language in LANGUAGES else LANGUAGES[0]
 
     def scene(self, desk: Desk) -> Mechanism:
@@ -171,7 +172,7 @@ class Message(BaseModel):
 
     @property
     def options(self) -> FigureOptions:
-        """Raises CallError for a language, a convention or an instrument that there is not."""
+        """The message's options.  Raises CallError for an unknown language, convention or instrument."""
         language, convention, instrument = self.language or None, self.convention or None, self.instrument or "exact"
         known_words(language=language, convention=convention, instrument=instrument)
         figures = FigureOptions.figures if self.figures is None else tuple(self.figures)
@@ -193,7 +194,7 @@ _NEEDED: Mapping[str, tuple[str | Phrase, Phrase]] = {
 
 
 def _refused(key: str, value: object) -> Problem:
-    """What of a message is not as its question needs it."""
+    """The problem of a message's value that its question cannot use."""
     where, needed = _NEEDED.get(key, (key, ""))
     return Problem(where, "found value", needed, value=f"{value!r:.60}")
 
@@ -204,7 +205,7 @@ def _show(desk: Desk, asked: Message) -> Answer:
 
 
 def _pull(desk: Desk, asked: Message) -> Answer:
-    """A point pulled to a place: the figures that follow, and when the hand lets go the text that says so."""
+    """A point pulled to a place: the figures that follow, and the changed text when the point is let go."""
     scene, raw = asked.scene(desk), parsed(asked.text)
     to = complex(asked.x, asked.y) * scene.units.metres
     changes, at = pulled(raw, pictures.motion_at(scene, asked.at), asked.point, to, asked.lengths)
@@ -256,7 +257,7 @@ def _complete(desk: Desk, asked: Message) -> Answer:
 
 
 def _open(desk: Desk, asked: Message) -> Answer:
-    """The first scene of the page, one of its shelf, a link that carries one, or a new one of a kind."""
+    """The first scene of the page, a scene of its shelf, the scene in a link, or a new scene of a kind."""
     name = asked.name or ("" if desk.text else desk.first)
     fresh: Answer = {"name": "", "text": desk.text, "mark": "", "own": False}
     if asked.link is not None:
@@ -309,7 +310,7 @@ _TYPES = {"svg": "image/svg+xml", "pdf": "application/pdf", "png": "image/png", 
 
 
 def _export(desk: Desk, asked: Message) -> Answer:
-    """A figure, the papers, a set of variants, or the scene, as a file to be kept."""
+    """A figure, the papers, a set of variants, or the scene, as a file for the user."""
     kind, scene, options = asked.kind, asked.scene(desk), asked.options
     if kind in ("svg", "pdf", "png", "dxf"):
         from graphkin import solver
@@ -357,7 +358,7 @@ def _file(name: str, content: bytes) -> Answer:
 
 
 def scene_link(text: str) -> str:
-    """A link that carries the text of a scene in itself.
+    """A link that contains the text of a scene.
 
     >>> text_of_link(scene_link('title = "x"'))
     'title = "x"'
@@ -366,7 +367,7 @@ def scene_link(text: str) -> str:
 
 
 def text_of_link(link: str) -> str:
-    """The text that a link carries.  Raises CallError for another link."""
+    """The scene's text in a link.  Raises CallError for another link."""
     body = link.strip().removeprefix(LINK)
     try:
         data = base64.urlsafe_b64decode(body + "=" * (-len(body) % 4))

@@ -1,9 +1,9 @@
-"""What a hand changes of a scene: a mechanism built piece by piece (pivots, bars, sliders, pins in slots), and a point
+"""Changes of a scene by hand: a mechanism built piece by piece (pivots, bars, sliders, pins in slots), and a point
 pulled to another place.
 
 Every point that moves gets its place in ``[sketch]``, which picks the assembly once the mechanism is whole; lengths
-are those of the sketch.  Of what is pulled, a point of the frame moves; a point of the driven link turns it; any other
-changes the lengths and places of the links that have it, so that it comes to lie there while all others stay.
+are those of the sketch.  A pulled point of the frame moves; a pulled point of the driven link turns the link; any other
+pulled point changes the lengths and places of its links, so that it comes to the place while all others stay.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ Step = Tables
 
 
 def built(text: str, step: Step) -> str:
-    """The text of a scene with one piece more, or one less.
+    """The text of a scene with a piece added or removed.
 
     Parameters
     ----------
-    step : ``what`` is one of `STEPS`, the rest what it needs: places are ``[x, y]`` in scene units, points and links
-        are named.  A bar or a block may begin at a place instead of a point: the point is made.  ``places`` says where
-        points lie that the text gives no place.
+    step : ``what`` is one of `STEPS`, the other entries are its arguments: places are ``[x, y]`` in scene units, points
+        and links are named.  A bar or a block may begin at a place instead of a point: the point is made.  ``places``
+        gives points to which the text gives no place.
 
     Raises
     ------
@@ -62,8 +62,8 @@ def _frame(made: Tables) -> tuple[str, OwnTables]:
 
 
 def draft(made: Tables) -> OwnTables:
-    """What of a mapping can be shown before it is a mechanism: places of points (scene units), and the points of each
-    link, whatever is missing still."""
+    """The parts of a mapping that can be shown before it is a mechanism: places of points (scene units), and the points
+    of each link, whatever is still missing."""
     _, fixed = _frame(made)
     spots = {**_tables(made, "sketch"), **_tables(made, "drawn"), **_tables(made, "seen"), **fixed}
     points = {str(p): list(z) for p, z in spots.items() if _place(z)}
@@ -211,7 +211,7 @@ def _block(made: Tables, step: Step) -> OwnTables:
 
 
 def _slotted(made: Tables, step: Step) -> OwnTables:
-    """A bar of no fixed length from a point, along whose axis something else slides."""
+    """A bar of no fixed length from a point, with a slot along its axis."""
     changes: OwnTables = {}
     point, _ = _end(made, step, "point", changes)
     return {f"links.{next_link(made)}": {"points": [point]}, **changes}
@@ -227,7 +227,7 @@ def _pin(made: Tables, step: Step) -> OwnTables:
 
 
 def _drive(made: Tables, step: Step) -> OwnTables:
-    """A link that drives: its angle is that of the sketch."""
+    """A driven link: its angle is that of the sketch."""
     name = _link_of(made, step, "link")
     link, spots = made["links"][name], draft(made)["points"]
     ends = [p for p in _list(link.get("points")) if p in spots]
@@ -249,7 +249,7 @@ def _drive(made: Tables, step: Step) -> OwnTables:
 
 
 def _delete(made: Tables, step: Step) -> OwnTables:
-    """Take a link or a point out, with what only hung on it."""
+    """Remove a link or a point, with the parts that only hung on it."""
     changes: OwnTables = {}
     links = _tables(made, "links")
     if "link" in step:
@@ -283,7 +283,7 @@ STEPS: Mapping[str, Callable[[Tables, Step], OwnTables]] = {
 
 
 def trial_driver(made: Tables) -> OwnTables | None:
-    """A driver for a mapping that has none yet, so that its freedom can be counted; None where there is no link."""
+    """A driver for a mapping without one, so that its freedom can be counted; None where there is no link."""
     if "driver" in made or not _tables(made, "links"):
         return None
     return {"link": next(iter(_tables(made, "links"))), "angle": 0.0, "omega": 1.0}
@@ -293,8 +293,8 @@ def trial_driver(made: Tables) -> OwnTables | None:
 
 
 def movable(scene: Mechanism) -> dict[str, str]:
-    """What pulling each point does: it is of the "frame", it turns or shifts the "driver", or it changes "lengths";
-    points of which none is true are left out."""
+    """The effect of pulling each point: it moves the "frame", it turns or shifts the "driver", or it changes "lengths";
+    points without an effect are left out."""
     kinds = dict.fromkeys(scene.frame.points, "frame")
     for link in scene.links:
         for point in link.points:
@@ -328,17 +328,17 @@ def pulled(
     Parameters
     ----------
     raw : the mapping of the scene's file
-    motion : where everything lies now, one position
+    motion : the present position
     to : the place (m)
     lengths : whether a point of a driven link changes its length instead of driving it
 
     Returns
     -------
-    what that changes: entries of the file by key, and the value of a driver in its own unit
+    the changes: entries of the file by key, and the value of a driver in its own unit
 
     Raises
     ------
-    CallError : a point that the scene does not have, or that nothing of the file places
+    CallError : a point that the scene does not have, or that no entry of the file places
     """
     scene = motion.scene
     kinds = movable(scene)
@@ -427,7 +427,7 @@ def _on_guide(scene: Mechanism, point: str, to: complex) -> complex:
 
 
 def _of_link(raw: Tables, motion: Motion, name: str, point: str, to: complex) -> OwnTables:
-    """What a link's own entries become, so that it has the point at a place with all its others where they are."""
+    """The new entries of a link with the point at a place and its other points where they are."""
     scene = motion.scene
     link = scene.by_name[name]
     if point in link.bar:
@@ -446,7 +446,7 @@ def _of_link(raw: Tables, motion: Motion, name: str, point: str, to: complex) ->
 
 
 def _length(scene: Mechanism, value: float) -> float:
-    """A length in the scene's unit, to a few thousandths of the mechanism: what a hand can mean."""
+    """A length in the scene's unit, to a few thousandths of the mechanism: the accuracy of a hand."""
     lengths = [link.length for link in scene.links if link.length] + [abs(z) for z in scene.frame.points.values()]
     size = max(lengths, default=1.0) / scene.units.metres
     return _rounded(value / scene.units.metres, 10.0 ** (math.floor(math.log10(size)) - 3) if size > 0 else 1e-3)

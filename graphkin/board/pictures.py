@@ -1,4 +1,5 @@
-"""What the page shows of a scene at one position: figures, readings, steps, where its points lie, how far it moves."""
+"""The page's picture of a scene at one position: figures, readings, steps, places of its points, range of its
+motion."""
 
 from __future__ import annotations
 
@@ -42,7 +43,7 @@ FAST = 1e3  # times a driver's own speed over the size: so fast is what stands b
 
 @dataclass(frozen=True)
 class FigureOptions:
-    """How the page wants its figures."""
+    """The page's wishes for its figures."""
 
     figures: tuple[str, ...] = ("mechanism", "velocity", "acceleration")
     language: str | None = None
@@ -54,11 +55,11 @@ class FigureOptions:
 
 @lru_cache(maxsize=16)
 def scene_of(text: str, name: str, folder: Path | None = None) -> Mechanism:
-    """What the text of a scene says.
+    """The mechanism of a scene's text.
 
     Parameters
     ----------
-    folder : where the files lie that it names; they are named without a path, and where there is no folder none is read
+    folder : the folder of the files that it names without a path; without a folder no file is read
 
     Raises
     ------
@@ -68,7 +69,7 @@ def scene_of(text: str, name: str, folder: Path | None = None) -> Mechanism:
 
 
 def with_own_files(made: OwnTables, folder: Path | None) -> OwnTables:
-    """The mapping of a scene, with the files that it names looked for in one folder and nowhere else."""
+    """The mapping of a scene, whose files are searched for in one folder only."""
     sheet = made.get("sheet")
     under = sheet.get("background") if isinstance(sheet, dict) else None
     scans = made.get("scans")
@@ -85,7 +86,8 @@ def with_own_files(made: OwnTables, folder: Path | None) -> OwnTables:
 
 
 def mobility_text(scene: Mechanism, language: str, drivers: int | None = None) -> str:
-    """The mobility with its numbers, as it is told everywhere; ``drivers`` where the scene's own are only a trial."""
+    """The mobility with its numbers, in the words of all commands; ``drivers`` where the scene's own are only a
+    trial."""
     mobility, count = mobility_of(scene), len(scene.drivers) if drivers is None else drivers
     numbers = {"links": mobility.links, "lower": mobility.lower, "higher": mobility.higher, "mobility": mobility.value}
     key = "page freedom" if not count else "explained count" if mobility.value == count else "explained miscount"
@@ -94,8 +96,8 @@ def mobility_text(scene: Mechanism, language: str, drivers: int | None = None) -
 
 @lru_cache(maxsize=16)
 def reach(scene: Mechanism) -> tuple[float, float, DriverRange]:
-    """How far the first driver of a scene moves: its least and greatest value in its own unit, and its range.  Raises
-    GraphkinError where that cannot be found."""
+    """The range of a scene's first driver: its least and greatest value in its own unit, and the range itself.  Raises
+    GraphkinError where it cannot be found."""
     over = driver_range(scene)
     values = sorted(float(v) for v in over.value(np.array(over.ends)))
     low, high = (0.0, 360.0) if over.full else (scene.unit_of(over.driver).of(v) for v in values)
@@ -103,7 +105,7 @@ def reach(scene: Mechanism) -> tuple[float, float, DriverRange]:
 
 
 def motion_at(scene: Mechanism, at: Mapping[str, float] | None) -> Motion:
-    """The exact motion at a position of the drivers.  Raises Unsolvable where it cannot be had."""
+    """The exact motion at a position of the drivers.  Raises Unsolvable where the mechanism does not reach it."""
     return solved_here(*placed(scene, at or None))
 
 
@@ -112,7 +114,7 @@ def drawn_at(structure: Structure, at: Mapping[str, float] | None, options: Figu
 
     Raises
     ------
-    CallError : unknown figures or drivers; Unsolvable : a position that cannot be had
+    CallError : unknown figures or drivers; Unsolvable : a position that is not reached
     """
     scene, values = placed(structure.scene, at or None)
     structure = structure if scene is structure.scene else solver.structure_of(scene)
@@ -129,7 +131,7 @@ def drawn_at(structure: Structure, at: Mapping[str, float] | None, options: Figu
 def shown(
     scene: Mechanism, at: Mapping[str, float] | None, options: FigureOptions, quick: bool = False
 ) -> dict[str, Json]:
-    """A scene at a position, as the page takes it; where it does not reach there, at the end of its range with the
+    """The page's picture of a scene at a position; where the scene does not reach it, at the end of its range with the
     reason.
 
     Parameters
@@ -139,7 +141,7 @@ def shown(
 
     Raises
     ------
-    Unsolvable : not even the scene's own position can be had
+    Unsolvable : the scene's own position cannot be assembled
     """
     structure = _moved(scene).structure
     if quick and options.instrument == "exact":
@@ -162,8 +164,8 @@ def _answer(
     scene: Mechanism, figures: Mapping[str, str], places: Mapping[str, complex], values: Mapping[str, float],
     scales: Scales, limit: str,
 ) -> dict[str, Json]:  # fmt: skip
-    """What the page shows of a position: figures, where points lie (m) and what pulling them does, values of the
-    drivers (rad, m), scales, and why it goes no farther."""
+    """The page's picture of a position: figures, places of points (m) and the effect of pulling them, values of the
+    drivers (rad, m), scales, and the reason of a limit."""
     metres, pulls = scene.units.metres, movable(scene)
     spots = {point: z / metres for point, z in places.items()}
     return {
@@ -181,13 +183,13 @@ _IN_MOTION: Mapping[str, DiagramName] = {n: n for n in ("mechanism", "velocity",
 
 @dataclass
 class _Moved:
-    """A scene while a hand moves it: its structure, and what was drawn last, from where the assembly is followed."""
+    """A scene while a hand moves it: its structure, and the last drawing, from which the assembly is followed."""
 
     structure: Structure
     last: Plan | None = None
 
     def plan(self, values: Mapping[str, float] | None) -> Plan:
-        """What to draw at values of the drivers.  Raises Unsolvable for a position that cannot be had."""
+        """The plan of the drawing at values of the drivers.  Raises Unsolvable for a position that is not reached."""
         asked = asked_here(tuple(self.structure.scene.question.find))
         try:
             return plan(self.structure, values, asked, near=None if self.last is None else self.last.exact)
@@ -201,7 +203,7 @@ def _moved(scene: Mechanism) -> _Moved:
 
 
 def _in_motion(moved: _Moved, at: Mapping[str, float] | None, options: FigureOptions) -> dict[str, Json]:
-    """The same while a hand moves: nothing is checked, and names stand where there may be others."""
+    """The picture while a hand moves: without a check, and with names that may overlap."""
     rest = tuple(name for name in options.figures if name not in _IN_MOTION)
     others = moved.structure, at, replace(options, figures=rest)
     scene, values = placed(moved.structure.scene, at or None)
@@ -229,7 +231,7 @@ def _in_motion(moved: _Moved, at: Mapping[str, float] | None, options: FigureOpt
 
 
 def _spoken(language: str | None, scene: Mechanism) -> str:
-    """The language in which is said what is no figure."""
+    """The language of the text outside figures."""
     return languages(language or scene.question.sheet.language)[0]
 
 
@@ -238,7 +240,7 @@ def _said(error: GraphkinError, language: str) -> str:
 
 
 def _exactly(structure: Structure, values: Mapping[str, float] | None, stop: Unsolvable) -> Unsolvable:
-    """Why a position cannot be had, in the words of the solver, which tells it in fifty digits, if it finds so too."""
+    """The solver's reason for a position that is not reached, found in fifty digits, if the solver agrees."""
     try:
         solved_here(structure, values, asked_here(tuple(structure.scene.question.find)))
     except Unsolvable as exact:
@@ -247,7 +249,7 @@ def _exactly(structure: Structure, values: Mapping[str, float] | None, stop: Uns
 
 
 def _is_fast(what: Plan) -> bool:
-    """Whether something moves so fast for the drivers that the position may be a dead point or beyond one."""
+    """Whether a link moves so fast beside the drivers that the position may be a dead point or beyond one."""
     scene, sheet = what.structure.scene, what.exact
     fastest = max((abs(z) for z in sheet.ends["velocity"].values()), default=0.0) * sheet.scales.velocity
     rates = (abs(d.values[1]) * (scene.size if d.turns else 1.0) for d in scene.drivers)
@@ -259,7 +261,7 @@ def _is_there(sheet: Sheet, figure: str) -> bool:
 
 
 def _last(scene: Mechanism, at: Mapping[str, float]) -> dict[str, float]:
-    """The last position on the way to one that is not reached.  Raises Unsolvable where there is no way."""
+    """The last position on the path to a position that is not reached.  Raises Unsolvable where there is no path."""
     low, high, _ = reach(scene)
     key, wanted = next(iter(at.items()))
     inside = NEAR_END * (high - low)
@@ -270,7 +272,7 @@ def _last(scene: Mechanism, at: Mapping[str, float]) -> dict[str, float]:
 
 
 def _figures(drawn: Drawn) -> dict[str, str]:
-    """The figures as elements of the page, which has their letters; a figure that cannot be drawn says why."""
+    """The figures as elements of the page, which has their fonts; a figure that cannot be drawn gives the reason."""
     figures = {}
     for name in drawn.wanted:
         try:

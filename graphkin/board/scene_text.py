@@ -21,7 +21,7 @@ def changed(text: str, changes: Mapping[str, Json]) -> str:
     Parameters
     ----------
     text : of a scene file
-    changes : value by key; None takes the entry out.  Tables that are not there are made.
+    changes : value by key; None removes the entry.  Missing tables are made.
 
     Raises
     ------
@@ -76,7 +76,7 @@ def _put(document: Any, key: str, value: Any) -> None:
 
 
 def _set(place: Any, last: str, value: Any, top: bool = False) -> None:
-    """Put a value, its comment kept; short tables stand on one line."""
+    """Put a value and keep its comment; short tables stay on one line."""
     import tomlkit
 
     item: Any
@@ -128,7 +128,7 @@ _LINE = re.compile(r"line (\d+)")
 def places(text: str) -> dict[str, int]:
     """The line (from 1) at which each key of a TOML text stands; keys with dots, the second driver is ``driver.2``.
 
-    Texts that are no TOML are followed as far as their lines can be read.
+    Texts that are no TOML are read line by line where possible.
 
     >>> places('[links.1]\\npoints = ["A", "B"]\\nlength = 150')
     {'links.1': 1, 'links.1.points': 2, 'links.1.length': 3}
@@ -173,8 +173,8 @@ def _inside(line: str, path: tuple[str, ...], number: int, lines: dict[str, int]
 
 
 def line_of(problem: Problem, text: str) -> int:
-    """The line (from 1) that a problem is about: that of its key, or of the nearest table that holds it; 0 where it is
-    about the whole."""
+    """The line (from 1) of a problem: the line of its key, or of the nearest table that holds it; 0 for a problem of
+    the whole text."""
     if line := _LINE.match(str(problem.where)):
         return int(line[1])
     known = places(text)
@@ -188,7 +188,7 @@ def line_of(problem: Problem, text: str) -> int:
 
 
 def _named(where: str) -> Iterable[str]:
-    """Keys that a place said in words stands for: ``link 3``, ``point D``, ``driver 1 at 30``."""
+    """The keys of a place given in words: ``link 3``, ``point D``, ``driver 1 at 30``."""
     kind, _, name = where.partition(" ")
     name = name.split(" ")[0]
     if kind in ("link", "links"):
@@ -206,7 +206,8 @@ def _named(where: str) -> Iterable[str]:
 
 
 def completions(text: str, line: int, column: int) -> list[dict[str, Wording]]:
-    """What may stand at a place of the text: keys of the table there, or names of tables, points, links, guides.
+    """The words that may stand at a place of the text: keys of the table there, or names of tables, points, links,
+    guides.
 
     Parameters
     ----------
@@ -214,7 +215,7 @@ def completions(text: str, line: int, column: int) -> list[dict[str, Wording]]:
 
     Returns
     -------
-    label and detail of each, this as a clause in any language
+    label and detail of each, the detail as a clause in any language
     """
     from graphkin.scene.scene_tables import SCENE
 

@@ -1,8 +1,8 @@
 """The board shown: as a local page, by a server for one user on one machine, and in a notebook, as a widget whose
 questions the notebook's own Python answers.
 
-The server listens on 127.0.0.1 only.  The address holds a secret; whoever does not know it, and every page of another
-origin, is refused.  The page may load nothing from elsewhere.
+The server listens on 127.0.0.1 only.  The address holds a secret; calls without it, and calls from pages of another
+origin, are refused.  The page may load nothing from elsewhere.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ _FILES = {
 
 @dataclass(frozen=True)
 class Address:
-    """Where the page is: the port, and the secret that its address holds."""
+    """The address of the page: its port, and its secret."""
 
     port: int
     secret: str
@@ -58,12 +58,12 @@ class Address:
         return f"127.0.0.1:{self.port}", f"localhost:{self.port}"
 
     def knows(self, secret: str) -> bool:
-        """Whether a secret is that of the address; compared in the same time whatever it is."""
+        """Whether a secret is that of the address; compared in constant time."""
         return secrets.compare_digest(secret.encode(), self.secret.encode())
 
 
 def needs_live() -> None:
-    """Raises CallError where the extra is not installed that the page needs."""
+    """Raises CallError where the page's extra is not installed."""
     from graphkin.table import have
 
     missing = [name for name in ("starlette", "uvicorn", "websockets") if not have(name)]
@@ -89,8 +89,8 @@ def application(desk: Desk, address: Address) -> Starlette:
 
     Parameters
     ----------
-    desk : what the page may reach
-    address : where it listens, and the secret that it asks for
+    desk : the access of the page
+    address : the port on which it listens, and the secret
     """
     from starlette.applications import Starlette
     from starlette.concurrency import run_in_threadpool
@@ -102,7 +102,7 @@ def application(desk: Desk, address: Address) -> Starlette:
     origins = tuple(f"http://{host}" for host in address.hosts)
 
     def refused(call: HTTPConnection) -> str:
-        """Why a call is refused, "" where it is not."""
+        """The reason why a call is refused, "" where it is not."""
         if call.headers.get("host", "") not in address.hosts:
             return "this page is served to this machine only"
         origin = call.headers.get("origin")
@@ -163,8 +163,8 @@ def _file_of_page() -> str:
 
 
 def _answered(desk: Desk, text: str) -> str:
-    """The answer to a message as it came; one that is no JSON is told so, and one that nobody foresaw ends neither the
-    page nor the server."""
+    """The answer to the text of a message; a text that is no JSON gets a problem, and an unforeseen error ends neither
+    the page nor the server."""
     message: object = None
     with suppress(ValueError, RecursionError):
         message = json.loads(text)
@@ -234,11 +234,11 @@ def open_board(scene: SceneLike | None = None) -> AnyWidget:
 
     Parameters
     ----------
-    scene : in any of its forms; None begins with the choice of the scenes that come along
+    scene : in any of its forms; None begins with the choice of the bundled scenes
 
     Returns
     -------
-    a widget, whose ``text`` is the text of the scene as it stands on the board
+    a widget, whose ``text`` is the present text of the scene
 
     Raises
     ------

@@ -1,6 +1,6 @@
 """The scenes that a page may open and the files that it may write: those of one folder, one file, or none.
 
-A file is written whole or not at all, the version before it is kept beside it (``name.toml~``), and what somebody else
+A file is written whole or not at all, the version before it is kept as ``name.toml~``, and a file that somebody else
 has changed in the meantime is not overwritten unasked.
 """
 
@@ -20,16 +20,16 @@ _NAME = re.compile(r"[^\W_][\w .-]{0,80}\.toml")
 
 
 def mark_of(text: str) -> str:
-    """A mark by which a version of a text is known again."""
+    """The mark of a version of a text."""
     return sha256(text.encode()).hexdigest()[:16]
 
 
 @dataclass(frozen=True)
 class Shelf:
-    """Scenes that come along, and the scene files of a folder or one file.
+    """The bundled scenes, and the scene files of a folder or one file.
 
-    folder : where files are; None where there are none
-    only : the one file of it that may be opened and written; any scene file of the folder if empty
+    folder : the folder of the files; None without files
+    only : the single file of it that may be opened and written; any scene file of the folder if empty
     """
 
     folder: Path | None = None
@@ -37,7 +37,7 @@ class Shelf:
 
     @classmethod
     def of(cls, place: str | None) -> tuple[Shelf, str]:
-        """The shelf of a file, a folder, or the name of a scene that comes along, and the scene that is opened first.
+        """The shelf of a file, a folder, or the name of a bundled scene, and the scene that is opened first.
 
         Raises
         ------
@@ -62,12 +62,12 @@ class Shelf:
         return sorted(p.name for p in self.folder.glob("*.toml") if _NAME.fullmatch(p.name) and p.is_file())[:500]
 
     def listing(self) -> list[dict[str, Json]]:
-        """All that can be opened: own files first, then the scenes that come along."""
+        """The scenes that can be opened: own files first, then the bundled ones."""
         files: list[dict[str, Json]] = [{"name": name, "own": True} for name in self.files()]
         return files + [{"name": name, "own": False} for name in library()]
 
     def text(self, name: str) -> str:
-        """The text of a scene.  Raises SceneError, CallError for one that is not here."""
+        """The text of a scene.  Raises SceneError, CallError for an unknown one."""
         if name in self.files():
             return file_text(str(self._path(name)))
         if name in library():
@@ -84,7 +84,7 @@ class Shelf:
 
         Raises
         ------
-        CallError : a file that may not be written, one that has changed since, a place that takes nothing
+        CallError : a file that may not be written, that has changed since, or that cannot be saved
         """
         path = self._path(name)
         if len(text) > LARGEST_FILE:
@@ -104,7 +104,7 @@ class Shelf:
         return mark_of(text)
 
     def changed(self, name: str, mark: str) -> str | None:
-        """The text of a file that somebody else has changed since the version of a mark; None where nobody has."""
+        """The text of a file that somebody else has changed since the version of a mark; None if it is unchanged."""
         try:
             text = self.text(name)
         except GraphkinError:

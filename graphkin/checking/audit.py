@@ -1,10 +1,10 @@
-"""Judging stated values: right, within drafting accuracy, or wrong, and then what the wrong one looks like.
+"""Judging stated values: right, within drafting accuracy, or wrong with its likeliest slip.
 
-What a wrong value looks like is the likeliest of the known slips by Bayes' rule: how often it is made, times how well
-its value fits the digits stated, as a number computed (to its last digit) or drawn (with the predicted deviation).  A
-value is called by no name where no slip fits much better than chance.
+The slip of a wrong value is the likeliest of the known slips by Bayes' rule: its frequency times the likelihood of the
+stated digits, as a number computed (to its last digit) or drawn (with the predicted deviation).  No slip is named where
+none fits much better than chance.
 
-Whole tables of positions are judged by their digits at the speed of the solver, before anything is drawn.
+Whole tables of positions are judged by their digits at the speed of the solver, before a position is drawn.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ MOST_EXPLAINED = 3  # rows of which the drawing is asked what their wrong values
 
 
 def with_gaps(case: Evidence, judged: Sequence[Judged]) -> tuple[Judged, ...]:
-    """Verdicts with the gaps of the loops of what is wrong."""
+    """The verdicts, with the gaps of loops for wrong values."""
     wrong = {j.printed.symbol for j in judged if j.verdict == "wrong"}
     gaps = loop_gaps(case.sheet, {j.printed.symbol: j.printed.value for j in judged})
     return tuple(replace(j, gap=gaps.get(j.printed.symbol)) if j.printed.symbol in wrong else j for j in judged)
@@ -89,7 +89,7 @@ def _judged(case: Evidence, printed: Printed) -> Judged:
 
 
 def _turned(case: Evidence, judged: Judged, right: Value) -> Judged | None:
-    """A value whose size is right and whose stated direction, or line, is not, by what it looks like."""
+    """A value of the right size and a wrong stated direction or line, with its slip; None for others."""
     printed = judged.printed
     if not right or printed.symbol.measure == "angle":
         return None
@@ -130,9 +130,9 @@ def _weighed(case: Evidence, judged: Judged) -> Iterator[tuple[Suspect, float]]:
 def explained(
     case: Evidence, judged: Judged, own: Mapping[Symbol, Value], wrong: Iterable[Symbol], drawn: bool = True
 ) -> Judged:
-    """A wrong value with what it looks like; one that is right on somebody's own earlier values is so called.
+    """A wrong value with its slip; a value that follows from the person's own earlier values is judged so.
 
-    ``drawn`` is whether it may have been drawn badly, which no computed value was.
+    ``drawn`` tells whether it may have been drawn badly, which a computed value was not.
     """
     symbol = judged.printed.symbol
     judged = replace(judged, line=case.held(symbol).line)
@@ -152,8 +152,8 @@ def explained(
 def _following(
     case: Evidence, judged: Judged, own: Mapping[Symbol, Value], others: Sequence[Symbol], chance: float
 ) -> Iterator[tuple[Suspect, float]]:
-    """What a value comes to when the drawing is gone on with from earlier wrong ones: from each that, taken for
-    granted, moves it by more than drafting errors do."""
+    """The explanations of a value by earlier wrong values, from which the drawing was continued: from each that moves
+    it by more than drafting errors do."""
     symbol = judged.printed.symbol
 
     def moved(value: Value) -> bool:
@@ -180,15 +180,15 @@ def judge_table(
     motion: Motion, rows: Sequence[Row], of_turn: Mapping[Symbol, float], names: Sequence[str],
     case: Callable[[int], Evidence],
 ) -> list[tuple[Judged, ...]]:  # fmt: skip
-    """Judge a table by its digits; only what is wrong is looked into, and of a table that was drawn some positions are
-    drawn to see what a pencil keeps within.
+    """Judge a table by its digits; only wrong values are explained, and of a drawn table some positions are drawn to
+    find a pencil's errors.
 
     Parameters
     ----------
     motion : the exact motion, a position for each row
     of_turn : the quantities of the whole turn, which are the same at all positions
     names : of the positions
-    case : what is known of the position of a row
+    case : the evidence at the position of a row
     """
     symbols = list(dict.fromkeys(p.symbol for values, _ in rows for p in values))
     errors = computing_errors(motion, [s for s in symbols if s not in of_turn])
@@ -217,7 +217,7 @@ def _unexplained(judged: Judged) -> bool:
 
 
 def _looked_into(case: Evidence, judged: Sequence[Judged], by: str) -> list[Judged]:
-    """The values of a row, those that are wrong with what they look like at its own position."""
+    """The values of a row, wrong ones with their slips at the row's position."""
     if by == "drawing":  # by what a pencil keeps within here, not near by
         judged = [
             j if j.verdict == "right" or j.looks_like else _by_digits(j, by, case.held(j.printed.symbol).bound)
@@ -229,14 +229,14 @@ def _looked_into(case: Evidence, judged: Sequence[Judged], by: str) -> list[Judg
 
 
 def _nearest(row: int, count: int) -> int:
-    """The row of a long table whose drawing tells what a pencil keeps within at another: some of them are drawn."""
+    """The row of a long table whose drawing gives a pencil's errors for a row: some rows are drawn."""
     step = max(1, math.ceil(count / MOST_PREDICTED))
     return min(count - 1, step * round(row / step))
 
 
 def _signed_columns(motion: Motion, rows: Sequence[Row]) -> set[Symbol]:
-    """The vectors whose computed values are signed, as a program prints them: those along a guide, unless no sign
-    stands in the column although the motion goes both ways, which tells that sizes are meant."""
+    """The vectors whose computed values are signed, as a program prints them: vectors along a guide, unless their
+    column has no sign although the motion goes both ways: then they are sizes."""
     places: dict[Symbol, list[int]] = {}
     for row, (values, by) in enumerate(rows):
         for printed in values if by == "computation" else ():
@@ -255,7 +255,7 @@ def _signed_columns(motion: Motion, rows: Sequence[Row]) -> set[Symbol]:
 def _exact_rows(
     motion: Motion, symbols: Sequence[Symbol], of_turn: Mapping[Symbol, float], errors: Mapping[Symbol, Array]
 ) -> Exact:
-    """What gives the exact values of a table, without what rounding leaves of those that are none."""
+    """The function of exact values of a table; a value that is rounding alone is 0."""
     columns, lines = dict[Symbol, list[Value]](), dict[Symbol, Array | None]()
     for symbol in symbols:
         if symbol not in of_turn:
@@ -278,12 +278,12 @@ def _exact_rows(
 
 
 def computing_errors(motion: Motion, symbols: Sequence[Symbol]) -> dict[Symbol, Array]:
-    """How far a computation may be off that goes on with rounded numbers, for quantities of the motion: shape (n,), SI.
+    """The error of a computation that continues with rounded numbers, for quantities of the motion: shape (n,), SI.
 
-    What cancels keeps the errors of what it is the difference of.  So `COMPUTED_SHARE` is taken of a velocity (an
-    acceleration) as large as the largest of any point in the same position, of a rate of a bar with that at one of its
-    ends, of a place as far as the mechanism reaches, of an angle of 1 rad; a rate in r/min is taken to four figures in
-    rad/s, which shows once in velocities and twice in accelerations.  Others may be off by the share of themselves.
+    A difference keeps the errors of its terms.  So `COMPUTED_SHARE` is taken of the largest velocity (acceleration) of
+    any point in the same position, for the rate of a bar with that velocity at one end, for a place of the size of the
+    mechanism, for an angle of 1 rad; a rate in r/min is taken to four figures in rad/s, which counts once in velocities
+    and twice in accelerations.  Other quantities may be off by that share of themselves.
     """
     places = listed_points(motion.scene, motion.slides)
     motions = [motion.point(point, link) for point, link in places]
@@ -310,22 +310,21 @@ def computing_errors(motion: Motion, symbols: Sequence[Symbol]) -> dict[Symbol, 
 
 
 def _rounded_off(rate: float) -> float:
-    """The part of a rate (rad/s) that is lost when it is written to four figures."""
+    """The relative error of a rate (rad/s) written to four figures."""
     return abs(float(f"{rate:.4g}") / rate - 1.0) if rate else 0.0
 
 
 def _reach_of(motion: Motion, link: str) -> float:
-    """The distance of the two points of a link, or of one that it slides on, that are farthest from each other (m); 0
-    where it has but one."""
+    """The greatest distance between two points of a link, or of a link on which it slides (m); 0 for a single point."""
     turning = {link, *(slide.b for slide in motion.slides if slide.a == link)} - {motion.scene.frame.name}
     bars = [motion.scene.by_name[name].points.values() for name in turning if name in motion.scene.by_name]
     return max((abs(one - other) for places in bars for one, other in combinations(places, 2)), default=0.0)
 
 
 def _by_digits(judged: Judged, by: str, bound: float) -> Judged:
-    """A stated value judged by its digits: computed ones may be off by ``bound`` too, and by `COMPUTED_SHARE` of
-    themselves, for numbers that were rounded on the way; drawn ones by what a pencil keeps within (``bound``, SI;
-    infinite where nothing can be judged)."""
+    """A stated value judged by its digits: a computed value may be off by ``bound`` and by `COMPUTED_SHARE` of itself,
+    for rounded intermediate numbers; a drawn value by a pencil's error (``bound``, SI; infinite where nothing can be
+    judged)."""
     off, rounding, size = abs(judged.off), judged.printed.rounding, abs(judged.exact)
     if by == "computation":
         near = off <= rounding + max(bound, COMPUTED_SHARE * size)
@@ -341,8 +340,8 @@ def _by_digits(judged: Judged, by: str, bound: float) -> Judged:
 def _explained_by_digits(
     judged: Judged, exact: Exact, row: int, symbols: Sequence[Symbol], names: Sequence[str]
 ) -> Judged:
-    """A wrong value of a table with what its digits are: the right one with a slip of the pen or a sign, that of
-    another row or of another column.
+    """A wrong value of a table with the slip that its digits show: the right value with a slip of the pen or a wrong
+    sign, the value of another row or of another column.
 
     Parameters
     ----------

@@ -27,10 +27,10 @@ SAFETY = 4.0  # the bound of a velocity by centres over its error of first order
 class SpeedByCentres(Known):
     """A velocity or an angular velocity by instant centres beside the exact one (SI, or in the file's units).
 
-    ``tolerance`` is how far the two may be apart: 1e-9 of the largest velocity of the mechanism (of the largest rate,
-    or that velocity over the size), or what rounding does to the centres and to the position where that is more.  Where
-    it exceeds a thousandth of the largest, or where centres are missing, they do not determine the value: ``ok`` is
-    None, and ``by_centres`` is None where there is none at all.  ``chain`` are the centres it was taken through.
+    ``tolerance`` is their allowed difference: 1e-9 of the largest velocity of the mechanism (of the largest rate, or
+    that velocity over the size), or the rounding error of the centres and the position where it is larger.  Where it
+    exceeds a thousandth of the largest, or where centres are missing, they do not determine the value: ``ok`` is None,
+    and ``by_centres`` is None where they give no value at all.  ``chain`` are the centres used.
     """
 
     by_centres: Value | None
@@ -41,7 +41,7 @@ class SpeedByCentres(Known):
     ok: bool | None
 
     def in_units(self, scene: Mechanism) -> SpeedByCentres:
-        """The same (SI) in the units of its scene, nothing but rounding being 0."""
+        """This value (SI) in the units of its scene, 0 where it is rounding alone."""
         unit, floor = self.symbol.unit(scene.units), 0.0 if self.ok is None else self.tolerance
         values = [None if v is None else in_unit(unit, complex(v) if self.symbol.is_vector else float(v.real), floor)
                   for v in (self.by_centres, self.exact)]  # fmt: skip
@@ -49,7 +49,7 @@ class SpeedByCentres(Known):
         return replace(self, unit=unit.text, by_centres=values[0], exact=values[1], tolerance=unit.of(self.tolerance))
 
     def too_near(self, language: str) -> str:
-        """What is said where the centres do not determine it."""
+        """The sentence for a value that the centres do not determine."""
         return say(Phrase("centres too near", symbol=str(self.symbol)), language)
 
     def _values(self) -> tuple[tuple[str, Value | None], ...]:
@@ -57,7 +57,7 @@ class SpeedByCentres(Known):
 
 
 def velocities_by_centres(centres: Centres, motion: Motion) -> tuple[SpeedByCentres, ...]:
-    """Velocities (SI) measured through centres beside the exact ones: those the scene asks for, or all."""
+    """Velocities (SI) measured through centres beside the exact ones: the asked ones, or all."""
     scene, size = centres.scene, centres.scene.size
     moving = [name for name in centres.names if name != scene.frame.name]
     every = [*(Symbol("omega", link=name) for name in moving), *centres.moving_pins]
@@ -84,7 +84,7 @@ def velocities_by_centres(centres: Centres, motion: Motion) -> tuple[SpeedByCent
 
 
 def centre_errors(centres: Centres, motion: Motion) -> dict[LinkPair, tuple[float, float] | None]:
-    """For each centre how far it lies from the exact one, and how far it may.
+    """For each centre its distance from the exact centre, and the allowed distance.
 
     Both are angles (rad) seen from the middle of the mechanism at half its size, so that far centres are judged by
     their direction.  None for a centre without a place, and for two links that move too little relative to each other.
@@ -95,7 +95,8 @@ def centre_errors(centres: Centres, motion: Motion) -> dict[LinkPair, tuple[floa
 
 
 def _exact_centre(centres: Centres, motion: Motion, pair: LinkPair) -> tuple[tuple[float, float, float], float]:
-    """The exact centre of two links as the chart sees it, and the strength of their relative motion: its length."""
+    """The exact centre of two links in homogeneous coordinates of the chart, and the strength of their relative motion,
+    which is their length."""
     q, omega = pole(*(motion.poses[link] for link in pair))
     chart, turn = centres.chart, float(omega[0])
     away = (complex(q[0]) * centres.mm - turn * chart.middle) / chart.unit
@@ -103,8 +104,8 @@ def _exact_centre(centres: Centres, motion: Motion, pair: LinkPair) -> tuple[tup
 
 
 def _error(centres: Centres, motion: Motion, centre: Centre, largest: float) -> tuple[float, float] | None:
-    """How far a drawn centre is from the exact one on the unit sphere, and how far it may be; None for one that moves
-    too little beside the largest motion of a link."""
+    """The distance of a drawn centre from the exact one on the unit sphere, and the allowed distance; None where the
+    relative motion is too small beside the largest motion of a link."""
     if centre.place is None:
         return None
     place, strength = _exact_centre(centres, motion, centre.pair)

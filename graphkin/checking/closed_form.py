@@ -1,5 +1,5 @@
-"""Tasks of one construction held against their closed form: the lengths of a synthesis, a cam point by point; and how
-far readings off a drawn cam may lie off."""
+"""Single constructions compared with their closed form: the lengths of a synthesis, a cam point by point; and the
+predicted errors of readings from a drawn cam."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ AGREES = 1e-9
 
 @dataclass(frozen=True)
 class FoundLength:
-    """A length measured (mm on paper, and in the file's unit) beside the exact one; ``tolerance`` is what they may
-    differ."""
+    """A measured length (mm on paper, and in the file's unit) beside the exact one; ``tolerance`` is their allowed
+    difference."""
 
     symbol: str
     on_paper: float
@@ -48,7 +48,7 @@ class FoundLength:
 
 def predict_lengths(task: DesignTask, scale: float, name: str, tools: Tools) -> dict[str, float]:
     """Standard deviation (mm on paper) of each length that is drawn with an instrument, "pencil" or "cad"; infinite
-    where one act alone keeps it from being found."""
+    where the error of a single act makes the construction impossible."""
 
     def read(hand: Instrument) -> Mapping[str, float] | None:
         with suppress(Unsolvable):
@@ -61,7 +61,7 @@ def predict_lengths(task: DesignTask, scale: float, name: str, tools: Tools) -> 
 def compare_lengths(
     sheet: DesignSheet, exact: Mapping[str, float], instrument: Instrument = EXACT, tools: Tools | None = None
 ) -> tuple[FoundLength, ...]:
-    """Hold what was measured against the exact lengths (in the task's unit), in their order."""
+    """Compare the measured lengths with the exact ones (in the task's unit), in their order."""
     expected: Mapping[str, float] = {}
     if instrument is not EXACT:
         expected = predict_lengths(sheet.task, sheet.scale, instrument.name, tools or Tools())
@@ -76,7 +76,7 @@ def compare_lengths(
 
 @dataclass(frozen=True)
 class CamPoints:
-    """How far the drawn points of a cam lie from the computed ones (m), the drawn normals and pressure angles (rad)."""
+    """The differences between drawn and computed points of a cam (m), normals and pressure angles (rad)."""
 
     pitch: float
     profile: float
@@ -85,7 +85,7 @@ class CamPoints:
 
 
 def compare_cam(sheet: CamSheet) -> CamPoints:
-    """Hold every division of a drawn cam against the law's own geometry."""
+    """Compare every division of a drawn cam with the law's own geometry."""
     exact = cam_at(sheet.cam, np.array([d.degree for d in sheet.divisions]))
     point = np.array([d.point for d in sheet.divisions]) * sheet.scale
     contact = np.array([d.contact for d in sheet.divisions]) * sheet.scale
@@ -96,8 +96,8 @@ def compare_cam(sheet: CamSheet) -> CamPoints:
 
 
 def predict_cam(sheet: CamSheet, name: str, tools: Tools) -> Sequence[Mapping[str, float]]:
-    """How far the "lift" (m, rad) and "pressure" angle (rad) of each division are read off, drawn with an instrument
-    ("pencil" or "cad"): standard deviations, infinite where one act alone keeps a division from being drawn."""
+    """Standard deviations of the "lift" (m, rad) and the "pressure" angle (rad) read at each division, drawn with an
+    instrument ("pencil" or "cad"); infinite where the error of a single act makes a division impossible."""
 
     def read(drawn: CamStation, hand: Instrument) -> Mapping[str, float] | None:
         again = division(sheet.cam, drawn.degree, 1.0 / sheet.scale, hand)

@@ -1,4 +1,4 @@
-"""How far vector loops stay open where stated angles and travels take the place of the drawn ones."""
+"""The gaps of vector loops with stated angles and travels in place of the drawn ones."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from graphkin.structure.model import Coordinate
 
 
 def places_of_loops(sheet: Sheet) -> tuple[dict[str, complex], dict[str, float]]:
-    """The unit vector of each link's own axis, and the travel (m) of each sliding pair, as they are drawn."""
+    """The unit vector of each link's own axis, and the travel (m) of each sliding pair, as drawn."""
     axes = {name: pose.axis for name, pose in sheet.poses.items()}
     travels = {}
     for slide in sheet.structure.slides:
@@ -26,8 +26,8 @@ def places_of_loops(sheet: Sheet) -> tuple[dict[str, complex], dict[str, float]]
 
 
 def loop_gaps(sheet: Sheet, stated: Mapping[Symbol, complex | float]) -> dict[Symbol, tuple[str, float]]:
-    """For each stated angle of a link or travel of a sliding pair the loop that gives it, by its name, and how far that
-    stays open (m) with everything that is stated in place of what is drawn."""
+    """For each stated angle of a link or travel of a sliding pair the name of the loop that gives it, and the gap of
+    that loop (m) with all stated values in place of the drawn ones."""
     coordinates = {symbol: coordinate for symbol in stated if (coordinate := _of_loop(symbol)) is not None}
     gaps: dict[Symbol, tuple[str, float]] = {}
     for loop in loops_of(sheet.structure) if coordinates else ():
@@ -39,8 +39,8 @@ def loop_gaps(sheet: Sheet, stated: Mapping[Symbol, complex | float]) -> dict[Sy
 
 
 def stated_arrows(sheet: Sheet, loop: Loop, stated: Mapping[Symbol, complex | float]) -> tuple[complex, ...]:
-    """The arrows of a loop (m) with the stated angles and travels; none where it is not drawn, or nothing is stated of
-    it."""
+    """The arrows of a loop (m) with the stated angles and travels; none for a loop that is not drawn, or of which no
+    value is stated."""
     axes, travels = places_of_loops(sheet)
     if not all(a.link in axes and (not a.slide or a.slide in travels) for a in loop.arrows):
         return ()

@@ -1,4 +1,4 @@
-"""What is read off a drawing: lengths on paper times scale factors, and angles from the drawn ends."""
+"""Readings from a drawing: lengths on paper times scale factors, and angles from the drawn ends."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ Measured = tuple[float | None, float]
 def read_off(
     sheet: Sheet, asked: Sequence[Symbol] = (), instrument: Instrument = EXACT, forces: ForceSheet | None = None
 ) -> tuple[Reading, ...]:
-    """Measure every vector and every rate that was drawn, and the positions that the drawing was asked for, or only
-    what is asked for here, with the instrument's eyes; ``forces`` where they are drawn already.
+    """Measure every drawn vector and rate, and the positions that the drawing was asked for, or only the quantities
+    asked here, with the instrument's accuracy; ``forces`` if they are drawn already.
 
     >>> from graphkin.scene import mechanism_of
     >>> from graphkin.construction import draft
@@ -67,13 +67,13 @@ def read_off(
 
 
 def _one_vector(sheet: Sheet) -> dict[Symbol, Symbol]:
-    """Vectors that an equation says to be one, by each other: the acceleration of a crank pin is its normal part."""
+    """Pairs of vectors that an equation makes equal: the acceleration of a crank pin is its normal part."""
     alike = [[term.symbol for side in one.sides for term in side] for one in sheet.equations if len(one.sides) == 2]
     return {one: other for pair in alike if len(pair) == 2 for one, other in (pair, pair[::-1])}
 
 
 def _measured(sheet: Sheet, asked: Sequence[Symbol], instrument: Instrument) -> dict[Symbol, Reading]:
-    """What is measured between points and links of the mechanism."""
+    """The readings between points and links of the mechanism."""
     asked = [s for s in dict.fromkeys(asked) if s.scope in ("position", "turn") and not s.at]
     if not asked:
         return {}
@@ -90,7 +90,7 @@ def _as_drawn(symbol: Symbol, readings: Mapping[Symbol, Reading]) -> Reading | N
 
 
 def _centres(sheet: Sheet, instrument: Instrument) -> Callable[[str], complex | None]:
-    """Where instant centres lie on the drawing (mm), found as soon as one is asked for."""
+    """The places of instant centres on the drawing (mm), found when the first of them is asked for."""
     centres: list[Centres] = []
 
     def place(name: str) -> complex | None:
@@ -128,11 +128,11 @@ def _vector(sheet: Sheet, diagram: DiagramName, vector: Vector, instrument: Inst
 
 
 def _position(sheet: Sheet, symbol: Symbol, instrument: Instrument, place: Place | None = None) -> Measured | None:
-    """A position or a quantity of the whole turn, measured; None where what it is of is not drawn.
+    """A measured position or quantity of the whole turn; None where its points or links are not drawn.
 
     Parameters
     ----------
-    place : where a name lies (mm) that is none of the scene's points, an instant centre; None where it has no place
+    place : the place (mm) of a name that is no point of the scene, an instant centre; None where it has no place
 
     Raises
     ------

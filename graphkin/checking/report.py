@@ -1,5 +1,5 @@
-"""Every reading held against the analytic solver, size and direction; and readings in figures, in the units of files,
-with as many figures as follow from what is read off the paper."""
+"""Every reading compared with the analytic solver, by size and direction; and readings in figures, in the units of
+files, with the figures that the reading on paper carries."""
 
 from __future__ import annotations
 
@@ -46,8 +46,8 @@ Exact = Callable[[Symbol], complex | float]
 
 
 class Lost(NamedTuple):
-    """How far rounding may have moved what leads to a quantity (m, m/s, m/s2, N); ``slight`` where that is so little
-    beside the motion of the drivers that what is not above it is 0."""
+    """The rounding errors of the places and vectors that lead to a quantity (m, m/s, m/s2, N); ``slight`` where they
+    are so small beside the motion of the drivers that a value below them is 0."""
 
     mechanism: float = 0.0
     velocity: float = math.inf
@@ -63,11 +63,10 @@ Rounding = Callable[[Symbol], Lost]
 class Compared:
     """A reading beside the exact value (SI).
 
-    ``error`` is the size of the difference of the two, as vectors where they are vectors; ``tolerance`` what it may be;
+    ``error`` is the size of their difference, as vectors where they are vectors; ``tolerance`` the allowed error;
     ``direction_error`` the angle from the exact direction to the drawn one (rad; 0 for rates and for vectors too short
-    to have a direction).  A value not above ``floor`` is nothing but rounding; a reading is not ``determined`` here
-    where its tolerance accepts anything.  ``by_drivers``: the drivers alone give it, where rounding lost what groups
-    add too.
+    to have a direction).  A value not above ``floor`` is rounding alone; a reading is not ``determined`` where its
+    tolerance accepts any value.  ``by_drivers``: the drivers alone give it, also where the groups are lost in rounding.
     """
 
     reading: Reading
@@ -86,19 +85,19 @@ class Compared:
 
     @property
     def on_paper(self) -> float | None:
-        """Length on paper it was read from (mm); None for an angle."""
+        """The length on paper from which it was read (mm); None for an angle."""
         return self.reading.on_paper
 
     @property
     def ok(self) -> bool | None:
-        """Whether the two agree; None where agreement would mean nothing."""
+        """Whether they agree; None where the reading is not determined."""
         if self.error > self.tolerance:
             return False
         return True if self.determined else None
 
     @property
     def bound(self) -> float:
-        """What a reading must exceed to be told from zero."""
+        """The size that a reading must exceed to be told from zero."""
         predicted = self.uncertainty.bound if self.uncertainty else 0.0
         return max(self.floor, predicted if math.isfinite(predicted) else 0.0)
 
@@ -109,18 +108,18 @@ class Compared:
 
     @property
     def true(self) -> complex | float:
-        """The exact value, zero where it is nothing but rounding."""
+        """The exact value, zero where it is rounding alone."""
         return self.exact if abs(self.exact) > self.floor else 0.0
 
     @property
     def relative(self) -> float | None:
-        """The error as a part of the exact value; None where there is nothing to be a part of."""
+        """The error over the exact value; None where either is zero."""
         return self.error / abs(self.exact) if self.measured != 0.0 and self.true != 0.0 else None
 
 
 @dataclass(frozen=True)
 class Report:
-    """All readings of a drawing, compared.  ``missing`` are symbols asked for that the drawing does not reach."""
+    """All compared readings of a drawing.  ``missing`` are asked symbols that the drawing does not reach."""
 
     instrument: str
     scales: Scales
@@ -129,12 +128,12 @@ class Report:
 
     @property
     def ok(self) -> bool:
-        """Whether no reading is out of tolerance, and something that was found is determined."""
+        """Whether no reading is out of tolerance, and at least one found value is determined."""
         found = any(row.ok and not row.by_drivers for row in self.rows) or all(row.by_drivers for row in self.rows)
         return not self.rows or (found and all(row.ok is not False for row in self.rows))
 
     def must_agree(self, scene: Mechanism) -> None:
-        """Raises Disagreement, naming every reading that is out of tolerance with what was drawn and what is right."""
+        """Raises Disagreement, naming every reading out of tolerance with its drawn and its exact value."""
         off = [row for row in self.rows if row.ok is False]
         if not off:
             return
@@ -148,15 +147,16 @@ class Report:
 
     @property
     def undetermined(self) -> tuple[Symbol, ...]:
-        """Readings of which nothing can be said at this position."""
+        """Readings that are not determined at this position."""
         return tuple(row.symbol for row in self.rows if row.ok is None)
 
 
 def rounding_of(motion: Motion, forces: float = 0.0) -> Rounding:
-    """How far rounding may have moved the exact values of one position, as `compare` takes it; ``forces`` those (N).
+    """The rounding errors of the exact values of one position, as `compare` takes them; ``forces`` are those of forces
+    (N).
 
-    Where it is more than slight beside the motion of the drivers it is told of the links of each quantity alone: beside
-    a dead point of one group the links before it are as certain as ever.
+    Where they are more than slight beside the motion of the drivers they are given for the links of each quantity: near
+    a dead point of one group the links before it stay certain.
     """
     size = motion.structure.scene.size
     rate, second = (float(driven[0]) for driven in motion.driven)
@@ -187,16 +187,16 @@ def compare(
     rounding: Rounding | None = None,
     force_scale: float = 0.0,
 ) -> Report:
-    """Hold readings against exact values.
+    """Compare readings with exact values.
 
     Parameters
     ----------
-    exact : gives the exact value of a symbol at the drawn position (SI; a complex number for a vector)
+    exact : function of a symbol to its exact value at the drawn position (SI; a complex number for a vector)
     predicted : uncertainty of each reading, by which it is judged; without it (exact instrument) a reading may be off
         by 1e-9 of the largest vector that leads to it, a rate by 1e-9 of the largest rate or of that vector over the
-        size; where what is allowed exceeds a thousandth of that (of a pencil: the whole of it) nothing is determined
-    rounding : how far rounding may have moved the exact places (m) and vectors of a diagram (m/s, m/s2): within a hair
-        of a dead point it exceeds 1e-9, and drawing and solver can agree no better; what is smaller is zero
+        size; where the tolerance exceeds a thousandth of that (of a pencil: all of it) the reading is not determined
+    rounding : rounding errors of the exact places (m) and vectors of a diagram (m/s, m/s2): very near a dead point they
+        exceed 1e-9, and drawing and solver agree no better; smaller values are zero
     force_scale : N for one mm of the force polygons
     """
     pairs = [(r, exact(r.symbol)) for r in readings]
@@ -225,10 +225,10 @@ def _row(
 
     Parameters
     ----------
-    whole : what it is a part of, of which it may be off by a ``share`` with exact hands; where what is allowed leaves
-        nothing of it to agree with, nor of the ``least`` that a hand reads, the reading is not determined
-    floor, rounded : what of a value is nothing but rounding, and how far rounding may have moved it
-    unsure : whether a value not above the floor may be something nevertheless
+    whole : the size of which it may be off by a ``share`` with exact hands; where the tolerance exceeds this size, and
+        the ``least`` length that a hand reads, the reading is not determined
+    floor, rounded : the size up to which a value is rounding alone, and its rounding error
+    unsure : whether a value not above the floor may still differ from zero
     """
     symbol, expected = reading.symbol, (predicted or {}).get(reading.symbol)
     # an instrument may be off by anything, where it draws and nothing is predicted of this reading
@@ -249,7 +249,7 @@ def _row(
 def _motion(
     sheet: Sheet, pairs: Sequence[tuple[Reading, Value]], row: Callable[..., Compared], rounding: Rounding | None
 ) -> Callable[[Reading, Value], Compared]:
-    """What compares vectors and rates: by the largest that leads to them, and how far rounding may have moved that."""
+    """The comparison of vectors and rates, by the largest vector that leads to them and its rounding error."""
     most_of, share = _largest(sheet, pairs), max(EXACT_TOLERANCE, _grain(sheet))
     # the largest of each kind that drivers alone give, beside which rounding is nothing
     led: dict[str, float] = {}
@@ -275,8 +275,8 @@ def _motion(
 
 
 def _largest(sheet: Sheet, pairs: Sequence[tuple[Reading, complex | float]]) -> Callable[[Reading], float]:
-    """By what a reading of the motion is judged: a vector by the largest that leads to it, a rate by the largest rate
-    or by that vector over the size (SI)."""
+    """The size by which a reading of the motion is judged: a vector by the largest that leads to it, a rate by the
+    largest rate or by that vector over the size (SI)."""
     sizes: dict[tuple[str, bool], list[tuple[Symbol, float]]] = {}
     for reading, value in pairs:
         if reading.symbol.scope == "motion":
@@ -295,8 +295,8 @@ def _largest(sheet: Sheet, pairs: Sequence[tuple[Reading, complex | float]]) -> 
 
 
 def _turned(reading: Reading, exact: complex | float, whole: float) -> float:
-    """The angle from the exact direction of a vector to the drawn one (rad); 0 for what is too short beside ``whole``
-    to have one."""
+    """The angle from the exact direction of a vector to the drawn one (rad); 0 for a vector too short beside
+    ``whole``."""
     if not reading.symbol.is_vector or min(abs(reading.value), abs(exact)) <= 1e-7 * whole:
         return 0.0
     return cmath.phase(complex(reading.value) / complex(exact)) + 0.0  # no minus before nought
@@ -305,8 +305,8 @@ def _turned(reading: Reading, exact: complex | float, whole: float) -> float:
 def _forces(
     sheet: Sheet, pairs: Sequence[tuple[Reading, Value]], row: Callable[..., Compared], rounding: Rounding
 ) -> Callable[[Reading, Value], Compared]:
-    """What compares forces: by the largest of them (N), that times the size of the mechanism (N m), and how far
-    rounding may have moved a force (N)."""
+    """The comparison of forces, by the largest force (N), that force times the size of the mechanism (N m), and the
+    rounding error of a force (N)."""
     forces = [(r, v) for r, v in pairs if r.symbol.scope == "force"]
 
     def most(measure: str) -> float:
@@ -336,7 +336,7 @@ def _forces(
 
 
 def _grain(sheet: Sheet) -> float:
-    """By what part a drawn direction may be off: rounding of places, over the shortest bar between two hinges."""
+    """The error of a drawn direction (rad): rounding of places over the shortest bar between two hinges."""
     structure = sheet.structure
     bars = [
         abs(z - w)
@@ -352,8 +352,8 @@ _TOLD_APART = (1.0 + math.sqrt(2.0)) ** 2  # v^2 > 2 v d + d^2 from v = (1 + sqr
 
 
 def _floor(sheet: Sheet, reading: Reading, rounding: Lost, unknown: float) -> float:
-    """What rounding alone may amount to in a value (SI), ``unknown`` where nothing is known of it: of a rate by the bar
-    that it is measured at, of a normal component by the velocity whose square it is."""
+    """The size up to which a value is rounding alone (SI), ``unknown`` where it cannot be told: of a rate by the bar at
+    which it is measured, of a normal component by the velocity whose square it contains."""
     symbol, slow = reading.symbol, rounding.velocity
     lost: float = getattr(rounding, reading.diagram)
     if not (math.isfinite(lost) and math.isfinite(slow)):
@@ -371,8 +371,8 @@ def _floor(sheet: Sheet, reading: Reading, rounding: Lost, unknown: float) -> fl
 
 
 def paper(reading: Reading, compared: Compared | None = None) -> str:
-    """The length on paper, or a dash for what has none: angles, given rates; where it cannot be told from zero, 0, or
-    with a pencil what it is less than."""
+    """The length on paper, or a dash for angles and given rates; for a length that cannot be told from zero 0, or with
+    a pencil its upper bound."""
     if not reading.on_paper:
         return "0" if reading.symbol.is_vector else "–"
     if compared is None or compared.measured != 0.0:
@@ -383,8 +383,8 @@ def paper(reading: Reading, compared: Compared | None = None) -> str:
 
 
 def measured(reading: Reading, scales: Scales, units: Units, compared: Compared | None = None) -> str:
-    """A reading in scene units: a vector or a length by what is read times the scale, a rate with as
-    many figures as that has; 0 where it cannot be told from zero."""
+    """A reading in scene units: a vector or a length as the length on paper times the scale, a rate with the figures of
+    its vector; 0 where it cannot be told from zero."""
     value = reading.value if compared is None else compared.measured
     if value == 0.0:
         return "0"
@@ -407,8 +407,8 @@ def exact(compared: Compared, units: Units, carried: int = MOST + 1) -> str:
 
 
 def deviation(compared: Compared, units: Units) -> str:
-    """How far a reading lies off the exact value: in per cent, or, where there is nothing to be a part of, the bound
-    (scene units) within which it cannot be told from zero; 0 where a hand cannot be off."""
+    """The deviation of a reading from the exact value: in per cent, or, where the exact value is zero, the bound (scene
+    units) within which the reading cannot be told from zero; 0 for a value without a hand's error."""
     if compared.relative is None:
         if compared.uncertainty is not None and compared.bound <= compared.floor:
             return "0"
@@ -421,7 +421,7 @@ def deviation(compared: Compared, units: Units) -> str:
 
 @dataclass(frozen=True)
 class Known:
-    """What a result knows of a quantity, in the file's units: degrees for angles, complex numbers for vectors."""
+    """The values of a quantity in a result, in the file's units: degrees for angles, complex numbers for vectors."""
 
     symbol: Symbol
     unit: str
@@ -431,15 +431,15 @@ class Known:
         return f"<{self.symbol}: {', '.join(filter(None, (*values, *self._words())))}>"
 
     def _values(self) -> tuple[tuple[str, Value | None], ...]:
-        """Its values by what they are."""
+        """Its values with their names."""
         return ()
 
     def _words(self) -> tuple[str, ...]:
-        """What else is to be said of it."""
+        """Further words on it."""
         return ()
 
     def shown(self, value: Value) -> str:
-        """A value with its unit beside it; of a vector size and direction."""
+        """A value with its unit; a vector by size and direction."""
         size, direction = abs(value) if isinstance(value, complex) else value, ""
         if isinstance(value, complex) and size:
             direction = f" at {math.degrees(cmath.phase(value)):.6g}°"
@@ -448,7 +448,7 @@ class Known:
 
 
 def in_unit(unit: Unit, value: Value, floor: float) -> Value:
-    """A value (SI) in a unit; what of it is not above ``floor`` is 0."""
+    """A value (SI) in a unit; parts of it not above ``floor`` are 0."""
     parts = (part if abs(part) > floor else 0.0 for part in (value.real, value.imag))
     re, im = (float(unit.of(part)) for part in parts)
     return complex(re, im) if isinstance(value, complex) else re
@@ -456,12 +456,12 @@ def in_unit(unit: Unit, value: Value, floor: float) -> Value:
 
 @dataclass(frozen=True, repr=False)
 class ReadValue(Known):
-    """A reading of a drawing beside the exact value, both 0 where they are nothing but rounding.
+    """A reading of a drawing beside the exact value, each 0 where it is rounding alone.
 
-    on_paper : the length it was read from (mm); None for an angle and for what is given
-    error, tolerance : how far the two are apart, as vectors where they are vectors, and what that may be
+    on_paper : the length from which it was read (mm); None for an angle and for a given value
+    error, tolerance : the size of their difference, as vectors where they are vectors, and its allowed size
     direction_error : from the exact direction to the drawn one (degrees)
-    ok : whether they agree; None where agreement would mean nothing
+    ok : whether they agree; None where the reading is not determined
     uncertainty : the predicted standard deviation; None for exact hands
     """
 
@@ -494,7 +494,7 @@ class ReadValue(Known):
 
 
 def reading_row(scene: Mechanism, row: Compared, degrees: bool = False) -> dict[str, Json]:
-    """One reading as in the JSON: vectors by size, others with sign; ``degrees`` for tables that people read."""
+    """A reading as in the JSON: vectors by size, others with sign; ``degrees`` for tables that people read."""
     unit = row.symbol.unit(scene.units, radians=not degrees)
 
     def size(value: Value) -> float:
@@ -515,13 +515,13 @@ def reading_row(scene: Mechanism, row: Compared, degrees: bool = False) -> dict[
 
 
 def without_residues(row: Compared) -> Compared:
-    """A reading whose deviations are 0 where they are nothing but rounding, for tables that people read."""
+    """A reading with deviations of 0 where they are rounding alone, for tables that people read."""
     error = 0.0 if row.error <= RESIDUE * row.tolerance else row.error
     return replace(row, error=error, direction_error=0.0 if abs(row.direction_error) <= TURNED else row.direction_error)
 
 
 def finite(value: float) -> float | None:
-    """A number as JSON has it: none where there is no bound."""
+    """A number for JSON: None where it is infinite."""
     return value if math.isfinite(value) else None
 
 

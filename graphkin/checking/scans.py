@@ -1,8 +1,8 @@
-"""Drawings that somebody made, judged line by line by what was read off their scans.
+"""Somebody's drawings, judged line by line by the readings from their scans.
 
-Two ends that lie right lay the scan on the exact figure; every line between two ends that were read is compared with
-the exact one by size and direction.  The line that is off is the first, in the order of construction, whose known size
-or direction is not kept: the others follow from it.
+Two right ends lay the scan on the exact figure; every line between two read ends is compared with the exact line by
+size and direction.  The wrong line is the first, in the order of construction, whose known size or direction is not
+kept: the others follow from it.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ SAME = 1e-9
 
 @dataclass(frozen=True)
 class ReadLine:
-    """A line as it was read beside the exact one, in mm on the paper of the sheet, y up.
+    """A read line beside the exact one, in mm on the paper of the sheet, y up.
 
-    ``tail`` and ``tip`` are those read.  ``known`` says of size and direction whether the construction knows them
+    ``tail`` and ``tip`` are the read ends.  ``known`` tells of size and direction whether the construction knows them
     before the line is drawn.
     """
 
@@ -45,29 +45,29 @@ class ReadLine:
 
     @property
     def ok(self) -> bool:
-        """Whether it is the exact one, within what is allowed."""
+        """Whether it agrees with the exact line."""
         return abs(self.read - self.exact) <= self.room
 
     @property
     def longer(self) -> float:
-        """By how much it is too long (mm)."""
+        """Its excess of length (mm)."""
         return abs(self.read) - abs(self.exact)
 
     @property
     def turned(self) -> float:
-        """By how much it is turned (rad), counter-clockwise; 0 where there is nothing to turn."""
+        """Its angle from the exact line (rad), counter-clockwise; 0 where either has no length."""
         return cmath.phase(self.read / self.exact) if self.exact and self.read else 0.0
 
     @property
     def breaks_a_rule(self) -> bool:
-        """Whether a size or a direction that is known beforehand is not kept."""
+        """Whether a size or a direction known beforehand is wrong."""
         size, direction = self.known
         off_line = abs(self.exact) * (1.0 if abs(self.turned) > math.pi / 2 else math.sin(abs(self.turned)))
         return (size and abs(self.longer) > self.room) or (direction and off_line > self.room)
 
     @property
     def said(self) -> Phrase:
-        """What is the matter with it, in words."""
+        """Its error in words."""
         percent = f"{100 * self.longer / abs(self.exact):+.1f} %" if self.exact else f"{self.longer:+.2f} mm"
         angle = f"{math.degrees(self.turned):+.1f}°"
         if self.ok:
@@ -97,17 +97,17 @@ class JudgedScan:
 
     @property
     def off(self) -> ReadLine | None:
-        """The line that is off, from which the others follow; None where all are right."""
+        """The wrong line from which the others follow; None where all are right."""
         wrong = [line for line in self.lines if not line.ok]
         return next((line for line in wrong if line.breaks_a_rule), wrong[0] if wrong else None)
 
 
 def judge_scans(sheet: Sheet, diagram: DiagramName | None = None) -> tuple[JudgedScan, ...]:
-    """All scans of a scene, or those of a figure, held against its sheet.
+    """All scans of a scene, or those of a figure, compared with its sheet.
 
     Raises
     ------
-    CallError : an end that the figure does not have; two ends that lie at one place; no line between those read
+    CallError : an end that the figure does not have; two ends at the same place; no line between the read ends
     """
     return tuple(_judged(sheet, scan) for scan in sheet.scene.question.scans if diagram in (None, scan.diagram))
 
@@ -144,7 +144,7 @@ def _ends(sheet: Sheet, diagram: DiagramName) -> dict[str, complex]:
 def _lines(
     sheet: Sheet, diagram: DiagramName, ends: Mapping[str, complex], places: Mapping[str, complex], within: float
 ) -> Iterator[ReadLine]:
-    """The lines between ends that were read, in the order of construction."""
+    """The lines between read ends, in the order of construction."""
     if diagram == "mechanism":
         largest = max(abs(a - b) for a, b in combinations(ends.values(), 2))
         for link in (sheet.scene.frame, *sheet.scene.links):
@@ -166,5 +166,5 @@ def _lines(
 
 
 def _name_at(place: complex, ends: Mapping[str, complex], read: Mapping[str, complex], near: float) -> str:
-    """An end that was read and lies exactly at a place, "" where none does."""
+    """A read end that lies exactly at a place, "" if none does."""
     return next((name for name in read if abs(ends[name] - place) <= near), "")

@@ -1,6 +1,6 @@
-"""How likely each known slip is to have given a stated value: how often it is made, times how well its value fits the
-digits stated, as a number computed (to its last digit) or drawn (with the predicted deviation); the stated values with
-their verdicts; and how a number may have been copied wrong: digits swapped, misread, missed."""
+"""The likelihood of each known slip for a stated value: its frequency times the likelihood of the stated digits, as a
+number computed (to its last digit) or drawn (with the predicted deviation); the stated values with their verdicts; and
+errors in copying a number: digits swapped, misread, missed."""
 
 from __future__ import annotations
 
@@ -47,10 +47,10 @@ def comparable(printed: Printed, value: Value, line: complex | None) -> Value:
 
 @dataclass(frozen=True)
 class Suspect:
-    """One explanation: the value that it would give (SI), and its share among wrong values (rough, from experience).
+    """An explanation: the value that it would give (SI), and its share among wrong values (rough, from experience).
 
-    ``drawn`` is whether it may carry the errors of a drawing, ``copied`` whether the value itself was right and copied
-    wrong; ``follows_from`` are earlier wrong values of the same person from which it follows.
+    ``drawn`` tells whether it may have the errors of a drawing, ``copied`` whether the right value was copied wrong;
+    ``follows_from`` are earlier wrong values of the same person from which it follows.
     """
 
     phrase: Phrase
@@ -63,7 +63,7 @@ class Suspect:
 
 @dataclass(frozen=True)
 class Suspects:
-    """Explanations side by side, so that a value is held against all of them at once; arrays have one entry each."""
+    """Explanations in arrays, so that a value is compared with all of them at once; an entry for each."""
 
     all: tuple[Suspect, ...]
 
@@ -85,7 +85,7 @@ class Suspects:
         return np.array([s.drawn for s in self.all], dtype=bool)
 
     def comparable(self, printed: Printed, line: complex | None) -> NDArray[np.float64] | NDArray[np.complex128]:
-        """The values as they would be stated in the form of the printed one (see `comparable`)."""
+        """The values as they would be stated in the form of the printed value (see `comparable`)."""
         values = self.values
         if not printed.symbol.is_vector:
             return values.real
@@ -99,14 +99,14 @@ class Suspects:
 
 @dataclass(frozen=True)
 class Judged:
-    """One stated value with its verdict.
+    """A stated value with its verdict.
 
-    ``exact`` is what it is held against: signed where it has a sense, a complex number against two components, else
-    the size of the vector (SI).  ``bound`` is what a pencil drawing keeps within (0 where nothing can be predicted,
-    infinite where it keeps within nothing: then a value that is not right is "not judged", unless a slip explains it to
-    the digit), ``line`` the positive sense of a vector that has one.  ``follows_from`` are earlier wrong values of the
-    same person from which it follows.  ``gap`` tells of a wrong angle or travel the vector loop that gives it, and how
-    far that stays open with all stated values in it (m).
+    ``exact`` is the value for comparison: signed where it has a sense, a complex number against two components, else
+    the size of the vector (SI).  ``bound`` is the error of a pencil drawing (0 where it cannot be predicted, infinite
+    where a drawing has no bound: then a value that is not right is "not judged", unless a slip explains it to the
+    digit), ``line`` the positive sense of a vector that has one.  ``follows_from`` are earlier wrong values of the same
+    person from which it follows.  ``gap`` is, for a wrong angle or travel, the vector loop that gives it, and the
+    loop's gap with all stated values in it (m).
     """
 
     printed: Printed
@@ -132,7 +132,7 @@ class Judged:
         return abs(self.off) / abs(self.exact) if isinstance(self.exact, complex) else self.off.real / self.exact
 
     def by_errors(self) -> float:
-        """How likely (per unit of the value) the right value comes out as stated, by errors of drawing alone."""
+        """The probability density of the stated value as the right value with errors of drawing alone."""
         return float(likelihood(self.printed, abs(self.off), self.bound / 3, abs(self.exact)))
 
     def weighed(self, suspects: Suspects) -> Iterator[tuple[Suspect, float]]:
@@ -148,7 +148,7 @@ class Judged:
             yield suspects.all[k], float(weights[k])
 
     def copied(self) -> Iterator[tuple[Suspect, float]]:
-        """The likeliest slip of the pen that the right value may have suffered, as `weighed`."""
+        """The likeliest slip of the pen from the right value, as in `weighed`."""
         spread = self.bound / 3 if math.isfinite(self.bound) else 0.0
         reach = TAILS * spread + self.printed.step + COMPUTED * abs(self.exact)
         if isinstance(self.exact, complex):
@@ -162,8 +162,7 @@ class Judged:
             yield Suspect(Phrase("slip pen", name=text), self.exact, share, copied=True), weight
 
     def drawn_badly(self, suspects: Suspects) -> tuple[Suspect, float] | None:
-        """A slip in a drawing worse than it should be: the likeliest of those that are much commoner than a value there
-        by chance."""
+        """A slip in a drawing of larger errors: the likeliest of the slips that are much more probable than chance."""
         if not self.printed.value or not suspects.all:
             return None
         values = suspects.comparable(self.printed, self.line)
@@ -188,17 +187,17 @@ class Judged:
 
     @property
     def _relative(self) -> float:
-        """The deviation of a drawing, as a part of the value."""
+        """The deviation of a drawing over the value."""
         return self.bound / 3 / abs(self.exact) if self.exact and math.isfinite(self.bound) else 0.0
 
     def _changes_nothing(self, values: NDArray[np.float64] | NDArray[np.complex128]) -> NDArray[np.bool_]:
-        """Which slips give the right value in the form of what is written."""
+        """The slips that give the right value in the form of the written one, shape (suspects,), bool."""
         return np.asarray(np.abs(values - self.exact) <= NEVER * abs(self.exact))
 
 
 def likelihood(printed: Printed, off: float | Reals, spread: float | Reals, size: float | Reals) -> Reals:
-    """Density of a stated value at a distance ``off`` from what it should be, for each of some explanations: half of
-    them computed, half of them drawn, with a deviation ``spread`` of a value of this size; 0: not drawn."""
+    """Probability density of a stated value at a distance ``off`` from the value of each explanation: half of the
+    values computed, half drawn with a deviation ``spread`` of a value of this size; 0: not drawn."""
     half = 0.5 * printed.step + COMPUTED * size
     wide = np.hypot(spread, printed.step / math.sqrt(12))
     with np.errstate(under="ignore", divide="ignore", invalid="ignore"):
@@ -213,11 +212,11 @@ SWAPPED, MISREAD, TWICE_MISREAD, MISSED = 0.05, 0.05, 0.02, 0.02
 def transcription_errors(
     printed: Printed, near: float = 0.0, within: float = math.inf
 ) -> Iterator[tuple[str, float, float]]:
-    """What may have stood where a number was copied from, if it lies ``within`` so much of what it is ``near`` (SI):
-    text, share among wrong values, value (SI).
+    """The numbers from which a stated number may have been copied wrong, if they lie ``within`` a distance of ``near``
+    (SI): text, share among wrong values, value (SI).
 
-    The share of each kind of error is divided among all the numbers it could come from, so that a short number, which
-    is a digit away from anything, explains nothing.
+    The share of each kind of error is divided among all the numbers it could come from, so that a short number, a digit
+    away from many others, explains nothing.
     """
     if len(printed.texts) != 1:
         return
@@ -245,12 +244,12 @@ Kind = tuple[float, int, list[str]]
 def _kinds(
     text: str, places: Sequence[int], digits: NDArray[np.int_], worth: NDArray[np.float64], goal: float, room: float
 ) -> Iterator[Kind]:  # fmt: skip
-    """Each kind of error: its share, how many numbers it could come from, and those that differ from the text by about
-    as much as ``goal``.
+    """Each kind of error: its share, the count of numbers it could come from, and the numbers that differ from the text
+    by about ``goal``.
 
     Parameters
     ----------
-    places, digits, worth : where the digits stand, what they are, and what one of each is worth
+    places, digits, worth : the places of the digits in the text, the digits, and the value of a unit of each
     """
     n = len(places)
     exchanged = (digits[1:] - digits[:-1]) * (worth[:-1] - worth[1:])
@@ -272,7 +271,7 @@ def _kinds(
 
 
 def _digits(text: str) -> str:
-    """The significant digits: numbers that share them differ by a power of ten, which is another slip."""
+    """The significant digits: numbers with the same digits differ by a power of ten, which is another slip."""
     return "".join(filter(str.isdigit, text)).strip("0")
 
 

@@ -1,10 +1,10 @@
-"""What a wrong value may be instead: the right value of a common slip, with how common it is; or what follows from
-somebody's own values, the drawing gone on with from them in place of the drawn ones.
+"""Explanations of a wrong value: the value of a common slip, with its frequency; or the value that follows from the
+person's own earlier values, from which the drawing is continued in place of the drawn ones.
 
 The slips are those that teachers of the graphical method name (Sun Huan, Mechanical Principles, ch. 3; Norton, Design
 of Machinery, ch. 6 and 7): a sign, a unit, the Coriolis term, one component in place of the whole, the scale of the
-other polygon, another vector of the same polygon, the other assembly.  A slip in what leads to a value is one change:
-of a term, a branch, a load, a mesh; the same drawing or the same solver then says what every quantity comes to.
+other polygon, another vector of the same polygon, the other assembly.  A slip on the path to a value is one change: of
+a term, a branch, a load, a mesh; the same drawing or the same solver then gives every quantity.
 """
 
 from __future__ import annotations
@@ -50,9 +50,9 @@ Slipped = tuple[Phrase, float, Values]
 
 @dataclass(frozen=True)
 class ExpectedValue:
-    """What stated values of one symbol are held against (SI): the right value, without what is left where it cancels;
-    the greatest exact value of its sort that is drawn; what a pencil keeps within (0 where nothing is predicted,
-    infinite where it tells nothing); the unit vector of its positive sense, None where nothing gives it one."""
+    """The values for comparison with stated values of a symbol (SI): the right value, without the rounding of one that
+    cancels; the greatest exact drawn value of its kind; the error of a pencil (0 where it is not predicted, infinite
+    where it has no bound); the unit vector of its positive sense, None where it has none."""
 
     right: Value
     largest: float
@@ -62,7 +62,7 @@ class ExpectedValue:
 
 @dataclass(frozen=True)
 class Evidence:
-    """Everything known of a scene at one position, against which values are judged.
+    """The evidence on a scene at one position, by which values are judged.
 
     ``exact`` gives the exact value of a symbol, ``elsewhere`` its exact values at other positions with their names,
     ``variants`` those of other problems of a set, ``predicted`` the uncertainty of a pencil drawing.
@@ -79,7 +79,7 @@ class Evidence:
     def of(
         cls, what: Plan, motion: Motion, predicted: Mapping[Symbol, Uncertainty], asked: Sequence[Symbol]
     ) -> Evidence:
-        """What is known at the one position of a plan: everything is drawn, so that slips in what leads to the asked
+        """The evidence at the position of a plan: all of it is drawn, so that slips on the path to the asked quantities
         and beside it are found."""
         whole = plan(what.structure, what.values, ())
         drawn = what if set(what.elements) == set(whole.elements) else whole
@@ -92,12 +92,12 @@ class Evidence:
 
     @cached_property
     def others(self) -> Mapping[Symbol, Value]:
-        """The exact values of everything drawn."""
+        """The exact values of all drawn quantities."""
         return {r.symbol: self.exact(r.symbol) for r in read_off(self.sheet)}
 
     @cached_property
     def slipped(self) -> tuple[Slipped, ...]:
-        """The forces with each of their usual slips, and the motion with each of those in its wheels."""
+        """The forces with each of their usual slips, and the motion with each usual slip in its wheels."""
         return (*slipped_forces(self.motion), *_made(_gear_slips(self.motion))) if self.motion is not None else ()
 
     @cached_property
@@ -107,7 +107,7 @@ class Evidence:
 
     @cached_property
     def held(self) -> Callable[[Symbol], ExpectedValue]:
-        """What stated values of a symbol are held against; worked out once for each."""
+        """The values for comparison with stated values of a symbol; computed once for each."""
         return cache(self._held)
 
     def _held(self, symbol: Symbol) -> ExpectedValue:
@@ -121,7 +121,7 @@ class Evidence:
         return ExpectedValue(type(exact)(0.0) if residue else exact, largest, bound, self._line(symbol))
 
     def _line(self, symbol: Symbol) -> complex | None:
-        """Unit vector of the positive sense of a vector symbol, None where nothing gives it one: along a guide its
+        """The unit vector of the positive sense of a vector symbol, None where it has none: along a guide the guide's
         sense, of a tangential acceleration counter-clockwise."""
         of, scene, points = symbol.of, self.sheet.scene, self.sheet.points
         if symbol.kind == "at" and of is not None:
@@ -134,7 +134,7 @@ class Evidence:
 
     @cached_property
     def suspects(self) -> Callable[[Symbol], Suspects]:
-        """Every explanation for a wrong value of a symbol; looked for once for each."""
+        """All explanations of a wrong value of a symbol; found once for each."""
         return cache(lambda symbol: Suspects(tuple(_suspects(self, symbol))))
 
     # -- what follows from somebody's own values
@@ -144,13 +144,13 @@ class Evidence:
         return GoneOn(self.plan, self.plan.scales, lambda own: _own_values(self.plan, self.sheet, own))
 
     def following(self, own: Mapping[Symbol, Value], of: Symbol) -> tuple[Value, ...]:
-        """What a symbol comes to, drawn on from somebody's own values of other symbols (SI).
+        """The value of a symbol, drawn from the person's own values of other symbols (SI).
 
         Parameters
         ----------
-        own : the values taken for granted, those of them that are drawn before it; of a vector given by its size the
-            direction stays as drawn
-        of : what is asked; its own value is not used
+        own : the person's values, of which those drawn before it count; a vector given by its size keeps its drawn
+            direction
+        of : the asked symbol; the person's value of it is not used
 
         Returns
         -------
@@ -182,7 +182,7 @@ class Evidence:
 
 
 def _made(alterations: Iterable[Alteration]) -> tuple[Slipped, ...]:
-    """Everything with each of some slips."""
+    """The values with each of some slips."""
     slipped = []
     for phrase, share, values in alterations:
         with suppress(GraphkinError, ArithmeticError):  # with it nothing can be drawn, so nobody's value comes from it
@@ -191,7 +191,7 @@ def _made(alterations: Iterable[Alteration]) -> tuple[Slipped, ...]:
 
 
 def _drawn(plan: Plan, own_values: OwnValues = AS_DRAWN) -> Values:
-    """What is read off a plan drawn with a slip."""
+    """The readings from a plan drawn with a slip."""
     return {r.symbol: r.value for r in read_off(execute(plan, own_values=own_values))}.get
 
 
@@ -304,7 +304,7 @@ def _links_of(scene: Mechanism, of: PointRef) -> Iterator[PlacedLink]:
 
 
 def _relative(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
-    """What is relative to another point of the same link, or to a link that one is joined to, in place of the whole."""
+    """A relative value, to another point of the same link or to a joined link, in place of the absolute one."""
     scene = case.plan.structure.scene
     if symbol.kind in ("omega", "alpha"):
         beside = _beside(scene, symbol.link)
@@ -322,7 +322,7 @@ def _relative(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]
 
 
 def _beside(scene: Mechanism, link: str) -> tuple[str, ...]:
-    """The moving links that share a turning pair with one, or carry it as a wheel."""
+    """The moving links that share a turning pair with a link, or carry it as a wheel."""
     points = next((k.points for k in scene.links if k.name == link), {})
     carriers = {g.carrier for g in scene.gears if link in g.wheels} - {scene.frame.name}
     return tuple(k.name for k in scene.links if k.name != link and (k.name in carriers or set(k.points) & set(points)))
@@ -332,8 +332,8 @@ COMPONENTS = {"an": "normal", "at": "tangential", "ak": "coriolis", "ar": "slidi
 
 
 def _own_parts(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
-    """One component of an acceleration in place of the whole: one that is drawn, or about a fixed pivot where the point
-    was found by the image."""
+    """A component of an acceleration in place of the whole: a drawn component, or the component about a fixed pivot
+    where the point was found by the image."""
     if symbol.kind != "a" or symbol.of is None:
         return
     parts = [other for other in case.others if other.of == symbol.of]
@@ -366,7 +366,8 @@ def _others(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
 
 
 def _sort(symbol: Symbol) -> str:
-    """Quantities of one sort bear one name; an arm of the lever, which is a velocity on paper, is of its own."""
+    """The kind of a quantity by a common name; an arm of the lever, which is a velocity on paper, is a kind of its
+    own."""
     return "arm" if symbol.kind == "arm" else symbol.measure
 
 
@@ -374,7 +375,7 @@ def _sort(symbol: Symbol) -> str:
 
 
 def _step(sheet: Sheet, symbol: Symbol) -> float:
-    """When a quantity is known on the drawing; a rate follows the vector that it is measured from."""
+    """The step at which a quantity is known on the drawing; a rate follows the vector from which it is measured."""
     if symbol.scope != "motion":
         return 0.0
     if not symbol.is_vector:
@@ -386,7 +387,7 @@ def _step(sheet: Sheet, symbol: Symbol) -> float:
 
 
 def _own_values(plan: Plan, base: Sheet, own: Mapping[Symbol, Value]) -> OwnValues:
-    """The drawing gone on with from somebody's own values (SI) in place of the drawn ones."""
+    """The changes with which a drawing continues from the person's own values (SI) in place of the drawn ones."""
 
     def ratio(symbol: Symbol | None) -> float:
         """The person's value over the drawn one, 1 where there is none."""
@@ -434,7 +435,7 @@ def _own_values(plan: Plan, base: Sheet, own: Mapping[Symbol, Value]) -> OwnValu
 
 
 def _guide_turns(plan: Plan, of: PointRef, to: PointRef | None) -> Symbol | None:
-    """The angular velocity of the guide between two coincident points, or of the link from which one is seen."""
+    """The angular velocity of the guide between two coincident points, or of the link from which a point is seen."""
     links = {r.link for r in (of, to) if r}
     for slide in plan.structure.slides:
         if slide.pin == of.point and links & {slide.a, slide.b}:
@@ -500,7 +501,7 @@ def _force_slips(motion: Motion) -> Iterator[Alteration]:
 
 
 def _instead(things: Sequence[T], one: T, *others: T) -> tuple[T, ...]:
-    """Things with others in place of one of them."""
+    """The items with others in place of one."""
     return tuple(kept for thing in things for kept in (others if thing is one else (thing,)))
 
 
@@ -517,14 +518,14 @@ def _forces(motion: Motion, loading: Loading) -> Values:
 
 
 def _finite(symbol: Symbol, value: complex) -> Value | None:
-    """The value of a symbol as it is, a vector or a number; None where it has none."""
+    """The value of a symbol, a vector or a number; None where it is not finite."""
     if not np.isfinite(value):
         return None
     return complex(value) if symbol.is_vector else float(value.real)
 
 
 def _standing(motion: Motion) -> tuple[tuple[LoadOn, ...], tuple[LoadOn, ...]]:
-    """The loads that act at the position, and those that do not, each as it stands there."""
+    """The loads that act at the position, and those that do not, each as it is there."""
     scene = motion.scene
     here = forces_of(motion)
     always = replace(
@@ -591,7 +592,7 @@ def _motions(scene: Mechanism) -> Values:
 
 
 def _standing_here(motion: Motion) -> Mechanism:
-    """The scene with its drivers and wheels where the motion has them."""
+    """The scene with its drivers and wheels at the motion's position."""
     scene = motion.scene
     places = (float(value) for value in motion.values[0])
     drivers = tuple(replace(d, value=value) for d, value in zip(scene.drivers, places, strict=True))
@@ -601,7 +602,7 @@ def _standing_here(motion: Motion) -> Mechanism:
 
 
 def _with(gear: PlacedGear, numbers: Mapping[tuple[str, float], float]) -> PlacedGear:
-    """A mesh with other numbers of teeth, by link and number before; a rack has none."""
+    """A mesh with other numbers of teeth, given by link and old number; a rack has none."""
     one, two = (
         z if z is None else math.copysign(numbers.get((link, abs(z)), abs(z)), z)
         for link, z in zip(gear.wheels, gear.teeth, strict=True)

@@ -13,7 +13,7 @@ __all__ = ["main"]
 def main() -> None:
     """Run the command line; see `graphkin.cli.commands`.
 
-    Until the command begins an interruption ends the process at once: there is nothing yet to be finished or told.
+    Until the command begins an interruption ends the process at once: no work is lost yet.
     """
     ours = signal.getsignal(signal.SIGINT) is signal.default_int_handler
     try:

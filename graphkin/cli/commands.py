@@ -1,5 +1,5 @@
-"""All commands by name, and what becomes of a problem: sentences on stderr and an exit status; a reader that has
-gone away ends nothing, a full disk is a sentence."""
+"""All commands by name, and their problems: sentences on stderr and an exit status; a closed pipe ends no command, a
+full disk is a problem."""
 
 from __future__ import annotations
 
@@ -38,12 +38,12 @@ COMMANDS = (
 
 
 class Unwritable(OSError):
-    """What is printed cannot be kept where it goes."""
+    """The error of output that its file cannot take."""
 
 
 class _Pipe(io.FileIO):
-    """A file of the system.  What nobody reads any more is dropped, so that a command does what it was called for, and
-    gives the status of that, also under ``| head``."""
+    """An output file of the system.  Output without a reader is dropped, so that a command does its work, and ends with
+    its status, also under ``| head``."""
 
     def write(self, text: Buffer) -> int:
         try:
@@ -56,7 +56,7 @@ class _Pipe(io.FileIO):
 
 
 def _drop(handle: int) -> None:
-    """Let everything that is still written to a file of the system go nowhere."""
+    """Discard all further output to a file of the system."""
     with suppress(OSError):
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, handle)
@@ -64,7 +64,7 @@ def _drop(handle: int) -> None:
 
 
 def own_streams() -> None:
-    """Standard output and error in UTF-8 whatever the terminal says, and careful of who reads them."""
+    """Standard output and error in UTF-8 on every terminal, which drop output without a reader."""
     for name, handle in (("stdout", 1), ("stderr", 2)):
         stream = getattr(sys, name)
         if stream is None:  # closed by who called
@@ -85,9 +85,9 @@ def _is(stream: TextIO, handle: int) -> bool:
 
 
 def app_of(arguments: Sequence[str] = ()) -> typer.Typer:
-    """The command line, with the command alone that the arguments begin with: a process waits for no other.
+    """The command line with only the command that the arguments begin with: a process loads no other.
 
-    All of them where they begin with none: for the help, or to say which name a misspelt one resembles.
+    All commands where they begin with none: for the help, or to find the nearest name to a misspelt one.
     """
     app = typer.Typer(
         callback=_common,
@@ -125,11 +125,11 @@ def _common(
 def main(interrupted: Callable[[int, FrameType | None], object] | None = None) -> None:
     """Run the command line; problems are said on stderr, one a line, and give the exit status.
 
-    A reader of the output that goes away changes nothing; a place that cannot take it is status 2, an interruption 130.
+    A closed pipe changes nothing; a file that cannot take the output is status 2, an interruption 130.
 
     Parameters
     ----------
-    interrupted : what answers an interruption from when the command begins until it has ended; None: as before
+    interrupted : the handler of an interruption while the command runs; None: the handler before
     """
     atexit.register(gc.freeze)
     if interrupted is not None:  # who comes after the end comes too late
@@ -182,7 +182,7 @@ def _run(interrupted: Callable[[int, FrameType | None], object] | None) -> str |
 
 
 def _leave() -> None:
-    """End at once: nothing that runs is waited for, and a further interruption finds nobody."""
+    """End at once: running work is not awaited, and a further interruption has no effect."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     with suppress(OSError):
         sys.stdout.flush()

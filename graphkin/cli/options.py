@@ -1,5 +1,5 @@
-"""Every argument and option of the command line, declared once; a command is a function of what was given, with the
-names of the options that it takes."""
+"""Every argument and option of the command line, declared once; a command is a function of the given values, with the
+names of its options."""
 
 from __future__ import annotations
 
@@ -123,7 +123,7 @@ def _declared(name: str) -> inspect.Parameter:
 
 
 class Given(SimpleNamespace):
-    """What a command was called with, by the names of its options."""
+    """The values given to a command, by the names of its options."""
 
     @property
     def values(self) -> At:
@@ -135,12 +135,12 @@ class Given(SimpleNamespace):
         return split_words(self.format)
 
     def call(self, function: Callable[..., T], **others: Any) -> T:
-        """What a public function makes of what was given: each of its parameters is the option of that name, and keeps
-        its default where nothing was given; files are written later.
+        """The result of a public function for the given values: each of its parameters is the option of that name, with
+        its default where no value was given; files are written later.
 
         Parameters
         ----------
-        others : of the function, what the options do not say as it takes them
+        others : values of parameters that differ from their options
         """
         first, *names = inspect.signature(function).parameters
         given = {**vars(self), "at": self.values, "language": self.lang, "figures": getattr(self, "figure", None)}
@@ -156,7 +156,7 @@ class Given(SimpleNamespace):
 
 
 def command(*names: str) -> Callable[[Callable[[Given], None]], Callable[..., None]]:
-    """Make a command of a function of what was given.
+    """Make a command of a function of given values.
 
     Parameters
     ----------
@@ -186,7 +186,7 @@ def split_words(words: str) -> list[str]:
 
 
 def driver_values(at: list[str] | None, position: str | None = None) -> At:
-    """Driver values as given on the command line: DEG, or LINK=DEG; or the name of a position.
+    """Driver values of the command line: DEG, or LINK=DEG; or the name of a position.
 
     >>> driver_values(["50"]), driver_values(["1=50", "2=30"])
     (50.0, {'1': 50.0, '2': 30.0})
@@ -217,7 +217,7 @@ def named_numbers(texts: list[str], wrong: Callable[[str, str], Problem]) -> dic
 
     Parameters
     ----------
-    wrong : the problem of a text whose number is none
+    wrong : the problem of a text without a number
     """
     found: dict[str, float] = {}
     for text in texts:
@@ -230,5 +230,5 @@ def named_numbers(texts: list[str], wrong: Callable[[str, str], Problem]) -> dic
 
 
 def processes(workers: int | None) -> int | None:
-    """How many processes: as many as there are cores, if not told."""
+    """The number of processes, by default the number of cores."""
     return workers if workers is not None else os.cpu_count()

@@ -1,4 +1,4 @@
-"""What commands print: JSON objects, tables, paths of files, and a progress bar for what takes long."""
+"""The output of commands: JSON objects, tables, paths of files, and a progress bar for long work."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ if TYPE_CHECKING:
 
 
 def tell(text: str, err: bool = False) -> None:
-    """Print lines of text, on stderr if it is no result; what in them would command the terminal is written out."""
+    """Print lines of text, on stderr if they are no result; control characters are written out."""
     typer.echo("\n".join(map(printable, text.split("\n"))), err=err)
 
 
 def asked_languages(arguments: Sequence[str]) -> tuple[str, ...]:
-    """The languages that a command is asked to speak, English where it is not said or not known.
+    """The languages that a command is asked for, English where none or an unknown one is given.
 
     >>> asked_languages(["draw", "four-bar", "--lang", "zh"]), asked_languages(["--lang=both"]), asked_languages([])
     (('zh',), ('en', 'zh'), ('en',))
@@ -40,7 +40,7 @@ def asked_languages(arguments: Sequence[str]) -> tuple[str, ...]:
 
 
 def complain(*found: Problem | Wording) -> None:
-    """Say on stderr what is wrong, or was not done as asked, in the languages that the command is asked to speak."""
+    """Print on stderr problems, or deviations from the request, in the languages that the command is asked for."""
     for language in asked_languages(sys.argv[1:]):
         for fault in found:
             text = fault.text(language) if isinstance(fault, Problem) else say(fault, language)
@@ -101,11 +101,12 @@ def _show_table(heads: Sequence[str], rows: Sequence[Sequence[str]], right: tupl
 def unsolvable_as_json(
     wanted: bool, answer: Mapping[str, object] | Callable[[Unsolvable], Mapping[str, object]]
 ) -> Iterator[None]:
-    """Print the answer to a program also where the mechanism cannot be solved, before that ends the command.
+    """A context that prints the answer to a program also where the mechanism cannot be solved, before that ends the
+    command.
 
     Parameters
     ----------
-    answer : what it says beside status, reason and problems; or a function that makes all of it but the problems
+    answer : its entries beside status, reason and problems; or a function that gives all but the problems
     """
     try:
         yield
@@ -117,8 +118,8 @@ def unsolvable_as_json(
 
 
 def finish(given: Given, result: Result, paths: Iterable[Path] = (), files: bool = False) -> None:
-    """Print a result for programs, with ``files`` where it was written, or for people the paths; leave with status 1
-    where not all is as it should be."""
+    """Print a result for programs, with ``files`` if it was written, or the paths for people; leave with status 1 where
+    the result is not ok."""
     paths = list(paths)
     if given.json:
         data = result.data
@@ -130,14 +131,15 @@ def finish(given: Given, result: Result, paths: Iterable[Path] = (), files: bool
 
 
 def tell_unused(heads: Sequence[str]) -> None:
-    """Say which columns of a table were not used."""
+    """Name the unused columns of a table."""
     if heads:
         complain(Phrase("columns left alone", names=', '.join(heads)[:300]))
 
 
 @contextmanager
 def progress_bar(shown: bool, target: Path) -> Iterator[Callable[[int, int], None] | None]:
-    """Progress of a run that keeps what it has done in a folder; where it is interrupted, it is said how to go on."""
+    """The progress of a run that keeps its finished work in a folder; after an interruption it is said how to
+    continue."""
     with short_bar(shown) as count:
         try:
             yield count
@@ -148,7 +150,7 @@ def progress_bar(shown: bool, target: Path) -> Iterator[Callable[[int, int], Non
 
 @contextmanager
 def short_bar(shown: bool) -> Iterator[Callable[[int, int], None] | None]:
-    """A bar on stderr, where that is a terminal and it takes longer than a second."""
+    """A progress bar on stderr, if that is a terminal and the work takes longer than a second."""
     if not shown or not sys.stderr.isatty():
         yield None
         return

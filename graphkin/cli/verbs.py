@@ -1,5 +1,5 @@
-"""All commands: each calls the public function of its name with what was given, prints what that made for people or
-for programs, and leaves with the status that belongs to it."""
+"""All commands: each calls the public function of its name with the given values, prints the result for people or for
+programs, and leaves with its status."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def check(given: Given) -> None:
 
 
 def _tell_check(checked: Checked, language: str, given: Given) -> None:
-    """Print a check, and leave with the status that belongs to it."""
+    """Print a check, and leave with its status."""
     if given.json:
         print_json(checked.data)
     elif not given.quiet:
@@ -411,7 +411,7 @@ def _course(given: Given) -> None:
 
 
 def _tell_written(given: Given, made: Handout | CourseDesigns, paths: Sequence[Path], language: str) -> None:
-    """Say what was written, and what was not done as asked."""
+    """Name the written files, and deviations from the request."""
     for note in made.notes:
         tell(f"graphkin: {say(note, languages(language)[0])}", err=True)
     finish(given, made, paths, files=True)
@@ -467,7 +467,7 @@ def scenes(given: Given) -> None:
 
 
 def _begin(kind: str, lengths: list[str], file: Path | None) -> None:
-    """A new scene: what is not given is asked for in a terminal, and the usual elsewhere."""
+    """A new scene: missing values are asked for in a terminal, and the usual ones elsewhere."""
     from graphkin.scene.scene import NEW, new_scene
 
     def wrong(text: str, number: str) -> Problem:
