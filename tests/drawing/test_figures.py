@@ -156,6 +156,13 @@ def test_no_id_stands_twice_in_a_figure(name: str, figure: str) -> None:
     assert len(found) == len(set(found))
 
 
+@pytest.mark.parametrize("name", library())
+def test_every_link_bears_its_number_on_the_mechanism(name: str) -> None:
+    scene = mechanism_of(name)
+    named = {id for id in ids(root(name, "mechanism")) if id.startswith("label-link-")}
+    assert {f"label-link-{link.name}" for link in (scene.frame, *scene.links)} == named
+
+
 def test_layers_have_names_a_person_understands() -> None:
     page = root(GUIDE, "sheet")
     label = "{http://www.inkscape.org/namespaces/inkscape}label"

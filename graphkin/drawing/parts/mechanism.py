@@ -39,7 +39,14 @@ from graphkin.drawing.parts.mechanism_on_paper import (
     Slider,
 )
 from graphkin.drawing.parts.polygon import same_place
-from graphkin.drawing.parts.touching import contact_marks, faces_of_frame, outlines_of, wheels_of
+from graphkin.drawing.parts.touching import (
+    beside_face_of_frame,
+    contact_marks,
+    faces_of_frame,
+    outlines_of,
+    wheels_of,
+    within_round_body,
+)
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.obstacles import RateArrowClearance
 from graphkin.drawing.place.piece import Piece, cut_to, dated, ink_box, joined, kept_in, middle_of
@@ -304,6 +311,8 @@ def _numbers(here: MechanismOnPaper) -> Iterator[Label]:
         elif (cam := next((c for c in here.cams if c.cam.link == shape.link), None)) is not None:
             axis = here.sheet.poses[shape.link].origin
             yield Label(text, on_page(axis + 0.6 * (max(cam.profile, key=lambda z: abs(z - axis)) - axis)), rank=1)
+        elif (body := within_round_body(here, shape.link)) is not None:
+            yield Label(text, on_page(body), rank=1)
 
 
 def _cylinder_part(here: MechanismOnPaper, link: str) -> tuple[complex, complex] | None:
@@ -341,6 +350,9 @@ def _frame_name(here: MechanismOnPaper) -> Iterator[Label]:
         foot = here.foot(pivots[0]) if pivots else 0.0
         away = complex(math.cos(foot), math.sin(foot)) * 5 if pivots else 3.6j
         yield Label(_number(here, here.ground, strokes.BLACK), on_page(spots[0] + away), (phase(away),), 1)
+    elif (face := beside_face_of_frame(here)) is not None:
+        at, into = face
+        yield Label(_number(here, here.ground, strokes.BLACK), on_page(at), (phase(into),), 1)
 
 
 def mechanism_piece(sheet: Sheet, letters: Letters, room: tuple[float, float] | None = None) -> tuple[Piece, Box]:

@@ -16,6 +16,7 @@ from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.piece import Piece, dated
 from graphkin.drawing.text import symbol
+from graphkin.plane import added_up, unit
 
 NORMAL, TANGENT = 15.0, 12.0
 """mm of normal and tangent to either side of a contact."""
@@ -27,6 +28,8 @@ TOUCHING = 1e-6
 """mm: centres so near lie on each other."""
 HATCHES = 2.6
 """mm of outline between two hatches of a hatched ring."""
+IN_BODY = 0.6
+"""Of its radius: how far from the centre of a round body its number stands."""
 
 
 def _on_paper(here: MechanismOnPaper) -> Touching:
@@ -103,6 +106,32 @@ def faces_of_frame(here: MechanismOnPaper) -> list[Primitive]:
             along = 1j * touch.normal * FACE
             parts += _hatched(touch.at - along, touch.at + along, -touch.normal)
     return parts
+
+
+def within_round_body(here: MechanismOnPaper, link: str) -> complex | None:
+    """A place (mm) in the body of a wheel or disc, on the side away from what touches it: within its circle, outside
+    that of an internal one; None of a link that has neither."""
+    links = _on_paper(here)
+    rounds = [(centre, radius) for wheel, centre, radius in links.pitch_circles() if wheel == link]
+    if link in here.sheet.poses:
+        rounds += [(links.place(link, d.centre), d.radius * links.mm) for d in here.scene.by_name[link].discs]
+    if not rounds:
+        return None
+    centre, radius = max(rounds, key=lambda each: abs(each[1]))
+    toward = added_up((touch.at - centre for touch in links.touches() if link in touch.links), 0j)
+    away = -unit(toward) if abs(toward) > TOUCHING else 1j
+    return centre + (IN_BODY * radius if radius > 0 else abs(radius) + 2 * symbols.HATCH_DEPTH) * away
+
+
+def beside_face_of_frame(here: MechanismOnPaper) -> tuple[complex, complex] | None:
+    """A place (mm) at the end of the hatching where the frame is touched, and the direction into its body; None where
+    nothing touches it."""
+    for touch in _on_paper(here).touches():
+        if here.ground in touch.links:
+            centres = [centre for link, (_, centre) in touch.centres.items() if link != here.ground]
+            out = unit(centres[0] - touch.at) if centres else touch.normal
+            return touch.at - (symbols.HATCH_DEPTH + 0.8j * FACE) * out, -out
+    return None
 
 
 def contact_marks(here: MechanismOnPaper) -> Piece:
