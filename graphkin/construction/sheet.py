@@ -240,11 +240,11 @@ class Sheet:
         return bool(self.scene.loading) and wanted
 
     def larger(self, times: float) -> Sheet:
-        """The mechanism alone so many times as large, drawn by any hands."""
+        """The mechanism alone so many times as large, drawn by any hands; points that serve the construction left out."""
         return replace(
             self, scales=replace(self.scales, length=self.scales.length / times), steps=(),
             poses={name: pose.scaled(times) for name, pose in self.poses.items()},
-            points={ref: z * times for ref, z in self.points.items()},
+            points={ref: z * times for ref, z in self.points.items() if ref.point not in self.serving},
         )  # fmt: skip
 
     def rates(self, kind: str) -> Mapping[str, Rate]:
@@ -294,6 +294,12 @@ class Sheet:
         return {step.point: step.link for step in self.steps if step.reason == "special point"}
 
     @cached_property
+    def serving(self) -> frozenset[str]:
+        """The points that only serve the construction: special points of larger groups, pitch points."""
+        reasons = "special point", "pitch point"
+        return frozenset(step.point for step in self.steps if step.reason in reasons)
+
+    @cached_property
     def drawn_in(self) -> dict[Symbol, int]:
         """The step in which each vector is first drawn."""
         drawn = [(s.symbol, step.number) for step in self.steps for s in step.strokes if isinstance(s, Vector)]
@@ -338,8 +344,7 @@ class Sheet:
     def extents(self) -> dict[Diagram, Extent]:
         """Width and height of the mechanism and of both polygons, poles included, by which scales are chosen: special
         points left out, but with vectors seen from held links, and trial polygons a little smaller."""
-        special = {step.point for step in self.steps if step.reason in ("special point", "pitch point")}
-        places = [z for ref, z in self.points.items() if ref.point not in special]
+        places = [z for ref, z in self.points.items() if ref.point not in self.serving]
         if self.scene.cams or self.scene.gears or any(link.discs for link in (self.scene.frame, *self.scene.links)):
             per = 1.0 / self.scales.length
             places += (z for outline in outlines_on_paper(self.scene, self.poses, per).values() for z in outline)

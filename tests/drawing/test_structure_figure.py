@@ -8,10 +8,14 @@ import pytest
 
 import graphkin
 from graphkin.drawing import svg_bytes
+from graphkin.drawing.figures.structure import PART
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, walk
 from graphkin.drawing.place.piece import ink_box
 from graphkin.errors import CallError
+from tests.rolling_linkages import rack_on_a_rocker
+
+SVG = "{http://www.w3.org/2000/svg}"
 
 
 def drawn(name: str, driver: str = "", language: str = "en") -> ET.Element:
@@ -66,6 +70,29 @@ def test_a_driver_inside_a_group_has_no_empty_panel() -> None:
     panels = [e for e in root.iter("{http://www.w3.org/2000/svg}g") if e.get("class") == "panel"]
     assert 1 == len(panels)
     assert "级杆组，" in words(root)
+
+
+@pytest.fixture(scope="module")
+def rack() -> ET.Element:
+    figures = graphkin.draw(rack_on_a_rocker(), at=20, figures=["structure"]).figures
+    return ET.fromstring(svg_bytes(figures["structure"]))
+
+
+def test_a_group_with_a_rack_is_as_large_as_its_panel_which_cuts_the_rack(rack: ET.Element) -> None:
+    group = next(e for e in rack.iter(f"{SVG}g") if e.get("id") == "group-1-1")
+    pins = [[float(e.get(key)) for key in ("cx", "cy")] for e in group.iter(f"{SVG}circle")]
+    assert 0.3 * PART[0] < max(x for x, _ in pins) - min(x for x, _ in pins)
+    ends = [float(e.get(key)) for e in group.iter(f"{SVG}line") for key in ("x1", "x2")]
+    assert max(ends) - min(ends) < PART[0]
+
+
+def test_a_link_of_a_group_has_one_number(rack: ET.Element) -> None:
+    assert 2 == [*map("".join, (e.itertext() for e in rack.iter(f"{SVG}text")))].count("5")  # diagram and group
+
+
+def test_points_that_serve_the_construction_are_not_on_the_structure() -> None:
+    ids = {e.get("id") for e in drawn("loader-cylinder").iter()}
+    assert {"point-E"} == {"point-E", "point-S"} & ids
 
 
 HIGHER = (

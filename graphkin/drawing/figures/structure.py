@@ -22,7 +22,7 @@ from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
 from graphkin.drawing.parts.touching import replacing_links
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
-from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece
+from graphkin.drawing.place.piece import Piece, cut_to, ink_box, joined, moved_piece
 from graphkin.drawing.text import plain, rich, symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import dot
@@ -36,6 +36,7 @@ BESIDE = 5.0  # between the diagram and its numbers
 SIZE = 3.0
 TOUCH = 1e-6
 FITS = 4  # times that the diagram is drawn smaller, to fit
+POINTS_SHARE = 0.8  # of the room of a group, for its points, where what reaches further is cut
 
 
 def structure_figure(
@@ -206,18 +207,34 @@ def _group(sheet: Sheet, elements: Sequence[Element], letters: Letters, tag: str
     is dashed.  As large as the panel allows, and not larger than in the diagram of the sheet."""
     here = MechanismOnPaper(sheet, letters)
     times, (parts, labels) = 1.0, _drawn_apart(here, elements)
+    room = complex(panel.width - 16.0, panel.height - 14.0)
     for _ in range(FITS):  # symbols keep their size
         drawn = ink_box(parts)
         if drawn is None:
             return Piece()
-        over = max(drawn.width / (panel.width - 16.0), drawn.height / (panel.height - 14.0))
+        over = max(drawn.width / room.real, drawn.height / room.imag)
         if over <= 1.0:
             break
         times /= over
         parts, labels = _drawn_apart(MechanismOnPaper(sheet.larger(times), letters), elements)
+    inner, drawn = panel.grown(-0.6), ink_box(parts)
+    if drawn is not None and (drawn.width > inner.width or drawn.height > inner.height):
+        times = _times_for_points(here, elements, room)
+        parts, labels = _drawn_apart(MechanismOnPaper(sheet.larger(times), letters), elements)
     piece = Piece({"mechanism": (Group(tuple(parts), id=f"group-{tag}"),)}, tuple(labels))
     ink = ink_box(piece.drawn) or panel
-    return with_labels(moved_piece(piece, panel.centre - ink.centre), panel.grown(-0.6))
+    whole = moved_piece(piece, panel.centre - ink.centre)
+    layers = {name: cut_to(things, inner) for name, things in whole.layers.items()}
+    return with_labels(replace(whole, layers=layers), inner)
+
+
+def _times_for_points(here: MechanismOnPaper, elements: Sequence[Element], room: complex) -> float:
+    """How many times as large the points of elements fill a room (mm) that rails longer than it cross; at most 1."""
+    structure = here.sheet.structure
+    points = {p for e in elements for n in e.members for p in structure.links[n].points}
+    box = Box.around([here.places[p] for p in points if p in here.places] or [0j])
+    sides = (room.real, box.width), (room.imag, box.height)
+    return min((1.0, *(POINTS_SHARE * side / size for side, size in sides if size > 0.0)))
 
 
 def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[list[Primitive], list[Label]]:
@@ -241,7 +258,8 @@ def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[l
             parts += [Line(on_page(ends[0]), on_page(z), dashed) for z in ends[1:] if z not in shape.points.values()]
         elif len(ends) > 1:  # the bar that replaces a contact
             parts.append(Line(on_page(ends[0]), on_page(ends[1]), dashed))
-    numbered = {shape.link for shape in here.shapes if shape.longest}
+    touching = here.scene.contacts or here.scene.gears or here.scene.cams  # of these every link has its number already
+    numbered = {shape.link for shape in here.shapes if shape.longest or touching}
     known = {b.slide.key: b for b in here.sliders}
     rolling = {contact.block for contact in here.scene.contacts if contact.rolling}  # their centres keep a distance
     for slide in (pair for pair in (*inner, *outer) if not pair.turns and pair.key not in rolling):
