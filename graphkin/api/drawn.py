@@ -331,7 +331,7 @@ def shown_positions(what: Plan, values: Mapping[str, float]) -> Shown:
 
     numbered = {name: drawn(values[name]) for name in names}
     limits: dict[str, tuple[Sheet, Sheet]] = {}
-    without: dict[str, Wording] = {}
+    without: dict[Symbol, Wording] = {}
     measured: dict[tuple[str, str], float] = {}
     if "limits" in show:
         for output in _outputs(scene, structure):
@@ -340,8 +340,7 @@ def shown_positions(what: Plan, values: Mapping[str, float]) -> Shown:
             try:
                 turned = execute(plan(structure, own.drivers, asked)).at(own.scales)
             except Unsolvable as stop:  # no whole turn, or an output that turns on and on
-                problem = stop.problems[0]
-                without[str(problem.where)] = problem.found
+                without[asked[0]] = stop.problems[0].found
                 continue
             found = turned.limits[output]
             limits[output] = drawn(found.low.value), drawn(found.high.value)

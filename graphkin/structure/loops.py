@@ -17,6 +17,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import takewhile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -197,7 +198,8 @@ def _roman(number: int) -> str:
 def _cycles(
     structure: Structure, element: Element, edges: Sequence[Edge], known: Sequence[Edge]
 ) -> list[Sequence[Edge]]:
-    """Independent cycles: a tree from the known links over the group; each pair outside the tree closes a cycle."""
+    """Independent cycles: a tree from the known links over the group; each pair outside the tree closes a cycle, from
+    where the ways to its links part."""
     reached = {n for a, _, b in edges for n in (a, b)}.difference(element.members)
     path: dict[str, list[Edge]] = {name: [] for name in reached}  # from a known link
     left, grown = list(edges), True
@@ -212,7 +214,8 @@ def _cycles(
                 grown = True
     cycles = []
     for a, pair, b in left:
-        out, back = path[a], path[b]
+        common = sum(1 for _ in takewhile(lambda both: both[0] == both[1], zip(path[a], path[b], strict=False)))
+        out, back = path[a][common:], path[b][common:]
         start, end = (out[0][0] if out else a), (back[0][0] if back else b)
         closing = [(to, of_pair, of) for of, of_pair, to in reversed(back)]
         cycles.append(_oriented(structure, [*out, (a, pair, b), *closing, *_over_known(structure, end, start, known)]))

@@ -110,3 +110,8 @@ def test_a_sheet_bears_the_loops_where_the_scene_wishes_for_them() -> None:
     figures = graphkin.draw(scene, figures=["sheet"]).figures
     last = list(figures.values())[-1]
     assert (210.0, True) == (last.width, 'id="loop-I"' in last.content("svg").decode())
+
+
+def test_no_loop_goes_along_a_link_and_back() -> None:
+    loops = [loop["points"] for block in graphkin.solve("scissor-lift").loops().data for loop in block["loops"]]
+    assert [["D", "N", "C", "M"], ["C", "Q", "P"], ["B", "A", "M"]] == loops

@@ -91,8 +91,8 @@ def words_of(drawn: Drawn) -> str:
 @pytest.mark.parametrize(
     ("language", "said"),
     [
-        ("en", "No limit positions are drawn (swing_2: belongs to a whole turn, but driver 4 does not turn fully (it"),
-        ("zh", "未画极限位置（swing_2：属于整周运动，但原动件 4 不能转整周（"),
+        ("en", "No limit positions are drawn (ψ2: belongs to a whole turn, but driver 4 does not turn fully (it"),
+        ("zh", "未画极限位置（ψ2：属于整周运动，但原动件 4 不能转整周（"),
     ],
 )
 def test_limits_that_there_are_not_are_said_not_to_be(language: str, said: str) -> None:

@@ -220,3 +220,8 @@ def test_a_sheet_says_of_as_many_readings_that_they_agree_as_its_table_shows(nam
     rows = table_rows(drawn.checked.sheet, drawn.checked.report)
     (said,) = [text for text in pages(drawn) if "readings agree" in text]
     assert f"all {len(rows)} readings agree with the analytic solution" == said
+
+
+def test_a_further_page_says_in_its_description_what_it_holds():
+    pages = draw("contour-four-bars", figures=["sheet"], language="en").figures
+    assert "Vector equations, Readings and check" == pages["sheet-2"].desc

@@ -39,7 +39,7 @@ from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece, ob
 from graphkin.drawing.plate import Plate
 from graphkin.drawing.text import plain, rich
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.scene.symbol import PointRef
+from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Neutral, Wording
 
 ROOM = 16.0  # mm around the figure, for names
@@ -62,7 +62,7 @@ class Shown:
     least : where the transmission angle of the last group is least, and the angle (rad)
     paths : places (mm) of points of couplers over a turn
     measured : readings of the whole turn (m, rad), by kind ("stroke", "swing", "K", "theta_lag") and output
-    without : where limit positions are asked for and there are none, why, by output
+    without : where limit positions are asked for and there are none, why, by the stroke or swing asked for
     """
 
     own: Sheet
@@ -72,7 +72,7 @@ class Shown:
     paths: Mapping[str, Sequence[complex]]
     measured: Mapping[tuple[str, str], float]
     marks: tuple[str, ...]
-    without: Mapping[str, Wording] = field(default_factory=dict)
+    without: Mapping[Symbol, Wording] = field(default_factory=dict)
 
 
 def positions_figure(shown: Shown, *, language: str | None = None, convention: str | None = None) -> Drawing:
@@ -290,8 +290,9 @@ def _measured_lines(shown: Shown, page: FigurePage) -> list[str]:
             if (value := shown.measured.get((kind, pair))) is not None and (kind != "K" or "K" in shown.marks)
         )  # fmt: skip
         said += page.said("positions of", pair=Neutral(pair), values=Neutral(values))
-    without = shown.without.items()
-    return said + [line for output, why in without for line in page.said("no limits", output=output, reason=why)]
+    for symbol, why in shown.without.items():
+        said += page.said("no limits", output=Neutral(f"${page.letters.vector(symbol)}$"), reason=why)
+    return said
 
 
 FIGURES = (

@@ -279,14 +279,28 @@ def overleaf(page: FigurePage, rest: Remainder, frame: Box) -> tuple[Drawing, ..
         frame = Box(frame.left, frame.top, short - frame.left, long - frame.top)
     made: list[Drawing] = []
     while rest:
-        number, before = len(made) + 2, len(rest)
+        number, before = len(made) + 2, rest
         corner = _in_corner(say(Phrase("sheet number", number=number), languages(page.language)[0]), frame)
         pieces, rest = _into(page, rest, Box(frame.left, frame.top + HEAD, frame.right, frame.bottom), "overleaf")
         size = frame.left + frame.right, frame.top + frame.bottom
-        made.append(_drawn_page(page, *size, (heading(page, frame), corner, *pieces), f" ({number})"))
-        if len(rest) == before:  # nothing is so large that a page does not hold it
+        made.append(replace(
+            _drawn_page(page, *size, (heading(page, frame), corner, *pieces), f" ({number})"),
+            desc=_held(page, before, rest),
+        ))  # fmt: skip
+        if len(rest) == len(before):  # nothing is so large that a page does not hold it
             raise AssertionError("a page holds nothing of what is left")
     return tuple(made)
+
+
+def _held(page: FigurePage, before: Remainder, after: Remainder) -> str:
+    """What a further page holds, in words: what was left before it and is not after it."""
+    kinds = {
+        "equations": len(before.equations) - len(after.equations), "given": len(before.given) - len(after.given),
+        "readings": len(before.readings) - len(after.readings),
+        FIGURE_WORDS["acceleration"]: len(before.senses) - len(after.senses),
+    }  # fmt: skip
+    shown = [page.term(kind) for kind, count in kinds.items() if count]
+    return punctuation("list comma", page.language).join(shown)
 
 
 def heading(page: FigurePage, frame: Box) -> Piece:
