@@ -240,7 +240,7 @@ class Sheet:
         return bool(self.scene.loading) and wanted
 
     def larger(self, times: float) -> Sheet:
-        """The mechanism alone so many times as large, drawn by any hands; points that serve the construction left out."""
+        """The mechanism alone so many times as large, drawn by any hands; without the points of its construction."""
         return replace(
             self, scales=replace(self.scales, length=self.scales.length / times), steps=(),
             poses={name: pose.scaled(times) for name, pose in self.poses.items()},
