@@ -19,6 +19,7 @@ from graphkin.drawing import svg_bytes
 from graphkin.scene.symbol import Symbol
 from graphkin.words.written import amount, is_quotient
 from tests.construction.test_forces import DRIVEN_AGAINST_A_BLOCK
+from tests.mechanisms import random_scene
 from tests.solver.test_forces import loaded, scene_of
 
 SHAPER, ENGINE = scene_of("shaper-scheme-2"), scene_of("engine")
@@ -228,3 +229,13 @@ def test_a_part_of_a_force_that_is_nought_is_not_told_as_the_force() -> None:
     read = {m[1] for line in lines if (m := re.search(r"(\$F[^$]*\$) = [\d.]+ mm × ", line))}
     assert nought
     assert set() == nought & read
+
+
+@pytest.mark.parametrize(("seed", "drive"), [(40009, "slider"), (40019, "cylinder"), (40028, "crank")])
+def test_what_rounding_leaves_of_forces_that_cancel_is_told_as_nought(seed, drive):
+    scene = random_scene(seed, ("RPP",), drive, False)
+    block = next(name for name, link in scene["links"].items() if "." in link.get("on", "") and link.get("points"))
+    scene["loads"] = {"P": {"on": block, "at": scene["links"][block]["points"][0], "force": 31.7, "angle": 175}}
+    told = [line for stage in stages_of(scene) for step in stage.steps for line in step.lines("en")]
+    assert any(line.endswith(" = 0") for line in told)
+    assert [] == [line for line in told if "10^{" in line]

@@ -44,8 +44,17 @@ def _dead_point(links: Sequence[str]) -> Unsolvable:
                                             "move the driver off this position"))
 
 
+ROUNDING = 1e-13
+"""What is left of forces, or of moments, that cancel, as a part of all of them together."""
+
 Chain = list[ForceVector]
 """Vectors of a polygon laid head to tail, from the origin on."""
+
+
+def _gap(chain: Chain, end: complex, corner: complex) -> complex:
+    """From one place of a polygon to another (mm); what is left of vectors that close it already is nothing."""
+    rounding = abs(corner - end) <= ROUNDING * added_up(abs(vector.span) for vector in chain)
+    return 0j if rounding else corner - end
 
 
 def _end_of(chain: Chain) -> complex:
@@ -163,8 +172,7 @@ class CutFree:
         acting = [*self.on(links), *(load for load in more if load.force or load.moment)]
         terms = tuple(self.term(load, about) for load in sorted(acting, key=lambda load: not load.force))
         total = added_up(term.moment for term in terms)
-        # what is left of terms that cancel is rounding
-        rounding = abs(total) <= 1e-13 * added_up(abs(term.moment) for term in terms)
+        rounding = abs(total) <= ROUNDING * added_up(abs(term.moment) for term in terms)
         return MomentEquation(tuple(links), letter, terms, sought, 0.0 if rounding else -total / sought.moment)
 
     # -- polygons ------------------------------------------------------------------------------------------------------
@@ -193,9 +201,10 @@ class CutFree:
             met = cross_lines(end, d, corner, e) if abs(cross(d, e)) >= PARALLEL else None
             if met is None:
                 raise _dead_point(links)
-            corner = self.hand.point(met)
-            chain.insert(0, first.between(corner, chain[0].tail if chain else 0j))
-        chain.append(last.between(end, corner))
+            start, corner = corner, self.hand.point(met)
+            chain.insert(0, first.between(start - _gap(chain, corner, start), start))
+            corner = chain[0].tail
+        chain.append(last.between(end, end + _gap(chain, end, corner)))
 
     def drawn_in(self, chain: Chain, force: ForceVector) -> ForceVector:
         """A force as it stands in a polygon, all its parts together (N)."""
@@ -352,7 +361,7 @@ def _inner_force(
     """
     pair, links = dyad.inner, dyad.first.links
     chain = [vector for vector in group.polygon if vector.link in links]
-    force = (chain[0].tail - _end_of(chain)) * cut.per_mm
+    force = _gap(chain, _end_of(chain), chain[0].tail) * cut.per_mm
     if pair.turns:
         names, point, known = cut.drawn, pair.point, cut.drawn.structure.links
         first, second = (next(n for n in body.links if point in known[n].points) for body in dyad.bodies)
@@ -533,6 +542,7 @@ def _solved(cut: CutFree, members: Sequence[str], unknowns: Sequence[Unknown]) -
         raise _dead_point(members)
     solution = np.linalg.solve(left, right)
     solution += np.linalg.solve(left, right - left @ solution)  # a second pass takes back the rounding of the first
+    solution[abs(solution) <= ROUNDING * np.abs(solution).sum()] = 0.0
     return [float(v * (1.0 if load.force else size)) for v, (load, _, _) in zip(solution, unknowns, strict=True)]
 
 
