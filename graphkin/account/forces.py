@@ -31,7 +31,7 @@ from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.construction.sheet import Sheet
 from graphkin.plane import added_up
 from graphkin.scene.symbol import Symbol
-from graphkin.words import Neutral, Phrase, Wording, about, in_all, languages, listed, say
+from graphkin.words import Neutral, Phrase, Wording, about, in_all, languages, links_named, listed, say
 from graphkin.words.written import FINER, MOST, amount, is_quotient, on_paper, pointing, product, to_lay_off
 
 ZERO = 1e-8  # mm: a shorter force is nothing but rounding
@@ -222,7 +222,7 @@ class ForceAccount:
 
     def of_group(self, state: ForceState, group: ForceGroup) -> Iterator[ForceStep]:
         """The steps by which the forces of a group are found."""
-        links, drawn = listed(group.links), group.polygon or chain(*group.inner.values())
+        links, drawn = links_named(group.links), group.polygon or chain(*group.inner.values())
         acting = [*(v for v in drawn if v.known and v.span), *group.couples_before]
         names = [self.name(symbol) for symbol in dict.fromkeys(load.symbol for load in acting)]
         bare = Phrase("force step cut bare", links=links)
@@ -235,11 +235,11 @@ class ForceAccount:
             return tuple(s for s in dict.fromkeys(v.symbol for v in vectors if not v.known) if s in read)
 
         if group.way == "drawn system":
-            yield ForceStep("system", Phrase("force reason system", links=links))
+            yield ForceStep("system", Phrase("force reason system", links=listed(group.links)))
         elif len(group.polygon) > 1:
             if laid_off(group):
                 yield ForceStep("lay", Phrase("force step lay"), self._laid(group))
-            why = Phrase(about("force polygon closes", group.links), links=links)
+            why = Phrase("force polygon closes", links=links)
             by, found = self._closed_by(group), own(group.polygon)
             why = why if by is None else Phrase("two sentences", first=why, second=by)
             yield ForceStep("close", why, [read.pop(s) for s in found], found)
@@ -394,9 +394,9 @@ class ForceAccount:
         )
 
 
-def _links(names: Sequence[str]) -> object:
+def _links(names: Sequence[str]) -> Phrase:
     """Links by name, blocks of pins left out where they are not alone."""
-    return listed([name for name in names if "/" not in name] or names)
+    return links_named([name for name in names if "/" not in name] or names)
 
 
 # -- polygons ----------------------------------------------------------------------------------------------------------

@@ -105,7 +105,7 @@ def whole_number(where: str, value: object, least: int, most: int, counted: str 
     if not number:
         given: Wording = Phrase("found value", value=f"{value!r:.60}")
     else:
-        given = Phrase(counted, count=value) if counted else f"{value}"
+        given = Phrase(counted, number=value) if counted else f"{value}"
     raise CallError.of(where, given, "give a whole number from to", least=least, most=most)
 
 

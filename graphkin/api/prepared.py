@@ -149,7 +149,7 @@ class Prepared(Tabled, OfScene):
         CallError : n is no number of positions; ``out`` does not fit; numba is to compile and is not installed
         """
         if type(n) is not int or not 1 <= n <= MOST:
-            n = whole_number("sweep", n, 1, MOST, "so many positions")
+            n = whole_number("sweep", n, 1, MOST, "positions of number")
         if out is not None:
             self._fitting(n, out)
         columns, ok = self.ready.sweep(n, out, pays(n) if self.fast is None else self.fast)
@@ -366,7 +366,7 @@ class PreparedDesigns(Tabled, OfScene):
         Designs whose groups stay away from dead points over the whole turn are computed together, in some microseconds
         each; others (a rocker that is driven, a larger group) are followed one by one, in some milliseconds.
         """
-        n = whole_number("sweep", n, 1, MOST, "so many positions")
+        n = whole_number("sweep", n, 1, MOST, "positions of number")
         columns, ok, values = self._designs.sweep(n, self.prepared.compiled(n * len(self)))
         return self._samples(columns, ok, np.asarray(self.prepared.own_unit.of(values)))
 

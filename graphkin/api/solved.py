@@ -273,7 +273,7 @@ def solve(
 
     given = as_scene(scene)
     most = 100_000 if moves_by_law(given) else 10_000_000
-    count, values = None if sweep is None else whole_number("sweep", sweep, 1, most, "so many positions"), None
+    count, values = None if sweep is None else whole_number("sweep", sweep, 1, most, "positions of number"), None
     if count is None or not moves_by_law(given):
         given, values = placed(given, at)
     elif at is not None:

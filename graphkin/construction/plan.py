@@ -47,7 +47,7 @@ from graphkin.structure import (
     pins_on_circles,
     without,
 )
-from graphkin.words import Phrase
+from graphkin.words import Phrase, links_named
 
 if TYPE_CHECKING:
     from graphkin.construction.group_plan import GroupPlan
@@ -105,8 +105,8 @@ class Task:
         gone = {n for e in self.opened.elements if e not in wanted for n in e.members}
         without = {"left out elements": gone, "left out accelerations": placed - pushed}
         names = [link.name for link in self.structure.scene.links]
-        told = {key: ", ".join(name for name in names if name in links) for key, links in without.items()}
-        return tuple(Phrase(key, links=links) for key, links in told.items() if links)
+        told = {key: [name for name in names if name in links] for key, links in without.items()}
+        return tuple(Phrase(key, links=links_named(links)) for key, links in told.items() if links)
 
     @property
     def in_order(self) -> Iterator[tuple[Order, Element]]:

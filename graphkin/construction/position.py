@@ -150,7 +150,7 @@ def place(
 def _dyad_steps(board: Board, paper: PlacedLinks, dyad: Dyad, intersection: Intersection, index: int) -> Steps:
     """How the loci of a dyad were drawn; on the board the words for its assembly, and what makes it uncertain."""
     links, one, two = ", ".join(dyad.links), dyad.outer_first, dyad.outer_second
-    of = dyad.inner.point if dyad.inner.turns else Phrase("these links", links=links)
+    of = dyad.inner.point if dyad.inner.turns else Phrase("links", links=links)
     board.notice("mechanism", "sharp crossing", of, size=intersection.sharpness)
     if not dyad.inner.turns and one.turns and two.turns:
         apart = abs(paper.point(one.b, one.point) - paper.point(two.b, two.point))

@@ -60,7 +60,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion, solve
 from graphkin.solver.pose import Array
 from graphkin.solver.quantities import pole
-from graphkin.words import about, gaps_of, languages, word
+from graphkin.words import gaps_of, languages, links_named, word
 from graphkin.words.symbols import plain_words
 
 WIDE = 96.0  # mm of the sketch of a group, its polygon below
@@ -322,8 +322,8 @@ def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
         if group.links:
             name, page = f"force-{turn}", FigurePage(sheet, "forces", language, lesson.letters, WIDE)
             drawn = group_picture(page, forces, stage, f"-{turn}")
-            links = said(about("force on links", group.links), language, links=", ".join(group.links))
-            figures.append(_figure(name, drawn, said_html(links), scale, named=True))
+            whose = said("force on links", language, links=links_named(group.links))
+            figures.append(_figure(name, drawn, said_html(whose), scale, named=True))
             equation = group_equation(page, group)
             svg = "" if equation is None else svg_element(equation)
         if len(forces.states) > 1 and group.links:

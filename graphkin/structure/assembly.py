@@ -9,7 +9,7 @@ from itertools import product
 
 from graphkin.errors import Problem, SceneError
 from graphkin.scene.model import Driver, Mechanism
-from graphkin.words import Phrase, Wording, listed
+from graphkin.words import Phrase, Wording, links_named, listed
 
 
 def pick(
@@ -39,7 +39,7 @@ def pick(
         if miss > 1e-6 * scene.size:
             raise SceneError.of(f"drawn.{point}", "drawn at but what is given for links",
                                 "what is given twice must agree to 1e-6", place=shown(scene.drawn[point]),
-                                links=", ".join(links), other=shown(candidates[nearest][point]))
+                                links=links_named(links), other=shown(candidates[nearest][point]))
     if len(candidates) == 1:
         return 0
     for given in (scene.drawn, scene.sketch):

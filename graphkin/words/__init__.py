@@ -24,7 +24,8 @@ from graphkin.words.symbols import plain, symbol
 __all__ = [
     "BOTH", "LANGUAGES", "Markup", "Neutral", "Phrase", "RichText", "Wording", "about", "alternatives", "area",
     "as_data", "as_markup", "as_plain", "class_of", "clause_of", "clauses", "filled", "from_data", "from_others",
-    "gaps_of", "in_all", "in_turn", "joined", "languages", "listed", "parts", "rich_text", "say", "sense_of", "word",
+    "gaps_of", "in_all", "in_turn", "joined", "languages", "links_named", "listed", "parts", "rich_text", "say",
+    "sense_of", "word",
 ]  # fmt: skip
 
 _TABLES = {path.stem: path for path in Path(__file__).parent.glob("*.toml")}
@@ -263,6 +264,15 @@ def listed(names: Sequence[object]) -> object:
     'mark B, C, D on link 2'
     """
     return joined("listed", names)
+
+
+def links_named(names: Sequence[object]) -> Phrase:
+    """Links, one at least, by their names.
+
+    >>> str(links_named(["2"])), str(links_named(["2", "3"]))
+    ('link 2', 'links 2, 3')
+    """
+    return Phrase("links", links=listed(names)) if len(names) > 1 else Phrase("link of name", name=names[0])
 
 
 def clauses(parts: Sequence[Wording]) -> Wording:

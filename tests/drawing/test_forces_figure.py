@@ -208,12 +208,12 @@ def test_the_opposite_of_a_driving_moment_is_drawn_with_its_sign() -> None:
 
 def test_a_force_inside_a_group_is_not_told_to_be_known_on_it() -> None:
     step = stages_of(DRIVEN_AGAINST_A_BLOCK)[0].steps[0]
-    assert "Cut links 1, 2, 3 free; known on them: $P$." == step.words("en")[0][1]
+    assert "Cut links 1, 2, 3 free; known forces and couples: $P$." == step.words("en")[0][1]
 
 
 def test_a_couple_that_is_known_of_a_sliding_pair_is_told_and_drawn_where_it_loads_the_next_link() -> None:
     words = [step.words("en")[0][1] for stage in stages_of(BLOCK_ON_THE_CRANK) for step in stage.steps]
-    assert "Cut links 2 free; known on them: $M_{32}$." in words
+    assert "Cut link 2 free; known forces and couples: $M_{32}$." in words
     page = graphkin.draw(BLOCK_ON_THE_CRANK, figures=["forces"]).figures["forces"]
     assert "M32" == text_of(page, "label-acts-2-M_3-2")
 

@@ -51,7 +51,7 @@ from graphkin.drawing.text import symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up, unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase, about, languages, listed, say, word
+from graphkin.words import Phrase, languages, links_named, say, word
 from graphkin.words.written import amount, on_paper, product
 
 SKETCH = 64.0  # mm, width of a sketch
@@ -181,7 +181,7 @@ def _below(page: FigurePage, account: ForceAccount, stage: ForceStage) -> Block:
     """Moments with their reasons, the vector equation with its rows, and what was read off."""
     group, said = stage.group, stage.told("moments", "system")
     if len(group.polygon) > 1 and group.way == "polygon":
-        said.append(Phrase(about("force reason polygon", group.links), links=listed(group.links)))
+        said.append(Phrase("force reason polygon", links=links_named(group.links)))
     equation = group_equation(page, group)
     couples, read = stage.told("couples"), ";  ".join(account.read_off(stage.state, group).values())
     return column(
