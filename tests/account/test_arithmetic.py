@@ -77,8 +77,8 @@ def test_trial_rates_are_divided_as_it_is_written(name):
 
 def test_the_sheet_tells_how_trials_are_divided():
     lines = [line for line in written_lines(*drawn("contour-four-bars"), "en") if isinstance(line, str)]
-    told = [line.replace("\u00a0", " ") for line in lines if "nothing open" in line]
-    assert "nothing open: $ω_{3}$ = −6 − 6.13 / (5.97 + 6.13) × 1.3 = −6.659 (−6.6584) rad/s" == told[0]
+    told = [line.replace("\u00a0", " ") for line in lines if "no gap" in line]
+    assert "no gap: $ω_{3}$ = −6 − 6.13 / (5.97 + 6.13) × 1.3 = −6.659 (−6.6584) rad/s" == told[0]
     assert 2 == len(told)
 
 

@@ -81,9 +81,9 @@ def test_every_length_in_a_product_is_given_or_measured(name):
 def test_what_trial_polygons_leave_open_is_told_with_its_sense():
     lines = told("double-butterfly")
     start = next(i for i, line in enumerate(lines) if line.startswith("trial polygons"))
-    assert "without link 8; on paper is open from $k$ to $p$ along $KD$, positive from $K$ to $D$:" in lines[start]
-    trials = ["$I$: $ω_{3}$ = −1 rad/s;  open 34.63 mm", "$II$: $ω_{3}$ = −1.6 rad/s;  open −9.23 mm"]
-    divided = "nothing open: $ω_{3}$ = −1 − 34.63 / (9.23 + 34.63) × 0.6 = −1.4737 rad/s"
+    assert "without link 8; gap on paper from $k$ to $p$ along $KD$, positive from $K$ to $D$:" in lines[start]
+    trials = ["$I$: $ω_{3}$ = −1 rad/s;  gap 34.63 mm", "$II$: $ω_{3}$ = −1.6 rad/s;  gap −9.23 mm"]
+    divided = "no gap: $ω_{3}$ = −1 − 34.63 / (9.23 + 34.63) × 0.6 = −1.4737 rad/s"
     assert [*trials, divided] == lines[start + 1 : start + 4]
 
 
@@ -138,7 +138,7 @@ def test_what_a_driver_between_links_of_a_group_adds_is_told_and_true(scene):
 
 
 @pytest.mark.parametrize(("language", "named"), [
-    ("en", "how far $B$ lies to the left of the guide g of link 5, less what it should,"),
+    ("en", "the distance of $B$ to the left of the guide g of link 5, less what it should be,"),
     ("zh", "$B$ 偏离构件 5 上导路 g 的距离（向左为正）减去应有值"),
 ])  # fmt: skip
 def test_what_is_missed_at_a_guide_is_told_with_the_guide(language, named):

@@ -24,7 +24,7 @@ def test_a_six_bar_is_explained_joint_by_joint() -> None:
         "link 5 slides on the guide 6.h with its point D, its own axis at 0° to it: a sliding pair",
     ]
     assert data["mobility"] == ["F = 3·5 - 2·7 - 0 = 1: as many as there are drivers"]
-    assert data["drivers"] == ["link 1 turns against link 6, now at 50°, clockwise with 10 rad/s (95.493 rpm)"]
+    assert data["drivers"] == ["link 1 turns relative to link 6, now at 50°, clockwise with 10 rad/s (95.493 rpm)"]
     assert data["groups"][:2] == [
         "links 2, 3: RPR, class II", "its assembly: B on the positive side of the guide of 2/3"
     ]  # fmt: skip

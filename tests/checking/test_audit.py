@@ -88,7 +88,7 @@ def test_drawings_in_pencil_are_within_drafting_accuracy():
         ({"a_D": "4609"}, "Coriolis reversed (ak_B@3/B@2, ak_D@4/D@3)"),
         ({"a_B_at_3": "3030"}, "normal term only"),
         ({"a_B_at_3": "2515"}, "tangential term only"),
-        ({"v_D": "99.2"}, "a relative vector for the absolute one: v_D@4/D@3"),
+        ({"v_D": "99.2"}, "a relative vector taken for the absolute one: v_D@4/D@3"),
         ({"v_D": "48.3"}, "millimetres on paper"),
     ],
 )

@@ -56,7 +56,7 @@ def test_values_measured_elsewhere_lie_over_the_theory_that_they_are_held_agains
     swept = graphkin.sweep("shaper-scheme-2", positions=2, measured=tmp_path / "class.csv")
     assert ["diagram-omega_4"] == list(swept.figures)
     words = words_of(swept.figures["diagram-omega_4"])
-    assert "1 values from elsewhere lie 0.03 rad/s" in words
+    assert "values measured elsewhere (1) deviate from the theory by 0.03 rad/s" in words
     (axes,) = swept.figures["diagram-omega_4"].figure().axes
     (dot,) = [line for line in axes.lines if line.get_marker() == "x"]
     assert (30.0, theory + 0.03) == pytest.approx((dot.get_xdata()[0], dot.get_ydata()[0]))
