@@ -40,11 +40,11 @@ Cell = Printed | tuple[str, Phrase] | None
 
 @dataclass(frozen=True)
 class Answers:
-    """What one person states, at which driver value or named position (None: the scene's, or that of the call), and how
-    it was found.
+    """The values that a person states, their driver value or named position (None: the scene's, or that of the call),
+    and how they were found.
 
-    ``cells`` stand in the order of the columns; ``variant`` is the name of the problem that was the person's ("" for
-    the scene itself), ``id`` another name of theirs, ``marks`` what a teacher gave (points by part).
+    ``cells`` stand in the order of the columns; ``variant`` is the name of the person's problem ("" for the scene
+    itself), ``id`` their number, ``marks`` the points that a teacher gave, by part.
     """
 
     person: str
@@ -67,17 +67,17 @@ def as_answers(scene: Mechanism, given: AnswersLike) -> tuple[tuple[Answers, ...
     The file has a line of heads: symbols as people spell them ("v_D", "ω3", "v_B3"), with or without a unit; behind
     one, or with its name, a column of directions or senses; ``at`` for the driver's value where rows are positions,
     ``variant``, ``name``, ``id``, and points already given for ``equations`` and ``drawing``.  Of other heads the first
-    names the person where none of these does; the rest is left alone.  A unit in a cell counts more than that of its
-    head, and that more than the scene's.  A vector is its size, with or without a direction, or two numbers.  An empty
-    cell is no answer; one that cannot be read is a verdict of its own.
+    names the person where none of these does; the rest is unused.  A unit in a cell goes before the unit of its head,
+    and that before the scene's.  A vector is its size, with or without a direction, or two numbers.  An empty cell is
+    no answer; an unreadable cell has a verdict of its own.
 
     Returns
     -------
-    The answers of each row, and the heads that were left alone
+    The answers of each row, and the unused heads
 
     Raises
     ------
-    CallError : everything that is wrong with the table itself, by line and column
+    CallError : all problems of the table itself, by line and column
     """
     if isinstance(given, Mapping):
         strange = [name for name, values in given.items() if not isinstance(values, Mapping)]
@@ -132,7 +132,7 @@ def _answers(
 
 
 def _cell(scene: Mechanism, symbol: Symbol, unit: str, text: str, ways: Sequence[str], sign: str) -> Cell:
-    """A cell with what other columns say of its direction or sense."""
+    """A cell with its direction or sense from other columns."""
     if is_blank(text):
         return None
     try:
@@ -145,8 +145,8 @@ def _cell(scene: Mechanism, symbol: Symbol, unit: str, text: str, ways: Sequence
 def _columns(
     scene: Mechanism, heads: Sequence[str], name: str, problems: list[Problem]
 ) -> tuple[dict[int, tuple[Symbol, str]], dict[int, Symbol], dict[Role, int]]:
-    """The columns of values with their units, those of directions and senses, and others by role; the faults of the
-    heads are added to ``problems``."""
+    """The columns of values with their units, of directions and senses, and others by role; problems of the heads are
+    added to ``problems``."""
     spelling = spelling_of(scene)
     values: dict[int, tuple[Symbol, str]] = {}
     ways: dict[int, Symbol] = {}

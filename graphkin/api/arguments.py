@@ -1,7 +1,7 @@
-"""What callers wish of figures and papers, in words: formats, language, convention, instrument.
+"""Arguments of the public functions: formats, language, convention, instrument, by their words;
 
-What callers may give: a scene in any of its forms, driver values in the driver's own unit, symbols by name, and a
-folder for the files of the result.
+a scene in any of its forms, driver values in the driver's own unit, symbols by name, and a folder for the files of the
+result.
 """
 
 from __future__ import annotations
@@ -48,11 +48,11 @@ def known_words(
     known_formats: Sequence[str] = FORMATS,
     known_languages: Sequence[str] = LANGUAGES,
 ) -> None:
-    """Refuse words that mean nothing, all of them together; None is not asked, or stands for the scene's own.
+    """Refuse unknown words, all of them together; None is the scene's own word, or none.
 
     Raises
     ------
-    CallError : every unknown word, with the nearest right one or all there are; no format at all
+    CallError : every unknown word, with the nearest right one or all of them; no format at all
     """
     if isinstance(formats, str):
         raise CallError.of("format", "is a text", "give a list", formats=formats)
@@ -78,7 +78,7 @@ def known_words(
 
 
 def unknown_words(where: str, words: Iterable[object], known: Iterable[str]) -> list[Problem]:
-    """What is wrong with each of some words that is none of those known, with the nearest right one or all of them."""
+    """The problem of each unknown word, with the nearest right one or all of them."""
     known = list(known)
     return [
         Problem(where, f'"{word!s:.60}"', did_you_mean(str(word)[:60], known))
@@ -88,7 +88,7 @@ def unknown_words(where: str, words: Iterable[object], known: Iterable[str]) -> 
 
 
 def known_workers(executor: object, workers: int | None) -> int | None:
-    """The number of processes, where one is given.  Raises CallError for another than 1 to 1024, and for an executor
+    """The number of processes, if it is given.  Raises CallError for a number outside 1 to 1024, and for an executor
     that takes no work."""
     workers = None if workers is None else whole_number("workers", workers, 1, 1024)
     if executor is not None and not hasattr(executor, "submit"):
@@ -97,8 +97,8 @@ def known_workers(executor: object, workers: int | None) -> int | None:
 
 
 def whole_number(where: str, value: object, least: int, most: int, counted: str = "") -> int:
-    """A whole number, one of NumPy too; ``counted`` is the key of what is counted.  Raises CallError for anything else,
-    and outside of the limits."""
+    """A whole number, also of NumPy; ``counted`` is the key of the counted things.  Raises CallError for another value,
+    and outside the limits."""
     number = isinstance(value, Real) and not isinstance(value, bool)
     if number and isinstance(value, Integral) and least <= int(value) <= most:
         return int(value)
@@ -117,14 +117,14 @@ MOST_SEED = 10**18
 
 
 def require_callable(where: str, function: object) -> None:
-    """Refuse what cannot be called, where a function is wanted or None.  Raises CallError."""
+    """Refuse a value that is neither a function nor None.  Raises CallError."""
     if function is not None and not callable(function):
         raise unfit(where, function, "give a function or leave it out")
 
 
 def as_scene(scene: SceneLike) -> Mechanism:
-    """A scene from a file, a name of one that comes along, a mapping, or a scene itself; a value of its driver that is
-    given from a dead point is found, and its rate from the speed of a point."""
+    """The mechanism of a file, of a bundled scene's name, of a mapping, or of a scene; a driver's value given from a
+    dead point is found, and its rate from the speed of a point."""
     given = mechanism_of(scene)
     if any(d.position for d in given.drivers):
         from graphkin.solver.named_positions import standing
@@ -138,8 +138,8 @@ def as_scene(scene: SceneLike) -> Mechanism:
 
 
 def for_paper(scene: SceneLike, asked: Sequence[Symbol] = ()) -> Mechanism:
-    """The same, if it is small enough to be read on paper; else what leads to the asked.  Raises CallError for more
-    than 20 moving links of it."""
+    """The scene, if it is small enough to be read on paper; else the part that leads to the asked quantities.  Raises
+    CallError where that has more than 20 moving links."""
     given = as_scene(scene)
     if asked and len(given.links) > MOST_DRAWN:
         from graphkin.solver import structure_of
@@ -189,8 +189,8 @@ def driver_values(scene: Mechanism, at: At) -> dict[str, float] | None:
 def placed(scene: Mechanism, at: At) -> tuple[Mechanism, dict[str, float] | None]:
     """A scene with the rates that its drivers have there, and driver values as `driver_values` gives them.
 
-    Drivers that move by a law over the time (``law``) have the rates of the moment that is asked, ``{"time": 0.25}``,
-    or of the first at which they come to the value asked; the others go on at their own.
+    Drivers that move by a law over time (``law``) have the rates of the asked moment, ``{"time": 0.25}``, or of the
+    first moment at which they reach the asked value; the others keep their own rates.
 
     Raises
     ------
@@ -250,7 +250,8 @@ def _driver(scene: Mechanism, name: str) -> Driver:
 
 
 def passed_words(scene: Mechanism, passed: Iterable[ChangePoint]) -> list[Phrase]:
-    """What to say of change points on the way: which branch was kept, why, and how to ask for the other."""
+    """The sentences on change points on the path: the branch that was kept, the reason, and how to ask for the
+    other."""
     said = []
     for links in dict.fromkeys(point.links for point in passed):
         at = [zip(scene.drivers, point.values, strict=True) for point in passed if point.links == links]
@@ -262,7 +263,7 @@ def passed_words(scene: Mechanism, passed: Iterable[ChangePoint]) -> list[Phrase
 def asked_symbols(
     scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] | None, drawn: bool = True
 ) -> tuple[Symbol, ...]:
-    """The symbols asked for: the given ones (or one alone), or the scene's own; loads that are moments are told.
+    """The asked symbols: the given ones (or a single one), or the scene's own; loads that are moments are marked.
 
     Parameters
     ----------
@@ -301,7 +302,7 @@ def asked_symbols(
 
 
 def drawn_symbols(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:
-    """What is asked, or is the scene's own wish; of a scene with masses and loads forces are drawn then too."""
+    """The asked symbols, or the scene's own; of a scene with masses and loads forces are drawn then too."""
     asked = asked_symbols(scene, find)
     if find is not None or not asked or not scene.loading or any(s.scope == "force" for s in asked):
         return asked
@@ -313,12 +314,12 @@ def drawn_symbols(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tupl
 
 
 def asked_here(asked: Sequence[Symbol]) -> tuple[Symbol, ...]:
-    """What is asked of the position itself; where all is asked of others, the same quantities here."""
+    """The symbols asked of the scene's own position; where all are asked of others, the same quantities here."""
     return tuple(s for s in asked if not s.at) or tuple(dict.fromkeys(s.here for s in asked))
 
 
 def hand_of(scene: Mechanism, name: str, seed: int) -> Instrument:
-    """The instrument of a name.  Raises CallError for another name."""
+    """The instrument of a name.  Raises CallError for an unknown name."""
     from graphkin.construction import EXACT, cad, pencil
 
     if not isinstance(name, str):
@@ -335,14 +336,15 @@ def hand_of(scene: Mechanism, name: str, seed: int) -> Instrument:
 def quantities_shown(
     scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] | None
 ) -> tuple[Quantity, ...]:
-    """What names show in a table.  Raises CallError, naming everything that names nothing here."""
+    """The quantities of names in a table.  Raises CallError with every name that names none."""
     from graphkin.study.quantities import Quantity
 
     return tuple(map(Quantity, asked_symbols(scene, find, drawn=False)))
 
 
 def own_folder(folder: str | os.PathLike[str] | None, name: str) -> Path:
-    """The folder that was given, or else one here with the name of the scene.  Raises CallError for what is no path."""
+    """The given folder, or else a folder here with the name of the scene.  Raises CallError for a value that is no
+    path."""
     from graphkin.files import path_of
     from graphkin.scene.scene import safe_name
 
@@ -350,7 +352,7 @@ def own_folder(folder: str | os.PathLike[str] | None, name: str) -> Path:
 
 
 def write_files(folder: Path, files: Mapping[str, bytes | Iterable[bytes]]) -> list[Path]:
-    """Write files by name, each from one piece or many, into a folder, which is made if it is not there, each whole or
+    """Write files by name, each from one piece or many, into a folder, which is made if it is missing, each whole or
     not at all; returns their paths.
 
     Raises

@@ -1,5 +1,5 @@
-"""``graphkin audit``: other people's values judged, what the wrong ones look like, and what a class did: points by a
-scheme, a slip for each student, what went wrong with each quantity."""
+"""``graphkin audit``: other people's values judged, the slips of wrong ones, and the results of a class: points by a
+scheme, a slip for each student, the slips in each quantity."""
 
 from __future__ import annotations
 
@@ -52,10 +52,10 @@ Person = tuple[Answers, tuple[Judged, ...]]
 class JudgedValue(Known):
     """A stated value with its verdict, in the file's units.
 
-    exact : what it is held against: signed where it has a sense, a complex number against two components, else the size
-        of the vector
-    deviation : the relative one; None where the exact value is 0
-    bound : what a pencil drawing keeps within
+    exact : the value for comparison: signed where it has a sense, a complex number against two components, else the
+        size of the vector
+    deviation : the relative deviation; None where the exact value is 0
+    bound : the error of a pencil drawing
     looks_like : the slip that explains a wrong value, in words; "" where none is known
     follows_from : earlier wrong values of the same person from which it follows
     """
@@ -90,7 +90,7 @@ class JudgedValue(Known):
 class Audited(OfScene, Result):
     """The values of each person with their verdicts; of a scene's ``[printed]`` values the person is "".
 
-    ``unused`` are heads of the table of answers that are no quantities, ``scheme`` how many points there are, ``scans``
+    ``unused`` are heads of the table of answers that are no quantities, ``scheme`` the points of each part, ``scans``
     drawings judged line by line.
     """
 
@@ -103,7 +103,7 @@ class Audited(OfScene, Result):
 
     @property
     def ok(self) -> bool:
-        """Whether no value is wrong, nor one that cannot be read, nor a line of a scan off."""
+        """Whether no value is wrong or unreadable, and no line of a scan is wrong."""
         if not all(scan.ok for scan in self.scans):
             return False
         wrong = {"wrong", "right from own values", "not readable"}
@@ -133,7 +133,7 @@ class Audited(OfScene, Result):
 
     @property
     def scan_lines(self) -> list[str]:
-        """What is to be said of the scans, in the language of the call."""
+        """The sentences on the scans, in the language of the call."""
         said = []
         for judged in self.scans:
             said.append(f"{word(f'scan of {judged.diagram}', self.language)}{word('colon', self.language)}")
@@ -150,7 +150,7 @@ class Audited(OfScene, Result):
 
     @property
     def _named(self) -> dict[str, str]:
-        """The columns that say whose a value is, with their heads."""
+        """The columns that name the person of a value, with their heads."""
         known = {
             "person": any(w.person for w, _ in self.people), "id": any(w.id for w, _ in self.people),
             "variant": any(w.variant for w, _ in self.people), "at": any(w.at is not None for w, _ in self.people),
@@ -183,8 +183,8 @@ class Audited(OfScene, Result):
         return rows
 
     def __getitem__(self, name: str) -> tuple[JudgedValue, ...]:
-        """What was judged of a symbol, one for each person who gave it, in the file's units.  Raises CallError for one
-        that nobody gave."""
+        """The judged values of a symbol, one for each person who gave it, in the file's units.  Raises CallError for a
+        symbol that nobody gave."""
         judged = [j for _, own in self.people for j in own]
         symbol = named({str(j.printed.symbol): j.printed.symbol for j in judged}, name, Phrase("no value of this name"))
         values = (j for j in judged if j.printed.symbol == symbol)
@@ -199,7 +199,7 @@ class Audited(OfScene, Result):
 
     @cached_property
     def students(self) -> Table:
-        """A row for each person: verdicts counted, points, the slip to talk about."""
+        """A row for each person: verdicts counted, points, the main slip."""
         rows = [row | row.pop("points", {}) for row in people_of(self.people, self.scheme, self.language)]
         return _tabled(rows, ("total", "of", "slip"), self.language)
 
@@ -272,8 +272,8 @@ def audit(
     -------
     Audited; each value is "right" (to the digits stated), "within drafting accuracy" (of a pencil drawing with the
     scene's scales and tools), "right from own values" (it follows from earlier wrong ones) or "wrong",
-    then with what it looks like where a common slip explains it; "not judged" (None in the JSON, with why) where a
-    pencil may be off by anything, beside a dead point; "missing" or "not readable" where there is no value
+    then with the slip that explains it, if there is one; "not judged" (None in the JSON, with why) where the error of a
+    pencil has no bound, near a dead point; "missing" or "not readable" where there is no value
 
     Raises
     ------
@@ -320,7 +320,7 @@ def audit(
 
 
 def _scanned(scene: Mechanism, at: At) -> tuple[JudgedScan, ...]:
-    """The scans of a scene, held against the exact drawing."""
+    """The scans of a scene, compared with the exact drawing."""
     given, values = placed(scene, at)
     solved_here(given, values)
     return judge_scans(execute(plan(given, values, ())))
@@ -329,9 +329,9 @@ def _scanned(scene: Mechanism, at: At) -> tuple[JudgedScan, ...]:
 def _problems(
     scene: Mechanism, people: Sequence[Answers], variants: str | os.PathLike[str] | Mapping[str, SceneLike] | None
 ) -> dict[str, Mechanism]:
-    """The scene of each variant that somebody had; "" is the scene itself.
+    """The scene of each variant in the answers; "" is the scene itself.
 
-    Raises CallError for answers to a variant that is nowhere.
+    Raises CallError for answers to an unknown variant.
     """
     named = sorted({who.variant for who in people if who.variant})
     if not named:
@@ -375,7 +375,7 @@ def _others_values(problems: Mapping[str, Mechanism], own: str) -> ValuesElsewhe
 
 
 def _with_signs(people: Sequence[Answers]) -> tuple[Answers, ...]:
-    """Answers in which the numbers of a column are signed where a sign was written before one of them."""
+    """The answers with the numbers of a column signed where one of them has a written sign."""
     signed = {
         (who.person, who.variant, who.by, p.symbol)
         for who in people for p in who.values if p.shows_sign and p.direction is None and not p.lines
@@ -392,7 +392,7 @@ def _with_signs(people: Sequence[Answers]) -> tuple[Answers, ...]:
 
 
 def _stated(scene: Mechanism) -> tuple[Answers, ...]:
-    """What a scene's own tables state, a row for each position."""
+    """The values stated in a scene's own tables, a row for each position."""
     answers: list[Answers] = []
     for own in scene.question.stated:
         if own.file:
@@ -436,7 +436,7 @@ def judged_table(
 def evidence_at(
     scene: Mechanism, asked: Sequence[Symbol], at: At, variants: ValuesElsewhere = lambda symbol: ()
 ) -> Evidence:
-    """Everything that is known of a scene at one position.
+    """The evidence on a scene at one position.
 
     ``variants`` gives the values of the other problems of its set.
     """
@@ -474,7 +474,7 @@ def _elsewhere(scene: Mechanism, values: dict[str, float] | None) -> ValuesElsew
 
 
 def _named(scene: Mechanism, at: float | str | None, value: float) -> str:
-    """How a row of a table is called: its position's name, or the driver's value."""
+    """The name of a table's row: its position's name, or the driver's value."""
     driver = scene.drivers[0]
     return at if isinstance(at, str) else f"{driver.key} = {scene.unit_of(driver).said(float(value))}"
 
@@ -487,7 +487,7 @@ Scheme = Mapping[str | Symbol, float]
 
 
 def scheme_of(scene: Mechanism, given: Mapping[str, float] | None) -> Scheme | None:
-    """The scheme of a call, or else that of the scene (``[grading]``); None where there is none.
+    """The scheme of a call, or else of the scene (``[grading]``); None without a scheme.
 
     Raises CallError for a name that is neither a part nor a quantity of the scene, and for points below 0.
     """
@@ -517,9 +517,9 @@ def scheme_of(scene: Mechanism, given: Mapping[str, float] | None) -> Scheme | N
 
 
 def people_of(people: Sequence[Person], scheme: Scheme | None, language: str) -> Iterator[dict[str, Any]]:
-    """For each person: the verdicts counted, the slip to talk about, and the points where there is a scheme.
+    """For each person: the verdicts counted, the main slip, and with a scheme the points.
 
-    The slip is the first one made: values that only follow from it are no slips.
+    The main slip is the first: values that follow from it are no slips.
     """
     for who, judged in people:
         slip = next((j.looks_like for j in judged if j.verdict == "wrong" and j.looks_like is not None), None)
@@ -534,7 +534,7 @@ def people_of(people: Sequence[Person], scheme: Scheme | None, language: str) ->
 
 
 def _points_of(who: Answers, judged: Sequence[Judged], scheme: Scheme) -> dict[str, Json]:
-    """Points by part, their sum, and of how many; a part that nobody has marked yet is None and not counted."""
+    """Points by part, their sum, and the greatest possible sum; a part without a mark yet is None and not counted."""
     alike = sum(symbol not in scheme for symbol in who.cells)  # these share what is given for all values
 
     def worth(symbol: Symbol) -> float:
@@ -557,19 +557,19 @@ def _points_of(who: Answers, judged: Sequence[Judged], scheme: Scheme) -> dict[s
 
 
 def _verdicts(who: Answers, judged: Sequence[Judged]) -> dict[Symbol, str]:
-    """The verdict on each cell; of those without a value it is one of two more."""
+    """The verdict on each cell; a cell without a value is "missing" or "not readable"."""
     unread = {s: "missing" if cell is None else "not readable" for s, cell in who.cells.items()}
     return unread | {j.printed.symbol: j.verdict for j in judged}
 
 
 def _counted(verdicts: Iterable[str]) -> dict[str, Json]:
-    """How often each verdict was given."""
+    """The count of each verdict."""
     counts = Counter(verdicts)
     return {verdict: counts[verdict] for verdict in COUNTED}
 
 
 def quantities_of(people: Sequence[Person], language: str) -> Iterator[dict[str, Json]]:
-    """For each quantity: the verdicts of the class counted, and the commonest slip with how many made it."""
+    """For each quantity: the verdicts of the class counted, and the commonest slip with its count."""
     verdicts = [_verdicts(who, judged) for who, judged in people]
     for symbol in dict.fromkeys(symbol for values in verdicts for symbol in values):
         values = [j for _, judged in people for j in judged if j.printed.symbol == symbol]
@@ -628,7 +628,7 @@ def _value(scene: Mechanism, judged: Judged, language: str) -> Row:
 
 
 def _plain(value: Value) -> float | list[float]:
-    """A number, or the components of a vector without what is left of one that cancels."""
+    """A number, or the components of a vector, 0 for a component that cancels."""
     if isinstance(value, complex):
         parts = (v if abs(v) > 1e-12 * abs(value) else 0.0 for v in (value.real, value.imag))
         return [float(f"{v:.12g}") + 0.0 for v in parts]

@@ -1,4 +1,4 @@
-"""``graphkin cam``: cams looked over, drawn by inversion, written out for a milling machine."""
+"""``graphkin cam``: cams examined, drawn by inversion, written as files for a milling machine."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ FINEST, COARSEST = 0.001, 30.0
 
 @dataclass(frozen=True)
 class CamMade:
-    """A cam: what is found of it, and how it was drawn."""
+    """A cam: its values, and its construction."""
 
     mechanism: Mechanism
     cam: LawCam
@@ -55,7 +55,7 @@ class CamMade:
 
     @cached_property
     def drawn(self) -> CamPoints:
-        """The drawn points held against the computed ones."""
+        """The drawn points compared with the computed ones."""
         return compare_cam(self.sheet)
 
     @property
@@ -68,7 +68,7 @@ class CamMade:
 
     @property
     def _rate(self) -> float:
-        """How fast the degree of the law grows (rad/s), where the cam is driven steadily about the frame; else 0."""
+        """The rate of the law's degree (rad/s), where the cam is driven steadily about the frame; else 0."""
         drivers = (d for d in self.mechanism.drivers if d.key == self.cam.link)
         driver = next(drivers, None)
         if driver is None or driver.relative_to != self.mechanism.frame.name or driver.second or driver.law is not None:
@@ -80,13 +80,14 @@ class CamMade:
 
     @cached_property
     def wanted_base(self) -> float | None:
-        """The least base radius of the profile (m) with which the cam is as wished; None where it is so, or none is."""
+        """The least base radius of the profile (m) that meets the wishes; None where the cam meets them, or no radius
+        does."""
         from graphkin.solver.cams import least_base
 
         return None if self.study.ok else least_base(self.cam)
 
     def phrases(self) -> list[Phrase]:
-        """What is to be said of it."""
+        """The sentences on it."""
         study, cam = self.study, self.cam
         unit = self.mechanism.units.length
         made = []
@@ -236,8 +237,8 @@ def cam_table(scene: Mechanism, step: float = STEP, discs: Sequence[DiscCam] = (
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Cams(OfScene, Result):
-    """The cams of a scene: what is found of each, the table of their points, and their figures; ``discs`` are discs
-    that the driver turns, measured as cams.
+    """The cams of a scene: the values of each, the table of their points, and their figures; ``discs`` are discs that
+    the driver turns, measured as cams.
 
     ``result["1"]`` is the cam of link 1.
     """
@@ -250,7 +251,7 @@ class Cams(OfScene, Result):
 
     @property
     def ok(self) -> bool:
-        """Whether every cam keeps what is allowed, can be cut, and is drawn as it is computed."""
+        """Whether every cam keeps its allowed angles, can be cut, and is drawn as it is computed."""
         return all(cam.ok for cam in self.made)
 
     @property
@@ -285,7 +286,7 @@ class Cams(OfScene, Result):
         }
 
     def sentences(self, language: str) -> list[str]:
-        """What is to be said of all of them."""
+        """The sentences on all of them."""
         sentences = [sentence for made in self.made for sentence in made.sentences(language)]
         return sentences + [say(phrase, language) for disc in self.discs for phrase in self._disc_notes(disc)]
 
@@ -315,7 +316,7 @@ class Cams(OfScene, Result):
 
     @cached_property
     def figures(self) -> dict[str, Drawing]:
-        """Each cam by inversion: "cam", and "cam-3" of a further one of link 3."""
+        """Each cam by inversion: "cam", and "cam-3" for a further cam of link 3."""
         spoken = self.language or self.mechanism.question.sheet.language
         return {"cam" if i == 0 else f"cam-{made.cam.link}": made.figure(spoken) for i, made in enumerate(self.made)}
 
@@ -346,7 +347,7 @@ def cam(
     formats: Sequence[str] = ("svg",),
     language: str | None = None,
 ) -> Cams:
-    """Look over the cams of a scene: pressure angles, curvature, undercutting, rates; drawn by inversion.
+    """Examine the cams of a scene: pressure angles, curvature, undercutting, rates; drawn by inversion.
 
     Discs that the driver turns under a follower are measured: base radius, rise, offset, pressure angle.
 

@@ -1,5 +1,5 @@
-"""``graphkin centres``: every instant centre, how it was found, the velocities taken through them, and the check; with
-``--centrode`` the centrodes of a link over a turn, and the path of a point of it."""
+"""``graphkin centres``: every instant centre with its construction, the velocities taken through them, and the check;
+with ``--centrode`` the centrodes of a link over a turn, and the path of a point of it."""
 
 from __future__ import annotations
 
@@ -101,9 +101,9 @@ class PlacedCentre:
 class Centred(OfScene, Result):
     """All instant centres of a scene at one position, with their check.
 
-    ``errors`` holds for each centre how far it lies from the exact one, as an angle seen from the middle of the
-    mechanism at half its size (so that far centres are judged by their direction), None where the two links do not
-    move relative to each other.
+    ``errors`` holds for each centre its distance from the exact one, as an angle seen from the middle of the mechanism
+    at half its size (so that far centres are judged by their direction), None where the two links do not move relative
+    to each other.
     """
 
     centres: Centres
@@ -122,7 +122,7 @@ class Centred(OfScene, Result):
 
     @property
     def spoken(self) -> str:
-        """The first of its languages."""
+        """Its first language."""
         return languages(self.language or self.mechanism.question.sheet.language)[0]
 
     @cached_property
@@ -131,12 +131,12 @@ class Centred(OfScene, Result):
 
     @cached_property
     def compared(self) -> dict[LinkPair, tuple[float, float] | None]:
-        """For each centre its error and what it may be."""
+        """For each centre its error and the allowed error."""
         return centre_errors(self.centres, self.motion)
 
     @cached_property
     def velocities(self) -> tuple[SpeedByCentres, ...]:
-        """Those asked for, or the angular velocity of every link and the velocity of every moving pin."""
+        """The asked velocities, or the angular velocity of every link and the velocity of every moving pin."""
         return velocities_by_centres(self.centres, self.motion)
 
     @property
@@ -216,7 +216,7 @@ class Centred(OfScene, Result):
 
     @cached_property
     def table(self) -> Table:
-        """A row for each centre, in scene units, with how it was found and how far it lies from the exact one."""
+        """A row for each centre, in scene units, with its construction and its distance from the exact one."""
         from graphkin.table import Table
 
         rows = []
@@ -240,7 +240,7 @@ class Centred(OfScene, Result):
 
     @cached_property
     def figures(self) -> Mapping[str, Drawing]:
-        """``figure`` ("centres"), and the pages on which it goes on ("centres-2")."""
+        """``figure`` ("centres"), and its further pages ("centres-2")."""
         return {"centres": self.figure, **{f"centres-{n}": page for n, page in enumerate(self.figure.further, 2)}}
 
     @property
@@ -264,7 +264,7 @@ class Centred(OfScene, Result):
 
 
 def found_centres(of: Mechanism | Structure, values: Mapping[str, float] | None) -> Centres:
-    """All centres at driver values in SI, on a drawing of a scale of its own that leaves room around the mechanism."""
+    """All centres at driver values in SI, on a drawing at its own scale with room around the mechanism."""
     centres = find_centres(of, values)
     return centres.at(centres.sheet.scales_for(ROOM))
 
@@ -274,7 +274,7 @@ def _name(pair: LinkPair) -> str:
 
 
 def _crossing(centre: Centre) -> list[list[str]]:
-    """What each line goes through on which a centre lies."""
+    """The points on each line that crosses at a centre."""
     return [[p if isinstance(p, str) else _name(p) for p in line.through] for line in centre.lines]
 
 
@@ -355,7 +355,7 @@ class Centroded(OfScene, Result):
 
     @property
     def data(self) -> dict[str, Json]:
-        """The object that ``graphkin centres --centrode --json`` prints, but for the files."""
+        """The object that ``graphkin centres --centrode --json`` prints, without the files."""
         return {"link": self.link, "ok": self.ok}
 
     @cached_property
@@ -410,7 +410,7 @@ def centrodes(
 
     Parameters
     ----------
-    scene, at : as for `solve`; the moving centrode is shown where it lies at this position
+    scene, at : as for `solve`; the moving centrode is shown at this position
     link : a moving link that neither turns about a fixed pivot nor only slides
     point : a point of the link, whose path is shown too
     out, formats, language, convention : as for `draw`

@@ -36,13 +36,13 @@ _FORMS = {
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Checked(OfScene, Result):
-    """A drawing, its readings, and how they compare with the exact values.
+    """A drawing, its readings, and their comparison with the exact values.
 
-    ``advice`` names the least certain reading of a drawing with finite tools, and what would help it; ``asked`` is
-    what the drawing was limited to, empty where it was not; ``passed`` are the change points on the way to it;
-    ``at_contacts`` is the same with sliding contacts drawn at the contact itself, where exact hands have drawn it so;
-    ``over_turn`` are asked values of the whole turn that stand in no single position, as they are computed;
-    ``forces`` are drawn by the same hands, None where there is neither mass nor load, or nothing of them is asked.
+    ``advice`` names the least certain reading of a drawing with finite tools, and its remedy; ``asked`` are the
+    quantities to which the drawing was limited, empty for all; ``passed`` are the change points on the path to it;
+    ``at_contacts`` is the drawing with sliding contacts drawn at the contact itself, if exact hands have drawn it so;
+    ``over_turn`` are asked values of the whole turn that belong to no single position, as they are computed; ``forces``
+    are drawn by the same hands, None where there is neither mass nor load, or no force is asked for.
     """
 
     sheet: Sheet
@@ -60,18 +60,18 @@ class Checked(OfScene, Result):
 
     @cached_property
     def part(self) -> Mechanism:
-        """The scene as far as it leads to the asked."""
+        """The part of the scene that leads to the asked quantities."""
         return part_of(self.sheet.structure, self.asked)
 
     @property
     def ok(self) -> bool:
         """Whether the drawing is whole and every reading lies within its tolerance; readings that are not determined
-        at this position count for nothing, and a drawing of such alone agrees with nothing."""
+        at this position do not count, and a drawing of such readings alone is not ok."""
         return self.complete and self.report.ok and (self.at_contacts is None or self.at_contacts.ok)
 
     @property
     def complete(self) -> bool:
-        """Whether all that is asked was drawn."""
+        """Whether all asked quantities were drawn."""
         return not self.report.missing
 
     def __repr__(self) -> str:
@@ -125,7 +125,7 @@ class Checked(OfScene, Result):
 
     @property
     def _construction(self) -> dict[str, Json]:
-        """How groups larger than a dyad were drawn: one word for all of them, and each by itself."""
+        """The construction of groups larger than a dyad: a word for all of them, and each by itself."""
         groups, forces = self.sheet.groups, dict[str, Json]()
         if self.forces is not None:
             forces = {"forces": ["drawn system" if way == "drawn system" else "moments and polygon"
@@ -138,7 +138,7 @@ class Checked(OfScene, Result):
 
     @property
     def scales(self) -> dict[str, float]:
-        """What one mm on paper is: mm, and scene units per second and second squared."""
+        """The scales, the value of one mm on paper: mm, and scene units per second and second squared."""
         scales, unit = self.report.scales, self.mechanism.units.rates.metres
         of = {
             "length": scales.length * 1e3,
@@ -150,15 +150,16 @@ class Checked(OfScene, Result):
 
     @cached_property
     def centres(self) -> Centres:
-        """The instant centres of what leads to the asked, from which velocities come by a third way."""
+        """The instant centres of the part that leads to the asked quantities, which give velocities in a third way."""
         from graphkin.construction.centres import centres_on
 
         return centres_on(self.sheet, self.asked)
 
     @property
     def _by_other_ways(self) -> Mapping[str, Mapping[Symbol, float]]:
-        """What was read, found in other ways: by instant centres (velocities), by Zhukovsky's lever (what balances),
-        and on the drawing at the contacts, which is this one where pins slide in straight slots; sizes of vectors, SI.
+        """The readings found by other methods: by instant centres (velocities), by Zhukovsky's lever (the balancing
+        load), and on the drawing at the contacts, which is this drawing where pins slide in straight slots; sizes of
+        vectors, SI.
         """
         symbols = [row.symbol for row in self.report.rows]
         velocities = {
@@ -195,9 +196,9 @@ def check(
     Parameters
     ----------
     scene, at : as for `solve`
-    find : what is asked, by name ("v_D", "omega_3"); the scene's own ``find`` if None; everything if that is empty
+    find : the asked quantities by name ("v_D", "omega_3"); the scene's own ``find`` if None; all if that is empty
     instrument : "exact", "cad" (lengths read to 0.01 mm, angles to 0.01 degree) or "pencil" (the tools of the scene's
-        ``[sheet.instrument]``); a finite one is judged by the uncertainty predicted from its construction
+        ``[sheet.instrument]``); a finite instrument is judged by the uncertainty predicted from the construction
     seed : of the pencil; the same seed draws the same sheet
 
     Raises
@@ -223,8 +224,8 @@ def check(
 
 
 def checked(what: Plan, motion: Motion, hand: Instrument, at_contacts: bool = True) -> Checked:
-    """Draw a plan and hold everything on it against the solver at the same position; sliding contacts at the contact
-    itself too, by the same hands on another sheet."""
+    """Draw a plan and compare all its readings with the solver at the same position; sliding contacts also at the
+    contact itself, by the same hands on another sheet."""
     from graphkin.solver.solve import as_drawn
     from graphkin.solver.values import exact_values, forces_here
 
@@ -255,7 +256,8 @@ def checked(what: Plan, motion: Motion, hand: Instrument, at_contacts: bool = Tr
 
 
 def with_elsewhere(made: Checked, asked: Sequence[Symbol], seed: int = 0) -> Checked:
-    """A check with what is asked of other positions ("v_C at 10"), each drawn by the same hands at the same scales.
+    """A check with the quantities asked of other positions ("v_C at 10"), each drawn by the same hands at the same
+    scales.
 
     Raises
     ------

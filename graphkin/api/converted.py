@@ -22,7 +22,8 @@ from graphkin.words import Phrase
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Converted(Result):
-    """A mechanism in another form: ``files`` by name, the ``scene``, and what could not be carried over (``left``)."""
+    """A mechanism in another form: ``files`` by name, the ``scene``, and the parts that could not be carried over
+    (``left``)."""
 
     scene: Scene
     ending: str
@@ -31,7 +32,7 @@ class Converted(Result):
 
     @property
     def ok(self) -> bool:
-        """Whether everything was carried over."""
+        """Whether all parts were carried over."""
         return not self.left
 
     @property
@@ -41,12 +42,12 @@ class Converted(Result):
 
     @property
     def data(self) -> dict[str, Json]:
-        """The scene as a mapping, and what was left out."""
+        """The scene as a mapping, and the parts left out."""
         return {"scene": self.scene.to_dict(), "left": list(self.left)}
 
     @cached_property
     def table(self) -> Table:
-        """A row for each moving link: its points, its length, what it slides on."""
+        """A row for each moving link: its points, its length, its guide."""
         rows = []
         for name, link in self.scene.links.items():
             on = [link.on] if isinstance(link.on, str) else list(link.on or ())
@@ -71,13 +72,13 @@ def convert(source: SceneLike, *, lossy: bool = False, out: str | os.PathLike[st
     ----------
     source : a file of another program, a shared link, or a scene in any of its forms
     out : the file to write, its form by the ending of its name: .toml, .linkage2, .pyslvs or .json
-    lossy : leave out what moves, drives or loads and cannot be carried over
+    lossy : leave out parts that move, drive or load and cannot be carried over
 
     Raises
     ------
-    CallError : the file is of no program known here, holds no mechanism, ``out`` cannot be written, or something that
-        moves, drives or loads would be lost
-    SceneError : what it holds is no mechanism
+    CallError : the file's program is unknown, it holds no mechanism, ``out`` cannot be written, or a part that moves,
+        drives or loads would be lost
+    SceneError : its content is no mechanism
     Unsolvable : a scene that cannot be assembled has no position to write
 
     Examples
@@ -110,7 +111,7 @@ def convert(source: SceneLike, *, lossy: bool = False, out: str | os.PathLike[st
 
 
 def _all_kept(bodies: Bodies, lossy: bool) -> None:
-    """Raises CallError naming what moves, drives or loads and would be lost."""
+    """Raises CallError naming the parts that move, drive or load and would be lost."""
     if bodies.lost and not lossy:
         raise CallError(
             *(Problem(t, Phrase("would be lost"), Phrase("with lossy lossy true it is left out")) for t in bodies.lost)

@@ -1,5 +1,5 @@
-"""``graphkin handout --template course-design``: the schemes of a course with all their positions, which of them each
-student draws, and their reports and table of the class as files."""
+"""``graphkin handout --template course-design``: the schemes of a course with all their positions, the scheme and
+position of each student, and the reports and the table of the class as files."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ GROUPS = ("group", "组", "组别")
 class CourseDesigns(OfScene, Result):
     """The reports of a course project: a file for each student, and the table of the class.
 
-    ``rows`` are the lines of that table: who, which scheme and position, what was read off there.
+    ``rows`` are the lines of that table: student, scheme and position, readings.
     """
 
     mechanism: Mechanism
@@ -88,7 +88,7 @@ class CourseDesigns(OfScene, Result):
 
     @cached_property
     def table(self) -> Table:
-        """A row for each student: who, variant, position, driver value, and each quantity as read off and exact."""
+        """A row for each student: name, variant, position, driver value, and each quantity as read and exact."""
         return class_table(self.mechanism, self.rows, self.asked)
 
     @cached_property
@@ -110,7 +110,7 @@ class CourseDesigns(OfScene, Result):
 
     @property
     def notes(self) -> tuple[Phrase, ...]:
-        """What was not done as asked: typeset PDF without the extra ``pdf``."""
+        """Deviations from the request: typeset PDF without the extra ``pdf``."""
         return () if self.typeset else (Phrase("no pdf extra"),)
 
     def __repr__(self) -> str:
@@ -139,11 +139,11 @@ def course_design(
     ----------
     scene, find : as for `check`
     students : a CSV file with a line for each student: a column name (姓名), and where wished id (学号), scheme
-        (方案, group) and position (位置, the name of one); who has no position gets the next one of their scheme, who
-        has no scheme the next one that has a position left.  Without it one report with a blank cover (one for each
+        (方案, group) and position (位置, its name); a student without a position gets the next one of the scheme, a student
+        without a scheme the next scheme with a position left.  Without it one report with a blank cover (one for each
         scheme)
     rows : a CSV file with a row of data for each scheme, as `problem_set` reads it
-    variants, seed : instead, so many schemes drawn as those of a problem set
+    variants, seed : instead, a number of schemes drawn as those of a problem set
     at : the position of the one report where there are no students; the scene's own if None
     positions : of the driver, numbered from 1, where the scene has no `[positions]`; 12 if None
     out : folder for the files; none are written without it
@@ -217,7 +217,7 @@ def course_design(
 
 
 def _stem(k: int, count: int, who: Student) -> str:
-    """The name of a report's file, which no two share."""
+    """The name of a report's file, unique in the set."""
     words = "-".join(word for word in (who.name or who.id, who.scheme, who.place) if word)
     return f"{k + 1:0{max(2, len(str(count)))}}-{safe_name(words) if words else 'report'}"
 
@@ -225,7 +225,7 @@ def _stem(k: int, count: int, who: Student) -> str:
 def _drawn(
     scene: Mechanism, name: str, language: str, convention: str, at: At = None
 ) -> Figures:
-    """The pages of a figure; none where it cannot be drawn: a report without it is whole in all else."""
+    """The pages of a figure; none where it cannot be drawn: the report is complete without it."""
     try:
         figure = draw(scene, at=at, language=language, convention=convention, figures=[name]).figures.get(name)
     except Unsolvable:
@@ -252,7 +252,7 @@ def _figures(scene: Mechanism, language: str, convention: str) -> dict[str, Figu
 
 
 def scheme_of(name: str, source: SceneLike, find: Iterable[str | Symbol] | None, count: int) -> Scheme:
-    """A mechanism with all its positions, each drawn and held against the solver."""
+    """A mechanism with all its positions, each drawn and compared with the solver."""
     scene = for_paper(as_scene(source))
     structure = solver.structure_of(scene)
     key = scene.drivers[0].key
@@ -276,7 +276,7 @@ def scheme_of(name: str, source: SceneLike, find: Iterable[str | Symbol] | None,
 
 
 def read_at(place: str, value: float, lesson: Lesson, asked: Sequence[Symbol]) -> PlaceValues:
-    """What was read off at a position, in scene units."""
+    """The readings at a position, in scene units."""
     rows = [row for row in lesson.report.rows if row.symbol in asked]
     read = {row.symbol: value_read(lesson, row) for row in rows}
     exact = {
@@ -287,14 +287,14 @@ def read_at(place: str, value: float, lesson: Lesson, asked: Sequence[Symbol]) -
 
 
 def scheme_name(course: Mapping[str, Scheme], who: Student) -> str:
-    """The scheme of a student; where there is but one, what stands in the table is the name of a group."""
+    """The scheme of a student; with a single scheme the table's entry is the name of a group."""
     return who.scheme if who.scheme in course else next(iter(course))
 
 
 def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) -> Iterator[Student]:
     """Every student with a scheme and a position of it.
 
-    Raises CallError for a table without names, and all schemes and positions that there are not.
+    Raises CallError for a table without names, and for all unknown schemes and positions.
     """
     table = table_of(students)
     columns = {
@@ -353,8 +353,8 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
 
 
 def asked_in_tables(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:
-    """What the tables show: what is asked of the position itself, else the motion of the last joint and the rates of
-    what turns about fixed pivots, else every velocity and acceleration that is read off."""
+    """The quantities in the tables: those asked of the position itself, else the motion of the last joint and the rates
+    of links about fixed pivots, else every velocity and acceleration that is read."""
     asked = (s for s in asked_symbols(scene, find) if s.scope in ("motion", "position", "force") and not s.at)
     kept = tuple(asked) or asked_of(scene.asking(find=()))
     if kept:

@@ -1,4 +1,4 @@
-"""``graphkin design``: a mechanism for what it shall do, constructed, measured, checked, and tried over a turn."""
+"""``graphkin design``: a mechanism for a task, constructed, measured, checked, and tried over a turn."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ CONFIRMS = 1e-6  # of what was asked: a turn found by searching for its limits
 class Designed(Result):
     """A mechanism found for a task: its drawing, its lengths, and the scene with them.
 
-    ``designed["AB"]`` is a length that was measured, with the exact one beside it, in the file's unit.
+    ``designed["AB"]`` is a measured length beside the exact one, in the file's unit.
     """
 
     given: Design
@@ -62,13 +62,13 @@ class Designed(Result):
 
     @property
     def ok(self) -> bool:
-        """Whether every length drawn agrees with the exact one, and a turn confirms what was asked; a position that
-        belongs to the other assembly of the links is told, and no fault."""
+        """Whether every drawn length agrees with the exact one, and a turn confirms the task; a position of the other
+        assembly of the links is told, and is no fault."""
         either = isinstance(self.given.task, BarPositionsTask | FunctionTask)
         return all(row.ok for row in self.rows) and (either or all(result.ok for result in self.confirmed))
 
     def __getitem__(self, name: str) -> FoundLength:
-        """A length by its name.  Raises CallError for one that there is not."""
+        """A length by its name.  Raises CallError for an unknown one."""
         length = named({row.symbol: row for row in self.rows}, name, where="length")
         return replace(length, unit=self.given.units.length)
 
@@ -79,7 +79,7 @@ class Designed(Result):
 
     @cached_property
     def confirmed(self) -> tuple[Confirmed, ...]:
-        """What was asked beside what the scene does."""
+        """The asked values beside those of the scene."""
         return tuple(self._confirmed())
 
     def _confirmed(self) -> Sequence[Confirmed]:
@@ -113,8 +113,8 @@ class Designed(Result):
     def _directions(
         self, task: BarPositionsTask | FunctionTask
     ) -> Iterator[tuple[Phrase, float, complex | None]]:
-        """The directions asked of the rocker or of the bar: in words, asked (degrees), and as the motion of the scene
-        has them (None where it does not lead there)."""
+        """The asked directions of the rocker or of the bar: in words, asked (degrees), and in the motion of the scene
+        (None where it does not reach them)."""
         places, turned = self.found.places, self.found.turned
         if isinstance(task, FunctionTask):
             for crank, rocker in task.pairs:
@@ -131,8 +131,8 @@ class Designed(Result):
             yield Phrase("design position value", position=str(i)), degrees(bar.C - bar.B), solved and solved * turn
 
     def _solved(self, crank: float, first: str, second: str) -> complex | None:
-        """The way from a point to another with the crank at an angle (degrees), by the motion that leads there; None
-        where it does not."""
+        """The vector from a point to another with the crank at an angle (degrees), by the motion to it; None where that
+        does not reach it."""
         import numpy as np
 
         from graphkin.api.solved import solve
@@ -151,7 +151,7 @@ class Designed(Result):
 
     @cached_property
     def choice(self) -> FreeDatum | None:
-        """The datum that might be chosen otherwise, and the best for the transmission; None where there is none."""
+        """The free datum with its best value for the transmission; None without a free datum."""
         from graphkin.solver.synthesis import choice
 
         free = choice(self.given.task)
@@ -205,7 +205,7 @@ class Designed(Result):
         ))  # fmt: skip
 
     def phrases(self) -> list[Phrase]:
-        """What is to be said of the result."""
+        """The sentences on the result."""
         made = [Phrase("turned bar", bar=name) for name in self.found.turned]
         made += [Phrase("other assembly", position=result.what) for result in self.confirmed if not result.ok]
         if self.found.least is not None:
@@ -222,7 +222,7 @@ class Designed(Result):
 
     @cached_property
     def figures(self) -> dict[str, Drawing | ChartPage]:
-        """The construction ("design"), and where a datum is free the chart of its choice ("choice")."""
+        """The construction ("design"), and with a free datum the chart of its choice ("choice")."""
         from graphkin.drawing.figures.constructions import choice_chart, design_figure
 
         spoken = self.language or self.given.sheet.language
@@ -257,19 +257,19 @@ def design(
     instrument: str = "exact",
     seed: int = 0,
 ) -> Designed:
-    """Find a mechanism for what it shall do: drawn, measured, checked against the closed form, tried over a turn.
+    """Find a mechanism for a task: drawn, measured, checked against the closed form, tried over a turn.
 
     Parameters
     ----------
-    file : a design file, the name of one that comes along, or a mapping of the same shape
-    out : folder for design.svg, choice.svg where a datum is free, and scene.toml
+    file : a design file, the name of a bundled one, or a mapping of the same shape
+    out : folder for design.svg, with a free datum choice.svg, and scene.toml
     language : "en", "zh" or "both" for the figure; the file's own if None
     instrument, seed : as for `check`
 
     Raises
     ------
     SceneError, CallError : the file or the call is wrong
-    Unsolvable : no mechanism does what is wished, with the nearest that one can
+    Unsolvable : no mechanism meets the wishes, with the nearest values that one can meet
 
     Examples
     --------

@@ -52,10 +52,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Drawn(OfScene, Result):
-    """The figures of a scene by name, with the check of everything on them.
+    """The figures of a scene by name, with the check of all their values.
 
-    In a notebook it shows the sheet.  ``wanted`` are the figures asked for, with ``by_name`` each by its name: what
-    cannot be drawn of them is an error.  ``figures["velocity"].save("v.pdf")`` picks the format by the name.
+    In a notebook it shows the sheet.  ``wanted`` are the asked figures; with ``by_name`` each was asked by its name,
+    and a figure that cannot be drawn is an error.  ``figures["velocity"].save("v.pdf")`` picks the format by the name.
     """
 
     checked: Checked
@@ -75,7 +75,7 @@ class Drawn(OfScene, Result):
 
     @cached_property
     def small(self) -> Checked:
-        """The same construction at the scales that fit the sheet, which bears its own readings."""
+        """The construction at the scales that fit the sheet, with its own readings."""
         from graphkin.drawing.sheet_plan import sheet_room
 
         fitting = replace(self.plan, scales=self.plan.scales_for(sheet_room(self.mechanism)))
@@ -83,8 +83,8 @@ class Drawn(OfScene, Result):
 
     @property
     def with_forces(self) -> Checked | None:
-        """The check of everything, forces included; None of a scene that has neither masses nor loads, and where
-        nobody asked for forces and they cannot be found."""
+        """The check of all values, forces included; None for a scene without masses and loads, and where forces are not
+        asked for and cannot be found."""
         made = self._all_checked
         if isinstance(made, Unsolvable) and self.by_name:
             raise made
@@ -92,7 +92,7 @@ class Drawn(OfScene, Result):
 
     @cached_property
     def _all_checked(self) -> Checked | Unsolvable | None:
-        """The check with forces, or why they cannot be found."""
+        """The check with forces, or the reason why they cannot be found."""
         if self.checked.sheet.has_forces:
             return self.checked
         if not self.mechanism.loading:
@@ -107,7 +107,7 @@ class Drawn(OfScene, Result):
 
     @property
     def not_drawn(self) -> Mapping[str, Wording]:
-        """The figures that were asked for by name, or for which the scene has a table, and that are not there, with the
+        """The figures asked for by name, or for which the scene has a table, that could not be drawn, with the
         reason."""
         made = {name.split("-")[0] for name in self.figures}
         missing = [name for name in self.wanted if name not in made]
@@ -137,8 +137,7 @@ class Drawn(OfScene, Result):
 
     @cached_property
     def figures(self) -> Mapping[str, Drawing]:
-        """The figures that were asked for, by name, and their further pages (sheet-2, where the sheet goes on); only
-        these are drawn."""
+        """The asked figures by name, and their further pages (sheet-2); only these are drawn."""
         made: dict[str, Drawing] = {}
         for name in self.wanted:
             figure = drawn_figure(self, name)
@@ -225,18 +224,18 @@ SUPPLIES: Mapping[str, Callable[[Drawn], tuple[Any, ...] | None]] = {
 
 
 def drawn_figure(drawn: Drawn, name: str) -> Drawing | None:
-    """A figure by its name; None where there is nothing to draw."""
+    """A figure by its name; None where it has no content."""
     figure = figure_kinds()[name]
     given = SUPPLIES[figure.needs](drawn)
     return None if given is None else figure.draw(*given, language=drawn.language, convention=drawn.convention)
 
 
 def known_figures(scene: Mechanism, names: Sequence[str] | None) -> tuple[str, ...]:
-    """The figures asked for, each once; without names the five that every scene has, and those it has a table for.
+    """The asked figures, each once; without names the five of every scene, and those for which the scene has a table.
 
     Raises
     ------
-    CallError : every name that is no figure
+    CallError : every name of no figure
     """
     if names is None:
         return tuple(name for name, figure in figure_kinds().items() if figure.by_itself(scene))
@@ -272,9 +271,9 @@ def draw(
     out : folder for the figures in each of the ``formats``, readings.csv and report.txt
     figures : names of figures, to draw these only; without it mechanism, velocity, acceleration, sheet, centres, and
         those for which the scene has a table
-    beside : of the figure "polygons": names of positions, or values of the first driver, whose polygons stand beside
-        each other; without it those that `[positions]` shows
-    driver : of the figure "structure": a link that drives instead of the scene's first driver, shown beside it
+    beside : of the figure "polygons": names of positions, or values of the first driver, whose polygons are compared;
+        without it the positions that `[positions]` shows
+    driver : of the figure "structure": a link as driver instead of the scene's first driver, shown beside it
     language : "en", "zh" or "both" (on the figures; the report is in English then); the scene's own if None
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
 
@@ -308,7 +307,7 @@ NARROWER = 40  # times that a place is halved in
 
 
 def shown_positions(what: Plan, values: Mapping[str, float]) -> Shown:
-    """What a scene's ``[positions]`` ask for; of a scene without them the limit positions.
+    """The positions that a scene's ``[positions]`` show; without them the limit positions.
 
     Parameters
     ----------
@@ -360,7 +359,7 @@ def _numbered(scene: Mechanism) -> tuple[str, ...]:
 
 
 def _outputs(scene: Mechanism, structure: Structure) -> list[str]:
-    """Outputs whose limits are shown, the likeliest first: that of position 1, slides on the frame, rockers."""
+    """Outputs whose limits are shown, the likeliest first: the output of position 1, slides on the frame, rockers."""
     frame, found = scene.frame, []
     if scene.question.positions is not None:
         places = (scene.question.positions.first, *scene.question.positions.also.values())
@@ -383,7 +382,7 @@ def _turn(structure: Structure, own: Sheet) -> TurnOfCrank | None:
 
 
 def _paths(structure: Structure, turn: TurnOfCrank, own: Sheet) -> dict[str, list[complex]]:
-    """The ways of points of links that no pivot holds to the frame and no guide: of couplers."""
+    """The paths of points of couplers, links without a pivot or a guide on the frame."""
     frame = structure.scene.frame
     held = {n for n, link in structure.links.items() if any(p in frame.points for p in link.points)}
     held |= {n for s in structure.slides for n in (s.a, s.b) if frame.name in (s.a, s.b)} | {frame.name}
@@ -402,7 +401,7 @@ def _paths(structure: Structure, turn: TurnOfCrank, own: Sheet) -> dict[str, lis
 def _least(
     structure: Structure, turn: TurnOfCrank, drawn: Callable[[float], Sheet]
 ) -> tuple[Sheet, float, tuple[complex, complex, complex]] | None:
-    """Where the transmission angle of the last group with a pin inside is least."""
+    """The position of the least transmission angle of the last group with an inner pin."""
     group = next((g for g in reversed(structure.groups) if isinstance(g, Dyad) and g.inner.turns), None)
     if group is None:
         return None
@@ -434,16 +433,16 @@ def _least(
 def sheets_beside(
     structure: Structure, drivers: Mapping[str, float], wished: Sequence[str | float]
 ) -> list[tuple[str, Sheet]]:
-    """The constructions at several positions, for polygons that stand beside each other.
+    """The constructions at several positions, for polygons beside each other.
 
     Parameters
     ----------
     drivers : values of the drivers (rad, m) in the scene's own position
-    wished : names of positions, or values of the first driver; without any those that ``[positions]`` shows
+    wished : names of positions, or values of the first driver; empty for those that ``[positions]`` shows
 
     Raises
     ------
-    CallError : fewer than two positions, or a name that is none
+    CallError : fewer than two positions, or a name of none
     Unsolvable : a position that cannot be assembled or reached
     """
     scene = structure.scene
@@ -462,7 +461,7 @@ def sheets_beside(
 
 
 def _number(text: str) -> float | str:
-    """A driver's value, as far as it is one."""
+    """A driver's value as a number; a name of a position stays a text."""
     try:
         return float(text)
     except ValueError:

@@ -1,4 +1,4 @@
-"""``graphkin explain``: what was understood of a scene, in words."""
+"""``graphkin explain``: the scene as graphkin understands it, in words."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ Sentence = tuple[str, Phrase]
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Explained(OfScene, Result):
-    """What a scene says: its units, links, joints, mobility, drivers, groups with their assembly, and what is asked.
+    """A scene in words: its units, links, joints, mobility, drivers, groups with their assembly, and its question.
 
     ``why`` is the reason why it cannot move as it is written, "" where it can; ``exit_code`` is the
     status of the command.
@@ -44,12 +44,12 @@ class Explained(OfScene, Result):
 
     @property
     def ok(self) -> bool:
-        """Whether the mobility is as many as there are drivers, and the position can be assembled."""
+        """Whether the mobility equals the number of drivers, and the position can be assembled."""
         return not self.why
 
     @property
     def text(self) -> str:
-        """All of it, paragraph by paragraph."""
+        """The whole text, paragraph by paragraph."""
         lines, before = [self.mechanism.question.title_in(self.language)], ""
         for about, phrase in self.sentences:
             if about != before:
@@ -60,13 +60,13 @@ class Explained(OfScene, Result):
 
     @cached_property
     def table(self) -> Table:
-        """A row for each sentence, with what it is about."""
+        """A row for each sentence, with its subject."""
         rows = [(word(about, self.language), plain_said(phrase, self.language)) for about, phrase in self.sentences]
         return Table.of(("about", "sentence"), rows)
 
     @cached_property
     def data(self) -> dict[str, Json]:
-        """The sentences by what they are about, in English."""
+        """The sentences by subject, in English."""
         found: dict[str, list[str]] = {}
         for about, phrase in self.sentences:
             found.setdefault(about.removeprefix("explained "), []).append(plain_said(phrase, "en"))
@@ -83,7 +83,7 @@ class Explained(OfScene, Result):
 
 
 def explain(scene: SceneLike, *, language: str | None = None) -> Explained:
-    """Say in words what was understood of a scene.
+    """Explain in words how graphkin understands a scene.
 
     Parameters
     ----------
@@ -92,8 +92,8 @@ def explain(scene: SceneLike, *, language: str | None = None) -> Explained:
 
     Raises
     ------
-    SceneError, CallError : the file or the call is wrong.  What cannot move as it is written is no error: ``why`` says
-        it
+    SceneError, CallError : the file or the call is wrong.  A mechanism that cannot move as written is no error: ``why``
+        tells it
 
     Examples
     --------
@@ -243,8 +243,8 @@ def _driver(scene: Mechanism, driver: Driver) -> Phrase:
 
 
 def _groups(structure: Structure, scene: Mechanism) -> Iterator[Phrase]:
-    """The groups in the order of solution, and in which assembly each lies, as far as it can be drawn; the points that
-    were sketched for it."""
+    """The groups in the order of solution, and the assembly of each, if it can be drawn; the points that were sketched
+    for it."""
     assembly: dict[str, Phrase] = {}
     with suppress(GraphkinError):  # the position cannot be had: solve says why
         assembly = dict(execute(plan(structure, None, ()), EXACT).assembly)
@@ -261,7 +261,7 @@ def _groups(structure: Structure, scene: Mechanism) -> Iterator[Phrase]:
 
 
 def _loads(scene: Mechanism) -> Iterator[Phrase]:
-    """Masses and loads, and what keeps them in balance."""
+    """Masses and loads, and the load that balances them."""
     units, loading = scene.units, scene.loading
     for mass in loading.masses:
         heavy, inertia = f"{mass.mass / units.kilograms:.6g} {units.mass}", units.of("inertia")

@@ -88,7 +88,7 @@ class Handout(OfScene, Result):
         return {"ok": self.ok, "key": [asdict(row) for row in self.key]}
 
     def __getitem__(self, name: str) -> KeyRow:
-        """A row of the key by its symbol.  Raises CallError for one that it does not have."""
+        """A row of the key by its symbol.  Raises CallError for a symbol that is not in it."""
         return named({row.symbol: row for row in self.key}, name, Phrase("no answer of this name"))
 
     @cached_property
@@ -100,13 +100,13 @@ class Handout(OfScene, Result):
 
     @property
     def notes(self) -> tuple[Phrase, ...]:
-        """What was not done as asked: typeset PDF without the extra ``pdf``."""
+        """Deviations from the request: typeset PDF without the extra ``pdf``."""
         return (Phrase("no pdf extra"),) if "pdf" in self.formats and not can_typeset() else ()
 
     @cached_property
     def files(self) -> Mapping[str, bytes]:
         """Content of each file: problem.html, handout.html, problem.pdf, solution.pdf, key.html, key.pdf, key.csv,
-        answers_template.csv for a class to fill in, and those for learning platforms."""
+        answers_template.csv for a class to fill in, and the files for learning platforms."""
         made = papers_in(self.lesson, self.formats, self._page)
         blank = answers_template(self.lesson.questions, self.mechanism.units, languages(self.lesson.language)[0])
         questions = files_for(self.question, self.exports) if self.question is not None else {}
@@ -171,7 +171,7 @@ def handout(
     language : "en", "zh" or "both"; the scene's own if None
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
     positions : of the driver, for the second slider of the page; 12 if None, 6 with more than 10 moving links
-    progress : called with the parts of the page done and the number of all, while its files are made
+    progress : called with the finished parts of the page and the number of all, while its files are made
     exports : "moodle", "gift", "prairielearn": questions with tolerances and feedback for learning platforms
 
     Raises
@@ -204,7 +204,7 @@ def papers_of(
     scene: SceneLike, formats: Sequence[str] = FORMATS, language: str | None = None, convention: str | None = None,
     exports: Sequence[str] = (),
 ) -> Papers:  # fmt: skip
-    """What writes the papers of each variant of a set: ``problem_set(scene, 30, render=papers_of(scene))``.
+    """The writer of the papers of each variant of a set: ``problem_set(scene, 30, render=papers_of(scene))``.
 
     Raises
     ------
@@ -235,7 +235,7 @@ def papers_in(
 
     Parameters
     ----------
-    page : makes handout.html of the stages of the solution
+    page : function that makes handout.html of the stages of the solution
     """
     worked = tuple(solution_blocks(lesson, beginning(lesson))) if "pdf" in formats or page is not None else ()
     sheets = {"problem": problem(lesson), "key": answer_key(lesson)}

@@ -1,4 +1,5 @@
-"""``prepare``: a mechanism made ready for an inner loop, at one position in no time, at millions, as many designs."""
+"""``prepare``: a mechanism made ready for an inner loop: at single positions in microseconds, at millions of positions,
+for many designs."""
 
 from __future__ import annotations
 
@@ -35,7 +36,7 @@ MOST_VALUE = 1e9
 
 
 def driver_value(value: object) -> float:
-    """A value of a driver as a caller gives it.  Raises CallError for what is no number."""
+    """A caller's value of a driver.  Raises CallError for a value that is no number."""
     if isinstance(value, Real) and not isinstance(value, bool) and abs(number := float(value)) <= MOST_VALUE:
         return number
     raise CallError.of("at", "is no driver value of value", "give a finite number below 1e9", value=f"{value!r:.60}")
@@ -43,11 +44,12 @@ def driver_value(value: object) -> float:
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Prepared(Tabled, OfScene):
-    """A mechanism with its assembly followed over the whole range of its first driver, and the code for what is asked.
+    """A mechanism with its assembly followed over the whole range of its first driver, and the code for the asked
+    quantities.
 
-    ``prepared["v_C"]``, ``table`` and the rest are what it gives at the scene's own position.
+    ``prepared["v_C"]``, ``table`` and the other results belong to the scene's own position.
 
-    asked : the quantities, as they were named
+    asked : the names of the quantities
     names : of the columns, two for a vector ("v_B.x", "v_B.y")
     fast : whether formulas are compiled (numba, the extra ``fast``): True always, False never, None for many positions
     """
@@ -67,14 +69,14 @@ class Prepared(Tabled, OfScene):
 
     @cached_property
     def units(self) -> dict[str, str]:
-        """The unit of each quantity asked for, forces last: the scene's length unit, seconds, degrees for angles, but
+        """The unit of each asked quantity, forces last: the scene's length unit, seconds, degrees for angles, but
         radians in their rates (rad/s, rad/s2)."""
         names = (*self.ready.wanted, *self.ready.loads)
         shown = zip(names, quantities_shown(self.mechanism, names), strict=True)
         return {name: quantity.unit(self.mechanism).text for name, quantity in shown}
 
     def place(self, name: str) -> int:
-        """Place of a quantity among those asked for.  Raises CallError for another one."""
+        """The index of an asked quantity.  Raises CallError for another one."""
         if name not in self.units:
             known = [*self.units, *self.names]
             raise CallError.of(f'"{name}"', "was not asked for", did_you_mean(name, known))
@@ -95,7 +97,7 @@ class Prepared(Tabled, OfScene):
 
     @property
     def table(self) -> Table:
-        """What it gives at the scene's own position: one row."""
+        """The values at the scene's own position: one row."""
         return self._here.table
 
     def driver_values(self, n: int) -> Reals:
@@ -116,7 +118,7 @@ class Prepared(Tabled, OfScene):
 
         Returns
         -------
-        In the order of ``names``; None where the motion does not come, and at a dead point
+        In the order of ``names``; None where the motion does not reach the position, and at a dead point
         """
         if type(value) is not float or not -MOST_VALUE <= value <= MOST_VALUE:
             value = driver_value(value)
@@ -141,12 +143,12 @@ class Prepared(Tabled, OfScene):
 
         Parameters
         ----------
-        out : where to put the values, real, shape (columns, n), rows without gaps: new memory costs more than many
-            sweeps take
+        out : array for the values, real, shape (columns, n), rows without gaps: new memory takes longer than many
+            sweeps
 
         Raises
         ------
-        CallError : n is no number of positions; ``out`` does not fit; numba is to compile and is not installed
+        CallError : n is no number of positions; ``out`` does not fit; numba is asked for and is not installed
         """
         if type(n) is not int or not 1 <= n <= MOST:
             n = whole_number("sweep", n, 1, MOST, "positions of number")
@@ -166,7 +168,7 @@ class Prepared(Tabled, OfScene):
             raise CallError.of("out", Phrase("of the shape", dtype=out.dtype, shape=out.shape), wanted)
 
     def over(self, designs: Mapping[str, ArrayLike]) -> PreparedDesigns:
-        """The same mechanism with other dimensions, nothing read or analysed again: for an optimiser's inner loop.
+        """This mechanism with other dimensions, without reading or analysing it again: for an optimiser's inner loop.
 
         Parameters
         ----------
@@ -200,7 +202,7 @@ class Prepared(Tabled, OfScene):
 
     @cached_property
     def _keys(self) -> dict[tuple[str, ...], DesignKeys]:
-        """What keys do, found once."""
+        """The numbers of the formulas that each key changes, found once."""
         return {}
 
     def compiled(self, n: int) -> bool:
@@ -208,7 +210,7 @@ class Prepared(Tabled, OfScene):
         return pays(n) if self.fast is None else self.fast
 
     def samples(self, columns: Reals, ok: NDArray[np.bool_], driver: Reals | None) -> Samples:
-        """What the code gives: the columns, and below them their bounds, where these were asked for."""
+        """The results of the code: the columns, and below them their bounds, if these were asked for."""
         if not self.ready.bounded:
             return Samples(self, columns, ok, driver, None)
         count = len(self.names)
@@ -243,7 +245,7 @@ class Samples(Tabled):
 
     values : real, shape (columns, n), in the order of ``Prepared.names``
     ok : bool, shape (n,): False at positions that the motion does not reach, and at dead points
-    designs : the values of the keys that the designs change, shape (designs,), or () where it is one alone
+    designs : the values of the keys that the designs change, shape (designs,), or () for a single design
     """
 
     prepared: Prepared
@@ -268,12 +270,12 @@ class Samples(Tabled):
         return Values.of(self._settled(first) + 1j * self._settled(first + 1), units[name])
 
     def _settled(self, column: int) -> Reals:
-        """A column, 0 where it is nothing but what rounding leaves."""
+        """A column, 0 where it is rounding alone."""
         return settled(self.values[column], self.prepared.ready.residues[column])
 
     def bound(self, name: str) -> Reals:
-        """How far rounding may have moved a quantity, shape (n,), in its unit: both components of a vector; infinite
-        where nothing is known.  Raises CallError where bounds were not asked for."""
+        """A bound of the rounding error of a quantity, shape (n,), in its unit: for both components of a vector;
+        infinite where it is unknown.  Raises CallError where bounds were not asked for."""
         if self._bounds is None:
             raise CallError.of("bound", "no bounds were asked for", "prepare with bounds true")
         return np.asarray(self._bounds[self.prepared.place(name)])
@@ -285,8 +287,8 @@ class Samples(Tabled):
 
     @property
     def table(self) -> Table:
-        """A row for each position (of each design): what the design changes, the driver, the columns, and whether there
-        is such a position."""
+        """A row for each position (of each design): the design's keys, the driver, the columns, and whether the
+        position exists."""
         shape, units, designs = self.ok.shape, self.prepared.units, self.designs or {}
         many = any(values.ndim for values in designs.values())
         index = ("design",) * many + ("position",) * (len(shape) - many)
@@ -320,9 +322,9 @@ class Samples(Tabled):
 class PreparedDesigns(Tabled, OfScene):
     """Many designs of a prepared mechanism.
 
-    ``designs["v_C"]``, ``table`` and the rest are what they give at the own position of each.
+    ``designs["v_C"]``, ``table`` and the other results belong to the own position of each.
 
-    values : of the keys that are changed, shape (designs,)
+    values : the values of the changed keys, shape (designs,)
     single : whether each is one number: then the arrays are those of one mechanism
     """
 
@@ -339,13 +341,13 @@ class PreparedDesigns(Tabled, OfScene):
         return self.prepared.mechanism
 
     def __getitem__(self, name: str) -> NDArray[np.float64] | NDArray[np.complex128]:
-        """A quantity or a column of all designs at the own position of each, shape (designs,), or () of a single one.
-        Raises CallError as ``Samples``."""
+        """A quantity or a column of all designs at the own position of each, shape (designs,), or () for a single
+        design. Raises CallError as ``Samples``."""
         return self._here[name]
 
     @property
     def table(self) -> Table:
-        """What they give at the own position of each: a row for each design."""
+        """The values at the own position of each: a row for each design."""
         return self._here.table
 
     @cached_property
@@ -408,16 +410,16 @@ def prepare(
 ) -> Prepared:
     """Make a mechanism ready to give a few quantities very often: for an optimiser, a simulation, a table of millions.
 
-    The scene is read and analysed, its assembly followed over the whole range of its first driver, and what is asked
-    for is written out as code, all of it once.
+    The scene is read and analysed, its assembly followed over the whole range of its first driver, and code written for
+    the asked quantities, all of it once.
 
     Parameters
     ----------
-    scene : a file, the name of a scene that comes along, a mapping of the same shape, or a `Scene`
+    scene : a file, the name of a bundled scene, a mapping of the same shape, or a `Scene`
     find : quantities by name: "C" (place of a point), "v_C", "a_C", "a_B@3" (of the point of link 3 that lies at B),
         "v_C/B" (relative), "theta_3", "omega_3", "alpha_3" (of a link), "s_3/4" (travel of a sliding pair); forces and
         moments ("F_5/6", "M_2"), which stand last, and are solved at each position
-    bounds : also how far rounding may have moved each of them, ``Samples.bound``
+    bounds : also a bound of the rounding error of each of them, ``Samples.bound``
     fast : compile the formulas with numba (the extra ``fast``): True on the first call, which then takes a second or
         two; False never; None in calls for 500,000 positions or more, where numba is installed
 
@@ -427,7 +429,7 @@ def prepare(
 
     Raises
     ------
-    SceneError, CallError : the file or the call is wrong, a name that names nothing
+    SceneError, CallError : the file or the call is wrong, a name of no quantity
     Unsolvable : wrong mobility; the scene's own position cannot be assembled, or is a dead point
 
     A mechanism with a group larger than a dyad has no closed form: it is served too, by Newton's method at each

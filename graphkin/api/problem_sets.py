@@ -58,8 +58,8 @@ MOST_OF_A_TURN = 355.0  # degrees: a driver that goes farther is free to stand a
 
 @dataclass(frozen=True, repr=False, eq=False)
 class ProblemSet(OfScene, Result):
-    """A set of problems: what became of each variant, the table of all answers, its remarks in a language, and the
-    files written."""
+    """A set of problems: the result of each variant, the table of all answers, its remarks in a language, and the
+    written files."""
 
     mechanism: Mechanism
     variants: tuple[Variant, ...]
@@ -98,7 +98,7 @@ class ProblemSet(OfScene, Result):
 
     @cached_property
     def table(self) -> Table:
-        """One row for each variant: its name, and each answer with its tolerance; failures at the end."""
+        """A row for each variant: its name, and each answer with its tolerance; failures at the end."""
         units = {a.symbol: a.unit for answers in self.answers.values() for a in answers}
         symbols = list(units) or [str(s) for s in asked_of(self.mechanism)]
         rows: list[tuple[object, ...]] = []
@@ -112,7 +112,7 @@ class ProblemSet(OfScene, Result):
         return Table.of(heads, rows, ("", *[".6g"] * (2 * len(symbols)), ""), beside)
 
     def __getitem__(self, name: str) -> tuple[Answer, ...]:
-        """The answers of a variant by its name.  Raises CallError for one that was not made."""
+        """The answers of a variant by its name.  Raises CallError for a variant that was not made."""
         return tuple(named(self.answers, name, Phrase("no variant of this name")))
 
     @property
@@ -139,19 +139,20 @@ def problem_set(
     workers: int | None = None,
     progress: Progress | None = None,
 ) -> ProblemSet:
-    """Make a set of problems from one scene: the same mechanism with other numbers for everyone.
+    """Make a set of problems from one scene: the same mechanism with other numbers for each student.
 
     Parameters
     ----------
-    variants, seed : how many, drawn afresh; each assembles, has round numbers, crosses no lines under 20 degrees,
-        shows every asked reading over 10 mm long, and differs in its answers from all others by more than one may err
+    variants, seed : their number, newly drawn; each assembles, has round numbers, crosses no lines under 20 degrees,
+        shows every asked reading over 10 mm long, and differs in its answers from all others by more than the tolerance
     rows : instead, a CSV file with a row of data for each group or student (see `graphkin.papers.data_rows`)
-    out : folder for a scene file of each variant, the rendered files and answers.csv; an interrupted set goes on
-    spread : how far the numbers vary
-    executor, workers : any that follows ``concurrent.futures.Executor``; or so many processes of one's own
-    render : gives files by name for a variant, called where the variants are made (so it must be picklable)
-    progress : called with the variants done and all
-    find : what is asked; the scene's own if None, or else the motion of the last joint and the rates of what turns
+    out : folder for a scene file of each variant, the rendered files and answers.csv; an interrupted set is continued
+    spread : the relative variation of the numbers
+    executor, workers : an executor like ``concurrent.futures.Executor``; or a number of own processes
+    render : function that gives files by name for a variant, called where the variants are made (so it must be
+        picklable)
+    progress : called with the number of finished variants and of all
+    find : the asked quantities; the scene's own if None, or else the motion of the last joint and the rates of links
         about fixed pivots
     language : of the remarks and of the table for a class to fill in; the scene's own if None
 
@@ -219,13 +220,13 @@ def problem_set(
 
 
 def half_written(folder: Path, stem: str) -> list[Path]:
-    """What a process that was killed while writing files of this stem has left in a folder."""
+    """The files of this stem that a killed process has left half-written in a folder."""
     pattern = re.compile(rf"\.{re.escape(stem)}-.*\.[a-z0-9_]{{8}}")
     return [path for path in folder.glob(".*") if pattern.fullmatch(path.name)]
 
 
 def _source(scene: SceneLike) -> tuple[OwnTables, str]:
-    """The mapping of a scene file, as it was written where that is possible, and the scene's name."""
+    """The mapping of a scene file, as it was written if possible, and the scene's name."""
     read = as_scene(scene)
     if isinstance(scene, Mechanism) or read.drawn:
         # drawn points tie every number to the position: lengths stand on their own
@@ -250,7 +251,7 @@ def _jobs(
 
 
 def _reach(scene: Mechanism) -> tuple[float, float] | None:
-    """Between which angles (degrees) a first driver goes that cannot turn fully; None for any other."""
+    """The least and greatest angle (degrees) of a first driver that cannot turn fully; None for another."""
     from graphkin.solver import driver_range, structure_of
 
     structure = structure_of(scene)
@@ -262,7 +263,7 @@ def _reach(scene: Mechanism) -> tuple[float, float] | None:
 
 
 def _data_of(source: Tables, rows: str | os.PathLike[str]) -> tuple[Rows, Columns]:
-    """A table of data, and what its columns are.  Raises CallError where none is a datum of the scene."""
+    """A table of data, and the meaning of its columns.  Raises CallError where none is a datum of the scene."""
     table = with_points(table_of(rows))
     columns = columns_of(source, table.heads)
     if not columns.data:
@@ -301,13 +302,13 @@ def schemes_of(
 def drawn_schemes(
     scene: SceneLike, variants: int, seed: int = 0, find: Iterable[str | Symbol] | None = None
 ) -> tuple[dict[str, Mechanism], tuple[tuple[str, ...], ...]]:
-    """So many mechanisms with other numbers, drawn as those of a problem set, by their names, and the table of what
-    varies, the names first.
+    """Mechanisms with other numbers, drawn as those of a problem set, by their names, and the table of the varied data,
+    the names first.
 
     Raises
     ------
     SceneError, CallError : the scene or the call is wrong
-    Unsolvable : one that is drawn nowhere as a good problem
+    Unsolvable : a variant that makes no good problem with any numbers
     """
     source, _ = _source(scene)
     if find is not None:
@@ -326,7 +327,7 @@ def drawn_schemes(
 
 
 def _head_of(source: Tables, path: KeyPath) -> str:
-    """A datum as a table heads it: the letters of a bar, the place of a point, or its key."""
+    """The head of a datum in a table: the letters of a bar, the place of a point, or its key."""
     if path[0] in ("gears", "cams") or "discs" in path:
         return ".".join(str(part + 1) if isinstance(part, int) else part for part in path[1:] if part != "discs")
     if path[0] == "links":
@@ -338,7 +339,7 @@ def _head_of(source: Tables, path: KeyPath) -> str:
 
 
 def _jobs_of_rows(source: Tables, columns: Columns, lines: Sequence[tuple[int, tuple[str, ...]]]) -> Iterator[Job]:
-    """One job for each row of data: its scene file, that with the driver where it was, what is wrong with it."""
+    """A job for each row of data: its scene file, that file with the driver unchanged, its problems."""
     used: set[str] = set()
     for number, (line, cells) in enumerate(lines, 1):
         known = columns.name is not None and columns.name < len(cells)

@@ -73,7 +73,7 @@ def report_text(checked: Checked, language: str) -> str:
 
 
 def _forces(checked: Checked, language: str) -> list[str]:
-    """How the forces were found, group by group, with the reason of each step."""
+    """The construction of the forces, group by group, with the reason of each step."""
     if checked.forces is None:
         return []
     from graphkin.account.forces import ForceAccount
@@ -95,7 +95,7 @@ def _forces(checked: Checked, language: str) -> list[str]:
 
 
 def lever_lines(checked: Checked, language: str) -> list[str]:
-    """What balances by Zhukovsky's lever, beside what the polygons give."""
+    """The balancing load by Zhukovsky's lever, beside that of the polygons."""
     lines = []
     units = checked.mechanism.units
     rows = {str(row.symbol): row for row in checked.report.rows}
@@ -115,7 +115,7 @@ def lever_lines(checked: Checked, language: str) -> list[str]:
 
 
 def _held_still(sheet: Sheet, language: str) -> list[str]:
-    """What was drawn apart, with one link for a frame."""
+    """The part that was drawn by itself, with a link held still."""
     if not sheet.held_still:
         return []
     steps = [f"{s.number:3}  {plain_said(s.phrase, language)}" for s in sheet.held_still]
@@ -123,7 +123,7 @@ def _held_still(sheet: Sheet, language: str) -> list[str]:
 
 
 def verdict(checked: Checked, language: str) -> str:
-    """Does the drawing agree with the solver; what is missing is said first."""
+    """Whether the drawing agrees with the solver; missing quantities are named first."""
     report = checked.report
     said = []
     if missing := [str(s) for s in report.missing if s not in checked.over_turn]:
@@ -146,8 +146,8 @@ def verdict(checked: Checked, language: str) -> str:
 
 
 def contact_lines(checked: Checked, language: str) -> list[str]:
-    """Whether the drawing at the sliding contacts themselves agrees with that of what replaces them, and the rates and
-    contacts that it finds."""
+    """Whether the drawing at the sliding contacts themselves agrees with the drawing of their replacements, and the
+    rates and contacts that it finds."""
     other = checked.at_contacts
     if other is None:
         pins = dict.fromkeys(p.point for p in checked.mechanism.pins)
@@ -190,7 +190,7 @@ def _rows(equation: Equation, language: str) -> list[str]:
 
 
 def _width(text: str) -> int:
-    """In columns of a terminal, of which a Chinese sign takes two."""
+    """The width in columns of a terminal; a Chinese character takes two."""
     return sum(2 if ord(c) > 0x2E7F else 1 for c in text)
 
 
@@ -269,7 +269,7 @@ def _forces_of_turn(turn: TurnStudy, language: str) -> list[str]:
 
 
 def _flywheel(turn: TurnStudy, language: str) -> list[str]:
-    """The flywheel that the scene asks for, or why it has none."""
+    """The flywheel that the scene asks for, or the reason why there is none."""
     flywheel, units = turn.flywheel, turn.scene.units
     if flywheel is None:
         return []
@@ -338,8 +338,8 @@ def _curves(turn: TurnStudy, language: str) -> list[str]:
 
 
 def reading_words(checked: Checked) -> Iterator[tuple[str, str, str, str, str, bool | None]]:
-    """Each reading in words: symbol, mm on paper, measured with as many figures as the drawing carries, exact, the unit
-    of the two, whether they agree."""
+    """Each reading in words: symbol, mm on paper, measured with the figures that the drawing carries, exact, their
+    unit, whether they agree."""
     scales, units = checked.report.scales, checked.mechanism.units
     for row in checked.report.rows:
         said = measured(row.reading, scales, units, row)

@@ -1,4 +1,4 @@
-"""What all results have in common: a table, plain data for programs, files, and how they show themselves."""
+"""The common properties of all results: a table, plain data for programs, files, and their display."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ T = TypeVar("T")
 
 
 class Tabled(ABC):
-    """What has a table, and says all that it has in the table's ways.
+    """A result with a table, its columns, its exports and its display.
 
-    ``tabled["v_C"]`` is one thing of it by its name, in the file's units and degrees, with its unit; ``table`` all of
-    it as columns with units, ``data`` the same for programs, ``write`` makes its files; a notebook shows it.
+    ``tabled["v_C"]`` is a value by its name, in the file's units and degrees, with its unit; ``table`` has all values
+    as columns with units, ``data`` for programs, ``write`` makes its files; a notebook shows it.
     """
 
     __slots__ = ()
@@ -43,7 +43,7 @@ class Tabled(ABC):
 
     @property
     def data(self) -> Json:
-        """For programs: each column of the table with its unit and its values; ``None`` where there is none."""
+        """For programs: each column of the table with its unit and its values; ``None`` for a missing value."""
         return self.table.data
 
     def write(self, folder: str | os.PathLike[str]) -> Sequence[Path]:
@@ -76,7 +76,7 @@ class Tabled(ABC):
         return True
 
     def __iter__(self) -> Iterator[str]:
-        """There is nothing to go through but by name: Python would ask for 0, 1, 2 ...  Raises TypeError."""
+        """Results are read by name only: Python would ask for 0, 1, 2 ... Raises TypeError."""
         raise TypeError(f"a {type(self).__name__} is asked by name, and has its rows in .table: it is not gone through")
 
     def to_pandas(self) -> pandas.DataFrame:
@@ -92,7 +92,7 @@ class Tabled(ABC):
 
 
 class OfScene:
-    """What has a mechanism, and so the scene that says it."""
+    """A result of a mechanism, with the scene of it."""
 
     if TYPE_CHECKING:
 
@@ -106,18 +106,18 @@ class OfScene:
 
     @cached_property
     def scene(self) -> Scene:
-        """The scene, as it was given: to be changed by key (``scene.replace("links.1.length", 60)``) and saved."""
+        """The scene as it was given, for changes by key (``scene.replace("links.1.length", 60)``) and saved."""
         from graphkin.scene.scene import Scene
 
         return Scene.saying(self.mechanism)
 
 
 class Result(Tabled):
-    """What a public function returns: its ``data`` is the object that the command of the same name prints under
+    """The result of a public function: its ``data`` is the object that the command of the same name prints under
     ``--json``.
 
-    Two results are equal if they are of one kind and say the same: the same ``data`` and the same ``table``.  They can
-    be pickled and sent to other processes; figures and tables are made anew there.
+    Two results are equal if they are of one kind with the same ``data`` and the same ``table``.  They can be pickled
+    and sent to other processes; figures and tables are made anew there.
     """
 
     figure_formats: ClassVar[Sequence[str]] = ("svg", "pdf", "png", "dxf")
@@ -126,7 +126,7 @@ class Result(Tabled):
     @property
     @abstractmethod
     def ok(self) -> bool:
-        """Whether all is as it should be: what the command of the same name says by its exit status."""
+        """Whether the result is as it should be: the exit status of the command of the same name."""
 
     @property
     @abstractmethod
@@ -136,11 +136,11 @@ class Result(Tabled):
     @property
     @abstractmethod
     def name(self) -> str:
-        """What it is of; its files go to a folder of that name where none is given."""
+        """Its name; its files go to a folder of that name if none is given."""
 
     @property
     def figures(self) -> Mapping[str, Drawing | ChartPage]:
-        """Its figures by name, with the pages on which they go on."""
+        """Its figures by name, with their further pages."""
         return {}
 
     @property
@@ -156,13 +156,13 @@ class Result(Tabled):
     def write(
         self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",), text: str = "glyphs"
     ) -> list[Path]:
-        """Write its figures, tables and further files into a folder, the one of its name if None; returns the paths.
-        Each file appears whole or not at all.
+        """Write its figures, tables and further files into a folder, by default a folder of its name; returns the
+        paths. Each file appears whole or not at all.
 
         Parameters
         ----------
         formats : of the figures: "svg", "pdf", "png", and of drawings "dxf"
-        text : how the letters of an SVG come along: as text with its "glyphs", or as "outlines"
+        text : the letters of an SVG: as text with its "glyphs", or as "outlines"
 
         Raises
         ------
@@ -177,7 +177,7 @@ class Result(Tabled):
         return paths + write_files(target, self.files)
 
     def pages(self, formats: Sequence[str], text: str = "glyphs") -> dict[str, bytes]:
-        """The files of its figures; on what page of a PDF a figure goes on, that page is no file.  Raises CallError."""
+        """The files of its figures; in PDF further pages of a figure are in its file.  Raises CallError."""
         from graphkin.api.arguments import known_words
 
         known_words(formats, text=text, known_formats=self.figure_formats)
@@ -190,7 +190,7 @@ class Result(Tabled):
         }
 
     def _repr_svg_(self) -> str | None:
-        """The first of its figures."""
+        """Its first figure."""
         return next((figure._repr_svg_() for figure in self.figures.values()), None)
 
     def __eq__(self, other: object) -> bool:
@@ -208,16 +208,16 @@ class Result(Tabled):
 
 
 def named(rows: Mapping[str, T], name: str, why: Wording = "", where: str = "") -> T:
-    """What has a name among the rows of a result.
+    """The row of a result with a name.
 
     Parameters
     ----------
-    why : what is said of a name that none of them has
-    where : what is asked for, where that is said before the name
+    why : the sentence on a name that no row has
+    where : the kind of the row, if it is said before the name
 
     Raises
     ------
-    CallError : there is none of that name, with the nearest one
+    CallError : there is no row of that name, with the nearest name
     """
     name = as_text(where or "name", name)
     if name not in rows:

@@ -1,4 +1,4 @@
-"""``graphkin scenes``: what comes along."""
+"""``graphkin scenes``: the bundled scenes."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Listed(Result):
-    """The scenes that come along: name, title, Chinese title, mobility; by its name ``listed[...]`` is one of them."""
+    """The bundled scenes: name, title, Chinese title, mobility; ``listed[...]`` is a scene by its name."""
 
     rows: tuple[tuple[str, str, str, int], ...]
 
@@ -54,7 +54,7 @@ class Listed(Result):
 
     @property
     def files(self) -> Mapping[str, bytes]:
-        """Each scene as it comes along."""
+        """The file of each scene."""
         return {f"{row[0]}.toml": library_text(row[0]).encode() for row in self.rows}
 
     def __repr__(self) -> str:
@@ -62,7 +62,7 @@ class Listed(Result):
 
 
 def scenes() -> Listed:
-    """List the scenes that come along, with title and mobility.
+    """List the bundled scenes, with title and mobility.
 
     >>> scenes()["sixbar-guide-40deg"].driver.omega
     -10.0

@@ -1,4 +1,4 @@
-"""The analytic solution in tables for people: the units of the file, degrees, 0 for what is nothing but rounding."""
+"""The analytic solution in tables for people: the units of the file, degrees, 0 for a value that is rounding alone."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class SolutionTable:
     """A table of every position of a solution.
 
     rows : name, and for each column its texts over the positions
-    right : columns of numbers, which stand to the right
+    right : columns of numbers, which are aligned to the right
     """
 
     heads: Sequence[str]
@@ -33,14 +33,14 @@ class SolutionTable:
     rows: list[tuple[str, Sequence[Sequence[str]]]] = field(default_factory=list)
 
     def at(self, k: int) -> list[list[str]]:
-        """Its rows at one position, but for those that have no value there."""
+        """Its rows with a value at a position."""
         rows = ([name, *(column[k] for column in columns)] for name, columns in self.rows)
         return [row for row in rows if row[1]]
 
 
 def solution_tables(solved: Solved, language: str) -> Iterator[tuple[str, Wording, list[SolutionTable]]]:
-    """For each position the values of the drivers, why there is no solution ("" where there is one), and the tables,
-    which are the same for all positions."""
+    """For each position the values of the drivers, the reason for a missing solution ("" where it is solved), and the
+    tables, which are the same for all positions."""
     motion, scene = solved.motion, solved.mechanism
     asked = SolutionTable([word("quantity", language), "", ""], (1,))
     for column in (column for name in solved.find for column in solved.columns(name)):
@@ -54,7 +54,7 @@ def solution_tables(solved: Solved, language: str) -> Iterator[tuple[str, Wordin
 
 
 def _texts(*parts: Array) -> list[str]:
-    """Numbers, or the components of vectors, over the positions; "" where there is none."""
+    """Numbers, or the components of vectors, over the positions; "" for a missing one."""
     return ["" if any(map(math.isnan, row)) else ", ".join(f"{x:.6g}" for x in row) for row in zip(*parts, strict=True)]
 
 
@@ -97,7 +97,7 @@ def _forces(found: Forces) -> Iterator[tuple[str, Sequence[Sequence[str]]]]:
 
 
 def _moments(found: Forces) -> Iterator[tuple[str, Sequence[Sequence[str]]]]:
-    """Moments with their unit; excess work and inertia of the flywheel that the scene asks for, where it has one."""
+    """Moments with their unit; excess work and inertia of the flywheel, if the scene asks for one."""
     motion = found.motion
     shown = [*_loads(found, False)]
     if motion.scene.loading.flywheel is not None:
@@ -112,8 +112,7 @@ def _moments(found: Forces) -> Iterator[tuple[str, Sequence[Sequence[str]]]]:
 
 
 def _loads(found: Forces, vectors: bool) -> Iterator[Quantity]:
-    """Forces, or moments, each followed by its value with the loads that begin or end exactly here, where there is
-    one."""
+    """Forces, or moments, each followed by its value with the loads that begin or end exactly here, if that differs."""
     for symbol in (symbol for symbol in found.values if symbol.is_vector is vectors):
         yield Quantity(symbol)
         if symbol in found.beside:
@@ -121,7 +120,7 @@ def _loads(found: Forces, vectors: bool) -> Iterator[Quantity]:
 
 
 def _there(found: Forces, quantity: Quantity, values: Array) -> Array:
-    """Values of a force, NaN where one with the loads that begin or end here says nothing more."""
+    """Values of a force; NaN where the loads that begin or end here do not change it."""
     symbol = quantity.symbol
     beside = found.beside.get(replace(symbol, plus=False)) if symbol.plus else None
     return values if beside is None else np.where(np.isnan(beside), np.nan, values)

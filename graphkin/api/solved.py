@@ -34,14 +34,14 @@ class Solved(OfScene, Result):
     """The motion of every link, point and sliding pair at one position or over a turn.
 
     ``solved["v_C"]`` is a quantity by its name as an array with its unit, shape (positions,): complex for vectors, in
-    the file's units and degrees, NaN where there is none, 0 where it is nothing but rounding.  ``table`` has all of
-    them, ``motion`` and ``forces`` more, in SI.  ``times`` are the moments (s), where drivers move by a law.
+    the file's units and degrees, NaN where it is missing, 0 where it is rounding alone.  ``table`` has all of them,
+    ``motion`` and ``forces`` more, in SI. ``times`` are the moments (s), if drivers move by a law.
 
-    A long sweep is found as it is asked for; ``blocks`` goes through it with no more in memory than some positions.
+    A long sweep is computed when it is read; ``blocks`` yields it with only some positions in memory.
 
-    values : of drivers (rad, m) by their keys, where they are not the scene's own
+    values : of drivers (rad, m) by their keys, where they differ from the scene's own
     count : positions of a sweep; None for one position
-    part : some positions of a sweep, which alone are meant
+    part : the positions of a sweep to which it is limited
     """
 
     structure: Structure
@@ -65,7 +65,7 @@ class Solved(OfScene, Result):
         return (asked_time(scene),) if self.count is None else tuple(moments(scene, self.count))
 
     def blocks(self) -> Iterator[Solved]:
-        """Itself, or a long sweep as some of its positions after the other."""
+        """The solution in blocks: itself, or the parts of a long sweep in turn."""
         if self.part is not None or "_moved" in self.__dict__:
             yield self
             return
@@ -79,7 +79,7 @@ class Solved(OfScene, Result):
         return self if self.part is not None else replace(self, part=next(self._motions()))
 
     def _motions(self) -> Iterator[Motion]:
-        """The motion whatever the forces are, of a long sweep some of its positions after the other."""
+        """The motion without regard to forces, of a long sweep part by part."""
         from graphkin import solver
 
         if self.count is None:
@@ -91,7 +91,7 @@ class Solved(OfScene, Result):
 
     @cached_property
     def _moved(self) -> Motion:
-        """The motion of all positions, whatever the forces are."""
+        """The motion of all positions, without regard to forces."""
         from graphkin import solver
 
         if self.part is not None:
@@ -101,14 +101,14 @@ class Solved(OfScene, Result):
 
     @property
     def motion(self) -> Motion:
-        """The motion; not solved where forces are asked and not known, as where the balance does no work."""
+        """The motion; a position is not solved where asked forces are unknown, as where the balance does no work."""
         if self.find and not any(quantity.is_load for quantity in quantities_shown(self.mechanism, self.find)):
             return self._moved
         return self._moved if self.forces is None else self.forces.known_motion
 
     @property
     def forces(self) -> Forces | None:
-        """All forces; None for a scene that carries nothing."""
+        """All forces; None for a scene without masses and loads."""
         from graphkin import solver
 
         return solver.forces_of(self._moved) if self._moved.scene.loading else None
@@ -130,7 +130,7 @@ class Solved(OfScene, Result):
 
     @cached_property
     def table(self) -> Table:
-        """A row for each position: the drivers' values, everything that moves, the status and the reason for it."""
+        """A row for each position: the drivers' values, all motions, the status and its reason."""
         from graphkin.study.quantities import all_that_moves, motion_table
 
         motion, scene = self.motion, self.mechanism
@@ -140,7 +140,7 @@ class Solved(OfScene, Result):
         return motion_table(scene, shown, bool(self.find), 0, motion.values, parts, motion.status, motion.why, times)
 
     def columns(self, name: str) -> list[Column]:
-        """What has a name, as columns of the table: a vector's size and components.  Raises CallError."""
+        """A quantity by its name, as columns of the table: a vector's size and components.  Raises CallError."""
         (shown,) = quantities_shown(self.mechanism, [name])
         return shown.columns(self.mechanism, shown.parts(None, self._moved))
 
@@ -151,13 +151,13 @@ class Solved(OfScene, Result):
 
     @cached_property
     def head(self) -> dict[str, Json]:
-        """What ``data`` says before its positions."""
+        """The entries of ``data`` before its positions."""
         from graphkin.solver import head
 
         return head(self.first.motion)
 
     def entries(self) -> Iterator[dict[str, Json]]:
-        """What ``data`` says of each position, one after the other: of a long sweep only some are in memory."""
+        """The entry of ``data`` for each position in turn: of a long sweep only some are in memory."""
         for block in self.blocks():
             yield from block._entries()
 
@@ -180,7 +180,7 @@ class Solved(OfScene, Result):
             yield entry
 
     def _plain(self, name: str) -> NDArray[np.float64]:
-        """What has a name, shape (positions,) or (positions, 2) for vectors; angles in radians."""
+        """A quantity by its name, shape (positions,) or (positions, 2) for vectors; angles in radians."""
         values = self[name]
         values = np.radians(values) if self.columns(name)[0].unit == "deg" else values
         return np.stack([values.real, values.imag], axis=1) if np.iscomplexobj(values) else values
@@ -190,7 +190,7 @@ class Solved(OfScene, Result):
 
         Raises
         ------
-        CallError : a chosen loop goes from a point to another that nothing joins, or no position is solved
+        CallError : a chosen loop joins two points that no link and no guide joins, or no position is solved
         """
         from graphkin.account.loops import loops_text
 
@@ -200,7 +200,7 @@ class Solved(OfScene, Result):
 
     @cached_property
     def ok(self) -> bool:
-        """Whether one position at least is solved."""
+        """Whether at least one position is solved."""
         return any(block.motion.ok.any() for block in self.blocks())
 
     @property
@@ -224,7 +224,7 @@ def _finite(value: NDArray[np.float64] | NDArray[np.complex128]) -> float | list
 
 
 def refused(scene: SceneLike, at: At, stop: Unsolvable) -> dict[str, Json]:
-    """The object of ``solve --json`` for a mechanism that is refused as a whole: its count, and why."""
+    """The object of ``solve --json`` for a mechanism that is refused as a whole: its mobility, and the reason."""
     given = as_scene(scene)
     given, values_at = placed(given, at)
     values = values_at or {}
@@ -245,21 +245,21 @@ def solve(
     find: str | Symbol | Iterable[str | Symbol] | None = None,
     sweep: int | None = None,
 ) -> Solved:
-    """Solve a scene analytically: position, velocity, acceleration of everything that moves.
+    """Solve a scene analytically: position, velocity, acceleration of all moving links and points.
 
     Parameters
     ----------
-    scene : a file, the name of a scene that comes along, a mapping of the same shape, or a `Scene`
+    scene : a file, the name of a bundled scene, a mapping of the same shape, or a `Scene`
     at : driver value other than the scene's own, in the driver's unit (degrees, or travel); with several drivers it
         moves the first, or a mapping names them
-    sweep : number of positions over a turn of the first driver (over its range, for a driven slide); over the time,
-        where drivers move by laws
-    find : what alone is to be given, by name ("v_D", "C", "theta_3", "F_5/6"); everything if None
+    sweep : number of positions over a turn of the first driver (over its range, for a driven slide); over time, if
+        drivers move by laws
+    find : the wanted quantities by name ("v_D", "C", "theta_3", "F_5/6"); all if None
 
     Raises
     ------
     SceneError, CallError : the file or the call is wrong
-    Unsolvable : wrong mobility.  Positions that cannot be assembled are no error: they carry their status.
+    Unsolvable : wrong mobility.  Positions that cannot be assembled are no error: they have their status.
 
     Examples
     --------

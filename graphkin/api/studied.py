@@ -1,4 +1,4 @@
-"""``graphkin study``: the methods against each other, as charts: speed and accuracy, and where each fails."""
+"""``graphkin study``: the methods compared, as charts: speed and accuracy, and the positions where each fails."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ T = TypeVar("T")
 
 
 class _Charted(Result):
-    """What both studies can be asked for: charts and one table, written to files or shown in a notebook."""
+    """The common part of both studies: charts and a table, written to files or shown in a notebook."""
 
     figure_formats = CHART_FORMATS
 
@@ -41,14 +41,14 @@ class _Charted(Result):
 
 @dataclass(frozen=True, repr=False, eq=False)
 class SpeedAccuracy(_Charted):
-    """What each method costs for one position, and how far it is off: measured in one run on this machine."""
+    """The cost of each method for a position, and its error: measured in one run on this machine."""
 
     name = "speed-accuracy"
     race: Race
     language: str
 
     def __getitem__(self, method: str) -> tuple[Entry, ...]:
-        """What a method gives, by its name in the table: several entries where it has steps, scales or sizes."""
+        """The results of a method by its name in the table: several entries for several steps, scales or sizes."""
         entries = self.race.entries
         rows = {e.key: tuple(o for o in entries if o.key == e.key) for e in entries}
         return named(rows, method, where="method")
@@ -67,7 +67,7 @@ class SpeedAccuracy(_Charted):
 
     @cached_property
     def table(self) -> Table:
-        """A row for each method: what a position costs (s), and its largest errors; first the floor."""
+        """A row for each method: the cost of a position (s), and its largest errors; first the floor."""
         from graphkin.races import race_table
 
         return race_table(self.race)
@@ -87,13 +87,13 @@ def speed_accuracy(
 ) -> SpeedAccuracy:
     """Let every method work the same scene: cost of a position against the largest error.
 
-    Drawing with pencil, on a CAD screen and exactly, instant centres, the closed form in its several dresses, Newton's
+    Drawing with pencil, on a CAD screen and exactly, instant centres, the closed form in its several forms, Newton's
     method, differences, a complex step, and peers where they are installed.
 
     Parameters
     ----------
     scene : as for `solve`; a mechanism without groups larger than a dyad
-    repeats : runs of each method, of which the fastest counts
+    repeats : runs of each method, the fastest counts
     language : "en" or "zh"; the scene's own if None
     out : folder for the chart (SVG) and speed-accuracy.csv
 
@@ -123,7 +123,7 @@ class Stability(_Charted):
     language: str
 
     def __getitem__(self, kind: str) -> Singularity:
-        """One kind of singular position, by its name."""
+        """A kind of singular position, by its name."""
         return named({singularity.key: singularity for singularity in self.singularities}, kind, where="kind")
 
     @cached_property
@@ -135,7 +135,7 @@ class Stability(_Charted):
 
     @property
     def ok(self) -> bool:
-        """Whether something was measured."""
+        """Whether any error was measured."""
         return bool(self.singularities)
 
     @cached_property
@@ -158,11 +158,11 @@ class Stability(_Charted):
 def stability(
     *, kinds: Iterable[str] = (), samples: int = 4, out: str | os.PathLike[str] | None = None, language: str = "en"
 ) -> Stability:
-    """Measure how the error of each method grows beside singular positions, and where it stops giving an answer.
+    """Measure the growth of each method's error near singular positions, and where it gives no answer.
 
     Parameters
     ----------
-    kinds : which singularities, by name ("dead point RRR", "parallel lines", ...); all if none is named
+    kinds : singularities by name ("dead point RRR", "parallel lines", ...); all if none is named
     samples : distances to each half of a decade; the largest error of them counts
     language : "en" or "zh"
     out : folder for the charts (SVG) and stability.csv

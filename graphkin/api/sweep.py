@@ -1,4 +1,5 @@
-"""``graphkin sweep``: the motion of the whole turn, of a scene or of many designs: as a study, tables and diagrams."""
+"""``graphkin sweep``: the motion over the whole turn, of a scene or of many designs: as a study, tables and
+diagrams."""
 
 from __future__ import annotations
 
@@ -62,10 +63,10 @@ IN_MEMORY = 200_000_000
 class Swept(OfScene, Result):
     """The motion over a turn of one scene, or of many designs of it.
 
-    ``swept["v_C"]`` is what is asked by its name, as an array: complex for vectors, in the scene's length unit, degrees
-    for angles; over designs of shape (designs, positions).  ``table`` has the drivers' values and the status of each
-    position besides.  Table, study and figures are made when they are first asked for.  ``paths`` are the files that
-    were written where a folder was given.
+    ``swept["v_C"]`` is an asked quantity by its name, as an array: complex for vectors, in the scene's length unit,
+    degrees for angles; over designs of shape (designs, positions).  ``table`` also has the drivers' values and the
+    status of each position.  Table, study and figures are made when they are first asked for.  ``paths`` are the files
+    written to a given folder.
     """
 
     figure_formats = CHART_FORMATS
@@ -93,17 +94,17 @@ class Swept(OfScene, Result):
 
     @property
     def ok(self) -> bool:
-        """Whether one position at least is solved."""
+        """Whether at least one position is solved."""
         return self.good > 0
 
     @property
     def outcomes(self) -> Mapping[str, int]:
-        """Over designs how many came out with each status."""
+        """Over designs the number of designs with each status."""
         return Counter(outcome.status for outcome in self.found.outcomes)
 
     def __getitem__(self, name: str) -> Array:
-        """A quantity by its name, as far as it was asked for, or any column of the table: NaN where there is none.
-        Raises CallError for an unknown one."""
+        """An asked quantity by its name, or any column of the table: NaN where it is missing.  Raises CallError for an
+        unknown one."""
         name = as_text("name", name)
         quantity = next((w for w in self.over.base.watched if w.name == name), None)
         if quantity is None:
@@ -118,7 +119,7 @@ class Swept(OfScene, Result):
 
     @cached_property
     def table(self) -> Table:
-        """A row for each position: what is asked in the scene's units, degrees for angles, and its status."""
+        """A row for each position: the asked quantities in the scene's units, degrees for angles, and its status."""
         if self.found.arrays is not None:
             return self.over.base.table_of(self.found.arrays, self.rows, 0, self.rows)
         if self.found.table is not None:
@@ -127,7 +128,7 @@ class Swept(OfScene, Result):
 
     @cached_property
     def designs(self) -> Table | None:
-        """Over designs a row for each: what was replaced, how it came out, strokes, K, least transmission angles."""
+        """Over designs a row for each: replaced values, status, strokes, K, least transmission angles."""
         from graphkin.study.sweeps import designs_table
 
         return designs_table(self.over, self.found.outcomes) if self.over.designs.keys else None
@@ -143,7 +144,7 @@ class Swept(OfScene, Result):
 
     @cached_property
     def time(self) -> TimeStudy | None:
-        """The study over the time of a scene whose drivers move by laws; None of others, and over designs."""
+        """The study over time of a scene whose drivers move by laws; None for others, and over designs."""
         if self.over.designs.keys or not moves_by_law(self.over.scene):
             return None
         from graphkin.study.over_time import study_time  # it loads the drawing board
@@ -152,7 +153,7 @@ class Swept(OfScene, Result):
 
     @property
     def _wished(self) -> list[Quantity]:
-        """What is asked besides the scene's own wishes: it alone is drawn."""
+        """The quantities asked besides the scene's own wishes: only these are drawn."""
         by_scene = [str(s) for s in self.over.scene.question.find]
         wished = [q for q in self.over.asked if q.kind != "place"]
         return wished if [q.name for q in self.over.asked] != by_scene else []
@@ -201,7 +202,7 @@ class Swept(OfScene, Result):
 
     @cached_property
     def chords(self) -> Mapping[str, Chords]:
-        """What was differentiated or integrated on paper, by the names of their figures."""
+        """The diagrams differentiated or integrated on paper, by the names of their figures."""
         if not self.on_paper:
             return {}
         from graphkin.study.graphical import graphical  # it loads the drawing board
@@ -210,8 +211,8 @@ class Swept(OfScene, Result):
         return {f"{way}-{name.replace('/', '-')}": graphical(reach, name, way) for way, name in self.on_paper}
 
     def to_xarray(self) -> xarray.Dataset:
-        """The table as a data set of xarray with units, over ``position`` or over ``design`` and ``position``, with
-        what is replaced as coordinates of the designs.  Raises CallError where it is not installed."""
+        """The table as a data set of xarray with units, over ``position`` or over ``design`` and ``position``, with the
+        replaced values as coordinates of the designs.  Raises CallError where it is not installed."""
         data = self.table.to_xarray()
         return data.assign_coords({key: ("design", data[key].values[:, 0]) for key in self.over.designs.keys})
 
@@ -223,7 +224,7 @@ class Swept(OfScene, Result):
 
     @property
     def files(self) -> Mapping[str, bytes]:
-        """The tables of what was differentiated or integrated on paper."""
+        """The tables of the diagrams differentiated or integrated on paper."""
         if not self.on_paper:
             return {}
         from graphkin.study.graphical import chords_table
@@ -233,8 +234,8 @@ class Swept(OfScene, Result):
     def write_figures(
         self, folder: str | os.PathLike[str], formats: Sequence[str] = ("svg",), text: str = "glyphs"
     ) -> list[Path]:
-        """Write what ``write`` does, but for the tables; returns the paths.  Raises CallError for an unknown format or
-        a folder that cannot be written."""
+        """Write the files of ``write`` without the tables; returns the paths.  Raises CallError for an unknown format
+        or a folder that cannot be written."""
         return write_files(path_of(folder), {**self.pages(formats, text), **self.files})
 
     @property
@@ -291,31 +292,32 @@ def sweep(
     """Follow a scene over the whole turn of its driver, alone or as many designs.
 
     Velocities, accelerations and rates that ``find`` names come at the speed of the prepared engine (see
-    `graphkin.solver.prepare`): a million positions in some milliseconds.  Everything else is made when it is asked for.
+    `graphkin.solver.prepare`): a million positions in some milliseconds.  The other results are made when they are
+    asked for.
 
     Parameters
     ----------
     scene, at : as for `check`
-    find : what the table shows, the symbols of `check` and "C" (place of a point), "theta_3" (angle of a link), "s_3/4"
-        (travel of a sliding pair); the scene's own if None, or else everything that moves
+    find : quantities of the table, the symbols of `check` and "C" (place of a point), "theta_3" (angle of a link),
+        "s_3/4" (travel of a sliding pair); the scene's own if None, or else all motions
     out : folder for table.csv (and table.parquet where pyarrow is installed), designs.csv and the figures; an
-        interrupted sweep into the same folder goes on where it stopped
+        interrupted sweep into the same folder is continued
     positions : rows of the table, over a turn from the scene's own value on, or over the range of a driven slide; of a
-        scene with named positions from position 1 on, and as many as it counts; else 36
+        scene with named positions from position 1 on, by default their count; else 36
     designs : numbers to replace, by keys of the scene file with dots: {"links.1.length": "40:60:21"} is a grid of 21,
         "40,50,60" or a sequence a list; several keys give every combination
-    designs_file : a CSV file whose head names such keys
+    designs_file : a CSV file whose heads are such keys
     executor : any ``concurrent.futures.Executor``; the result is the same, byte for byte
     workers : number of processes instead, for a sweep that takes some seconds; scheduler: address of a Dask cluster
         instead
     progress : called with the rows done and all rows
     text : letters of an SVG as text with its "glyphs", or as "outlines"
     measured : a CSV file with a row for each position (a column ``at``: driver value or name of a position) and symbols
-        as heads: values measured elsewhere, laid over the diagrams of these quantities
+        as heads: values measured elsewhere, drawn into the diagrams of these quantities
 
     differentiate, integrate : angles, travels, coordinates or rates of them ("s_6/1", "theta_4", "omega_4", "x_C",
-        "v_C.x") whose diagrams are differentiated or integrated on paper, with chords and a pole, measured and held
-        against the solver
+        "v_C.x") whose diagrams are differentiated or integrated on paper, with chords and a pole, measured and compared
+        with the solver
 
     Raises
     ------
@@ -400,7 +402,7 @@ def sweep(
 
 
 def _over_time_alone(**wishes: object) -> None:
-    """Refuse what counts along the driver, where drivers move by laws over the time."""
+    """Refuse arguments that count along the driver, where drivers move by laws over time."""
     given = [name for name, wish in wishes.items() if wish not in (None, ())]
     if given:
         refusal = Phrase("does not go with a driver that moves")
@@ -408,8 +410,8 @@ def _over_time_alone(**wishes: object) -> None:
 
 
 def _elsewhere(scene: Mechanism, measured: AnswersLike) -> dict[Quantity, list[tuple[float, float]]]:
-    """Values measured elsewhere, each with that of the first driver (rad, m): SI, of a vector its size, or its place
-    along the guide on which it lies, where a sign stands in the column."""
+    """Values measured elsewhere, each with the first driver's value (rad, m): SI, of a vector its size, or, where the
+    column has signs, its place along the guide on which it lies."""
     from graphkin.api.answers import as_answers
     from graphkin.solver import senses_along, solve
     from graphkin.study.quantities import Quantity
@@ -432,7 +434,7 @@ def _elsewhere(scene: Mechanism, measured: AnswersLike) -> dict[Quantity, list[t
 
 
 def _asked(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Quantity, ...]:
-    """What is asked, in its order.  Raises CallError, naming everything that names nothing."""
+    """The asked quantities in their order.  Raises CallError with every name of none."""
     if find is None:
         by_scene = scene.question.find
         shown = (s for s in by_scene if s.scope not in ("turn", "cycle") and s.kind not in ("h", "arm") and not s.at)

@@ -1,4 +1,4 @@
-"""The papers of what is solved by one construction (a synthesis, a cam): problem sheet, worked solution, key."""
+"""The papers of a task with a single construction (a synthesis, a cam): problem sheet, worked solution, key."""
 
 from __future__ import annotations
 
@@ -64,11 +64,11 @@ def _papers(
 
     Parameters
     ----------
-    given : sentences of what is given and asked
+    given : sentences on the given and the asked
     start : figures that the problem begins with, to scale
-    whole : figures of the finished construction, by what each shows
-    steps : what is done, with its reason
-    notes : what is found of the result
+    whole : figures of the finished construction, by their subjects
+    steps : each step with its reason
+    notes : sentences on the result
     language : "en", "zh" or "both"
     """
 
@@ -111,7 +111,7 @@ def _papers(
 def _result(
     name: str, unit: str, read: str, exact: str, value: float, deviation: float, least: float = 0.0
 ) -> Result:  # fmt: skip
-    """A result, of which a pencil drawing may be off by so many deviations as are accepted."""
+    """A result with its tolerance, the accepted number of standard deviations of a pencil drawing."""
     _, within = accepted(value, COVERAGE * deviation, least)
     return {"quantity": name, "unit": unit, "measured": read, "value": exact, "exact": exact, "accept": within}
 
@@ -157,7 +157,7 @@ def write_design_papers(
 
 
 def _notes(designed: Designed, language: str) -> list[Said]:
-    """What a turn of the found mechanism confirms, and what else is said of it."""
+    """Sentences on the found mechanism, and on its values over a turn."""
     made: list[Said] = []
     known = [value for value in designed.confirmed if math.isfinite(value.found)]
 
@@ -173,7 +173,7 @@ def _notes(designed: Designed, language: str) -> list[Said]:
 
 
 def _by_sentence(spoken: Mapping[str, Sequence[str]]) -> list[Said]:
-    """Sentences of each language, put together one by one."""
+    """The sentences of each language, joined one by one."""
     sentences = ([(each, in_markup(text)) for text in texts] for each, texts in spoken.items())
     return [tuple(pairs) for pairs in zip(*sentences, strict=True)]
 

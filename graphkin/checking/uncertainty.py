@@ -1,16 +1,16 @@
-"""How far each reading may lie off before it is drawn, and what would make it better.
+"""The uncertainty of each reading before it is drawn, and its remedy.
 
 Uncertainty is of first order, from every act that leads to a reading: each (a point pricked, a direction set, a length
-laid off or read) is made wrong once by one standard deviation, the rest exactly; what that does to a reading is its
+laid off or read) is made wrong once by one standard deviation, the rest exactly; the change of a reading is its
 sensitivity times the deviation, and the squares add up (Guide to the expression of uncertainty in measurement, 5.1).
-Crossing angles, lengths and scales come in by the construction itself.
+Crossing angles, lengths and scales enter by the construction itself.
 
-Where readings are not in proportion to errors, first order tells too little.  So each is drawn once more with all acts
-wrong together in the way that most easily brings it three deviations off, to either side, and what it is off then is
-stated (the design point of Hasofer and Lind, Exact and invariant second-moment code format, 1974): near a dead point,
-and where trial polygons are divided, errors grow faster than they are made.  What acts do together, where each alone
-does nothing (the square of a speed that is nought, a product of two such: a mechanism at rest), is seen on some
-drawings in which all err at once.
+Where readings are not in proportion to errors, first order gives too little.  So each is drawn once more with all acts
+wrong together in the most probable combination for three deviations, to either side, and its error then is stated (the
+design point of Hasofer and Lind, Exact and invariant second-moment code format, 1974): near a dead point, and where
+trial polygons are divided, errors grow faster than in proportion.  The effect of acts together, where each alone has
+none (the square of a speed that is zero, a product of two such: a mechanism at rest), is found from some drawings in
+which all err at once.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ class Uncertainty:
 
     @property
     def bound(self) -> float:
-        """What the reading keeps within at least 99 times in a hundred."""
+        """The bound of the reading's error in at least 99 of a hundred drawings."""
         return COVERAGE * self.deviation
 
 
@@ -78,10 +78,10 @@ def predict(
 
     Parameters
     ----------
-    together : what acts do only together, and out of proportion, may be left out
-    most, spare : bounds (SI) that readings should keep; without ``together`` nothing more is looked at where some
-        drawings in which every act errs, or the acts so far, show that more than so many to ``spare`` do not keep
-        theirs, and the uncertainties are what was seen of them
+    together : whether effects of acts together, out of proportion, are included
+    most, spare : bounds (SI) for readings; without ``together`` the prediction stops when some drawings in which every
+        act errs, or the acts so far, show that more than ``spare`` readings exceed their bounds; the uncertainties are
+        then those seen so far
     """
     still = nudged(name, tools)
     sheet, read = _drawn_by(what, still)
@@ -132,7 +132,7 @@ def predict(
 
 
 def _drawn_by(what: Plan, still: Instrument) -> tuple[Sheet, Drawn]:
-    """A plan drawn by hands that err nowhere; and what is read off it drawn by others, its force polygons (if any) at
+    """A plan drawn without errors; and a function for its readings drawn by other hands, its force polygons (if any) at
     the same scale."""
     redrawn, newtons_per_mm = Redrawn(what, what.scales, still), 0.0
     if redrawn.sheet.has_forces:
@@ -152,7 +152,7 @@ def _drawn_by(what: Plan, still: Instrument) -> tuple[Sheet, Drawn]:
 
 
 def _samples(read: Drawn, name: str, tools: Tools, count: int = SAMPLES) -> Sequence[Values]:
-    """The readings of some drawings in which every act errs at random; those that cannot be drawn are left out."""
+    """The readings of some drawings in which every act errs at random, without drawings that fail."""
     readings = (read(erring(name, tools, seed)) for seed in range(count))
     return [values for values in readings if values is not None]
 
@@ -160,8 +160,8 @@ def _samples(read: Drawn, name: str, tools: Tools, count: int = SAMPLES) -> Sequ
 def _bent(
     read: Drawn, name: str, tools: Tools, base: Values, moved: NDArray[np.complex128]
 ) -> NDArray[np.float64]:
-    """How many times as far as first order tells each reading is off where all acts err together in the way that most
-    easily brings it three deviations off; shape (readings,)."""
+    """The factor by which the error of each reading exceeds first order where all acts err together in the most
+    probable combination for three deviations; shape (readings,)."""
     ways: list[tuple[NDArray[np.float64], tuple[Values, ...]]] = []
     times = np.ones(len(base))
     for i, (symbol, row) in enumerate(zip(base, moved, strict=True)):
@@ -182,8 +182,8 @@ def _bent(
 
 
 def _easiest(row: NDArray[np.complex128]) -> NDArray[np.float64]:
-    """The errors of all acts, in deviations, that bring a reading farthest off for the sum of their squares, which is
-    1: along the principal axis of its own."""
+    """The errors of all acts, in deviations, with a sum of squares of 1, that change a reading most: along its
+    principal axis."""
     parts = np.stack((row.real, row.imag))
     axis = np.linalg.eigh(parts @ parts.T)[1][:, 1]
     errors = axis @ parts
@@ -191,7 +191,7 @@ def _easiest(row: NDArray[np.complex128]) -> NDArray[np.float64]:
 
 
 def _reading(symbol: Symbol) -> Phrase:
-    """The reading itself, as a cause of what is uncertain."""
+    """The reading itself as a cause of uncertainty."""
     return Phrase("reading", symbol=symbol)
 
 
@@ -211,13 +211,13 @@ def _summed(symbol: Symbol, shares: Mapping[int, float], causes: tuple[tuple[int
 
 
 def deviations(read: Callable[[Instrument], Mapping[T, float] | None], name: str, tools: Tools) -> dict[T, float]:
-    """Standard deviation of first order of what is read off a construction drawn with an instrument, "pencil" or "cad":
-    each act made wrong once by one standard deviation, the squares added up; infinite where one act alone keeps it from
-    being drawn.
+    """Standard deviation of first order of the readings from a construction drawn with an instrument, "pencil" or
+    "cad": each act made wrong once by one standard deviation, the squares added up; infinite where the error of a
+    single act makes the construction impossible.
 
     Parameters
     ----------
-    read : what is read off the drawing of some hands, by name; None where they cannot draw it
+    read : function of hands to the readings from their drawing, by name; None where they cannot draw it
     """
     still = nudged(name, tools)
     right = read(still) or {}
@@ -233,10 +233,10 @@ SMALL = 0.05  # readings below this part of the largest of their kind are no fai
 
 @dataclass(frozen=True)
 class Advice:
-    """The worst reading of a drawing and what would help it most.
+    """The worst reading of a drawing and its best remedy.
 
     ``relative`` is its standard deviation over its size; ``cause`` the step that adds most to it, with its ``share`` of
-    the variance; ``figure`` the one to draw twice as large, and ``gain`` what is left of the deviation then.
+    the variance; ``figure`` the figure to draw twice as large, and ``gain`` the remaining part of the deviation then.
     """
 
     symbol: Symbol
@@ -259,14 +259,14 @@ class Advice:
 
 
 def _sort(symbol: Symbol) -> str:
-    """What readings are compared with for their size."""
+    """The kind of a reading, within which sizes are compared."""
     return symbol.kind[0] if symbol.scope == "motion" else symbol.measure
 
 
 def advise(
     what: Plan, name: str, tools: Tools, readings: Sequence[Reading], predicted: Mapping[Symbol, Uncertainty]
 ) -> Advice | None:
-    """Look for the worst reading and the remedy; None where nothing is uncertain.
+    """Find the worst reading and its remedy; None where no reading is uncertain.
 
     The remedy is found by predicting again with each of the three figures drawn twice as large.
     """
