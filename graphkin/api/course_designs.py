@@ -139,9 +139,9 @@ def course_design(
     ----------
     scene, find : as for `check`
     students : a CSV file with a line for each student: a column name (姓名), and where wished id (学号), scheme
-        (方案, group) and position (位置, its name); a student without a position gets the next one of the scheme, a student
-        without a scheme the next scheme with a position left.  Without it one report with a blank cover (one for each
-        scheme)
+        (方案, group) and position (位置, its name); a student without a position gets the next one of the scheme, a
+        student without a scheme the next scheme with a position left.  Without it one report with a blank cover (one
+        for each scheme)
     rows : a CSV file with a row of data for each scheme, as `problem_set` reads it
     variants, seed : instead, a number of schemes drawn as those of a problem set
     at : the position of the one report where there are no students; the scene's own if None
