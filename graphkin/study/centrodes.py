@@ -30,10 +30,10 @@ ENDS = 1e-3
 class Centrode:
     """The instant centre of a link against the frame over a sweep of the driver.
 
-    fixed : complex, shape (n,), its place in the frame (m); NaN where the mechanism does not stand or the link does
-        not turn
+    fixed : complex, shape (n,), its place in the frame (m); NaN where the position is not solved or the link does not
+        turn
     moving : complex, shape (n,), its place in the link's own axes (m)
-    joined : bool, shape (n - 1,), whether the curves go on from one place to the next: not where the link ceases to
+    joined : bool, shape (n - 1,), whether the curves continue from a place to the next: not where the link ceases to
         turn between the two, so that the centre passes through infinity
     """
 
@@ -78,7 +78,7 @@ def turning_centrodes(scene: Mechanism, values: Mapping[str, float] | None, link
 
 
 def steady(scene: Mechanism) -> Mechanism:
-    """The scene with rates for drivers that stand still or move by a law: centres are there at rest too."""
+    """The scene with unit rates for drivers at rest or driven by a law: a mechanism at rest has centres too."""
     if any(d.values[1] for d in scene.drivers) and not moves_by_law(scene):
         return scene
     return replace(scene, drivers=tuple(d.at_rate(1.0) for d in scene.drivers))
@@ -87,9 +87,8 @@ def steady(scene: Mechanism) -> Mechanism:
 def played(
     scene: Mechanism, values: Mapping[str, float], frames: int = FRAMES
 ) -> tuple[Motion, dict[str, NDArray[np.float64]]]:
-    """The motion over the whole way of the first driver, from these values (rad, m) on: round, or there and back,
-    slower towards its ends, so that the last frame is the first again; and how far each link has turned since then
-    (rad).
+    """The motion over the whole range of the first driver, from these values (rad, m) on: a turn, or there and back,
+    slower towards the ends, so that the last frame is the first again; and the angle of each link from its first (rad).
 
     Raises
     ------
@@ -119,7 +118,7 @@ def pole_path(motion: Motion, pair: LinkPair) -> NDArray[np.complex128]:
 
 
 def branches(places: NDArray[np.complex128], joined: NDArray[np.bool_]) -> list[list[complex]]:
-    """Places in runs that a pen draws without lifting; the end of a turn joins its start."""
+    """The places in runs that a pen draws without lifting; the end of a turn joins its start."""
     runs: list[list[complex]] = []
     run: list[complex] = []
     for i, z in enumerate(places.tolist()):

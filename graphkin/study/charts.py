@@ -1,5 +1,5 @@
-"""Charts over the way of the driver, or over the time, by one painter: a page has a heading, facts, a legend, and one
-panel under the other, each with a curve, its extremes, what was measured, and what is allowed."""
+"""Charts over the driver's range, or over time, by one painter: a page has a heading, facts, a legend, and panels below
+each other, each with a curve, its extremes, measured points, and allowed values."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def title_of(scene: Mechanism, language: str) -> str:
 
 
 def heading(scene: Mechanism, title: str, facts: Sequence[str], language: str) -> tuple[Primitive, ...]:
-    """Title (markup), title of the scene, facts, one under the other."""
+    """Title (markup), title of the scene and facts, below each other."""
     return (
         Text(complex(LEFT, 15.0), rich(title, 5.0, bold=True)),
         Text(complex(LEFT, 20.5), rich(title_of(scene, language), 3.5)),
@@ -65,7 +65,7 @@ def heading(scene: Mechanism, title: str, facts: Sequence[str], language: str) -
 
 
 def number(value: float, digits: int = 5) -> str:
-    """A number to so many digits, with a minus sign."""
+    """A number to ``digits`` digits, with a typographic minus sign."""
     return true_minus(f"{value:.{digits}g}")
 
 
@@ -74,9 +74,9 @@ def number(value: float, digits: int = 5) -> str:
 
 @dataclass(frozen=True)
 class Axis(ABC):
-    """What is drawn from left to right, and the motion over it: its ends, the step of its ticks, its title.
+    """The horizontal axis, and the motion over it: its ends, the step of its ticks, its title.
 
-    Places along it are offsets of the driver's range, or moments (s).
+    Places on it are offsets of the driver's range, or moments (s).
     """
 
     left: float
@@ -90,19 +90,18 @@ class Axis(ABC):
 
     @abstractmethod
     def at(self, places: Array) -> Array:
-        """Where places lie on the axis."""
+        """The coordinates of places on the axis."""
 
     @abstractmethod
     def values(self, quantity: Quantity, places: Array) -> Array:
-        """A quantity at places (SI), NaN where it has none."""
+        """A quantity at places (SI), NaN where it is missing."""
 
     def shown(self, quantity: Quantity, places: Array, values: Array) -> Array:
         """Values (SI) in units of the figure."""
         return np.asarray(quantity.unit(self.scene).of(values))
 
     def extremes(self, quantity: Quantity, places: Array, values: Array) -> tuple[Extreme, Extreme]:
-        """The greatest and the least of a course that was sampled (SI); a size is nought that is no more than what its
-        place leaves open."""
+        """The greatest and the least of a sampled course (SI); a size within the error from its place is 0."""
         within = FINE * float(np.ptp(places))
         (top, greatest), (bottom, least) = greatest_and_least(
             lambda at: self.values(quantity, at), places, values, within
@@ -113,7 +112,7 @@ class Axis(ABC):
         return Extreme("max", top, self.driver(top), greatest), Extreme("min", bottom, self.driver(bottom), least)
 
     def driver(self, place: float) -> float:
-        """What is said of a place: the moment itself, or the value of the driver there (rad, m)."""
+        """The value of a place in words and tables: the moment itself, or the driver's value (rad, m)."""
         return place
 
 
@@ -133,7 +132,7 @@ class DriverAxis(Axis):
 
     @cached_property
     def offsets(self) -> Array:
-        """Offsets of the range in the order in which they are drawn; dense near the ends of a limited motion."""
+        """Offsets of the range in drawing order; dense near the ends of a limited motion."""
         low, high = self.reach.ends
         if not self.reach.full:
             half = np.linspace(0, np.pi, POINTS)
@@ -142,12 +141,12 @@ class DriverAxis(Axis):
 
     @cached_property
     def motion(self) -> Motion:
-        """The motion at its offsets, for all curves that are drawn over it."""
+        """The motion at its offsets, for all curves over it."""
         return self.reach.motion(self.offsets, extended=False)
 
     @cached_property
     def beside_ends(self) -> Motion:
-        """The motion beside the start and the end of a whole range, and beside the left end of the axis."""
+        """The motion near the start and the end of a whole range, and near the left end of the axis."""
         high = self.reach.ends[1]
         beside = np.array([BESIDE * high, high - BESIDE * high, self.first + BESIDE * high])
         return self.reach.motion(beside, extended=False)
@@ -180,7 +179,8 @@ class DriverAxis(Axis):
         return super().shown(quantity, places, values)
 
     def gain(self, quantity: Quantity) -> float:
-        """How far an angle gets over the whole range, in whole turns: beside the ends, which may be dead points."""
+        """The change of an angle over the whole range, in whole turns, taken near the ends, which may be dead
+        points."""
         first, last = quantity.values(self.reach, self.beside_ends)[:2]
         return float(2 * np.pi * np.rint((last - first) / (2 * np.pi)))
 
@@ -210,7 +210,7 @@ class DriverAxis(Axis):
 
 
 def driver_axis(reach: DriverRange, language: str) -> DriverAxis:
-    """The axis for the whole way of the driver."""
+    """The axis over the whole range of the driver."""
     scene, driver = reach.scene, reach.driver
     name = driver.key.split("/")[0]
     symbol = f"$φ_{{{name}}}$ (°)" if driver.turns else f"$s_{{{name}}}$ ({scene.units.length})"
@@ -230,14 +230,14 @@ def driver_axis(reach: DriverRange, language: str) -> DriverAxis:
 
 @dataclass(frozen=True)
 class Panel:
-    """What one panel shows, in units of the figure.
+    """The content of a panel, in units of the figure.
 
-    curve, dots, laid_over : shape (n, 2), place on the axis and value; the last are values from elsewhere
-    extremes : with place and value as they are shown, in ``span`` alone
-    unbounded : whether it grows without bound, a motion towards an end of the range
-    allowed : the values within which a transmission or pressure angle shall stay; ``falling``: up to which that of a
-        cam's follower may go as it falls
-    jumps : after which points the curve jumps
+    curve, dots, laid_over : shape (n, 2), place on the axis and value; ``laid_over`` are values from elsewhere
+    extremes : with place and value as shown, inside ``span`` only
+    unbounded : whether it grows without bound towards an end of the range
+    allowed : the limits of a transmission or pressure angle; ``falling``: the limit of a cam follower's pressure angle
+        in its fall
+    jumps : the points after which the curve jumps
     """
 
     quantity: Quantity
@@ -254,7 +254,7 @@ class Panel:
 
     @property
     def without_bound(self) -> str:
-        """The word for it where it grows without bound: a motion does so at ends alone."""
+        """The phrase for a quantity that grows without bound; a motion does so at ends only."""
         return "grows without bound" if self.quantity.is_load else "unbounded"
 
     @property
@@ -266,12 +266,12 @@ def panel_of(
     axis: Axis, quantity: Quantity, curve: Array, extremes: Sequence[Extreme], bounded: bool = True,
     dots: Array = EMPTY, laid_over: Array = EMPTY, jumps: Sequence[int] = (),
 ) -> Panel:  # fmt: skip
-    """The panel of a quantity over an axis, in units of the figure; of a force with nought in it.
+    """The panel of a quantity over an axis, in units of the figure; the span of a force includes zero.
 
     Parameters
     ----------
     curve, dots, laid_over, jumps : as a `Panel` shows them
-    bounded : False where the quantity may grow without bound: then what most of the way needs is shown
+    bounded : False where the quantity may grow without bound: then the span fits the values of most of the range
     """
     low, high = span_of(curve, dots, bounded)
     reached = [0.0] if quantity.is_load else laid_over[:, 1].tolist()
@@ -297,8 +297,8 @@ def motion_panel(
 
     Parameters
     ----------
-    dots, laid_over : offset of the driver and value (SI) of what was measured on the drawing, and of what somebody else
-        measured
+    dots, laid_over : offset of the driver and value (SI) of points measured on the drawing, and of points that somebody
+        else measured
     """
     traced = next((t for t in turn.curves if t.quantity == quantity), None)
     curve = axis.curve(quantity, axis.offsets, quantity.values(turn.reach, axis.motion))
@@ -329,8 +329,8 @@ def force_symbol(scene: Mechanism, force: Symbol) -> str:
 
 
 def _allowed(quantity: Quantity, scene: Mechanism) -> tuple[tuple[float, float] | None, float | None]:
-    """Within what (degrees) a transmission or pressure angle shall stay; of a cam's follower what the scene allows as
-    it rises, and as it falls."""
+    """The limits (degrees) of a transmission or pressure angle; for a cam's follower the scene's limits in its rise,
+    and in its fall."""
     symbol = quantity.symbol
     cam = next((c for c in scene.cams if symbol.kind == "pressure" and c.follower == symbol.link), None)
     if cam is not None and any(cam.allowed):
@@ -350,8 +350,8 @@ def whole_span(low: float, high: float) -> tuple[float, float]:
 
 
 def span_of(curve: Array, dots: Array = EMPTY, bounded: bool = True) -> tuple[float, float]:
-    """The range of values worth showing: all of it, but of what grows without bound near the ends of a limited
-    motion what most of the way needs, and what is measured."""
+    """The range of values to show: all values, but for a quantity that grows without bound near the ends of a limited
+    motion the values of most of the range, and the measured points."""
     x, good = curve[np.isfinite(curve[:, 1])].T
     if not len(good):
         return 0.0, 1.0
@@ -376,12 +376,12 @@ def chart_page(
     scene: Mechanism, heads: tuple[str, Sequence[str]], panels: Sequence[Panel], axis: Axis, language: str, of: str,
     metadata: Mapping[str, object], limits: Sequence[float] = (),
 ) -> chart.ChartPage:  # fmt: skip
-    """A page with one panel under the other.
+    """A page with panels below each other.
 
     Parameters
     ----------
     heads : title (markup) and facts
-    of : what it shows in words, in the title and the description of the file
+    of : its subject in words, for the title and the description of the file
     limits : places on the axis of limit positions
     """
     title, facts = heads
@@ -408,7 +408,7 @@ def chart_page(
 
 
 def draw_panel(axes: chart.Axes, panel: Panel, axis: Axis, language: str, limits: Sequence[float] = ()) -> None:
-    """One panel; zero lines and limit positions lie behind the curve."""
+    """Draw a panel; zero lines and limit positions lie behind the curve."""
     axes.set_xlim(axis.left, axis.right)
     axes.set_ylim(*panel.span)
     chart.count_steps(axes.xaxis, axis.step)
@@ -436,7 +436,7 @@ def draw_panel(axes: chart.Axes, panel: Panel, axis: Axis, language: str, limits
 
 
 def draw_pieces(axes: chart.Axes, curve: Array, jumps: Sequence[int]) -> None:
-    """A curve, shape (n, 2), its jumps dashed."""
+    """Draw a curve, shape (n, 2), with dashed jumps."""
     for piece in np.split(curve, [k + 1 for k in jumps]):
         axes.plot(*piece.T, **chart.look(chart.SOLID_AND_DASHED[0]))
     for k in jumps:
@@ -444,7 +444,7 @@ def draw_pieces(axes: chart.Axes, curve: Array, jumps: Sequence[int]) -> None:
 
 
 def legend_of(panels: Sequence[Panel], language: str) -> list[tuple[chart.Look, str]]:
-    """What the marks of some panels mean, as entries of a legend."""
+    """The meaning of the marks of some panels, as entries of a legend."""
     entries = [(chart.look(chart.SOLID_AND_DASHED[0]), word("analytic curve", language))]
     if any(len(panel.dots) for panel in panels):
         entries.append((chart.marker("circle"), word("measured dots", language)))

@@ -1,9 +1,9 @@
-"""Designs: one scene with some of its numbers replaced, in a grid, a list, or as the rows of a CSV file; and what the
-keys of a scene file do to the numbers of its mechanism, found by reading the scene a few times, once.
+"""Designs: one scene with some of its numbers replaced, in a grid, a list, or as the rows of a CSV file; and the effect
+of a scene file's keys on the numbers of its mechanism, found once by reading the scene a few times.
 
 Nearly every number of a file acts in one of two ways: lengths, places and rates change as a straight line with it,
-directions turn with an angle.  Three readings tell the line or the turn, one more with all keys changed proves that
-they act side by side.  So also points that are placed from others, in any unit, follow as the reader places them.
+directions turn with an angle.  Three readings give the line or the turn, one more with all keys changed proves that
+they act independently.  So points that are placed from others, in any unit, also follow as the reader places them.
 """
 
 from __future__ import annotations
@@ -37,11 +37,11 @@ MOST_BYTES = 200_000_000
 
 @dataclass(frozen=True)
 class Designs:
-    """What is replaced in each design: keys of the scene file with dots, and their values.
+    """The replaced numbers of each design: keys of the scene file with dots, and their values.
 
-    ``rows`` give one value for the first keys each, ``grid`` the values of the others; every combination is a design,
-    the last key changes fastest.  Of a part ``first`` is the number of its first design, and ``kinds`` are those of the
-    whole: for each key whether some of its values are words.
+    ``rows`` give a value for each of the first keys, ``grid`` the values of the others; every combination is a design,
+    the last key changes fastest.  In a part ``first`` is the number of its first design, and ``kinds`` tells of the
+    whole for each key whether some of its values are words.
     """
 
     keys: tuple[str, ...] = ()
@@ -86,7 +86,7 @@ def designs_of(
     Parameters
     ----------
     given : for each key "a:b:n" (n values evenly from a to b), "a,b,c", a value, or a sequence of values
-    table : a CSV file whose head names the keys
+    table : a CSV file whose heads are the keys
 
     Raises
     ------
@@ -225,8 +225,8 @@ _Law = Callable[[Reals], Complexes]
 
 
 def _law(first: complex, change: complex, begin: float, step: float, turning: bool) -> _Law:
-    """The number moves from where it is at ``begin`` as far as it was seen to move over one ``step``, times how far the
-    value is on its way, or its direction (deg) is turned."""
+    """The law of a number: its value at ``begin`` plus its ``change`` over a ``step`` times the number of steps to the
+    value, or turned by the value's change (deg)."""
 
     def along(value: ArrayLike) -> Complexes:
         numbers = np.asarray(value, dtype=float)
@@ -238,7 +238,7 @@ def _law(first: complex, change: complex, begin: float, step: float, turning: bo
 
 @dataclass(frozen=True)
 class DesignKeys:
-    """Keys of a scene file, and what each does to the numbers of the mechanism (SI)."""
+    """Keys of a scene file, and the effect of each on the numbers of the mechanism (SI)."""
 
     scene: Mechanism
     own: Mapping[Dimension, complex]
@@ -266,7 +266,7 @@ class DesignKeys:
 
 
 def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> DesignKeys:
-    """Find what keys do.
+    """Find the effect of keys.
 
     Parameters
     ----------
@@ -275,8 +275,8 @@ def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> Design
 
     Raises
     ------
-    CallError : a key that the scene does not have, that holds no number, that changes nothing in the mechanism or not
-        by itself, or keys that do not act side by side; a driver whose value or rate follows from dimensions
+    CallError : a key that the scene does not have, that holds no number, that changes no number of the mechanism or not
+        by itself, or keys that do not act independently; a driver whose value or rate follows from dimensions
     """
     written = mechanism_of(source)
     for driver in written.drivers:
@@ -305,7 +305,7 @@ def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> Design
 
 
 def _begin(source: Tables, key: str) -> tuple[float, float]:
-    """A value of a key and a step from it: its own where it has one."""
+    """A value of a key and a step from it: the file's value if it has one."""
     path = path_of_key(source, key)
     begin = None if path is None else value_at(source, path)
     if not isinstance(begin, Real) or begin == 0:  # of what is no number the reader says what is wrong
@@ -345,7 +345,7 @@ def _laws(
 
 
 def _side_by_side(keys: DesignKeys, values: Mapping[str, float], read_so: Mapping[Dimension, complex]) -> None:
-    """Hold the laws of several keys against a reading with all of them changed.  Raises CallError."""
+    """Compare the laws of several keys with a reading with all of them changed.  Raises CallError."""
     numbers = keys.own
     together = keys.numbers({key: np.array([value]) for key, value in values.items()})
     for name, read_one in read_so.items():

@@ -1,5 +1,5 @@
-"""Motion diagrams over the turn, as pages; with position, velocity and acceleration of outputs as they are measured off
-drawn polygons at a few positions; and coupler curves with marks at equal steps of the driver, in scale."""
+"""Motion diagrams over the turn, as pages; with position, velocity and acceleration of outputs measured on drawn
+polygons at a few positions; and coupler curves with marks at equal steps of the driver, in scale."""
 
 from __future__ import annotations
 
@@ -46,13 +46,14 @@ def diagrams(
     turn: TurnStudy, language: str = "en", positions: int = 12, asked: Sequence[Quantity] = (),
     over: LaidOver = MappingProxyType({}),
 ) -> dict[str, ChartPage | Drawing]:
-    """The motion diagrams of each output and the curve of each coupler point, by name of file; where quantities are
-    asked for, the diagram of each of these alone.
+    """The motion diagrams of each output and the curve of each coupler point, by name of file; if quantities are asked
+    for, only the diagram of each of these.
 
     Parameters
     ----------
-    positions : where the values measured off the drawn polygons are laid over the curves; 0 for none
-    over : what somebody else has measured, laid over the curves
+    positions : the number of positions whose values, measured on the drawn polygons, are drawn on the curves; 0 for
+        none
+    over : values measured elsewhere, drawn on the curves
     """
     axis = charts.driver_axis(turn.reach, language)
     if asked:
@@ -96,7 +97,7 @@ def _force_pages(turn: TurnStudy, quantity: Quantity, language: str) -> dict[str
 
 
 def _balance_pages(turn: TurnStudy, language: str) -> dict[str, ChartPage | Drawing]:
-    """What balances a mechanism that carries loads, and the flywheel that it asks for."""
+    """The balancing load of a mechanism with loads, and the flywheel that it asks for."""
     pages: dict[str, ChartPage | Drawing] = {}
     for force in forces_named(turn.scene):
         if force.kind in ("F", "M") and not force.other:
@@ -110,7 +111,7 @@ def _motion_page(
     turn: TurnStudy, axis: charts.DriverAxis, output: Output, dots: Sequence[tuple[float, ...]], over: LaidOver,
     language: str,
 ) -> ChartPage:
-    """Position, rate and second rate of an output, one under the other."""
+    """Position, rate and second rate of an output, below each other."""
     quantity = output.quantity
     panels = [
         charts.motion_panel(turn, axis, q, [(d[0], d[k]) for d in dots], over.get(q, ()))
@@ -137,7 +138,7 @@ def _asked_page(
 
 
 def _apart(turn: TurnStudy, quantity: Quantity, over: Sequence[tuple[float, float]], language: str) -> str:
-    """How far values from elsewhere lie off the theory: root of the mean square, and the most."""
+    """The deviation of values from elsewhere from theory: root of the mean square, and the greatest."""
     if not over:
         return ""
     at, read = np.array(over, dtype=float).T
@@ -180,7 +181,7 @@ def _said(value: float, unit: Unit, digits: int = 6) -> str:
 def measured(
     reach: DriverRange, outputs: Sequence[Quantity], count: int = 12
 ) -> dict[Quantity, list[tuple[float, ...]]]:
-    """For each output (its angle or travel) what the drawing gives at evenly spread positions.
+    """For each output (its angle or travel) the readings of the drawing at evenly spread positions.
 
     Returns
     -------
@@ -216,8 +217,8 @@ CURVE_ROOM = complex(150.0, 180.0)  # mm, width and height at most of a coupler 
 
 
 def coupler_points(scene: Mechanism) -> tuple[tuple[str, str], ...]:
-    """Points of links that are neither pivoted to the frame nor slide on it, with their link: those that no other kind
-    of link carries."""
+    """Points of couplers, links neither pivoted to the frame nor sliding on it, with their link; not points that other
+    links share."""
     frame = scene.frame
     guided = {s.link for s in scene.slidings if s.on == frame.name}
     plain = {link.name for link in scene.links if any(p in frame.points for p in link.points)} | guided

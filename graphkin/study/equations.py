@@ -1,10 +1,9 @@
 """The closure equations of a mechanism in any kind of number, doubles, complex steps, 50 digits; and their solution to
 50 digits, by which all methods are measured.
 
-Three unknowns a link (the place of its origin and its angle), two equations a pair, one a driver; the general way of
+Three unknowns a link (the place of its origin and its angle), two equations a pair, one a driver; the general method of
 multibody programs (Haug, Computer Aided Kinematics and Dynamics, ch. 3).  It knows neither dyads nor their order, and
-so it is the foil to the closed form.  The numbers of the scene are taken as they are in memory, doubles in SI, and as
-exact.
+so it is independent of the closed form.  The numbers of the scene, doubles in SI, count as exact.
 """
 
 from __future__ import annotations
@@ -37,9 +36,11 @@ CLOSED = 1e-38
 
 @dataclass(frozen=True)
 class Arithmetic:
-    """What the equations need beyond the four operations: elementwise functions of arrays, and a linear solver.
+    """The functions that the equations need beyond the four operations: elementwise functions of arrays, and a linear
+    solver.
 
-    ``unturned`` takes whole turns off a difference of angles; ``solve`` solves matrix (m, m, ...) x = right (m, ...).
+    ``unturned`` removes whole turns from a difference of angles; ``solve`` solves matrix (m, m, ...) x = right (m,
+    ...).
     """
 
     cos: Callable[[Array], Array]
@@ -50,7 +51,7 @@ class Arithmetic:
 
 
 def _side_by_side(matrix: Array, right: Array) -> Array:
-    """Solve systems side by side: matrix (m, m, n), right (m, n); a singular one gives nan."""
+    """Solve n systems at once: matrix (m, m, n), right (m, n); a singular system gives nan."""
     return np.moveaxis(solve_all(np.moveaxis(matrix, -1, 0), np.moveaxis(right, -1, 0)), 0, -1)
 
 
@@ -140,7 +141,7 @@ class Equations:
         return np.asarray(x - self.numbers.solve(matrix, gaps))
 
     def open(self, x: Array, values: Sequence[Values]) -> Array:
-        """How far each equation is from closed (m, rad)."""
+        """The residual of each equation (m, rad)."""
         return self._system(x, values)[1]
 
     def rates(self, x: Array, values: Sequence[Values], first: Sequence[Values], second: Sequence[Values]) -> Solution:
@@ -188,7 +189,7 @@ class Equations:
         return c * local.real - s * local.imag, s * local.real + c * local.imag
 
     def _system(self, x: Array, values: Sequence[Values]) -> tuple[Array, Array]:
-        """The derivative of the equations by the unknowns, and how far they are open."""
+        """The derivative of the equations by the unknowns, and their residuals."""
         matrix = np.zeros((len(x), *x.shape), dtype=x.dtype)
         gaps = np.zeros_like(x)
 
@@ -223,7 +224,7 @@ class Equations:
         return right
 
     def _turning(self, x: Array, rate: Array) -> Array:
-        """What the velocities give on the right side of the acceleration equations: normal and Coriolis terms."""
+        """The terms of velocities on the right side of the acceleration equations: normal and Coriolis terms."""
         right = np.zeros_like(x)
         for row, a, of_a, b, of_b, axes, along, _ in self.lines:
             gx, gy = self._turned(x, axes, along)

@@ -1,5 +1,6 @@
 """Errors against the distance from a singular position: the power of the distance with which they grow, as a table, as
-data for programs, and as charts, six panels a page, slopes on the curves, below each where methods stop."""
+data for programs, and as charts, six panels a page, with slopes on the curves, and below each the distances where
+methods stop."""
 
 from __future__ import annotations
 
@@ -26,19 +27,19 @@ PER_DECADE = 2
 
 @dataclass(frozen=True)
 class ErrorLaw:
-    """How the error of one method grows.
+    """The growth of the error of a method.
 
     Parameters
     ----------
-    key : word for the method and what it finds
+    key : word for the method and its quantity
     x : distances from the singular position, falling
     error : the largest error at each, nan where the method gives no answer
-    theory : the slope that theory tells, None where there is no law
-    warns_from : from this distance down the method says itself that its answer is uncertain, or refuses (None: never)
+    theory : the slope by theory, None without a law
+    warns_from : from this distance down the method itself calls its answer uncertain, or refuses (None: never)
     refuses_from : from this distance down it gives no answer (None: it always does)
     bound : the error that the method states itself, at each distance; nan where it states none
     window : least and largest distance over which the slope is fitted
-    lost : an error beyond this is no longer one of first order and tells no slope
+    lost : an error beyond this is no longer of first order and does not count for the slope
     """
 
     key: str
@@ -53,7 +54,7 @@ class ErrorLaw:
 
     @property
     def slope(self) -> float:
-        """Slope of log error against log distance by least squares; nan where fewer than three points tell it."""
+        """Slope of log error against log distance by least squares; nan for fewer than three points."""
         low, high = self.window
         points = [
             (math.log10(x), math.log10(e))
@@ -83,15 +84,15 @@ class ErrorLaw:
 
 @dataclass(frozen=True)
 class Singularity:
-    """One kind of singularity with the laws of all methods there.
+    """A kind of singularity with the laws of all methods there.
 
     Parameters
     ----------
     key : the word for it
-    distance : the word for what is on the axis
-    laws : how the errors grow
-    fates : where methods stop and how they say so
-    growth : how values themselves grow, where they do
+    distance : the word for the axis
+    laws : the growth of errors
+    fates : the distances where methods stop, and their messages
+    growth : the growth of the values themselves, if they grow
     """
 
     key: str
@@ -105,13 +106,13 @@ class Singularity:
 
 
 class Answer(NamedTuple):
-    """What a method gives at one distance.
+    """The result of a method at a distance.
 
     Parameters
     ----------
-    errors : of each quantity that it finds; nan where it refuses
-    warns : whether it says itself that its answer is uncertain
-    bounds : the error of each that it states itself, where it states one
+    errors : of each of its quantities; nan where it refuses
+    warns : whether it calls its answer uncertain
+    bounds : its own bound of the error of each, if it states one
     """
 
     errors: Sequence[float]
@@ -120,7 +121,7 @@ class Answer(NamedTuple):
 
 
 def grid(first: float, last: float, samples: int) -> list[float]:
-    """Distances falling from ``first`` to ``last``, so many samples to each half of a decade."""
+    """Distances falling from ``first`` to ``last``, with ``samples`` in each half of a decade."""
     count = max(1, round(abs(math.log10(last / first)) * PER_DECADE)) * samples
     return [first * (last / first) ** (k / count) for k in range(count + 1)]
 
@@ -128,13 +129,13 @@ def grid(first: float, last: float, samples: int) -> list[float]:
 def measured(
     laws: Sequence[ErrorLaw], x: Sequence[float], answers: Iterable[Answer], samples: int | None = None
 ) -> tuple[ErrorLaw, ...]:
-    """Laws as they were stated, with what was measured.
+    """The stated laws with the measured errors.
 
     Parameters
     ----------
     x : distances, falling
     answers : of the method at each of them, an error for every law
-    samples : how many neighbouring distances become one, with the largest error of them; None: each stands by itself
+    samples : the number of neighbouring distances joined to one, with their largest error; None: each by itself
     """
     by_distance = list(answers)
     errors = zip(*(a.errors for a in by_distance), strict=True)
@@ -186,7 +187,7 @@ def in_powers(value: float) -> str:
 
 
 def laws_table(singularities: Sequence[Singularity]) -> Table:
-    """One row for each point of each law; without an error where the method refuses."""
+    """A row for each point of each law; without an error where the method refuses."""
     heads = ("singularity", "distance", "law", "x", "error", "slope", "theory", "warns_from", "refuses_from")
     rows = [
         (s.key, s.distance, law.key, x, error, law.slope, law.theory, law.warns_from, law.refuses_from)
@@ -196,7 +197,7 @@ def laws_table(singularities: Sequence[Singularity]) -> Table:
 
 
 def to_json(singularities: Sequence[Singularity], language: str = "en") -> dict[str, Json]:
-    """Slopes, theory, and where each method warns and refuses; no ``nan``."""
+    """Slopes, theory, and the distances where each method warns and refuses; without ``nan``."""
 
     def of_law(law: ErrorLaw) -> dict[str, Json]:
         return {
@@ -223,7 +224,7 @@ def to_json(singularities: Sequence[Singularity], language: str = "en") -> dict[
 
 
 def lessons(singularities: Sequence[Singularity]) -> tuple[Phrase, ...]:
-    """What to take from all that was measured, each number out of it; of what was not measured nothing."""
+    """The conclusions from the measured errors, each number taken from them; none for errors that were not measured."""
     by_key = {s.key: s for s in singularities}
     phrases = []
     if dead := by_key.get("dead point RRR"):
@@ -276,7 +277,7 @@ def stability_pages(singularities: Sequence[Singularity], language: str = "en") 
 
 
 def _page(shown: Sequence[Singularity], every: Sequence[Singularity], language: str) -> chart.ChartPage:
-    """Some singularities, and what to take from ``every`` one where a place is left."""
+    """A page of some singularities, with the conclusions from ``every`` one in a free place."""
     title, facts = word("stability title", language), word("stability facts", language)
     corners = [complex(LEFT + (k % 2) * CELL.real, TOP + (k // 2) * CELL.imag) for k in range(PER_PAGE + 1)]
     marks: tuple[chart.Shape, ...] = (DOTS["Newton"], DOTS["drawing"], DOTS["pencil"], "square")
@@ -300,7 +301,7 @@ def _page(shown: Sequence[Singularity], every: Sequence[Singularity], language: 
 
 
 def _draw(figure: chart.Figure, singularity: Singularity, corner: complex, language: str) -> None:
-    """The curves of one singularity, each with its name, and below them where methods stop."""
+    """Draw the curves of a singularity, each with its name, and below them the distances where methods stop."""
     left, top = corner.real + INDENT, corner.imag + 6.0
     box = Box(left, top, left + PLOT.real, top + PLOT.imag)
     laws, panel = singularity.laws, f"singularity-{singularity.key.replace(' ', '-')}"
@@ -336,7 +337,7 @@ def _draw(figure: chart.Figure, singularity: Singularity, corner: complex, langu
 def _stretch(
     law: ErrorLaw, points: Sequence[tuple[float, float]], k: int, laws: int
 ) -> tuple[tuple[float, float], tuple[float, float]]:
-    """The piece of a curve that bears its name: for the k-th of some curves each at another height, since they may lie
+    """The piece of a curve with its name: for the k-th of some curves at a height of its own, since curves may lie
     together."""
     inside = [p for p in points if law.window[0] <= p[0] <= law.window[1] and p[1] < law.lost]
     inside = inside if len(inside) > 1 else list(points)
@@ -346,7 +347,7 @@ def _stretch(
 
 
 def _lesson(corner: complex, singularities: Sequence[Singularity], language: str) -> list[Text]:
-    """What to take from all of it, in the place that is left."""
+    """Write the conclusions in the free place."""
     lines = [Text(complex(corner.real, corner.imag + 2.5), rich(word("lesson", language), 3.2, True))]
     y = corner.imag + 10.0
     for lesson in lessons(singularities):
@@ -358,7 +359,7 @@ def _lesson(corner: complex, singularities: Sequence[Singularity], language: str
 
 
 def _strokes(laws: Sequence[ErrorLaw]) -> list[Stroke | None]:
-    """Lines for what is computed, each of its own kind; dots alone for what is only compared with these."""
+    """Lines for computed errors, each of its own kind; dots for errors that are only compared with these."""
     kinds = iter(chart.SOLID_AND_DASHED)
     by_key: dict[str, Stroke | None] = {}
     for law in laws:
@@ -372,7 +373,7 @@ def _dot(law: ErrorLaw) -> chart.Shape | None:
 
 
 def _label(law: ErrorLaw, language: str) -> str:
-    """The name of a law with its slope, and in brackets that of theory."""
+    """The name of a law with its slope, and in brackets the slope by theory."""
     name = word(law.key, language)
     if law.theory is None or math.isnan(law.slope):
         return name

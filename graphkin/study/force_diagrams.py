@@ -1,7 +1,7 @@
 """Forces over the turn, as pages: the diagram of a force or a moment, the polar diagram of a force, and the flywheel of
 a scene: driving and needed moment with the areas between them, and the kinetic energy that they store.
 
-Where a load begins, ends or turns round the curve jumps: both its values stand there, joined by an upright line.
+Where a load begins, ends or reverses the curve jumps: both its values are shown, joined by a vertical line.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ TICKS = 12
 
 
 def whole_turn(axis: charts.DriverAxis) -> charts.Array:
-    """Offsets as the axis goes, with two on both sides of each place where the forces jump."""
+    """Offsets along the axis, with two on both sides of each jump of the forces."""
     low, high = axis.reach.ends
     eps = JUMP * (high - low)
     beside = np.concatenate([[edge - eps, edge + eps] for edge in load_edges(axis.reach)] or [[]])
@@ -67,7 +67,7 @@ def force_page(reach: DriverRange, quantity: Quantity, language: str) -> chart.C
 
 
 def jumps_of(curve: charts.Array) -> list[int]:
-    """After which points a curve, shape (n, 2), jumps: where two lie at one place of the axis."""
+    """The points after which a curve, shape (n, 2), jumps: two points at the same place of the axis."""
     x, values = curve.T
     wide = float(np.nanmax(np.abs(values), initial=0.0))
     step, leap = np.abs(np.diff(x)), np.abs(np.diff(values))
@@ -75,9 +75,8 @@ def jumps_of(curve: charts.Array) -> list[int]:
 
 
 def force_extremes(reach: DriverRange) -> dict[str, tuple[Quantity, tuple[Extreme, ...]]]:
-    """Of each joint force by its size, each couple and balance that is not nought the greatest and the least over the
-    way of the driver (SI), infinite where it goes away without bound, at an end of the motion or where a balance does
-    no work.
+    """The greatest and the least of each joint force by size, and of each couple and balance that is not zero, over the
+    driver's range (SI); infinite where it grows without bound, at an end of the motion or where a balance does no work.
 
     Raises
     ------
@@ -102,8 +101,8 @@ def force_extremes(reach: DriverRange) -> dict[str, tuple[Quantity, tuple[Extrem
 def _extremes(
     axis: charts.DriverAxis, quantity: Quantity, offsets: charts.Array, values: charts.Array
 ) -> tuple[Extreme, ...]:
-    """The greatest and the least of a force or moment (SI), one of a constant; infinite where it goes away without
-    bound, at an end of the motion or inside."""
+    """The greatest and the least of a force or moment (SI), a single value of a constant; infinite where it grows
+    without bound, at an end of the motion or inside."""
     known = np.flatnonzero(np.isfinite(values))
     if not len(known):
         return ()
@@ -124,7 +123,7 @@ def _extremes(
 
 
 def _at_idle(axis: charts.DriverAxis, extreme: Extreme, unknown: charts.Array) -> Extreme:
-    """The extreme, at the place without forces that it comes nearest to, as where a balance does no work."""
+    """The extreme at the nearest place without forces, as where a balance does no work."""
     distances = np.abs(unknown - extreme.offset)
     if not len(unknown) or distances.min() > UNKNOWN_HERE * float(np.ptp(axis.reach.ends)):
         return extreme
@@ -133,8 +132,8 @@ def _at_idle(axis: charts.DriverAxis, extreme: Extreme, unknown: charts.Array) -
 
 
 def _grows_beside(axis: charts.DriverAxis, quantity: Quantity, place: float) -> bool:
-    """Whether a force grows without bound towards a place inside of the motion, as where a balance does no work: with
-    the distance from there, hundredfold where that is a hundredth."""
+    """Whether a force grows without bound towards a place inside the motion, as where a balance does no work: with the
+    reciprocal of the distance from there, hundredfold at a hundredth."""
     low, high = axis.reach.ends
     beside = place + np.outer([-1.0, 1.0], BESIDE) * (high - low)
     beside = (beside - low) % (high - low) + low if axis.reach.full else np.clip(beside, low, high)
@@ -264,7 +263,7 @@ def flywheel_page(reach: DriverRange, study: FlywheelStudy, language: str) -> ch
 
 
 def _joined(areas: tuple[MomentArea, ...], cycle: float) -> list[MomentArea]:
-    """The areas of a cycle, the last and the first being one where both are of one sign."""
+    """The areas of a cycle, the last and the first joined if they have the same sign."""
     kept = [area for area in areas if area.last > area.first]
     if len(kept) > 1 and (kept[0].work > 0) == (kept[-1].work > 0):
         both = MomentArea(kept[-1].first, kept[0].last + cycle, kept[-1].work + kept[0].work)

@@ -47,8 +47,8 @@ INSIDE = 0.02  # of a range that ends, left out at its ends, where rates may gro
 
 
 def on_paper(scene: Mechanism, symbol: Symbol) -> tuple[Symbol, complex]:
-    """What a drawing has of a quantity with a sign: a number, or the vector of which it is a part; and the direction of
-    unit length along which it counts.  A rate of a sliding pair on the frame is that of its pin along the guide."""
+    """The drawn form of a quantity with a sign: a number, or the vector of which it is a component; and the unit vector
+    along which it counts.  A rate of a sliding pair on the frame is the rate of its pin along the guide."""
     if symbol.axis:
         return symbol.whole, 1.0 + 0j if symbol.axis == "x" else 1j
     if not symbol.is_rate_of_pair:
@@ -58,7 +58,7 @@ def on_paper(scene: Mechanism, symbol: Symbol) -> tuple[Symbol, complex]:
 
 
 def drawn(sheet: Sheet, symbol: Symbol) -> float | None:
-    """The value (SI) of a quantity with a sign on a drawing; None where it is not there."""
+    """The value (SI) of a quantity with a sign on a drawing; None where it is not drawn."""
     vector, along = on_paper(sheet.scene, symbol)
     readings = read_off(sheet, (vector,))
     return (complex(readings[0].value) * along.conjugate()).real if readings else None
@@ -66,18 +66,18 @@ def drawn(sheet: Sheet, symbol: Symbol) -> float | None:
 
 @dataclass(frozen=True)
 class Chords:
-    """A diagram that is differentiated or integrated on paper (mm), and what it gives, beside the exact values (SI).
+    """A diagram differentiated or integrated on paper (mm), and its results, beside the exact values (SI).
 
     Parameters
     ----------
     x, y : nodes of the given diagram; shape (n + 1,); of an integral ``y`` holds the ordinates in the middles, (n,)
     pole : its distance H before the ordinate axis
-    rays : where the lines from the pole cut the ordinate axis, (n,)
-    found : what comes out, in the middles (n,) of a derivative, at the nodes (n + 1,) of an integral
+    rays : the ordinates at which the lines from the pole cut the ordinate axis, (n,)
+    found : the results, in the middles (n,) of a derivative, at the nodes (n + 1,) of an integral
     exact : the solver's values there; of an integral from its start on
-    means : of a derivative the exact mean rates of the intervals, which chords give
+    means : of a derivative the exact mean rates of the intervals, which the chords give
     at : offsets of the driver at the results
-    per_x, per_y, per_found : rad or m of the driver's way, and SI, for one mm
+    per_x, per_y, per_found : rad or m of the driver, and SI, for one mm
     """
 
     way: Way
@@ -101,7 +101,7 @@ class Chords:
 
     @property
     def places(self) -> Array:
-        """Where the results stand on the time axis (mm)."""
+        """The places of the results on the time axis (mm)."""
         return self.middles if self.way == "derivative" else self.x
 
     @property
@@ -111,14 +111,14 @@ class Chords:
 
     @property
     def off(self) -> float:
-        """How far the method is off at most, as a part of the greatest exact value: chords are no tangents."""
+        """The greatest error of the method over the greatest exact value: chords are no tangents."""
         most = float(np.max(np.abs(self.exact), initial=0.0))
         return float(np.max(np.abs(self.measured - self.exact))) / most if most else 0.0
 
 
 def ordinate_chains(scene: Mechanism) -> Iterator[tuple[Symbol, ...]]:
-    """Position, rate and second rate of each link, of each sliding pair (of one on the frame the rates too, which are
-    those of its pin along the guide), and of each point along both axes."""
+    """Position, rate and second rate of each link, of each sliding pair (on the frame with rates, those of its pin
+    along the guide), and of each point along both axes."""
     for link in scene.links:
         yield tuple(Symbol(kind, link=link.name) for kind in ("theta", "omega", "alpha"))
     for pair in scene.slidings:
@@ -130,7 +130,7 @@ def ordinate_chains(scene: Mechanism) -> Iterator[tuple[Symbol, ...]]:
 
 
 def _chain_of(scene: Mechanism, name: str) -> tuple[tuple[Symbol, ...], int]:
-    """A quantity by its name: its place among position, rate and second rate.
+    """A quantity by its name: its index among position, rate and second rate, and these.
 
     Raises
     ------
@@ -144,11 +144,11 @@ def _chain_of(scene: Mechanism, name: str) -> tuple[tuple[Symbol, ...], int]:
 
 
 def known_ordinate(scene: Mechanism, name: str, way: Way) -> tuple[Symbol, Symbol]:
-    """What is differentiated or integrated, and what comes out.
+    """The given quantity, and the derived or integrated one.
 
     Raises
     ------
-    CallError : no such quantity, none that comes out, or a driver that does not move evenly
+    CallError : no such quantity, no result of it, or a driver that does not move evenly
     """
     chain, k = _chain_of(scene, name)
     wanted = k + (1 if way == "derivative" else -1)
@@ -170,7 +170,7 @@ def graphical(reach: DriverRange, name: str, way: Way) -> Chords:
 
     Raises
     ------
-    CallError : no such quantity; the rate asked for is none; a driver that does not move evenly
+    CallError : no such quantity; no rate of it; a driver that does not move evenly
     Unsolvable : a position cannot be drawn
     """
     scene = reach.scene
@@ -245,7 +245,8 @@ def markup_of(symbol: Symbol) -> str:
 
 
 def chords_page(chords: Chords, reach: DriverRange, language: str) -> ChartPage:
-    """Draw it.  One mm of the file is one mm on paper, so that what a ruler measures times the scale is the value."""
+    """The page of a diagram with its result.  One mm of the file is one mm on paper, so that a length by ruler times
+    the scale is the value."""
     scene = reach.scene
     of_given, of_result = scene.units.of(chords.given.measure), scene.units.of(chords.result.measure)
     given, result = markup_of(chords.given), markup_of(chords.result)
@@ -337,8 +338,8 @@ def _panel(figure: Figure, chords: Chords, top: float, span: tuple[float, float]
 
 
 def _pole(figure: Figure, chords: Chords, axes: Axes, origin: complex) -> None:
-    """The pole before the ordinate axis with its distance, and the lines from it; ``origin`` of the panel in mm of the
-    page."""
+    """Draw the pole before the ordinate axis with its distance, and the lines from it; ``origin`` of the panel in mm of
+    the page."""
     for tall in chords.rays:
         axes.plot([-chords.pole, 0.0], [0.0, tall], **look(RAY))
     axes.plot([-chords.pole], [0.0], **marker("circle"))
@@ -353,8 +354,8 @@ def _pole(figure: Figure, chords: Chords, axes: Axes, origin: complex) -> None:
 
 
 def _smooth(x: Array, y: Array) -> Array:
-    """A curve through points, as one draws it with a French curve: in each the slope of its neighbours' chord; shape
-    (2, points)."""
+    """A curve through points, as drawn with a French curve: at each point the slope of its neighbours' chord; shape (2,
+    points)."""
     z = np.stack([x, y])
     if len(x) < 3:
         return z

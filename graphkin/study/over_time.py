@@ -1,4 +1,4 @@
-"""The motion where drivers move by laws: every output over the time, its extremes, and their diagrams."""
+"""The motion of drivers that move by laws: every output over time, its extremes, and their diagrams."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class TimeAxis(Axis):
         return places
 
     def course(self, quantity: Quantity) -> Array:
-        """A quantity over ``times`` (SI), NaN where there is none."""
+        """A quantity over ``times`` (SI), NaN where it is missing."""
         return np.asarray(quantity.values(None, self.motion), dtype=float)
 
     def values(self, quantity: Quantity, places: Array) -> Array:
@@ -69,7 +69,7 @@ class TimeAxis(Axis):
 
 @dataclass(frozen=True)
 class TimeStudy:
-    """What outputs do over the time: of each the quantities that are watched, in groups of a page each."""
+    """The motion of outputs over time: the quantities of each, in groups of a page."""
 
     structure: Structure
     pages: tuple[tuple[str, tuple[Quantity, ...]], ...]
@@ -85,8 +85,8 @@ class TimeStudy:
 
     @cached_property
     def extremes(self) -> dict[Quantity, tuple[Extreme, ...]]:
-        """Of each quantity the least and the greatest value, none of one that stands still; their offset and driver is
-        the time (s)."""
+        """The least and the greatest value of each quantity, none of a constant one; their offset and driver is the
+        time (s)."""
         extremes = dict[Quantity, tuple[Extreme, ...]]()
         for quantity in (q for _, quantities in self.pages for q in quantities):
             values = self.axis.course(quantity)
@@ -112,13 +112,13 @@ class TimeStudy:
         return chart_page(self.scene, (title, [self._fact(language)]), panels, axis, language, title, {"over": "time"})
 
     def _fact(self, language: str) -> str:
-        """What drives, and how long."""
+        """The drivers, and the span of time."""
         drives = ", ".join(d.key for d in self.scene.drivers if d.law is not None)
         begin, end = map(number, time_span(self.scene))
         return say(Phrase("over the time", drivers=drives, begin=begin, end=end), language)
 
     def lines(self, language: str) -> list[str]:
-        """Of each quantity the least and the greatest value, with the moment of it, as lines of text."""
+        """The least and the greatest value of each quantity, with their moments, as lines of text."""
         lines = [self._fact(language)]
         for quantity, extremes in self.extremes.items():
             unit = quantity.unit(self.scene)
@@ -133,7 +133,7 @@ class TimeStudy:
 
     @cached_property
     def data(self) -> dict[str, Json]:
-        """The same as plain data: scene units, radians, seconds."""
+        """The study as plain data: scene units, radians, seconds."""
         low, high = time_span(self.scene)
         outputs: dict[str, Json] = {}
         for quantity, extremes in self.extremes.items():
@@ -145,7 +145,8 @@ class TimeStudy:
 
 
 def study_time(scene: Mechanism, asked: Sequence[Quantity] = ()) -> TimeStudy:
-    """What is watched over the time: what is asked, each alone; else the drivers and every output with its rates."""
+    """The study over time of the asked quantities, each on a page; else of the drivers and every output with its
+    rates."""
     if asked:
         named = ((f"diagram-{q.name.replace('/', '-').replace('@', '')}", (q,)) for q in asked)
         return TimeStudy(structure_of(scene), tuple(named))

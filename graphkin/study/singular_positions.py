@@ -1,12 +1,11 @@
-"""Where methods fail and how fast: the error of each beside each kind of singular position, in the order in which they
-are drawn.
+"""The failure of methods: the error of each near each kind of singular position, in the order in which they are drawn.
 
-Beside the dead point of a dyad its place goes with the root of the distance, so that the error of the place grows as
+Near the dead point of a dyad its place changes with the root of the distance, so that the error of the place grows as
 distance^-1/2, those of velocity and acceleration (relative) as distance^-1, whatever the method; unless the distance
 itself is given, not the crank's angle.  Of guide bars: the flip of a bar whose pivot the crank pin passes through, and
 sliding that nearly stops.  Elsewhere geometry degenerates: formulas that lose digits, beside those that do not;
-differences in place of rates; an instant centre where two nearly parallel lines cross, whose place runs away while
-velocities through it do not; a drawing made small, where errors of points count the more.
+differences in place of rates; an instant centre at the crossing of two nearly parallel lines, whose error grows while
+velocities through it stay right; a small drawing, in which errors of points count more.
 """
 
 from __future__ import annotations
@@ -60,14 +59,14 @@ def _exactly_drawn(scene: Mechanism) -> Sheet | None:
 
 
 def _fates(key: str, /, **values: float | None) -> tuple[Phrase, ...]:
-    """A sentence with measured numbers in its gaps; none where one of them was not met."""
+    """A sentence with measured numbers in its gaps; none where a number is missing."""
     numbers = {gap: in_powers(value) for gap, value in values.items() if value is not None}
     return (Phrase(key, **numbers),) if len(numbers) == len(values) else ()
 
 
 @dataclass(frozen=True)
 class Turning:
-    """The direction of a link (a unit vector), and rates that go with its turning, such as omega, alpha, Coriolis."""
+    """The direction of a link (a unit vector), and rates of its turning, such as omega, alpha, Coriolis."""
 
     u: mpc | complex
     rates: tuple[mpf | float, ...]
@@ -168,8 +167,8 @@ def dead_point(kind: str, mp: MPContext, samples: int = 4) -> Singularity:
         return right[e].off(complex(pose.u[0]), float(pose.omega[0]), float(pose.alpha[0]))
 
     def closed(e: float) -> Answer:
-        """With the bound of the velocities of points as that of the follower's rate: both ends of its longest line
-        may err."""
+        """The closed form; the bound of the velocities of points gives that of the follower's rate: both ends of its
+        longest line may err."""
         motion = solver.solve(beside(e))
         bound = 2 * float(motion.bound.velocity[0]) / (abs(float(motion.omega(follower)[0])) * reach)
         return Answer(errors(motion, e), bounds=(math.nan, bound, math.nan))
@@ -237,8 +236,8 @@ def _followed(scene: Mechanism, link: str, angles: Sequence[mpf], mp: MPContext)
 def _newton(
     beside: Callable[[float], Mechanism], x: Sequence[float], follower: str, right: Mapping[float, Turning]
 ) -> Iterator[Answer]:
-    """Newton's method on the closure equations, from the position a degree away, until it moves no more; it warns where
-    it never meets its stop."""
+    """Newton's method on the closure equations, from the position a degree away, until it converges; it warns where it
+    does not."""
     scenes = [beside(e) for e in x]
     starts = [solver.solve(beside(e + STEP)) for e in x]
     equations = Equations(starts[0].structure)
@@ -263,7 +262,7 @@ TRIALS = 6  # at each distance, of which the worst counts
 
 
 def _worst_of_trials(errors: Callable[[float], Iterable[float]], e: float) -> Answer:
-    """The largest error of each formula over some trials; those without an answer do not count."""
+    """The largest error of each formula over some trials; trials without an answer do not count."""
     trials = [tuple(errors(e)) for _ in range(TRIALS)]
     return Answer([max(0.0, *column) for column in zip(*trials, strict=True)])
 
@@ -508,7 +507,7 @@ def _exact_bar(mp: MPContext, a: mpf, d: mpf, rate: float, angle: mpf) -> Turnin
 
 
 def _in_doubles(scene: Mechanism, angle: float) -> Turning:
-    """The closed form in doubles, no more digits where these do not suffice; nan where it refuses."""
+    """The closed form in doubles only, without more digits where these do not suffice; nan where it refuses."""
     values = solver.prepare(_turned(scene, angle), ("theta_3", "omega_3", "alpha_3", "v_B@2/B@3")).at(angle)
     theta, omega, alpha, x, y = values or (math.nan,) * 5
     u = complex(math.cos(theta), math.sin(theta))
@@ -548,9 +547,9 @@ def near_ground(mp: MPContext, samples: int = 4) -> Singularity:
 def flip(mp: MPContext, samples: int = 4) -> Singularity:
     """Crank as long as the ground: its pin B passes through the bar's pivot C, and the bar flips over.
 
-    With the crank turned by e from there, CB = 2 a sin(e/2) and the bar turns at half the speed of the crank: nothing
-    grows, but the direction of CB is told by a length that goes to zero, the rate by that and once more by the length.
-    Second rates, which are zero, count in parts of the crank's rate squared, and so go on growing.
+    With the crank turned by e from there, CB = 2 a sin(e/2) and the bar turns at half the speed of the crank: no value
+    grows, but the direction of CB comes from a length that goes to zero, the rate from it and again from the length.
+    Second rates, which are zero, count in parts of the crank's rate squared, and so keep growing.
     """
     scene, rate, a = _bar(100, 100, -80)
 
@@ -687,7 +686,7 @@ def run_singularities(kinds: Iterable[str] = (), samples: int = 4) -> tuple[Sing
 
     Parameters
     ----------
-    kinds : which of ``KINDS``; all if none is named
+    kinds : names from ``KINDS``; all if none is named
     samples : distances to each half of a decade, of which the largest error counts
 
     Raises

@@ -15,7 +15,8 @@ from graphkin.words import word
 
 
 def _flywheel(turn: TurnStudy) -> dict[str, Json]:
-    """The flywheel, where the scene asks for one, or why it has none: in the scene's units, works in force x metre."""
+    """The flywheel, if the scene asks for one, or the reason why there is none: in the scene's units, works in force x
+    metre."""
     units = turn.scene.units
     found = turn.flywheel
     if found is None:
@@ -45,7 +46,7 @@ def _flywheel(turn: TurnStudy) -> dict[str, Json]:
 def to_json(turn: TurnStudy) -> dict[str, Json]:
     """The object that ``sweep --json`` prints: numbers in the scene's length unit, seconds, radians.
 
-    ``null`` stands where there is no value, with a ``why`` beside it.
+    A missing value is ``null``, with a ``why`` beside it.
     """
     reach, scene = turn.reach, turn.scene
     driver = reach.driver
@@ -117,7 +118,7 @@ def _bounded(value: float) -> dict[str, float | str | None]:
 
 
 def _why_not(value: float) -> str:
-    """Why there is no value at an end of the motion: infinite, or not a number."""
+    """The reason for a missing value at an end of the motion: infinite, or not computed."""
     return word("goes away" if math.isinf(value) else "not computed", "en")
 
 
@@ -164,7 +165,7 @@ def _output(turn: TurnStudy, output: Output) -> dict[str, Json]:
 
 
 def design_row(turn: TurnStudy) -> dict[str, float | str | None]:
-    """One row of a table of designs: strokes and swings (deg), K, the least transmission angle (deg) and where."""
+    """A row of a table of designs: strokes and swings (deg), K, the least transmission angle (deg) and its place."""
     scene = turn.scene
     length = scene.units.length
     cells: dict[str, float | str | None] = {}
