@@ -157,7 +157,10 @@ def followers_of(
     settled = [r for r in relations if r not in twice and all(_ratios(whole, c, count) is not None for c in r.terms)]
     through = tuple(dict.fromkeys(chain.from_iterable(r.links for r in settled)))
     followers: list[Driver] = []
-    for coordinate in [*(("angle", name) for name in links if name != frame), *(("travel", s.key) for s in slides)]:
+    coordinates = [*(("angle", name) for name in links if name != frame), *(("travel", s.key) for s in slides)]
+    rolling = {coordinate for relation in relations for coordinate in relation.terms}
+    # what rolls has a start, what only turns with it has none
+    for coordinate in sorted(coordinates, key=lambda coordinate: coordinate not in rolling):
         ratios = _ratios(whole, coordinate, count)
         if ratios is None or _ratios(base, coordinate, count) is not None:
             continue

@@ -201,6 +201,23 @@ WHEEL_ON_DISC = {
 }
 
 
+@pytest.mark.parametrize("order", ["3421", "1243"])
+def test_a_wheel_starts_at_its_start_wherever_the_block_that_turns_with_it_stands_in_the_file(order):
+    links = {
+        "1": {"points": ["A", "B"], "length": 30},
+        "2": {"points": ["D", "C"], "length": 60},
+        "3": {"points": ["C"], "on": "4"},
+        "4": {"points": ["E"], "start": 60},
+    }
+    scene = {
+        "frame": {"points": {"A": [0, 0], "E": [75, 0], "D": [70, 90]}},
+        "links": {name: links[name] for name in order},
+        "gears": {"g": {"between": ["1", "4"], "teeth": [20, 40], "carrier": "0"}},
+        "driver": {"link": "1", "angle": 40, "omega": 6},
+    }
+    assert 60 == pytest.approx(np.degrees(frame_of(solve(scene).data)["links"]["4"]["angle"]), rel=1e-12)
+
+
 def test_a_wheel_at_the_end_of_a_rod_turns_as_far_as_it_rolls():
     own, there = (frame_of(solve(ROD_WITH_WHEEL, at=at).data) for at in (40, 140))
     rolled = (there["points"]["C@3"]["position"][0] - own["points"]["C@3"]["position"][0]) / 20
