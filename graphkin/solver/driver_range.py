@@ -27,7 +27,7 @@ from graphkin.solver.bounds import Accuracy
 from graphkin.solver.cams import cam_angle
 from graphkin.solver.dead_points import singular, without_singular
 from graphkin.solver.driver_path import FAR, Path
-from graphkin.solver.drivers import UniformGrid, goal_values, own_values
+from graphkin.solver.drivers import GivenValues, UniformGrid, goal_values, own_values
 from graphkin.solver.engine import positions
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import FIELDS, Array, Drive, Pose, rest
@@ -208,6 +208,12 @@ class DriverRange:
         return (not self.full and self.behind.limit is not None), self.ahead.limit is not None
 
     @cached_property
+    def rolls_apart(self) -> bool:
+        """Whether positions a turn of the driver apart differ, since something rolls, and the motion ends somewhere, so
+        that a value is reached one way only."""
+        return self.driver.turns and self.structure.rolls and not self.full and any(self.limited)
+
+    @cached_property
     def limit_why(self) -> Wording:
         """Why the motion ends."""
         path = self.ahead if self.ahead.limit is not None else self.behind
@@ -229,9 +235,9 @@ class DriverRange:
     def offsets(self, value: Array) -> Array:
         """The offsets at which the motion comes to these values of the first driver, or would: those of the values
         themselves, of a motion that closes within its turns; of an angle that it does not reach so, at most a turn
-        ahead or as far behind as the motion reaches."""
+        ahead or as far behind as the motion reaches, unless something rolls on by then."""
         offset = np.asarray(self.sense * (value - self.start[0]))
-        if not self.driver.turns:
+        if not self.driver.turns or self.rolls_apart:
             return offset
         if self.full:
             return np.asarray(np.remainder(offset, abs(self.wide)))
@@ -281,10 +287,16 @@ class DriverRange:
         found: Extremes = self.kept[symbol]
         return found
 
-    def grid(self, n: int, first: int = 0, last: int | None = None) -> UniformGrid:
+    def grid(self, n: int, first: int = 0, last: int | None = None) -> UniformGrid | GivenValues:
         """Values of the first driver at positions ``first`` to ``last`` (not included) of a table of n: a turn from the
-        start on in the sense of the driver, or evenly inside the range of travel."""
+        start on in the sense of the driver, or evenly inside the range of travel; where what rolls comes to an angle
+        the other way round alone, the value a turn less."""
         last, start = n if last is None else last, float(self.start[0])
+        if self.rolls_apart:
+            offset = self.table_offsets(n, first, last)
+            reached = self._reached(offset)
+            if not np.array_equal(reached, offset):
+                return GivenValues(self.value(reached))
         if self.driver.turns:
             return UniformGrid(start, self.sense * 2 * np.pi, n, first, last)
         low, high = self.ends

@@ -241,7 +241,7 @@ class PreparedMechanism:
             return self._by_columns
         code = Code(self.dimensioned.program.graph, (*self.asked, *self._sines), self.fixed)
         function, params, names, count = code.floats, self.given(code), code.inputs, len(self.asked)
-        everywhere, steady, turns = self.whole, self.signs is not None, self.turns
+        everywhere, steady, around = self.whole, self.signs is not None, self.turns and not self.range.rolls_apart
         start, sense, (low, high) = float(self.range.start[0]), self.range.sense, self.range.ends
         place = {"cos": 0, "sin": 1, "travel": 2}
         order = [place.get(name[0], 3) for name in names]
@@ -250,7 +250,7 @@ class PreparedMechanism:
             if not everywhere:
                 # what the range says of arrays (``reaches``), in plain floats
                 offset = sense * (value - start)
-                if turns and not low <= offset <= high:
+                if around and not low <= offset <= high:
                     offset %= 2 * math.pi
                     offset -= 2 * math.pi if offset > high else 0.0
                 if not low <= offset <= high:
@@ -303,6 +303,7 @@ class PreparedMechanism:
     def _numbers(self) -> Array:
         """What compiled code takes: the params, then start and way of the driver over its range."""
         grid = self.range.grid(1)
+        assert isinstance(grid, UniformGrid)  # where the motion starts it is
         return np.array([*self.given(self.code), grid.start, grid.way])
 
     @cached_property

@@ -182,3 +182,32 @@ def test_a_small_value_that_is_no_rounding_is_read_as_it_is():
         "sketch": {"C": [300, 280]},
     }  # fmt: skip
     assert [1e-8] * 9 == pytest.approx(np.abs(graphkin.prepare(tiny, find=["v_E"]).sweep(9)["v_E"]).tolist(), rel=1e-9)
+
+
+def rack_of_a_rocking_crank() -> Prepared:
+    scene = {
+        "frame": {"points": {"A": [0, 0], "D": [100, 0]}, "guides": {"h": {"through": [0, 40], "angle": 0}}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 60},
+            "2": {"points": ["B", "C"], "length": 40},
+            "3": {"points": ["D", "C"], "length": 50},
+            "4": {"on": "0.h"},
+        },
+        "gears": {"g": {"between": ["1", "4"], "teeth": [20, "rack"], "carrier": "0"}},
+        "driver": {"link": "1", "angle": 30, "omega": 2},
+    }
+    return graphkin.prepare(scene, find=["s_4/0", "omega_3"])
+
+
+def test_a_rack_stands_where_the_way_that_the_motion_can_go_brings_it():
+    ready = rack_of_a_rocking_crank()
+    solved = graphkin.solve(ready.source, sweep=12)
+    for samples in (ready.sweep(12), ready.over({"links.3.length": [50]}).sweep(12)):
+        assert np.asarray(solved["s_4/0"]) == pytest.approx(np.ravel(samples["s_4/0"]), nan_ok=True)
+    assert np.rad2deg(solved.motion.values[:, 0]) == pytest.approx(ready.sweep(12).driver)
+
+
+def test_a_rack_never_comes_to_an_angle_that_lies_a_turn_beyond_the_end_of_the_motion():
+    ready = rack_of_a_rocking_crank()
+    assert (None, pytest.approx(ready.columns([20])["s_4/0"][0])) == (ready.at(380), ready.at(20)[0])
+    assert np.isnan(ready.columns([380])["s_4/0"]).all()
