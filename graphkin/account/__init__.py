@@ -1,1 +1,1 @@
-"""What a sheet tells: the letters of a convention; the sentence, reason and sums of each step; what is written."""
+"""The account of a sheet: the letters of a convention; the sentence, reason, sums and lines of each step."""

@@ -1,7 +1,7 @@
-"""The account of a construction: for each step its sentence, what is computed in it and what is written of it, and for
-each equation why it is so, in one school of notation and any language.
+"""The account of a construction: the sentence, the sums and the lines of each step, and the reason of each equation, in
+a school of notation and any language.
 
-What a step tells is known by its reason, in the tables of `InMechanism` and `InPolygon`.
+A step is told by its reason, in the tables of `InMechanism` and `InPolygon`.
 """
 
 from __future__ import annotations
@@ -27,24 +27,24 @@ class Account(Voice):
     """Tells the construction of one sheet in the letters of one convention."""
 
     def step(self, step: Step, language: str) -> str:
-        """The sentence of a step, with the letters of the points from which it goes and in which it ends."""
+        """The sentence of a step, with the letters of its first and last point."""
         return self.sentence(self.telling(step).said, language)
 
     def telling(self, step: Step) -> Telling:
-        """What there is to tell of a step."""
+        """The teller of a step."""
         return InMechanism(self, step) if step.diagram == "mechanism" else InPolygon(self, step)
 
     def work(self, step: Step) -> tuple[str, ...]:
-        """What is computed in a step, as lines of symbols and numbers."""
+        """The sums of a step, as lines of symbols and numbers."""
         return tuple(self.telling(step).work)
 
     def lines(self, step: Step, language: str) -> Iterator[str]:
-        """What is written of a step to repeat it, as lines of words and symbols."""
+        """The lines from which a step can be repeated, of words and symbols."""
         for line in self.telling(step).written(language):
             yield self.say(line, languages(language)[0]) if isinstance(line, Phrase) else line
 
     def why(self, equation: Equation, language: str) -> str:
-        """Why an equation is as it is written, in sentences; "" where there is nothing to say."""
+        """The reasons of an equation, in sentences; "" without any."""
         told = (self.sentence(phrase, language) for phrase in reasons(self.sheet, equation))
         return word("between sentences", language).join(told)
 
@@ -59,8 +59,8 @@ WrittenLine = Equation | str
 
 
 def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[WrittenLine]:
-    """Everything that is written to repeat a construction, in its order: what is measured on the mechanism, each vector
-    equation with its products in numbers, the angular rates where they are known, and what each step tells."""
+    """The lines from which a construction can be repeated, in its order: lengths measured on the mechanism, each vector
+    equation with its products in numbers, the angular rates as soon as they are known, and the lines of each step."""
     account = Account(sheet, letters)
     lines: list[WrittenLine] = []
     written: set[int] = set()
@@ -95,7 +95,7 @@ def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[Written
 
 def _products(sheet: Sheet, equation: Equation, letters: Letters) -> list[str]:
     """``a^n_CB = 0.7396² × 383.14 = 209.58 mm/s²``: the sizes in an equation that follow from rates, in numbers, each
-    once; that of an equation which is only a rule stands in it."""
+    once; an equation that is only a rule contains its own."""
     if rule_alone(sheet, equation):
         return []
     own = [s for s in sheet.steps if s.equation == equation.number]
@@ -122,7 +122,7 @@ def _shared_with_drivers(sheet: Sheet, equation: Equation) -> Iterator[str]:
 
 
 def rule_alone(sheet: Sheet, equation: Equation) -> bool:
-    """Whether an equation is nothing but the rule of one vector."""
+    """Whether an equation is only the rule of a vector."""
     last = equation.sides[-1]
     known = len(last) == 1 and last[0].size_known and len(equation.sides) <= 2
     return known and last[0].symbol in sheet.vectors(equation.diagram)
@@ -140,7 +140,7 @@ def reasons(sheet: Sheet, equation: Equation) -> list[Phrase]:
 
 
 def _why(sheet: Sheet, equation: Equation, term: Term) -> Iterator[Phrase]:
-    """What ties the point of a term to what it is meant relative to; of a term found before, in which step."""
+    """The relation of a term's point to its reference point; of a term found before, its step."""
     symbol = term.symbol
     of, to = symbol.of, symbol.to
     if of is None or (symbol.kind in ("ak", "ar") and to is None):
@@ -193,19 +193,19 @@ def _found_before(sheet: Sheet, equation: Equation, term: Term) -> int:
 
 
 def _rests(sheet: Sheet, ref: PointRef) -> bool:
-    """Whether a point is a pivot on the frame, not just the point of a moving link that lies over one."""
+    """Whether a point is a pivot on the frame, not a point of a moving link over it."""
     return ref.point in sheet.scene.frame.points and (not ref.link or ref.link in sheet.scene.holders[ref.point])
 
 
 def _coincident(of: PointRef, to: PointRef, slide: Pair) -> Phrase:
-    """Two points that coincide under a sliding pair, or under a pin in a slot, of which no link slides."""
+    """The reason for two points that coincide under a sliding pair, or at a pin in a slot, where no link slides."""
     if slide.slot and slide.pin is not None:
         return Phrase("why in slot", point=of, other=to, pin=PointRef(slide.pin), link=slide.b)
     return Phrase("why coincident", point=of, other=to, block=slide.a, guide=slide.b)
 
 
 def _of_a_point(sheet: Sheet, symbol: Symbol) -> Iterator[Phrase]:
-    """A point that a guide of the frame, or a fixed pivot, holds to its path."""
+    """The reason for a point that a guide of the frame, or a fixed pivot, holds to its path."""
     of = symbol.of
     assert of is not None
     frame = sheet.scene.frame

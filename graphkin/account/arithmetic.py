@@ -1,6 +1,6 @@
-"""Sums as a student writes them: what is measured, with its millimetres, and rules with numbers in place of symbols.
+"""Sums as a student writes them: measured lengths with their millimetres, and rules with numbers in place of symbols.
 
-Every product and quotient is computed from the numbers that stand before it, so that whoever does the sum gets the
+Every product and quotient is computed from the numbers written before it, so that a reader who does the sum gets the
 same; its figures are those that the drawing carries.
 """
 
@@ -46,8 +46,8 @@ def scale_of(sheet: Sheet, diagram: DiagramName) -> float:
 
 
 def arm_written(sheet: Sheet, bar: tuple[str, str], mm: float, most: int = MOST) -> str:
-    """A length in the unit of rates, with which it is multiplied or by which they are divided: given where one link has
-    both ends, whatever a hand has made of it, else what so many mm on paper are."""
+    """A length in the unit of rates, for their products and quotients: the given length where a link has both ends,
+    however a hand has drawn it, else the value of its mm on paper."""
     held = (link.points for link in sheet.structure.links.values())
     given = (abs(p[bar[0]] - p[bar[1]]) for p in held if bar[0] in p and bar[1] in p and p[bar[0]] != p[bar[1]])
     pushed = pushed_by_driver(sheet.structure, sheet.drivers, bar)
@@ -59,8 +59,8 @@ def arm_written(sheet: Sheet, bar: tuple[str, str], mm: float, most: int = MOST)
 
 
 def times_scale(sheet: Sheet, diagram: DiagramName, mm: float) -> str:
-    """``56.67 mm × 5 (mm/s)/mm = 283.35 mm/s (283.37)``: a length on paper, and, where exact hands have drawn it, what
-    it is beyond the hundredth of a millimetre in brackets."""
+    """``56.67 mm × 5 (mm/s)/mm = 283.35 mm/s (283.37)``: a length on paper, and of an exact drawing in brackets its
+    value beyond the hundredth of a millimetre."""
     unit, per = unit_of(sheet, diagram).written, scale_of(sheet, diagram)
     length = on_paper(mm)
     value, finer = product(length, amount(per, 12)), amount(mm * per, MOST)
@@ -91,7 +91,7 @@ def lengths_measured(sheet: Sheet, letters: Letters) -> Iterator[tuple[tuple[str
 
 
 def is_given(sheet: Sheet, bar: tuple[str, str]) -> bool:
-    """Whether one link holds both ends, or a place of one of them is not on the drawing."""
+    """Whether a link holds both ends, or one of them is not on the drawing."""
     if any(PointRef(name) not in sheet.points for name in bar):
         return True
     bodies = (sheet.scene.frame, *sheet.scene.links)
@@ -102,8 +102,7 @@ def is_given(sheet: Sheet, bar: tuple[str, str]) -> bool:
 
 
 def rate_sum(sheet: Sheet, step: Step, units: bool = True) -> str:
-    """``283.37 mm/s / 383.14 mm = 0.7396 rad/s``, or without units before the result; "" where there is nothing to
-    divide."""
+    """``283.37 mm/s / 383.14 mm = 0.7396 rad/s``, or without units before the result; "" where there is no quotient."""
     divided = _divided(sheet, step)
     if divided is None:
         return ""
@@ -114,7 +113,7 @@ def rate_sum(sheet: Sheet, step: Step, units: bool = True) -> str:
 
 
 def _divided(sheet: Sheet, step: Step) -> tuple[str, str, str] | None:
-    """The numbers of a measured rate as they are written: size, length and quotient; None where there are none."""
+    """The numbers of a measured rate as they are written: size, length and quotient; None without them."""
     diagram = step.diagram
     if step.held:
         drawn = (abs(one.span) for one in sheet.vectors_seen(step.diagram) if one.symbol == step.symbol)
@@ -138,7 +137,7 @@ def _divided(sheet: Sheet, step: Step) -> tuple[str, str, str] | None:
 
 
 def plan_sum(step: Step) -> str:
-    """``30.00 mm × 0.25 (rad/s)/mm = 7.5 rad/s``: a rate as it is read off the plan of a train."""
+    """``30.00 mm × 0.25 (rad/s)/mm = 7.5 rad/s``: a rate read from the plan of a train."""
     unit = RATE_UNITS[step.kind]
     length, scale = on_paper(step.mm), amount(step.per_mm, 12)
     return f"{length} mm × {scale} ({unit})/mm = {product(length, scale)} {unit}"
@@ -146,7 +145,7 @@ def plan_sum(step: Step) -> str:
 
 @dataclass(frozen=True)
 class Division:
-    """A rate found from trial polygons: ``9 + 15.14 / 5.24 × 1``, what that is, and the ``part`` of the step."""
+    """A rate found from trial polygons: ``9 + 15.14 / 5.24 × 1``, its value, and the ``part`` of the step."""
 
     terms: str
     value: str
@@ -154,14 +153,14 @@ class Division:
 
 
 def trials_of(sheet: Sheet, step: Step, divided: Superposed) -> list[RateTrial]:
-    """The trial polygons from which a step divides."""
+    """The trial polygons whose gaps a step divides."""
     trials = [s.data for s in sheet.before(step) if isinstance(s.data, RateTrial)]
     return trials[-len(divided.apart) :]
 
 
 def divisions(sheet: Sheet, step: Step, divided: Superposed) -> list[Division]:
-    """How each rate follows from the first that was assumed and the step to its other trial: by what the two leave open
-    where one rate was assumed, else by the parts of the steps with which nothing is left open."""
+    """The division that gives each rate from its first assumed value and the step to its other trial: by the gaps of
+    the two trials for a single assumed rate, else by the parts of the steps that close all gaps."""
     trials = trials_of(sheet, step, divided)
     found = []
     for i, (_, rate) in enumerate(divided.found):
@@ -192,15 +191,15 @@ def divisions(sheet: Sheet, step: Step, divided: Superposed) -> list[Division]:
 
 
 def _carried(sheet: Sheet, diagram: DiagramName, mm: float, carried: int, most: int) -> str:
-    """What a length on paper stands for: of an exact drawing with one figure more than paper shows, or with more."""
+    """The value of a length on paper: of an exact drawing with one figure more than paper shows, or with more."""
     if sheet.instrument != EXACT.name:
         return product(on_paper(mm), amount(scale_of(sheet, diagram), 12))
     return amount(mm * scale_of(sheet, diagram), min(MOST, carried + 1) + most - MOST)
 
 
 def factors_of(sheet: Sheet, rule: Size | None, most: int = MOST) -> tuple[str, ...]:
-    """The numbers whose product a size is, as they are written to so many figures, those that a hand has measured as
-    they stand on the sheet; none where no such rule is known."""
+    """The numbers whose product is a size, written to ``most`` figures, measured ones as they are on the sheet; none
+    without such a rule."""
     if rule is None:
         return ()
     if rule.rule == "rolling curves":
@@ -224,7 +223,7 @@ def factors_of(sheet: Sheet, rule: Size | None, most: int = MOST) -> tuple[str, 
 
 
 def carried_by(sheet: Sheet, rule: Size | None) -> int:
-    """How many figures a product carries: as many as the poorest of what a hand has measured for it."""
+    """The figures of a product: the least of its measured numbers."""
     if sheet.instrument == EXACT.name or rule is None or rule.rule != "rate":
         return MOST
     read = [_rate_read(sheet, rule)]
@@ -236,7 +235,7 @@ def carried_by(sheet: Sheet, rule: Size | None) -> int:
 
 
 def _rate_read(sheet: Sheet, rule: Size) -> str:
-    """The rate of one link as a hand has measured it, the quotient that stands on the sheet; "" for any other."""
+    """The measured rate of a link, the quotient on the sheet; "" for another."""
     if sheet.instrument == EXACT.name or len(rule.links) > 1:
         return ""
     rate = sheet.rates(rule.rate)[rule.links[0]]
@@ -248,7 +247,7 @@ def _rate_read(sheet: Sheet, rule: Size) -> str:
 
 
 def _turning(sheet: Sheet, rate: Literal["omega", "alpha"], links: Sequence[str]) -> float:
-    """How a link turns (rad/s, rad/s2), or the first of two as seen from the second."""
+    """The rate of a link (rad/s, rad/s2), or of the first of two as seen from the second."""
     rates = [sheet.rates(rate)[name].value for name in links]
     turning = rates[0] - added_up(rates[1:])
     return turning if abs(turning) > SAME_RATE * max(map(abs, rates)) else 0.0
@@ -273,7 +272,7 @@ def rule_sum(sheet: Sheet, rule: Size | None, diagram: DiagramName) -> str:
 
 
 def _span(sheet: Sheet, symbol: Symbol) -> float | None:
-    """The length of a drawn velocity (mm), as read where a hand has."""
+    """The length of a drawn velocity (mm), as read by a finite instrument."""
     drawn: Vector | ConstructionVector | None = sheet.vectors("velocity").get(symbol)
     if drawn is None:
         drawn = next((one for one in sheet.vectors_seen("velocity") if one.symbol == symbol), None)
@@ -285,8 +284,8 @@ def _as_read(sheet: Sheet, symbol: Symbol, mm: float) -> float:
 
 
 def laid_sum(sheet: Sheet, diagram: DiagramName, rule: Size | None, mm: float) -> tuple[str, str]:
-    """``0.7396² × 383.14 = 209.58 mm/s²`` (without a rule the value alone), and what ``÷ 10 (mm/s²)/mm = 20.96 mm``
-    says of it, for a vector of a length on paper: with as many figures as both want to be true as they are written."""
+    """``0.7396² × 383.14 = 209.58 mm/s²`` (without a rule the value alone), and its quotient ``÷ 10 (mm/s²)/mm = 20.96
+    mm``, for a vector of a length on paper: with the figures that make both true as written."""
     per, unit = scale_of(sheet, diagram), unit_of(sheet, diagram).written
     length, scale, least = on_paper(mm), amount(per, 12), carried_by(sheet, rule)
     tried = [

@@ -1,4 +1,4 @@
-"""What is told of instant centres: how each was found, where it lies, and every velocity taken through them."""
+"""The account of instant centres: the construction and the place of each, and every velocity taken through them."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ STILL = 1e-12  # part of the largest speed that is none
 
 
 def how_found(centres: Centres, centre: Centre, name: Callable[[LinkPair], str]) -> Phrase:
-    """How a centre was found, as a sentence to be; ``name`` writes centres."""
+    """The construction of a centre as a phrase; ``name`` writes centres."""
     if centre.kind == "undetermined":
         return Phrase("centre none", centre=centre.pair)
     far = centre.point is None
@@ -33,13 +33,13 @@ def how_found(centres: Centres, centre: Centre, name: Callable[[LinkPair], str])
 
 
 def line_through(line: CentreRelation, name: Callable[[LinkPair], str], normal: Callable[[str], str]) -> str:
-    """A line on which a centre lies, by the centres that it leads through, or the normal of a pin in a slot."""
+    """A line through a centre, by the centres on it, or as the normal of a pin in a slot."""
     return "".join(normal(through) if isinstance(through, str) else name(through) for through in line.through)
 
 
 def place_of(centres: Centres, centre: Centre) -> tuple[float, float] | None:
-    """Coordinates of a centre in the scene's unit of length, without what rounding leaves of nought; of one at infinity
-    the direction to it; None where it is undetermined."""
+    """Coordinates of a centre in the scene's unit of length, 0 where they are rounding alone; of a centre at infinity
+    its direction; None where it is undetermined."""
     scene = centres.scene
     if centre.point is None and centre.direction is None:
         return None
@@ -57,11 +57,11 @@ def points_asked(centres: Centres) -> tuple[Symbol, ...]:
 
 
 def velocity_sentences(centres: Centres) -> tuple[Phrase, ...]:
-    """Every link's rate from the link before it in its chain, then every asked point's speed from its link's rate, and
-    the sliding velocity of every pin along a guide that moves.
+    """Sentences on every link's rate from the link before it in its chain, then on every asked point's speed from its
+    link's rate, and on the sliding velocity of every pin along a moving guide.
 
-    Among the arguments of the phrases, pairs of links stand for centres, `Symbol` for a velocity, `PointRef` for a
-    point; distances are those of the figure (mm).
+    In the gaps of the phrases a pair of links is a centre, a `Symbol` a velocity, a `PointRef` a point; distances are
+    those of the figure (mm).
     """
     rates: dict[str, _Rate] = {}
     of_links: dict[str, Phrase] = {}
@@ -83,7 +83,7 @@ def velocity_sentences(centres: Centres) -> tuple[Phrase, ...]:
 
 
 class _Rate(NamedTuple):
-    """An angular velocity (rad/s) as it is written, and how many figures it carries."""
+    """An angular velocity (rad/s) as it is written, and the number of its figures."""
 
     written: str
     carried: int = MOST
@@ -94,18 +94,18 @@ class _Rate(NamedTuple):
 
     @property
     def last(self) -> int:
-        """The power of ten of the last figure that it carries."""
+        """The power of ten of its last figure."""
         return Decimal(self.written).adjusted() - self.carried
 
 
 def _apart(first: complex, second: complex) -> str:
-    """A distance on the figure (mm); of places that fall together but for rounding, none."""
+    """A distance on the figure (mm); 0 for places that differ by rounding alone."""
     mm = abs(first - second)
     return on_paper(mm if mm > TOGETHER else 0.0)
 
 
 def _three(centres: Centres, turning: Turning) -> tuple[Centre, Centre, Centre]:
-    """The centres by which a link moves: its own, that of the link before it in its chain, and the common one."""
+    """The centres of a link's motion: its own, that of the link before it in its chain, and their common one."""
     frame, name, known = centres.scene.frame.name, turning.link, turning.chain[-2]
     return centres.of(name, frame), centres.of(known, frame), centres.of(name, known)
 
@@ -113,8 +113,8 @@ def _three(centres: Centres, turning: Turning) -> tuple[Centre, Centre, Centre]:
 def _of_link(
     centres: Centres, rates: Mapping[str, _Rate], turning: Turning, nothing: bool
 ) -> tuple[_Rate, Phrase]:
-    """The rate of a link, worked out from the rate before it and the distances as they are written (0 where it is
-    ``nothing`` but rounding), and the sentence that says so."""
+    """The rate of a link, computed from the rate before it and the distances as they are written (0 where it is
+    rounding alone, below ``nothing``), and its sentence."""
     new, its, common = _three(centres, turning)
     known, sign = rates[turning.chain[-2]], "-" * (turning.omega < 0.0)
     gaps: dict[str, object] = {
@@ -144,7 +144,7 @@ def _of_link(
 
 def _of_point(centres: Centres, rates: Mapping[str, _Rate], symbol: Symbol) -> Phrase | None:
     """The speed of a point: its distance from the link's centre times the rate; of a link that only translates, the
-    speed that the link before it has where both have one velocity."""
+    speed of the link before it where both have the same velocity."""
     assert symbol.of is not None
     turning = centres.turning_of(symbol.of)
     if turning is None:
@@ -168,7 +168,7 @@ def _of_point(centres: Centres, rates: Mapping[str, _Rate], symbol: Symbol) -> P
 
 
 def _speed(centres: Centres, rate: str, length: str, carried: int) -> tuple[str, str]:
-    """The scale of the figure, and what a rate (rad/s) times a length on it (mm) comes to."""
+    """The scale of the figure, and the product of a rate (rad/s) and a length on it (mm)."""
     units = centres.scene.units.rates
     per_mm = amount(centres.sheet.scales.length / units.metres)
     speed = written.product(rate, length, per_mm, carried=carried)
@@ -177,7 +177,7 @@ def _speed(centres: Centres, rate: str, length: str, carried: int) -> tuple[str,
 
 def _pins_on_guides(centres: Centres) -> Iterator[tuple[str, str, str, str]]:
     """Pins that slide along guides of moving links: the point, the link whose pin it is, the link that slides with it
-    (the same for a pin in a slot) and the link that bears the guide."""
+    (the same for a pin in a slot) and the link with the guide."""
     scene, frame = centres.scene, centres.scene.frame.name
     yield from ((pin.point, pin.of, pin.of, pin.on) for pin in scene.pins if frame not in (pin.of, pin.on))
     for pair in scene.slidings:

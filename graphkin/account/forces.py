@@ -1,7 +1,7 @@
-"""The forces of a position as they are told: step by step with reasons, moment equations in numbers, how a polygon is
-laid off and closed, what was read off.
+"""The account of the forces of a position: step by step with reasons, moment equations in numbers, the laying off and
+closing of polygons, the readings.
 
-Inertia forces come first, off the drawn accelerations, and springs; then group by group what is cut free, moments,
+Inertia forces come first, from the drawn accelerations, and springs; then group by group the links cut free, moments,
 polygon, forces inside, couples; at last the lever.
 """
 
@@ -49,12 +49,12 @@ class ForceStep:
 
     Parameters
     ----------
-    kind : what is done in it
-    why : why it is taken
-    work : what is computed in it
-    found : what it finds
-    part : which part of a force it finds by moments; of a polygon inside a group the link
-    number : its place behind the steps of the motion
+    kind : its action
+    why : its reason
+    work : its sums
+    found : the force that it finds
+    part : the part of a force that it finds by moments; of a polygon inside a group the link
+    number : its number, after the steps of the motion
     """
 
     kind: Kind
@@ -65,19 +65,19 @@ class ForceStep:
     number: int = 0
 
     def words(self, language: str) -> tuple[tuple[str, str], ...]:
-        """Each language of a paper, and why the step is taken, in words with symbols."""
+        """Each language of a paper, and the reason of the step, in words with symbols."""
         return tuple((each, say(self.why, each)) for each in languages(language))
 
     def lines(self, language: str) -> tuple[str, ...]:
-        """What is computed, in the languages of a paper."""
+        """The sums, in the languages of a paper."""
         return tuple(line for told in self.work for line in in_all(told, language))
 
 
 @dataclass(frozen=True)
 class ForceStage:
-    """Steps that belong together: of one group, of the inertia forces, of a lever (whose ``group`` has no links).
+    """The steps of a group, of the inertia forces, or of a lever (whose ``group`` has no links).
 
-    ``figure`` is the one they are drawn on; ``again`` marks what is drawn with a load that begins or ends here.
+    ``figure`` is their figure; ``again`` marks steps drawn with a load that begins or ends here.
     """
 
     figure: Literal["mechanism", "acceleration", "forces", "lever"]
@@ -92,11 +92,11 @@ class ForceStage:
         return tuple((each, say(self.title, each)) for each in languages(language))
 
     def told(self, *kinds: Kind) -> list[Wording]:
-        """Why steps of some kinds are taken, each with what is computed in it."""
+        """The reasons of steps of some kinds, each with its sums."""
         return [line for step in self.steps if step.kind in kinds for line in (step.why, *step.work)]
 
     def number_of(self, kind: Kind, symbol: Symbol | None = None, part: str = "") -> int | None:
-        """The step of a kind; None where there is none that finds a symbol, or is of that part or link."""
+        """The step of a kind that finds a symbol, or belongs to a part or link; None without it."""
         alike = [s for s in self.steps if s.kind == kind and s.part == part and (symbol is None or symbol in s.found)]
         return alike[-1].number if alike else None
 
@@ -140,7 +140,7 @@ class ForceAccount:
         return f"${force_letters(self.letters.convention, symbol, part)}$"
 
     def stages(self) -> Iterator[ForceStage]:
-        """All steps from the drawn accelerations to what balances, by their numbers."""
+        """All steps from the drawn accelerations to the balancing load, by their numbers."""
         last = self.sheet.steps[-1].number if self.sheet.steps else 0
         for stage in self._unnumbered():
             first, last = last + 1, last + len(stage.steps)
@@ -190,7 +190,7 @@ class ForceAccount:
         return ";  ".join(said)
 
     def springs(self) -> Iterator[Phrase]:
-        """The force of each spring from its length as it was measured."""
+        """The force of each spring from its measured length."""
         units = self.sheet.scene.units
         for spring in self.sheet.scene.loading.springs:
             name = Symbol("P", name=spring.name)
@@ -270,7 +270,7 @@ class ForceAccount:
             yield ForceStep("moments", said, self._in_numbers(equation, name), (symbol,), part)
 
     def _couples(self, group: ForceGroup) -> Iterator[ForceStep]:
-        """Couples of sliding pairs with the lines of their forces, and moments that balance."""
+        """Couples of sliding pairs with the lines of their forces, and balancing moments."""
         units = self.sheet.scene.units
         for equation in group.couples:
             if not any(link in self.sheet.scene.by_name for link in equation.links):  # a pin in a slot has no couple
@@ -290,8 +290,8 @@ class ForceAccount:
             yield ForceStep("couples", Phrase(key, links=_links(equation.links), moment=name), work, (symbol,))
 
     def _in_numbers(self, equation: MomentEquation, name: str) -> list[Wording]:
-        """The arms of a moment equation as the ruler gives them on the mechanism, and the equation; ``name`` is that of
-        its unknown."""
+        """The arms of a moment equation as measured on the mechanism, and the equation; ``name`` is the name of its
+        unknown."""
         of = [*((self.name(t.symbol), t.arm) for t in equation.terms), (name, equation.unknown.arm)]
         arms = [f"{force} {written(on_paper(abs(arm)))} mm" for force, arm in of if arm is not None]
         scale = Neutral(f"× {amount(self.sheet.scales.length, 12)} m/mm")
@@ -346,7 +346,7 @@ class ForceAccount:
         return lines
 
     def _closed_by(self, group: ForceGroup) -> Phrase | None:
-        """Through which ends of the chain the lines of the unknown forces go; None where that is not so."""
+        """The ends of the chain through which the lines of the unknown forces go; None where they do not."""
         known, unknown = laid_off(group), [v for v in group.polygon if v.by == "closing"]
         if not known or not unknown or len(unknown) > 2:
             return None
@@ -376,7 +376,7 @@ class ForceAccount:
         )  # fmt: skip
 
     def lever(self, state: ForceState, lever: Lever) -> tuple[Phrase, Phrase]:
-        """The sum of the moments on a lever in numbers, and what balances by it beside the value of the polygons."""
+        """The sum of the moments on a lever in numbers, and its balancing load beside that of the polygons."""
         units, balances, per_mm = self.sheet.scene.units, lever.unknown.symbol, lever_scale(self.sheet, lever)
         name, moment, arm = self.name(balances), balances.kind == "M", lever.unknown.moment / per_mm
         total = added_up(row.moment for row in lever.rows) / units.newtons / per_mm
@@ -395,7 +395,7 @@ class ForceAccount:
 
 
 def _links(names: Sequence[str]) -> Phrase:
-    """Links by name, blocks of pins left out where they are not alone."""
+    """Links by name, without blocks of pins unless they are alone."""
     return links_named([name for name in names if "/" not in name] or names)
 
 
@@ -403,7 +403,7 @@ def _links(names: Sequence[str]) -> Phrase:
 
 
 def laid_off(group: ForceGroup) -> tuple[ForceVector, ...]:
-    """The forces of a polygon that are known before it is closed, given or by moments, one behind the other."""
+    """The forces of a polygon that are known before it is closed, given or by moments, in order."""
     turned = list(group.polygon)
     for _ in turned:  # from the first known one behind an unknown one
         if turned[0].by != "closing" and turned[-1].by == "closing":
@@ -414,7 +414,7 @@ def laid_off(group: ForceGroup) -> tuple[ForceVector, ...]:
 
 def corners(group: ForceGroup) -> tuple[tuple[str, complex, ForceVector], ...]:
     """The corners of a polygon as they are drawn, lettered a, b, c …: each with its place (mm) and the force that ends
-    there, the first with the force that begins there; places that fall together bear one letter."""
+    there, the first with the force that begins there; coincident places have one letter."""
     chain = laid_off(group)
     turned = list(group.polygon)
     while chain and turned[0] is not chain[0]:
@@ -439,8 +439,8 @@ unknown ("" where it is a couple), and what the others give for it (in the file'
 
 
 def balance(sheet: Sheet, equation: MomentEquation) -> Balance:
-    """The equation with as many figures of its arms, at last of its forces, as it wants to give what is drawn; what it
-    gives is true as it is written."""
+    """The equation with the figures of its arms, at last of its forces, that it needs to give the drawn value; its
+    result is true as written."""
     drawn = amount(abs(equation.value) / sheet.scene.units.newtons, MOST)
     tried = [_balance(sheet, equation, carried, of_forces) for of_forces in FINER for carried in FINER]
     return next((b for b in tried if amount(float(abs(b[2])), MOST) == drawn), tried[0])
@@ -465,7 +465,7 @@ def _balance(sheet: Sheet, equation: MomentEquation, carried: int, of_forces: in
 
 
 def lever_scale(sheet: Sheet, lever: Lever) -> float:
-    """The scale of a lever on a page (m/s for one mm): the sheet's own where it is no virtual one and has room."""
+    """The scale of a lever on a page (m/s for one mm): the sheet's own, unless the lever is virtual or too large."""
     extent, metres = Extent.around(spots_of(lever, lever.per_mm), lever.per_mm), sheet.scene.units.rates.metres
     if not lever.virtual and extent.least_scale(LEVER_ROOM) <= lever.per_mm:
         return lever.per_mm

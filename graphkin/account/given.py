@@ -1,8 +1,8 @@
-"""What a problem gives, told once for sheets, papers and force pages: drivers, where rolling starts, lengths, teeth,
+"""The given data of a problem, for sheets, papers and force pages alike: drivers, starts of rolling, lengths, teeth,
 the shapes of links, fixed points and guides, masses, loads and springs.
 
-A shape is what the distances of a link's points do not tell: guides that it carries, at which angle it sits on what it
-slides on, and where further points lie of links without two points of their own.
+A shape is the part of a link's form that the distances of its points do not give: its guides, its angle to the guide on
+which it slides, and further points of links without two points of their own.
 """
 
 from __future__ import annotations
@@ -52,12 +52,12 @@ def given_drivers(sheet: Sheet, letters: Letters) -> list[str]:
 
 
 def drivers(sheet: Sheet, letters: Letters) -> str:
-    """The same in one line."""
+    """The drivers with their rates in one line."""
     return ",  ".join(given_drivers(sheet, letters))
 
 
 def rolling_starts(sheet: Sheet) -> list[str]:
-    """Where that stands which rolls and is moved by what it moves, at the scene's own position: ``φ_3 = 60° (φ_1 =
+    """The starts of links that move each other by rolling, at the scene's own position: ``φ_3 = 60° (φ_1 =
     50°)``, symbols between dollar signs."""
     scene, parts = sheet.scene, []
     own = [_stands(sheet, driver, driver.values[0]) for driver in scene.drivers]
@@ -83,7 +83,7 @@ def _index(sheet: Sheet, driver: Driver) -> str:
 
 
 def slide_index(sheet: Sheet, key: str) -> str:
-    """The index of a sliding pair's travel: the sliding link, and what it slides on unless that is the frame."""
+    """The index of a sliding pair's travel: the sliding link, and the guiding link unless it is the frame."""
     sliding, guiding = key.split("/")
     return sliding if guiding == sheet.scene.frame.name else sliding + guiding
 
@@ -105,7 +105,8 @@ def given_lengths(scene: Mechanism, letters: Letters) -> list[tuple[str, str]]:
 
 
 def given_teeth(scene: Mechanism, language: str) -> list[str]:
-    """The numbers of teeth, each wheel once; of one that has several, with the gear.  Internal ones are said to be."""
+    """The numbers of teeth, each wheel once; for a wheel with several numbers with the gear.  Internal teeth are
+    marked."""
     found: dict[str, str] = {}
     for gear in scene.gears:
         for wheel, teeth in zip(gear.wheels, gear.teeth, strict=True):
@@ -214,12 +215,12 @@ def along_its_guide(scene: Mechanism, link: PlacedLink) -> list[SlidingPair]:
 
 
 def off_its_guide(scene: Mechanism, link: PlacedLink) -> list[str]:
-    """Further points of a link that lie beside its own axis."""
+    """Further points of a link off its own axis."""
     return [p for p, z in link.points.items() if p not in link.bar and abs(z.imag) > LEVEL * scene.size]
 
 
 def used_guides(scene: Mechanism, link: PlacedLink) -> list[PlacedGuide]:
-    """The guides of a link, beside its own axis, on which something slides or which touch something."""
+    """The guides of a link besides its own axis that are used by a slide or a contact."""
     used = {guide for on, guide in _ridden(scene) if on == link.name}
     used |= {
         c.guide for c in scene.contacts
@@ -235,7 +236,7 @@ def as_line(way: complex) -> float:
 
 
 def _carries_its_axis(scene: Mechanism, link: PlacedLink) -> bool:
-    """Whether something slides on a link's own axis."""
+    """Whether a link or a pin slides on a link's own axis."""
     return (link.name, "") in _ridden(scene)
 
 
@@ -245,7 +246,7 @@ def _ridden(scene: Mechanism) -> set[tuple[str, str]]:
 
 
 def _axis_counts(scene: Mechanism, link: PlacedLink) -> bool:
-    """Whether anything is told from a link's own axis."""
+    """Whether any given angle or place counts from a link's own axis."""
     turned = any(link.name in d.links for d in scene.drivers if d.turns)
     return turned or _carries_its_axis(scene, link) or bool(used_guides(scene, link))
 
@@ -263,14 +264,14 @@ def _own(link: PlacedLink, letters: Letters) -> str:
 
 
 def _axis(scene: Mechanism, link: PlacedLink, pairs: list[SlidingPair], letters: Letters) -> str | Phrase:
-    """From what angles on a link count: its bar, the guide on which it slides, else its own axis."""
+    """The line from which angles on a link count: its bar, the guide on which it slides, else its own axis."""
     if len(link.bar) == 2:
         return _own(link, letters)
     return _guide_name(scene, pairs[0], letters) if pairs else Phrase("axis of", link=link.name)
 
 
 def _origin(link: PlacedLink, letters: Letters) -> str:
-    """Where a link's own axes begin."""
+    """The origin of a link's own axes."""
     return f"${letters.point(link.bar[0])}$" if link.bar else f"({link.name})"
 
 
@@ -282,7 +283,7 @@ def _place(z: complex, scene: Mechanism) -> str:
 
 
 def given_loads(sheet: Sheet, letters: Letters) -> list[Phrase]:
-    """Masses, weights, inertias, loads, springs and what balances, a line for each kind."""
+    """Masses, weights, inertias, loads, springs and the balancing load, a line for each kind."""
     scene, loading = sheet.scene, sheet.scene.loading
     masses = list(_masses(scene, letters))
     balances = dict.fromkeys(DrawnPosition(sheet).balance(driver).symbol for driver in scene.drivers)
@@ -336,7 +337,7 @@ def _phase(scene: Mechanism, phase: LoadPhase) -> Phrase:
 
 
 def _spring_given(scene: Mechanism, spring: SpringOn, letters: Letters) -> Phrase:
-    """What is given of a spring, in words with symbols."""
+    """The given data of a spring, in words with symbols."""
     units = scene.units
     one, two = (f"${letters.point(point)}$" for point in spring.points)
     rate = Neutral(f"{number(spring.rate * units.metres / units.newtons)} {units.force}/{units.length}")

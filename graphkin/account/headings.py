@@ -1,5 +1,5 @@
-"""The words of a figure: its titles and remarks, facts for programs, and the whole of it described for
-someone who does not see it; in one language or both.
+"""The words of a figure: its titles and remarks, facts for programs, and the description of the whole figure for
+readers who do not see it; in one language or both.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ FIGURE_WORDS: Mapping[DiagramName, str] = {
 
 
 def term(key: str, language: str, otherwise: str | None = None, **values: str) -> str:
-    """A word in a language; both beside each other for "both", with the values in its gaps once.  ``otherwise`` stands
-    for one that no table has.
+    """A word in a language; for "both" in both, with the values in its gaps once.  ``otherwise`` for a word that no
+    table has.
 
     >>> term("detail", "both", scale="5"), term("forces", "both"), term("law 345", "both")
     ('Detail 局部放大图 5 : 1', 'Forces 力分析', '3-4-5 多项式')
@@ -39,7 +39,7 @@ def term(key: str, language: str, otherwise: str | None = None, **values: str) -
 
 
 def punctuation(key: str, language: str) -> str:
-    """A mark of punctuation as it stands behind words of ``term``."""
+    """A mark of punctuation behind words of ``term``."""
     return word(key, languages(language)[-1])
 
 
@@ -52,8 +52,8 @@ _OWN_POSITION = re.compile(
 
 
 def titles(sheet: Sheet, language: str) -> tuple[str, ...]:
-    """Title of the scene, one for each language that it has one in; elsewhere than in its own position without the
-    words that tell that."""
+    """The titles of the scene, one for each language in which it has one; at another position without the words that
+    name its own."""
     scene = sheet.scene
     own = all(
         d.dead_point is not None or math.isclose(sheet.drivers[d.key], d.values[0], rel_tol=1e-9, abs_tol=1e-12)
@@ -64,7 +64,7 @@ def titles(sheet: Sheet, language: str) -> tuple[str, ...]:
 
 
 def dimensions_in(sheet: Sheet, language: str) -> str:
-    """In which unit the dimensions are, where it is not the millimetre that goes without saying."""
+    """The unit of dimensions, where it is not the millimetre, the default."""
     unit = sheet.scene.units.length
     if unit == "mm":
         return ""
@@ -75,7 +75,7 @@ def dimensions_in(sheet: Sheet, language: str) -> str:
 
 
 def number(value: float, digits: int = 6) -> str:
-    """A number for people: no exponent where it can be helped, a true minus sign.
+    """A number for people: no exponent where possible, a typographic minus sign.
 
     >>> number(-10.0), number(0.1230)
     ('−10', '0.123')
@@ -84,7 +84,7 @@ def number(value: float, digits: int = 6) -> str:
 
 
 def written(plain: str) -> str:
-    """A number of `graphkin.words.written` for people: powers of ten as such, a true minus sign."""
+    """A number of `graphkin.words.written` for people: powers of ten as such, a typographic minus sign."""
     head, _, power = true_minus(plain).partition("e")
     return f"{head}·$10^{{{power}}}$" if power else head
 
@@ -93,7 +93,7 @@ DRAWN: tuple[Measure, ...] = ("length", "velocity", "acceleration")
 
 
 def facts(sheet: Sheet, figure: str) -> dict[str, object]:
-    """What a program may want to know of a figure, in scene units: for the metadata of the file."""
+    """The facts of a figure for programs, in scene units: for the metadata of the file."""
     scene = sheet.scene
     at = {d.key: round(scene.unit_of(d).of(sheet.drivers[d.key]), 9) for d in scene.drivers}
     scales = {
@@ -131,7 +131,7 @@ def figure_title(sheet: Sheet, figure: str, language: str) -> str:
 
 
 def describe(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -> str:
-    """Everything that a figure shows, in sentences: the mechanism as it is built, each step, each vector found."""
+    """The content of a figure in sentences: the mechanism as it is built, each step, each found vector."""
     said = (word("between sentences", each).join(_sentences(sheet, diagrams, each)) for each in languages(language))
     return "\n".join(said)
 
@@ -155,12 +155,12 @@ def _sentences(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -
 
 
 def remarks(sheet: Sheet) -> list[Phrase]:
-    """What is to be said of the drawing as a whole: badly conditioned crossings, legs that are parallel."""
+    """The remarks on the drawing as a whole: badly conditioned crossings, parallel legs."""
     return list(dict.fromkeys(r.phrase for r in sheet.remarks if r.key != "zero vector"))
 
 
 def structure_words(scene: Mechanism, language: str) -> list[str]:
-    """Sentences on what is joined to what: the links with their points, and the pairs that are no turning pairs."""
+    """Sentences on the joints: the links with their points, and the pairs that are no turning pairs."""
     said = [say(Phrase("fixed link", link=scene.frame.name, points=listed([*scene.frame.points] or ["-"])), language)]
     for link in scene.links:
         if link.points:
@@ -205,6 +205,6 @@ def _sentence(said: Phrase, language: str) -> str:
 
 
 def _capital(text: str) -> str:
-    """The first letter large, unless it is that of a symbol."""
+    """A sentence with a capital first letter, unless it begins with a symbol."""
     letter = text[:1].isascii() and text[1:2] != "_" and text[:1] != "$"
     return (text[:1].upper() if letter else text[:1]) + text[1:]

@@ -1,6 +1,6 @@
-"""Steps of the mechanism in its position as they are told: each point with the lengths and the side by which a ruler
-and a compass find it; trial positions of larger groups with the way from point to point, and what is divided; special
-points.  A group can be drawn again from the sheet alone."""
+"""The account of the mechanism's position: each point with the lengths and the side by which ruler and compass find it;
+trial positions of larger groups with the order of their points, and their division; special points.  A group can be
+drawn again from the sheet alone."""
 
 from __future__ import annotations
 
@@ -37,12 +37,12 @@ class InMechanism(Telling):
     """A step of the mechanism."""
 
     def at(self, point: str) -> complex | None:
-        """Where a point lies on paper (mm)."""
+        """The place of a point on paper (mm)."""
         return self.sheet.points.get(PointRef(point))
 
     @property
     def plain(self) -> Phrase:
-        """The step as it is said of any paper."""
+        """The step without reference to its place on paper."""
         return self.step.phrase
 
     @property
@@ -59,18 +59,18 @@ class InMechanism(Telling):
 
     @property
     def angle(self) -> str:
-        """At which a link is drawn (degrees)."""
+        """The angle at which a link is drawn (degrees)."""
         return true_minus(f"{math.degrees(self.step.value):.6g}")
 
     @property
     def base(self) -> str | None:
-        """The link from which that is measured; None: it is the x axis."""
+        """The link from which that angle is measured; None for the x axis."""
         return self.step.base or None
 
     # -- the points of a link ------------------------------------------------------------------------------------------
 
     def _link_points(self) -> Phrase | None:
-        """Each new point of a link from those that stand there already."""
+        """Each new point of a link from its drawn points."""
         step, link = self.step, self.step.link
         own = self.sheet.structure.links[link].points if link in self.sheet.structure.links else {}
         before = [one for one in self.sheet.before(step) if one.diagram == "mechanism"]
@@ -91,7 +91,7 @@ class InMechanism(Telling):
         return in_turn(told) if told else None
 
     def _marked(self, known: list[str], name: str) -> Phrase | None:
-        """A new point of a link by its known points, as far as there are some."""
+        """A new point of a link by its known points, if there are any."""
         link, at = self.step.link, self.at(name)
         places = {p: z for p in known if (z := self.at(p)) is not None}
         if at is None:
@@ -131,8 +131,8 @@ class InMechanism(Telling):
 
     @property
     def side(self) -> str | None:
-        """On which side of the line between two points that lies which arcs find, or where the circles cross that give
-        a tangent."""
+        """The side of the line between two points of a point found by arcs, or of the crossing of circles for a
+        tangent."""
         one, other = map(self.at, self.step.points[:2])
         arcs = [s.at for s in self.step.strokes if isinstance(s, CompassArc)]
         found = [self.at(self.step.point)] if self.step.reason == "arcs" else arcs
@@ -142,7 +142,7 @@ class InMechanism(Telling):
 
     @property
     def crossing(self) -> str | None:
-        """Which of the crossings of an arc with a straight path is meant, as it is seen on the paper."""
+        """The choice between the crossings of an arc with a straight path, as seen on the paper."""
         point, bars = self.step.point, [
             s.b - s.a for one in self.sheet.steps if one.reason == "path" and one.point == self.step.point
             for s in one.strokes if isinstance(s, Bar) and abs(s.b - s.a) > SAME
@@ -158,7 +158,7 @@ class InMechanism(Telling):
         return ("upper" if half.imag > 0 else "lower") if upright else ("right" if half.real > 0 else "left")
 
     def _special_lines(self, language: str) -> Iterator[Phrase]:
-        """Where the special point lies."""
+        """The place of the special point."""
         step = self.step
         joints = map(Markup, map(self.voice.letters.point, (step.point, *step.points)))
         key = "written relative special" if step.base and step.kind != "driven" else "written special"
@@ -169,7 +169,7 @@ class InMechanism(Telling):
     # -- trial positions -----------------------------------------------------------------------------------------------
 
     def _positions(self) -> Phrase | None:
-        """Trial positions with what is measured in each, and the division."""
+        """Trial positions with the measured gaps of each, and the division."""
         table = self.step.data
         assert isinstance(table, TrialPositions)
         if not table.trials:
@@ -196,7 +196,8 @@ class InMechanism(Telling):
         return Phrase("in turn", first=self.plain, second=told)
 
     def _positions_lines(self, language: str) -> Iterator[Phrase]:
-        """Trial positions: what is moved, how each point is found with it, what is missed, and where nothing is."""
+        """Trial positions: the moved quantity, the construction of each point, the gap, and the value that closes
+        it."""
         trial = self.step.data
         assert isinstance(trial, TrialPositions)
         out, moved, rolled = (", ".join(n) for n in (trial.left_out, trial.driven, trial.rolling))
@@ -223,7 +224,7 @@ class InMechanism(Telling):
         yield in_turn(parts)
 
     def _route(self) -> Iterator[str]:
-        """Each point with what it is found from: the link that it lies on, the centres of its arcs, its guide."""
+        """Each point with its construction: its link, the centres of its arcs, its guide."""
         paths: dict[str, str] = {}
         arced: set[str] = set()
         for step in self.sheet.steps[self.step.number :]:
@@ -254,11 +255,11 @@ class InMechanism(Telling):
         return ", ".join(f"${self.voice.letters.point(name)}$" for name in names)
 
     def _moved_and_missed(self, table: TrialPositions) -> tuple[Phrase, Phrase]:
-        """All that is moved in trial positions, and all that is missed."""
+        """All moved quantities of trial positions, and all gaps."""
         return joined("moved too", map(self._moved, table.moved)), joined("missed too", map(self._missed, table.missed))
 
     def _missed(self, missed: Missed) -> Phrase:
-        """What is measured: between the ends of a bar, off a guide, or of a list."""
+        """A measured gap: between the ends of a bar, from a guide, or of a list."""
         if missed.kind != "guide":
             named = "".join(missed.names) if missed.kind == "bar" else ", ".join(missed.names)
             return Phrase(f"missed {missed.kind}", names=named, length=on_paper(missed.length))
@@ -274,7 +275,8 @@ class InMechanism(Telling):
         return Phrase("missed guide", **off_guide, guide=name) if name else Phrase("missed guide of link", **off_guide)
 
     def _moved(self, moved: Symbol) -> Phrase:
-        """What is moved in trial positions: a travel, the angle of a link or of its bar, or that between two."""
+        """A moved quantity of trial positions: a travel, the angle of a link or of its bar, or the angle between
+        two."""
         links = self.sheet.structure.links
         if moved.kind == "s":
             return Phrase("trial travel", slide=moved.pair)
@@ -304,7 +306,7 @@ class InMechanism(Telling):
 
 
 def _along(p: tuple[str, complex], q: tuple[str, complex], name: str, at: complex) -> Phrase:
-    """A point of a bar whose direction is that of a line through its pivot: on it, or at an angle to it."""
+    """A point of a bar with the direction of a line through its pivot: on the line, or at an angle to it."""
     (one, a), (_, b) = p, q
     if abs(at - a) < SAME or abs(cross(b - a, at - a)) < STRAIGHT * abs(b - a) * abs(at - a):
         return _on_line(p, q, name, at)
@@ -336,7 +338,7 @@ def _degrees(angle: float) -> str:
 
 
 def _divided_by_parts(table: TrialPositions, told: Phrase) -> Phrase:
-    """The divisions of trials in each of which another thing was moved."""
+    """The divisions of trials that each moved another unknown."""
     for i, row in enumerate(table.divided):
         values, misses = _told_in(table, row)
         if i:
@@ -354,7 +356,7 @@ def _numbered(rows: Sequence[str]) -> str:
 
 
 def _told_in(table: TrialPositions, row: TrialRow) -> tuple[str, str]:
-    """The values of a trial, and what it misses, each with its unit."""
+    """The values of a trial, and its gaps, each with its unit."""
     values = (  # angles from -180 to 180
         f"{_two_digits(180.0 - (180.0 - v) % 360.0)}°" if symbol.measure == "angle" else f"{_two_digits(v)} mm"
         for v, symbol in zip(row[0], table.moved, strict=True)
@@ -364,5 +366,5 @@ def _told_in(table: TrialPositions, row: TrialRow) -> tuple[str, str]:
 
 
 def _two_digits(value: float) -> str:
-    """With two digits behind the point, without the sign of a nought."""
+    """A number with two decimals, without a sign of zero."""
     return true_minus(f"{round(value, 2) + 0.0:.2f}")

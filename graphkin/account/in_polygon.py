@@ -1,5 +1,5 @@
-"""Steps of a polygon as they are told: each from a lettered point, in a sense, to a lettered point; rates with the
-quotients that give them; trial polygons with what is left open, and how it is divided."""
+"""The account of a polygon: each step from a lettered point, in a sense, to a lettered point; rates with their
+quotients; trial polygons with their gaps and the division."""
 
 from __future__ import annotations
 
@@ -52,11 +52,11 @@ ROLES: tuple[Role, ...] = get_args(Role)
 
 @dataclass(frozen=True)
 class InPolygon(Telling):
-    """A step of a polygon.  In the gaps of its sentences a, b, c are the letters of the end points from which one is
-    found, and of that; A, B, C those of the points of the link."""
+    """A step of a polygon.  In the gaps of its sentences a, b are the letters of the given end points, c of the found
+    one; A, B, C are the points of the link."""
 
     def gap(self, name: str) -> object:
-        """What stands in the gap of a name; None where there is nothing."""
+        """The value of a gap by its name; None without a value."""
         if set(name) <= set("abcABC"):
             letters = [self._letter(one) for one in name]
             return None if None in letters else Markup("".join(map(str, letters)))
@@ -70,13 +70,13 @@ class InPolygon(Telling):
 
     @cached_property
     def drawn(self) -> Vector | ConstructionVector | None:
-        """The vector of a step; those of trial polygons bear no letters."""
+        """The vector of a step; vectors of trial polygons have no letters."""
         strokes = (s for s in self.step.strokes if isinstance(s, Vector | ConstructionVector))
         return next((s for s in strokes if isinstance(s, Vector) or not s.trial), None)
 
     @cached_property
     def places(self) -> tuple[complex, complex] | None:
-        """Where its vector begins and ends (mm); of a line, through where it goes."""
+        """The places where its vector begins and ends (mm); of a line, a place on it."""
         if self.drawn is not None:
             return self.drawn.tail, self.drawn.tip
         bars = ((s.a, s.b) for s in self.step.strokes if isinstance(s, Bar))
@@ -85,23 +85,23 @@ class InPolygon(Telling):
 
     @property
     def begin(self) -> Markup | None:
-        """The letter where it begins."""
+        """The letter at its beginning."""
         return self.voice.end_at(self.step.diagram, self.places and self.places[0])
 
     @property
     def end(self) -> Markup | None:
-        """The letter where it ends."""
+        """The letter at its end."""
         return self.voice.end_at(self.step.diagram, self.places and self.places[1])
 
     @property
     def ends(self) -> Markup | None:
-        """A vector by the letters of its ends, ``pb``; None where the convention has no letters, and where it is so
-        small that one letter stands for both."""
+        """A vector by the letters of its ends, ``pb``; None where the convention has no letters, and for a vector so
+        small that both ends have one letter."""
         return None if None in (self.begin, self.end) or self.begin == self.end else Markup(f"{self.begin}{self.end}")
 
     @property
     def start(self) -> Phrase | None:
-        """Where a vector begins: a letter, or the end of a vector."""
+        """The beginning of a vector: a letter, or the end of a vector."""
         if self.places is None:
             return None
         if self.begin is not None:
@@ -120,8 +120,8 @@ class InPolygon(Telling):
         return None if self.places is None or abs(self.places[0]) < SAME else self._before(self.step.symbol)
 
     def _before(self, symbol: Symbol | None) -> Symbol | None:
-        """The vector that ends where this begins: the one before it in the equation as written, else the one drawn
-        last."""
+        """The vector at whose end this one begins: the vector before it in the equation as written, else the last drawn
+        one."""
         drawn: dict[Symbol, complex] = {}
         for one in self.sheet.before(self.step):
             for stroke in one.strokes if one.diagram == self.step.diagram else ():
@@ -141,7 +141,7 @@ class InPolygon(Telling):
 
     @property
     def length(self) -> str | None:
-        """Of a vector (mm); None of nothing."""
+        """The length of its vector (mm); None without a vector."""
         return on_paper(self.step.mm) if self.step.mm and self.places is not None else None
 
     @property
@@ -152,7 +152,7 @@ class InPolygon(Telling):
 
     @property
     def way(self) -> object:
-        """Its direction with its sense, where that does not lie in its name."""
+        """Its direction with its sense, unless its name contains it."""
         direction = self.step.direction
         if direction.relation == "towards" or self.places is None:
             return direction
@@ -163,12 +163,12 @@ class InPolygon(Telling):
 
     @property
     def nought(self) -> str | None:
-        """The key of what is said of a known vector that has no length."""
+        """The key of the sentence on a known vector without length."""
         return "zero vector" if self.places and self.start and abs(self.places[1] - self.places[0]) < SAME else None
 
     @property
     def what(self) -> object:
-        """What lies on a line: a vector, or the sum of those of its side whose sizes are unknown along it."""
+        """The vector on a line, or the sum of the vectors of its side with unknown sizes along it."""
         own = self.step.symbol
         side = next((side for side in self.sides if any(t.symbol == own for t in side)), ())
         along = next((t.direction for t in side if t.symbol == own), None)
@@ -185,8 +185,8 @@ class InPolygon(Telling):
         return told if why is None else Phrase("in turn", first=told or self.step.phrase, second=why)
 
     def _carried_over(self) -> Phrase | None:
-        """From what seen from a held link a vector between points of two links follows, which is laid off as it was
-        found; an acceleration with the share of Coriolis that the turning of the other of them adds."""
+        """The source of a vector between points of two links that is carried over from the motion seen from a held
+        link; an acceleration with the Coriolis term of the held link's turning."""
         step = self.step
         of, to = step.symbol.of, step.symbol.to
         if step.size is not None or step.mm == 0.0 or of is None or step.direction.names:
@@ -231,13 +231,13 @@ class InPolygon(Telling):
 
     @property
     def on_link(self) -> tuple[complex, complex, complex] | None:
-        """Where the points from which an end point is found, and its own, lie on the link (mm)."""
+        """The places on the link of an end point and of the points from which it is found (mm)."""
         a, b, c = (self.sheet.points.get(PointRef(ref.point)) for ref in (*self.step.refs, self.step.ref))
         return None if a is None or b is None or c is None or abs(b - a) < SAME else (a, b, c)
 
     @property
     def where(self) -> str | None:
-        """Where a point divides the bar between two others: between them or beyond one."""
+        """The place of a point on the line of a bar: between its ends or beyond one."""
         if self.on_link is None:
             return None
         a, b, c = self.on_link
@@ -248,8 +248,8 @@ class InPolygon(Telling):
 
     @property
     def _ratios(self) -> Mapping[str, str | None]:
-        """A part of a bar, the bar, and the ratio of what stands there; the sides of a triangle at a and b, as parts of
-        the one between these."""
+        """A part of a bar, the bar, and their ratio as written; the sides of a triangle at a and b over the side
+        between these."""
         if self.on_link is None:
             return dict.fromkeys(RATIOS)
         a, b, c = self.on_link
@@ -268,7 +268,7 @@ class InPolygon(Telling):
 
     def _image_lines(self, language: str) -> Iterator[str | Phrase]:
         """``△bce ∼ △BCE``, or ``pm : pd = AM : AD`` for a point between others; where a convention has no end points
-        the vector with what is similar on the link, nothing for one that is not drawn."""
+        the vector with the similar figure of the link, none for a vector that is not drawn."""
         step, on_line = self.step, self.step.reason == "division"
         if step.held:
             yield Phrase("written image seen", vector=step.symbol, link=step.link)
@@ -285,13 +285,13 @@ class InPolygon(Telling):
 
     @property
     def parts(self) -> list[tuple[Term, complex]]:
-        """What the rates of a link give, each with its vector (mm)."""
+        """The parts that the rates of a link give, each with its vector (mm)."""
         data = self.step.data if isinstance(self.step.data, tuple) else ()
         return [(part, part.span) for part in data if part.span is not None]
 
     @property
     def laid(self) -> object:
-        """To an end point from another of its link: what the rates give, laid off one behind the other."""
+        """The path to an end point from another of its link: the parts by the rates, laid off in order."""
         start = end_of(self.step.begins[0]) if self.step.held else Phrase("the point", point=self.gap("a"))
         if not self.step.held and self.gap("a") is None:
             return None
@@ -328,7 +328,7 @@ class InPolygon(Telling):
 
     @property
     def turning_links(self) -> tuple[str, ...]:
-        """The links that turn as a rate says, as indices of it."""
+        """The links with the same rate, as its indices."""
         step, rates = self.step, self.sheet.rates(self.step.kind)
         return (step.link + step.held,) if step.held else (step.link, *alike(rates.values(), rates[step.link]))
 
@@ -354,7 +354,7 @@ class InPolygon(Telling):
             yield f"{rate_name(step.kind, step.link + step.held)} = {value},  {term('held still', language)}"
 
     def _plan_lines(self, language: str) -> Iterator[str]:
-        """``ω_3 = 30.00 mm × 0.25 (rad/s)/mm = 7.5 rad/s, clockwise``: read off the plan of a train."""
+        """``ω_3 = 30.00 mm × 0.25 (rad/s)/mm = 7.5 rad/s, clockwise``: read from the plan of a train."""
         step = self.step
         value = f"{bound(plan_sum(step))}{_turning(step.value, language)}" if step.value else "0"
         yield f"{rate_name(step.kind, step.link)} = {value}"
@@ -363,14 +363,14 @@ class InPolygon(Telling):
         yield f"{rate_name(self.step.kind, self.step.link)} = {plan_sum(self.step)}"
 
     def _summed_lines(self, language: str) -> Iterator[str]:
-        """``ω_2 = ω_3 + ω_23 = −0.04162 + 0.08323 = 0.04161 rad/s``: of a link whose turning relative to another is
-        known, as soon as that one turns at a known rate."""
+        """``ω_2 = ω_3 + ω_23 = −0.04162 + 0.08323 = 0.04161 rad/s``: of a link with a known rate relative to a link of
+        known rate."""
         yield bound(self.voice.say(self.step.phrase, languages(language)[0]))
 
     # -- trial polygons ------------------------------------------------------------------------------------------------
 
     def _trial(self) -> Phrase:
-        """A trial polygon: which steps draw it, and in the first one why it is drawn."""
+        """A trial polygon: its steps, and in the first one its reason."""
         trial, step = self.step.data, self.step
         assert isinstance(trial, RateTrial)
         # the steps by which it is drawn like the true polygon
@@ -391,7 +391,7 @@ class InPolygon(Telling):
         return Phrase("superposed since far", reason=told, **crossing)
 
     def _superposed(self) -> Phrase:
-        """What the trials leave open, measured from letter to letter, and the proportional division in numbers."""
+        """The gaps of the trials, measured from letter to letter, and the proportional division in numbers."""
         divided = self._divided
         rows = true_minus("; ".join(
             f"{numeral(i)} " + ", ".join(on_paper(mm) for mm in row) for i, row in enumerate(divided.apart, 1)
@@ -403,7 +403,8 @@ class InPolygon(Telling):
         return Phrase("superposed one", between=self._left_open(), open=rows, sum=sums[0].terms, rates=found)
 
     def _superposed_lines(self, language: str) -> Iterator[Phrase]:
-        """What is measured, ``I: ω_3 = 0.2 rad/s; open 3.21 mm``, a line for each trial, and the proportional division.
+        """The measured gaps, ``I: ω_3 = 0.2 rad/s; open 3.21 mm``, a line for each trial, and the proportional
+        division.
         """
         divided, symbol = self._divided, self.voice.symbol
         trials = trials_of(self.sheet, self.step, divided)
@@ -435,7 +436,7 @@ class InPolygon(Telling):
         return self.step.data
 
     def _left_open(self) -> object:
-        """From which end points to which, and in which directions, something is left open."""
+        """The gaps, by their end points and directions."""
         told, divided = [], self._divided
         for way, refs, less in zip(divided.ways, divided.between, divided.less, strict=True):
             begin, end = (
@@ -489,7 +490,7 @@ def rate_name(kind: str, link: str) -> str:
 
 
 def alike(rates: Iterable[Rate], rate: Rate) -> list[str]:
-    """Links that turn as another, blocks of pins left out."""
+    """Links that turn as a link does, without blocks of pins."""
     return [
         other.link for other in rates if other.same_as == rate.link and other.value == rate.value
         and "/" not in other.link

@@ -116,7 +116,7 @@ def _plain_name(unknown: Coordinate) -> str:
 
 @dataclass(frozen=True)
 class MatrixEquation:
-    """A matrix times unknowns is a column; and what comes out, in words (scene units)."""
+    """A matrix times unknowns is a column; and the solution in words (scene units)."""
 
     key: str
     rows: tuple[tuple[str, ...], ...]
@@ -154,7 +154,7 @@ def matrices(block: LoopBlock, scene: Mechanism) -> Iterator[MatrixEquation]:
 
 
 def _clean(rows: Sequence[Sequence[float]]) -> list[list[float]]:
-    """Numbers without what rounding left of zero."""
+    """Numbers, 0 where they are rounding alone."""
     most = max((abs(x) for row in rows for x in row), default=0.0)
     return [[0.0 if abs(x) < 1e-14 * most else x for x in row] for row in rows]
 
@@ -213,7 +213,7 @@ def matrix_latex(matrix: MatrixEquation) -> str:
 
 @dataclass(frozen=True)
 class LoopText:
-    """The loops of one position; ``plain`` and ``latex`` are what the command prints."""
+    """The loops of a position; the command prints ``plain`` or ``latex``."""
 
     scene: Mechanism
     blocks: tuple[LoopBlock, ...]
@@ -281,7 +281,7 @@ class LoopText:
 
     @property
     def latex(self) -> str:
-        """The same as LaTeX, a formula a line."""
+        """The loops as LaTeX, a formula a line."""
         lines: list[str] = []
         letters = self.scene.question.sheet.convention
         for block in self.blocks:
@@ -296,7 +296,7 @@ def loops_text(motion: Motion, language: str) -> LoopText:
 
     Raises
     ------
-    CallError : no position is solved, or a chosen loop goes from a point to another that nothing joins
+    CallError : no position is solved, or a chosen loop joins two points that no link and no guide joins
     """
     if not motion.ok.any():
         raise CallError.of("loops", "no position is solved", why=motion.reasons[0])

@@ -1,8 +1,9 @@
-"""How each school writes: poles, end points, component marks, directions, instant centres, scale statements, forces.
+"""The notation of each school: poles, end points, component marks, directions, instant centres, scale statements,
+forces.
 
-Everything is returned in the notation of `graphkin.drawing.text` (without dollar signs unless said). Chinese: Sun Huan,
+All symbols are in the notation of `graphkin.words.symbols` (without dollar signs unless stated). Chinese: Sun Huan,
 Mechanical Principles; us: Norton, Design of Machinery; british: Hannah and Stephens, Mechanics of Machines; russian:
-Artobolevsky, Theory of Mechanisms and Machines.  So they write forces and moments: chinese F_R56, F_I6; us and british
+Artobolevsky, Theory of Mechanisms and Machines.  Forces and moments: chinese F_R56, F_I6; us and british
 F_56, F_i6, W_6; russian R_56, Φ_6, G_6.
 """
 
@@ -55,15 +56,15 @@ def pole(convention: Convention, diagram: DiagramName) -> str:
 
 
 def rows_of(convention: Convention) -> Rows:
-    """How known and unknown sizes and directions are shown: rows under the terms, marks over them, a table, lines."""
+    """The display of known and unknown sizes and directions: rows under the terms, marks over them, a table, lines."""
     return _ROWS[convention]
 
 
 def as_vector(convention: Convention, magnitude: str) -> str:
-    r"""A symbol as a vector, told from its magnitude: ``\mathbf{v}_{B3B2}``, russian ``\vec{v}_{B3B2}``.
+    r"""A symbol as a vector, distinct from its magnitude: ``\mathbf{v}_{B3B2}``, russian ``\vec{v}_{B3B2}``.
 
-    Sun Huan, Norton, Hannah and Stephens print vectors bold or have no mark of their own; Russian books and the boards
-    of their schools have a mark over the letter.
+    Sun Huan, Norton, Hannah and Stephens print vectors bold or without a mark; Russian books and blackboards have a
+    mark over the letter.
     """
     mark = "vec" if convention == "russian" else "mathbf"
     return rf"\{mark}{{{magnitude[0]}}}{magnitude[1:]}"
@@ -71,10 +72,10 @@ def as_vector(convention: Convention, magnitude: str) -> str:
 
 @dataclass(frozen=True)
 class Letters:
-    """Names of quantities as one convention writes them on one sheet.
+    """Names of quantities on a sheet in a convention.
 
-    ``blocks`` gives for a pin that runs in a guide the link whose index it bears where coincident points are told
-    apart (the pin B of block 2 is written B2 beside B3); ``holders`` the links of each point.
+    ``blocks`` gives for a pin that runs in a guide the link of its index where coincident points are distinguished (the
+    pin B of block 2 is written B2 beside B3); ``holders`` the links of each point.
     """
 
     convention: Convention
@@ -87,7 +88,7 @@ class Letters:
         return f"{letter}_{{{rest}}}" if rest else letter
 
     def ref(self, ref: PointRef) -> str:
-        """A point of a link as it stands in an index: ``B3``."""
+        """A point of a link as an index: ``B3``."""
         link = ref.link or self.blocks.get(ref.point, "")
         if not link:
             return ref.point
@@ -98,7 +99,7 @@ class Letters:
         return as_vector(self.convention, self.vector(symbol))
 
     def vector(self, symbol: Symbol) -> str:
-        """The magnitude of a vector, or a rate: ``v_{B3B2}``, ``a^{n}_{CB}``, ``ω_{3}``; as link 2 sees it, held still,
+        """The magnitude of a vector, or a rate: ``v_{B3B2}``, ``a^{n}_{CB}``, ``ω_{3}``; seen from link 2 held still,
         ``a^{n(2)}_{CB}``."""
         if symbol.at:
             return f"{self.vector(symbol.here)}({symbol.at})"
@@ -120,7 +121,7 @@ class Letters:
         return f"{letter}^{{{marks}}}_{{{index}}}" if marks else f"{letter}_{{{index}}}"
 
     def term(self, term: Term) -> str:
-        """A vector as it stands in an equation, of a force its part."""
+        """A vector in an equation, of a force its part."""
         part = force_letters(self.convention, term.symbol, term.part) if term.part else self.vector(term.symbol)
         return ("−" if term.turned else "") + as_vector(self.convention, part)
 
@@ -140,8 +141,8 @@ class Letters:
     def foot(self, role: str, end: PointRef, number: int, link: str, alone: bool) -> str:
         """The point between two components of one acceleration; "" where the convention names the vectors instead.
 
-        ``number`` counts the feet on the way to one end point, ``link`` is the link of the component, ``alone`` is
-        said of the only one of its kind: it needs no index, but Chinese books give n' one always.
+        ``number`` counts the feet on the path to an end point, ``link`` is the link of the component, ``alone`` marks
+        the only foot of its kind: it needs no index, but n' always has one in Chinese books.
         """
         if self.convention == "us" or role not in _ROLES:
             return ""
@@ -188,7 +189,7 @@ class Letters:
 
 
 def in_counting_order(link: str) -> tuple[bool, int, str]:
-    """Sorts links as they are counted: numbers first, by value."""
+    """The sort key of links: numbers first, by value."""
     return not link.isdigit(), int(link) if link.isdigit() else 0, link
 
 
@@ -237,7 +238,7 @@ def per_mm(unit: str) -> str:
 
 
 def unit_of(sheet: Sheet, diagram: DiagramName) -> Unit:
-    """The unit of what a diagram shows."""
+    """The unit of a diagram's vectors."""
     return sheet.scene.units.of("length" if diagram == "mechanism" else diagram)
 
 

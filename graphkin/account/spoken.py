@@ -1,5 +1,5 @@
-"""Symbols in words, for readers of screens and for titles: vectors by what they are, and what stands in the markup of a
-text (``v_{B3B2}`` is "velocity of B3 relative to B2")."""
+"""Symbols in words, for screen readers and titles: vectors by their meaning, and the symbols in the markup of a text
+(``v_{B3B2}`` is "velocity of B3 relative to B2")."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def _point(ref: PointRef) -> Phrase | str:
 
 
 def _vector(kind: str, point: Phrase | str, reference: Phrase | str) -> Phrase:
-    """A vector of a point, relative to another unless that is ""."""
+    """A vector of a point, relative to ``reference`` unless that is ""."""
     whose = Phrase("relative to", point=point, reference=reference) if reference else point
     return Phrase(f"{kind} of", point=whose)
 
@@ -50,7 +50,7 @@ def spoken_words(markup: str, language: str) -> str:
 
 
 def spoken_symbol(atoms: Sequence[Atom], language: str) -> str:
-    """A symbol in words; "" where it is read rightly as it stands."""
+    """A symbol in words; "" where a screen reader reads it rightly."""
     if all(not a.sub and not a.sup and _PLAIN.fullmatch(a.text) for a in atoms):
         return ""
     return " ".join(" ".join(_spoken(atom, language) for atom in atoms).split())
@@ -67,8 +67,8 @@ def _spoken(atom: Atom, language: str) -> str:
 
 
 def _quantity(letter: str, index: str, above: str) -> tuple[Phrase, str] | None:
-    """A velocity, an acceleration, a rate or a length by its index, and what stands above it beside the mark of its
-    part; None of anything else."""
+    """A velocity, an acceleration, a rate or a length by its index, and by further marks above it; None for another
+    symbol."""
     points = index.split("/") if "/" in index else _POINT.findall(index)
     if letter in "vVaA" and index[:1].isupper():
         part = PART_MARKS.get(above[:1], "") if letter in "aA" else ""

@@ -1,7 +1,6 @@
-"""A voice: how a sheet is spoken of in one school of notation, and the points of its polygons with the letters that
-they bear in it.
+"""A voice: the words on a sheet in a school of notation, and the points of its polygons with their letters.
 
-Sentences hold symbols between dollar signs, in the notation of `graphkin.drawing.text`; sums are the same in every
+Sentences hold symbols between dollar signs, in the notation of `graphkin.words.symbols`; sums are the same in every
 language.
 """
 
@@ -42,7 +41,7 @@ _POINT_NAMES = re.compile(f"(?:{_POINT})+")
 
 
 def names_in_letters(letters: Letters, text: str) -> list[str] | None:
-    """A list of points or bars, ``O4A, B``, each in the letters of a convention; None where it is none."""
+    """A list of points or bars, ``O4A, B``, each in the letters of a convention; None for another text."""
     names = text.split(", ")
     if not all(map(_POINT_NAMES.fullmatch, names)):
         return None
@@ -53,9 +52,9 @@ def names_in_letters(letters: Letters, text: str) -> list[str] | None:
 class NamedPoint:
     """A point of a polygon (mm from the pole) and its letter.
 
-    ref : the point of the mechanism whose end it is; None of the pole and of the feet between components
+    ref : the point of the mechanism of an end point; None for the pole and for feet between components
     symbol, role : of a foot, the component that ends there, which the step of a number draws
-    aid : whether that leads to a special point or is laid off before its turn
+    aid : whether the component leads to a special point or is laid off before its turn
     """
 
     at: complex
@@ -69,8 +68,8 @@ class NamedPoint:
 
 @dataclass(frozen=True)
 class PolygonPoints:
-    """End points, feet between components and the pole of a polygon, with their letters; ``seen`` tells of the place of
-    a special point (mm from the pole) whether it is on the paper."""
+    """End points, feet between components and the pole of a polygon, with their letters; ``seen`` tells whether the
+    place of a special point (mm from the pole) is on the paper."""
 
     sheet: Sheet
     diagram: DiagramName
@@ -87,7 +86,7 @@ class PolygonPoints:
 
     @cached_property
     def named(self) -> tuple[NamedPoint, ...]:
-        """All that have letters, the pole first; where the convention names vectors, only that."""
+        """All points with letters, the pole first; where the convention names vectors, only the pole."""
         origin = NamedPoint(0j, pole(self.letters.convention, self.diagram))
         refs = ((at, ref) for at, refs in self.places.items() for ref in refs)
         ends = (NamedPoint(at, self.letters.end(self.diagram, ref), ref) for at, ref in refs)
@@ -95,8 +94,8 @@ class PolygonPoints:
 
     @cached_property
     def places(self) -> Mapping[complex, Sequence[PointRef]]:
-        """End points by their places (mm from the pole), in the order in which they were found; the pole first, with
-        all points at rest."""
+        """End points by their places (mm from the pole), in the order of construction; the pole first, with all points
+        at rest."""
         places = {0j: [PointRef(p) for p in self.sheet.scene.frame.points]}
         known = set(places[0j])
         marks = [stroke for step in self._steps for stroke in step.strokes if isinstance(stroke, Mark)]
@@ -112,8 +111,8 @@ class PolygonPoints:
 
     @cached_property
     def feet(self) -> tuple[NamedPoint, ...]:
-        """Points between components, where one ends and neither an end point lies nor another component has ended, with
-        their letters."""
+        """Points between components, the ends of components without an end point or another component's end, with their
+        letters."""
         taken, between = [*self.places], list[NamedPoint]()
         for foot in self._components():
             if all(abs(foot.at - z) > SAME for z in taken):
@@ -140,7 +139,8 @@ class PolygonPoints:
         return tuple(feet)
 
     def _components(self) -> Iterator[NamedPoint]:
-        """The ends of components, then of known ones that lead to a special point or are laid off before their turn."""
+        """The ends of components, then of known components that lead to a special point or are laid off before their
+        turn."""
         for step, vector in self._vectors.values():
             if vector.role not in ("resultant", "relative") and abs(vector.span) >= ZERO:
                 yield NamedPoint(vector.tip, symbol=vector.symbol, role=vector.role, step=step)
@@ -158,8 +158,8 @@ class PolygonPoints:
 
 
 def link_of_vector(sheet: Sheet, symbol: Symbol) -> str:
-    """The link whose motion a vector shows: that of its point, the common link of two points, or the sliding link of
-    two coincident points."""
+    """The link whose motion a vector shows: the link of its point, the common link of two points, or the sliding link
+    of two coincident points."""
     scene = sheet.scene
     of, to = symbol.of, symbol.to
     if of is None:
@@ -192,7 +192,7 @@ def _links(holders: Mapping[str, tuple[str, ...]], ref: PointRef) -> list[str]:
 
 @dataclass(frozen=True)
 class Voice:
-    """Speaks of one sheet in the letters of one convention."""
+    """Speaks of a sheet in the letters of a convention."""
 
     sheet: Sheet
     letters: Letters
@@ -222,7 +222,7 @@ class Voice:
         return Markup(names[0]) if len(names) == 1 else ", ".join(f"${name}$" for name in names)
 
     def point(self, ref: PointRef) -> str:
-        """A point, with the link as a further index where coincident points are told apart."""
+        """A point, with the link as a further index where coincident points are distinguished."""
         link = ref.link or self.letters.blocks.get(ref.point, "")
         base = self.letters.point(ref.point)
         if not link:
@@ -240,7 +240,7 @@ class Voice:
         return Markup(letter) if letter else None
 
     def end_of(self, diagram: DiagramName, ref: PointRef) -> Markup | None:
-        """The letter of an end point; what is at rest is the pole."""
+        """The letter of an end point; for a point at rest the pole."""
         if ref.point in self.sheet.scene.frame.points and ref.link in ("", self.sheet.scene.frame.name):
             return Markup(pole(self.letters.convention, diagram))
         point = self.end_point(diagram, ref)
@@ -260,8 +260,8 @@ class Voice:
 
 @dataclass(frozen=True)
 class Telling:
-    """A step as it is told: by its reason its ``sentences``, keys of the table of words from the fullest to the barest,
-    of which the first is said whose gaps can be filled; its ``sums``, and the ``lines`` to repeat it."""
+    """The telling of a step: by its reason its ``sentences``, keys of the table of words from the fullest to the
+    barest, of which the first with filled gaps is said; its ``sums``, and the ``lines`` to repeat it."""
 
     voice: Voice
     step: Step
@@ -271,12 +271,12 @@ class Telling:
 
     @property
     def sheet(self) -> Sheet:
-        """On which the step is drawn."""
+        """The sheet of the step."""
         return self.voice.sheet
 
     def gap(self, name: str) -> object:
-        """What stands in the gap of a name: a property of the telling, else an argument of the step; None where nothing
-        does."""
+        """The value of a gap by its name: a property of the telling, else an argument of the step; None without a
+        value."""
         own = isinstance(getattr(type(self), name, None), property)
         return getattr(self, name) if own else self.step.gap(name)
 
@@ -286,24 +286,24 @@ class Telling:
 
     @property
     def said(self) -> Phrase:
-        """Its sentence, with the letters and sides of the paper where it has such."""
+        """Its sentence, with the letters and sides of the paper if it has any."""
         keys = self.sentences.get(self.step.reason, ())
         return (keys(self) if callable(keys) else self.first(*keys)) or self.step.phrase
 
     @property
     def work(self) -> Iterable[str]:
-        """What is computed in it, as lines of symbols and numbers."""
+        """Its sums, as lines of symbols and numbers."""
         return self.sums.get(self.step.reason, type(self).measured)(self)
 
     def measured(self) -> Iterable[str]:
-        """Each vector of a step as it is measured."""
+        """Each measured vector of the step."""
         for vector in (s for s in self.step.strokes if isinstance(s, Vector)):
             size = abs(vector.span)
             value = times_scale(self.sheet, self.step.diagram, size) if size else "0"
             yield f"{self.voice.symbol(vector.symbol)} = {value}"
 
     def written(self, language: str) -> Iterable[str | Phrase]:
-        """What is written of it to repeat it."""
+        """The lines to repeat it."""
         return self.lines[self.step.reason](self, language) if self.step.reason in self.lines else ()
 
 
