@@ -24,7 +24,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.solver.cams import cam_angle, cam_at
 from graphkin.solver.constraints import solve_all
 from graphkin.solver.motion import SLIGHT, Motion, contact_motion, pitch_point
-from graphkin.solver.pose import Array
+from graphkin.solver.pose import Array, known_where
 from graphkin.structure import Pair
 from graphkin.words import Phrase, Wording
 
@@ -309,7 +309,7 @@ class _Statics:
         ok = ok & ~np.any([np.zeros(len(ok), dtype=bool), *without_line(self.motion).values()], axis=0)
         values |= self._by_symbol(found)
         if not ok.all():
-            values = {symbol: np.where(ok, value, np.nan) for symbol, value in values.items()}
+            values = {symbol: known_where(ok, value) for symbol, value in values.items()}
         return Forces(self.motion, values, self._beside(values, ok), ok)
 
     def _beside(self, here: Mapping[Symbol, Array], ok: Array) -> dict[Symbol, Array]:
@@ -323,7 +323,7 @@ class _Statics:
         if changed.any():
             made |= self._by_symbol(np.where(changed, self.answer(self.right(values))[0], np.nan))
         least = 1e-6 * EDGE * np.max(np.abs(np.nan_to_num(list(here.values()))), axis=0)
-        made = {s: np.where(ok & (np.abs(value - here[s]) > least), value, np.nan) for s, value in made.items()}
+        made = {s: known_where(ok & (np.abs(value - here[s]) > least), value) for s, value in made.items()}
         return {symbol: value for symbol, value in made.items() if not np.isnan(value).all()}
 
     def _by_symbol(self, found: Array) -> dict[Symbol, Array]:
@@ -421,7 +421,7 @@ def _spring(motion: Motion, spring: SpringOn) -> Iterator[Action]:
     one, two = spring_ends(motion, spring)
     way = two - one
     length = np.abs(way)
-    along = np.divide(way, length, out=np.full(len(motion), np.nan + 0j), where=_has_line(motion, length))
+    along = np.divide(way, length, out=np.full(len(motion), complex(np.nan, np.nan)), where=_has_line(motion, length))
     force = np.asarray((spring.preload + spring.rate * (length - spring.free)) * along)
     yield Action(Symbol("P", name=spring.name), spring.links[0], one, force)
     yield Action(None, spring.links[1], two, -force)

@@ -154,7 +154,7 @@ class Pose(Generic[V, R]):
 
     def where(self: Pose, ok: Array) -> Pose:
         """The same where ok, NaN elsewhere."""
-        return Pose(*(np.where(ok, x, np.nan) for x in (self.z, self.u, self.v, self.omega, self.a, self.alpha)))
+        return Pose(*(known_where(ok, x) for x in (self.z, self.u, self.v, self.omega, self.a, self.alpha)))
 
     def spread(self: Pose, n: int) -> Pose:
         """The same with every field of shape (n,)."""
@@ -163,6 +163,11 @@ class Pose(Generic[V, R]):
         z, u, v, a = (np.array(np.broadcast_to(x, (n,)), dtype=np.complex128) for x in (self.z, self.u, self.v, self.a))
         omega, alpha = (np.array(np.broadcast_to(x, (n,)), dtype=np.float64) for x in (self.omega, self.alpha))
         return Pose(z, u, v, omega, a, alpha)
+
+
+def known_where(ok: Array, values: Array) -> Array:
+    """Values where ok, NaN elsewhere: of complex ones both parts, so that neither of them passes for 0."""
+    return np.where(ok, values, complex(np.nan, np.nan) if np.iscomplexobj(values) else np.nan)
 
 
 def aimed(one: Pose, two: Pose) -> Pose:

@@ -52,3 +52,8 @@ def test_inverse_has_its_rates(order: int, field: str) -> None:
 def test_a_pose_on_its_inverse_is_at_rest(field: str) -> None:
     one = pose(NUMBERS)
     assert getattr(one.of(one.inverse()), field)[0] == pytest.approx(getattr(rest(), field)[0], abs=1e-14)
+
+
+def test_a_link_that_stands_nowhere_has_neither_coordinate() -> None:
+    nowhere = rest().still(1).where(np.array([False]))
+    assert [True, True] == [bool(np.isnan(part[0])) for part in (nowhere.z.real, nowhere.z.imag)]
