@@ -9,7 +9,7 @@ Numer. Anal. 40, 2002; Trefethen, Approximation Theory and Approximation Practic
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -107,6 +107,10 @@ RESOLVED = 2e-14
 PLATEAU = 1e-10
 OUTSIDE = 1e-9
 """A root this far outside its piece (in half widths) is still its own: two pieces meet there."""
+FLAT = 64.0
+"""Times the rounding of a curve: what is more has a sign."""
+CONTINUOUS = 1e-6
+"""Of the values beside it: a curve that changes by less where it crosses zero does not jump there."""
 SAME = 1e-8
 CLOSE = 1e-6
 """Of the range: zeros this near to one at a seam are that one."""
@@ -114,6 +118,10 @@ NOTHING = 1e-12
 """Of the largest value: what a curve is where it is zero."""
 BESIDE = 1e-4
 """Of the range: so far beside a place at rest one sees whether the curve turns there."""
+FARTHER = 1e-3
+"""Of the range: so far where it is too flat to see."""
+STILL = 4e-15
+"""Of the largest value: rounding of the values of a polynomial."""
 BESIDE_SEAM = 1e-3
 """Of the range, at most: so far beside a seam one sees how a curve comes to it, and how it goes on."""
 SAME_AT_SEAM = 1e-11
@@ -219,9 +227,9 @@ class Pieces:
         apart = np.minimum(apart, high - low - apart) if self.periodic else apart
         values = self.at(places, curve)
         told = ((apart < near) & (np.abs(levels - values[:, None, None]) <= slack).any(axis=1)).any(axis=1)
-        steps = np.full(len(places), BESIDE * (high - low))
-        steps = steps if self.periodic else np.minimum(steps, np.minimum(places - low, high - places) / 2)
-        rises, falls = (np.sign(values - self.at(self._within(places + by), curve)) for by in (-steps, steps))
+        room = np.inf if self.periodic else np.minimum(places - low, high - places) / 2
+        sides, farther = (self._sides(places, np.minimum(by * (high - low), room), curve) for by in (BESIDE, FARTHER))
+        rises, falls = np.where(sides.all(axis=0), sides, farther)
         turning = (rises == falls) & (np.abs(rises) == 1.0) & ~told
         inner = zip(*(x[turning].tolist() for x in (places, values, rises)), strict=True)
         turns = sorted([*found, *(Turn(*one) for one in inner)])
@@ -230,6 +238,13 @@ class Pieces:
         parted = [turn for turn, after in pairwise(turns) if turn.sense == after.sense
                   and not (turn.at_seam or after.at_seam) and after.place - turn.place < beside]  # fmt: skip
         return [turn for turn in turns if turn not in parted]
+
+    def _sides(self, places: Array, steps: Array, curve: int) -> Array:
+        """Whether a curve is greater (1) or less (-1) at places than a step before them and a step after them, shape
+        (2, n); 0 where rounding does not tell."""
+        values = self.at(places, curve)
+        more = values - np.stack([self.at(self._within(places + by), curve) for by in (-steps, steps)])
+        return np.where(np.abs(more) > STILL * np.maximum(self.scale[curve], np.abs(values)), np.sign(more), 0.0)
 
     def _room(self) -> Array:
         """The distance of each seam from its neighbour: another seam, or an end of the range."""
@@ -272,16 +287,11 @@ class Pieces:
         rounding = 1e-15 * scale
         rest = np.sum(np.abs(coefficients[:, 1:]), axis=1)
         # a piece that is nothing but rounding has no roots
-        known = rest > np.maximum(rounding, doubt)
-        look = (np.abs(coefficients[:, 0]) <= rest + rounding) & known
-        # one where two pieces meet may lie outside of both, by rounding
-        signs = (-1.0) ** np.arange(coefficients.shape[1])
-        passed = coefficients[:-1].sum(axis=1) * (coefficients[1:] * signs).sum(axis=1) < 0.0
-        joint = passed & known[:-1] & known[1:] & (self.high[:-1] == self.low[1:])
-        found += self.low[1:][joint & ~np.isin(self.low[1:], self.seams)].tolist()
+        look = (np.abs(coefficients[:, 0]) <= rest + rounding) & (rest > np.maximum(rounding, doubt))
         for low, high, c in zip(self.low[look], self.high[look], coefficients[look], strict=True):
             for x in _real_roots(c, rounding):
                 found.append(float((low + high) / 2 + (high - low) / 2 * x))
+        found += self._crossings(coefficients, FLAT * np.maximum(rounding, doubt), found)
         if len(found) > MOST_ROOTS:
             return np.zeros(0)
         found.sort()
@@ -292,6 +302,47 @@ class Pieces:
         if self.periodic and len(kept) > 1 and kept[-1] - kept[0] > (1 - SAME) * (self.high[-1] - self.low[0]):
             kept.pop()
         return np.array(kept)
+
+    def _crossings(self, coefficients: Array, noise: Array, roots: Sequence[float]) -> list[float]:
+        """Where curves cross zero and no polynomial tells the root: where two pieces meet, or several roots at once,
+        which rounding moves off the axis.  The middle of the stretch along which there is nothing but noise is meant.
+
+        Parameters
+        ----------
+        coefficients : shape (pieces, k)
+        noise : shape (pieces,), what is no more tells no sign
+        roots : those known
+        """
+        whole = self.high[-1] - self.low[0]
+        which, low, high = np.arange(len(self.low)), self.low, self.high
+        known = np.array([*roots, *self.seams])
+        if self.periodic:
+            which, low, high = np.append(which, 0), np.append(low, low[0] + whole), np.append(high, high[0] + whole)
+            known = np.append(known, known + whole)
+
+        def values(place: Array, piece: Array) -> Array:
+            """Of a curve at places in pieces; 0 where there is nothing but noise."""
+            x = (2 * place - low[piece] - high[piece]) / (high - low)[piece]
+            value = (chebyshev.chebvander(x, coefficients.shape[1] - 1) * coefficients[which[piece]]).sum(axis=1)
+            return np.where(np.abs(value) > noise[which[piece]], value, 0.0)
+
+        pieces = np.repeat(np.arange(len(low)), POINTS)
+        places = (((low + high)[:, None] + (high - low)[:, None] * _NODES) / 2).ravel()
+        told = values(places, pieces)
+        ends, found = np.flatnonzero(told), list[float]()
+        turning = (told[ends[1:]] * told[ends[:-1]] < 0) & (pieces[ends[1:]] - pieces[ends[:-1]] < 2)
+        for i, k in zip(ends[:-1][turning].tolist(), ends[1:][turning].tolist(), strict=True):
+            first, last = places[i], places[k]
+            if ((known > first - SAME * whole) & (known < last + SAME * whole)).any():
+                continue
+            for _ in range(MOST_DEPTH):
+                inner = np.linspace(first, last, POINTS)
+                value = values(inner, np.where(inner > high[pieces[i]], pieces[k], pieces[i])) * np.sign(told[k])
+                first, last = inner[value < 0][-1], inner[value > 0][0]
+            # where a curve jumps, it crosses zero without being zero
+            if value[-1] - value[0] < CONTINUOUS * np.abs(told[(pieces == pieces[i]) | (pieces == pieces[k])]).max():
+                found.append(float(first + last) / 2)
+        return found
 
 
 def _real_roots(c: Array, rounding: float) -> list[float]:

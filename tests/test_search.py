@@ -153,3 +153,15 @@ def test_a_valley_is_found_beside_places_without_a_value() -> None:
     with np.errstate(invalid="ignore"):
         place, value = least_value(lambda x: (x - 0.3) ** 2 + 1.0 + 0.0 * np.sqrt(0.9 - x), 0.0, 1.0)
     assert (pytest.approx(0.3, abs=1e-7), 1.0) == (place, value)
+
+
+@pytest.mark.parametrize("middle", [0.5, 0.4375, 0.3])
+def test_a_flat_extreme_is_found_wherever_pieces_meet(middle: float) -> None:
+    pieces = resolve(lambda t: column(np.sin(np.pi * (t - middle)) ** 4 + 2.0), 0.0, 1.0, periodic=True)
+    least = [turn.place for turn in pieces.turns(0) if turn.sense < 0]
+    assert [middle] == pytest.approx(least, abs=1e-4)
+
+
+def test_a_flat_extreme_where_a_turn_begins_is_found_once() -> None:
+    pieces = resolve(lambda t: column(np.sin(np.pi * t) ** 4), 0.0, 1.0, periodic=True)
+    assert [0.0, 0.5] == pytest.approx(sorted(turn.place % 1.0 for turn in pieces.turns(0)), abs=1e-4)
