@@ -33,6 +33,10 @@ NEAR_END = 1e-4
 """Of the range: an extreme this near to an end of the motion is the end itself."""
 STEPS_TO_END = 2e-2
 """Of the angle that runs over the range: steps to an end that the solver does not come near enough to."""
+ASIDE = 1e-3
+"""Of the way from a zero to the nearer end of the motion: so far aside of it the curve is not zero."""
+ZERO = 0.01
+"""Of the values there: what a curve is at most where it is zero."""
 HAIR = 1e-6
 """Of the range of the driver: what is left out before an end at which links go away without bound."""
 
@@ -261,9 +265,8 @@ def _traced(way: CurveParameter, curves: Sequence[Curve]) -> list[Traced]:
         nothing = not quantity.is_position and quantity.smooth(reach, start)[0][0] == 0.0
         found.append(Traced(quantity, (), (), 0.0 if nothing else float(quantity.values(reach, start)[0])))
     moving = [c for c in curves if c.quantity not in constant]
-    for curve, extremes in zip(moving, _extremes(way, moving), strict=True):
+    for curve, extremes, zeros in zip(moving, _extremes(way, moving), _zeros(way, moving), strict=True):
         quantity = curve.quantity
-        zeros = way.offset(way.inside(curve.pieces.zeros(curve.k)))
         if quantity.is_size:
             most = max((e.value for e in extremes), default=0.0)
             extremes = tuple(replace(e, value=0.0) if e.value <= 1e-11 * most else e for e in extremes)
@@ -271,6 +274,22 @@ def _traced(way: CurveParameter, curves: Sequence[Curve]) -> list[Traced]:
         elif quantity.is_angle:
             zeros = np.zeros(0)
         found.append(Traced(quantity, extremes, tuple(driver_value(reach, float(z)) for z in zeros)))
+    return found
+
+
+def _zeros(way: CurveParameter, curves: Sequence[Curve]) -> list[Array]:
+    """Offsets at which curves are zero.  Near an end of the motion, where rounding grows without bound, a curve of which
+    it hides all is zero too: there fifty digits tell."""
+    found = [way.offset(way.inside(c.pieces.zeros(c.k))) for c in curves]
+    if way.reach.full:
+        return found
+    low, high = way.reach.ends
+    steps = [ASIDE * np.minimum(zeros - low, high - zeros) for zeros in found]
+    places = [np.concatenate([zeros, zeros - step, zeros + step]) for zeros, step in zip(found, steps, strict=True)]
+    values = _values(way.reach, [c.quantity for c in curves], places, extended=True)
+    for k, (at, *beside) in enumerate(np.reshape(of_curve, (3, -1)) for of_curve in values):
+        seam = np.isin(found[k], way.reach.seams)
+        found[k] = found[k][seam | ~(np.abs(at) > ZERO * np.max(np.abs(beside), axis=0))]
     return found
 
 

@@ -488,9 +488,11 @@ def _elsewhere(reach: DriverRange, dyads: list[int], own: AssemblyRange) -> list
             joined[-1] = joined[-1][0], max(high, joined[-1][1])
         else:
             joined.append((low, high))
-    apart = [(a, b) for a, b in joined if not (a < own.high - BESIDE and b > own.low + 2 * BESIDE)]
+    # what the motion reaches stands by itself, of a driver that turns at the beginning
+    apart = [part for low, high in joined for part in ((low, min(high, own.low)), (max(low, own.high), high))]
+    apart = [(low, high) for low, high in apart if high - low > 2 * BESIDE]
     if turning:
-        return [_within(low, high) for low, high in apart if low > first and high < last]
+        return [_within(low, high) for low, high in apart]
     return [AssemblyRange(low, high, False, open_low=low == first, open_high=high == last) for low, high in apart]
 
 

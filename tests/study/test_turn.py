@@ -13,11 +13,13 @@ import pytest
 from graphkin.api.arguments import as_scene
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of, mechanism_of_text
+from graphkin.scene.symbol import Symbol
 from graphkin.solver import driver_range
+from graphkin.study.quantities import Quantity
 from graphkin.study.turn import Output, TurnStudy, study_turn
 from graphkin.study.turn_data import to_json
 from tests import scenes
-from tests.mechanisms import redriven
+from tests.mechanisms import random_scene, redriven
 
 TRUTH = json.loads((Path(__file__).parents[1] / "validation" / "limits.json").read_text())
 LIMITS = {
@@ -495,3 +497,24 @@ def test_an_end_that_cannot_be_computed_is_not_said_to_go_away() -> None:
     # the solver finds no position nearer than a hundredth of the range to one end
     outputs = study_turn(driver_range(as_scene(redriven(7054)))).outputs
     assert {("not computed", None)} == {(output.without, output.stroke) for output in outputs}
+
+
+def test_an_acceleration_that_is_least_along_a_flat_bottom_has_its_least_value_there() -> None:
+    reach = driver_range(mechanism_of("slotter-75-150"))
+    size = Quantity(Symbol.parse("a_B"))
+    fine = size.values(reach, reach.motion(np.linspace(0.0, math.tau, 721)))
+    course = next(t for t in study_turn(reach, [size]).curves if t.quantity == size)
+    assert course.least is not None
+    assert (fine.min(), 0.75 * math.tau) == pytest.approx((course.least.value, course.least.offset), rel=1e-6)
+
+
+def test_no_zero_is_told_where_rounding_hides_a_rate_near_an_end() -> None:
+    turn = study_turn(driver_range(mechanism_of(random_scene(190021, ("PRP", "RRP", "pin"), "slot", True))))
+    course = next(t for t in turn.curves if t.quantity.name == "alpha_5")
+    assert [0.249575382] == pytest.approx(course.zeros, abs=1e-9)
+
+
+def test_a_range_of_another_assembly_that_overlaps_that_of_the_motion_is_told_beyond_it() -> None:
+    own, other = study_turn(driver_range(mechanism_of(random_scene(190025, ("slotted", "pin"), "slider", False)))).ranges
+    assert own.high == other.low < 0.1 < other.high
+    assert not other.reached
