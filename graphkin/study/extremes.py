@@ -35,6 +35,8 @@ STEPS_TO_END = 2e-2
 """Of the angle that runs over the range: steps to an end that the solver does not come near enough to."""
 ASIDE = 1e-3
 """Of the way from a zero to the nearer end of the motion: so far aside of it the curve is not zero."""
+SLACK = 1e-9
+"""Of an extreme: what goes beyond it there by less is rounding."""
 ZERO = 0.01
 """Of the values there: what a curve is at most where it is zero."""
 HAIR = 1e-6
@@ -278,19 +280,26 @@ def _traced(way: CurveParameter, curves: Sequence[Curve]) -> list[Traced]:
 
 
 def _zeros(way: CurveParameter, curves: Sequence[Curve]) -> list[Array]:
-    """Offsets at which curves are zero.  Near an end of the motion, where rounding grows without bound, a curve of which
-    it hides all is zero too: there fifty digits tell."""
+    """Offsets at which curves are zero.  Near an end of the motion, where rounding grows without bound, a curve that it
+    hides is zero too: there fifty digits tell."""
     found = [way.offset(way.inside(c.pieces.zeros(c.k))) for c in curves]
     if way.reach.full:
         return found
+    zero = [
+        np.isin(zeros, way.reach.seams) | ~(np.abs(at) > ZERO * np.max(np.abs(beside), axis=0))
+        for zeros, (at, *beside) in zip(found, _about(way, curves, found), strict=True)
+    ]
+    return [zeros[is_one] for zeros, is_one in zip(found, zero, strict=True)]
+
+
+def _about(way: CurveParameter, curves: Sequence[Curve], offsets: Sequence[Array]) -> list[Array]:
+    """Curves at offsets of their own, a little before and a little after each, shape (3, n), with all their digits; over
+    a range that ends."""
     low, high = way.reach.ends
-    steps = [ASIDE * np.minimum(zeros - low, high - zeros) for zeros in found]
-    places = [np.concatenate([zeros, zeros - step, zeros + step]) for zeros, step in zip(found, steps, strict=True)]
+    steps = [ASIDE * np.minimum(places - low, high - places) for places in offsets]
+    places = [np.concatenate([own, own - step, own + step]) for own, step in zip(offsets, steps, strict=True)]
     values = _values(way.reach, [c.quantity for c in curves], places, extended=True)
-    for k, (at, *beside) in enumerate(np.reshape(of_curve, (3, -1)) for of_curve in values):
-        seam = np.isin(found[k], way.reach.seams)
-        found[k] = found[k][seam | ~(np.abs(at) > ZERO * np.max(np.abs(beside), axis=0))]
-    return found
+    return [of_curve.reshape(3, -1) for of_curve in values]
 
 
 def _beside_ends(reach: DriverRange, curves: Sequence[Traced]) -> list[Traced]:
@@ -355,7 +364,18 @@ def _extremes(way: CurveParameter, curves: Sequence[Curve]) -> list[tuple[Extrem
     ]
     offsets = _polished(way, curves, turns)
     # only what is printed takes all its digits
-    values = _values(reach, [c.quantity for c in curves], offsets, extended=True)
+    if reach.full:
+        values = _values(reach, [c.quantity for c in curves], offsets, extended=True)
+    else:
+        values = []
+        for k, (at, *beside) in enumerate(_about(way, curves, offsets)):
+            senses = np.array([turn.sense for turn in turns[k]])
+            least = np.min(senses * (at - beside), axis=0) if len(senses) else senses
+            # the pieces next to an end may not resolve how a curve grows there
+            true = np.array([turn.at_seam for turn in turns[k]], dtype=bool) | ~(least < -SLACK * np.abs(at))
+            turns[k] = [turn for turn, told in zip(turns[k], true, strict=True) if told]
+            offsets[k] = offsets[k][true]
+            values.append(at[true])
     found: list[tuple[Extreme, ...]] = []
     for curve, own, places, fine in zip(curves, turns, offsets, values, strict=True):
         ends: list[list[Extreme]] = [[], []]

@@ -515,6 +515,14 @@ def test_no_zero_is_told_where_rounding_hides_a_rate_near_an_end() -> None:
 
 
 def test_a_range_of_another_assembly_that_overlaps_that_of_the_motion_is_told_beyond_it() -> None:
-    own, other = study_turn(driver_range(mechanism_of(random_scene(190025, ("slotted", "pin"), "slider", False)))).ranges
+    scene = mechanism_of(random_scene(190025, ("slotted", "pin"), "slider", False))
+    own, other = study_turn(driver_range(scene)).ranges
     assert own.high == other.low < 0.1 < other.high
     assert not other.reached
+
+
+def test_no_extreme_is_told_where_a_rate_only_grows_towards_an_end() -> None:
+    reach = driver_range(mechanism_of(redriven(17029)))
+    rate = Quantity(Symbol.parse("v_P8/1"))
+    course = next(t for t in study_turn(reach, [rate]).curves if t.quantity == rate)
+    assert ["min", "max", "min", "max"] == [e.kind for e in course.extremes]
