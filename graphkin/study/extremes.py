@@ -293,8 +293,8 @@ def _zeros(way: CurveParameter, curves: Sequence[Curve]) -> list[Array]:
 
 
 def _about(way: CurveParameter, curves: Sequence[Curve], offsets: Sequence[Array]) -> list[Array]:
-    """Curves at offsets of their own, a little before and a little after each, shape (3, n), with all their digits; over
-    a range that ends."""
+    """Curves over a range that ends, at offsets of their own, a little before and a little after each, shape (3, n),
+    with all their digits."""
     low, high = way.reach.ends
     steps = [ASIDE * np.minimum(places - low, high - places) for places in offsets]
     places = [np.concatenate([own, own - step, own + step]) for own, step in zip(offsets, steps, strict=True)]
