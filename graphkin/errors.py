@@ -44,11 +44,12 @@ class Problem:
 
     @property
     def data(self) -> dict[str, str | None]:
-        """The problem for a program: its clauses in English, and ``id``, the key of ``found``, the same in every
-        language; None for a sentence of no table."""
+        """The problem for a program: its clauses in English, and ``id``, the key of ``found``, or of ``wanted`` where a
+        name or a number was found, the same in every language; None where neither is of a table."""
+        said = [clause.key for clause in (self.found, self.wanted) if isinstance(clause, Phrase)]
         return {
             "where": str(self.where), "found": str(self.found), "wanted": str(self.wanted),
-            "id": self.found.key if isinstance(self.found, Phrase) else None,
+            "id": said[0] if said else None,
         }  # fmt: skip
 
     @property

@@ -18,7 +18,7 @@ import typer
 
 from graphkin import __version__
 from graphkin.cli.output import asked_languages, complain, print_json
-from graphkin.errors import CallError, GraphkinError, SceneError
+from graphkin.errors import CallError, GraphkinError, Problem, SceneError
 from graphkin.words import Phrase, from_others
 
 if TYPE_CHECKING:
@@ -94,6 +94,7 @@ def app_of(arguments: Sequence[str] = ()) -> typer.Typer:
         no_args_is_help=True,
         pretty_exceptions_enable=False,
         rich_markup_mode=None,
+        context_settings={"help_option_names": ["--help", "-h"]},
         help="Velocity and acceleration polygons of mechanisms: constructed, measured, checked, drawn.",
     )
     from graphkin.cli import verbs
@@ -159,26 +160,38 @@ def _run(interrupted: Callable[[int, FrameType | None], object] | None) -> str |
         app = app_of(sys.argv[1:])
         if interrupted is not None:
             signal.signal(signal.SIGINT, interrupted)
-        if asked_languages(sys.argv[1:]) == ("en",):
-            app()
-        else:
-            return int(app(standalone_mode=False) or 0)
+        return int(app(standalone_mode=False) or 0)
     except SystemExit as end:
         return end.code
     except GraphkinError as error:
         complain(*error.problems)
-        if "--json" in sys.argv[1:] and isinstance(error, SceneError | CallError):
-            status = "scene" if isinstance(error, SceneError) else "call"
-            print_json({"ok": False, "status": status, "problems": [problem.data for problem in error.problems]})
+        if isinstance(error, SceneError | CallError):
+            _print_problems("scene" if isinstance(error, SceneError) else "call", error.problems)
         return error.exit_code
     except typer.Abort:
         return 1
     except Exception as error:
         if not isinstance(error, _WRONG_CALL):
             raise
-        complain(from_others(str(error.format_message())))  # type: ignore[attr-defined]
+        said = from_others(str(error.format_message()))  # type: ignore[attr-defined]
+        if asked_languages(sys.argv[1:]) == ("en",):
+            error.show()  # type: ignore[attr-defined]
+        else:
+            complain(said)
+        _print_problems("call", [Problem(_called(), said)])
         return 2
     return 0
+
+
+def _called() -> str:
+    """The command that was called, as far as its name."""
+    return " ".join(["graphkin", *(word for word in sys.argv[1:2] if word in COMMANDS)])
+
+
+def _print_problems(status: str, problems: Sequence[Problem]) -> None:
+    """What is wrong with the scene or the call, for a program that asked for JSON."""
+    if "--json" in sys.argv[1:]:
+        print_json({"ok": False, "status": status, "problems": [problem.data for problem in problems]})
 
 
 def _leave() -> None:

@@ -444,55 +444,50 @@ def _problem_set(given: Given) -> None:
 # -- files of scenes ---------------------------------------------------------------------------------------------------
 
 
-@command("name", "file", "copy", "schema", "new", "set of new", "lang", "json")
+@command("name", "file", "copy", "schema", "new", "set of new", "lang", "json", "quiet")
 def scenes(given: Given) -> None:
     """List the scenes that come along, print one, copy one out, or begin a new one."""
     from graphkin import scene as room
 
     if given.new is not None:
         # the one name that is given is that of the file
-        _begin(given.new, given.set or [], Path(given.name) if given.name is not None else given.file)
+        _begin(given, Path(given.name) if given.name is not None else given.file)
     elif given.schema:
-        typer.echo(json.dumps(room.schema(), ensure_ascii=False, indent=2))
+        if not given.quiet:
+            typer.echo(json.dumps(room.schema(), ensure_ascii=False, indent=2))
     elif given.name is not None:
-        text = room.library_text(given.name)
-        if given.copy:
-            _write_new(given.file or Path(f"{given.name}.toml"), text)
-        else:
-            typer.echo(text, nl=False)
+        target = (given.file or Path(f"{given.name}.toml")) if given.copy else None
+        _hand_out(given, room.library_text(given.name), target)
     elif given.copy:
         raise CallError.of("--copy", "no scene is named", "write graphkin scenes name copy")
     else:
-        _list(given.lang, given.json)
+        _list(given)
 
 
-def _begin(kind: str, lengths: list[str], file: Path | None) -> None:
+def _begin(given: Given, file: Path | None) -> None:
     """A new scene: missing values are asked for in a terminal, and the usual ones elsewhere."""
     from graphkin.scene.scene import NEW, new_scene
 
     def wrong(text: str, number: str) -> Problem:
         return Problem(f"--set {text}", "is no number", "write set crank 150", number=number)
 
-    values = named_numbers(lengths, wrong)
-    new_scene(kind, values)
+    values = named_numbers(given.set or [], wrong)
+    new_scene(given.new, values)
     if sys.stdin is not None and sys.stdin.isatty():
-        for name, usual in NEW[kind].items():
+        for name, usual in NEW[given.new].items():
             if name not in values:
                 values[name] = typer.prompt(name, default=usual, type=float, err=True)
-    made = new_scene(kind, values)
-    if file is None:
-        typer.echo(made, nl=False)
-    else:
-        _write_new(file, made)
+    _hand_out(given, new_scene(given.new, values), file)
 
 
-def _list(lang: str | None, as_json: bool) -> None:
+def _list(given: Given) -> None:
     from graphkin.api.arguments import known_words
     from graphkin.api.scene_list import scenes as listed
-    known_words(language=lang)
-    found, language = listed(), lang or _spoken_here()
-    if as_json:
+    known_words(language=given.lang)
+    found, language = listed(), given.lang or _spoken_here()
+    if given.json:
         print_json(found.data)
+    if not given.speaks:
         return
     heads = [word(head, language) for head in ("scene in a list", "title in a list")]
     rows = [[n, z if language == "zh" else t, str(f)] for n, t, z, f in found.rows]
@@ -505,13 +500,24 @@ def _spoken_here() -> str:
     return "zh" if locale.lower().startswith("zh") else "en"
 
 
-def _write_new(path: Path, text: str) -> None:
-    _must_be_new(path)
-    try:
-        path.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise CallError.of(str(path), "cannot be written", reason=from_others(error.strerror or str(error))) from None
-    print_paths([path])
+def _hand_out(given: Given, text: str, path: Path | None) -> None:
+    """Print the text of a scene, or write it where no file is yet."""
+    if path is not None:
+        from graphkin.files import whole_file
+
+        _must_be_new(path)
+        try:
+            with whole_file(path) as out:
+                out.write(text.encode())
+        except OSError as error:
+            reason = from_others(error.strerror or str(error))
+            raise CallError.of(str(path), "cannot be written", reason=reason) from None
+    if given.json:
+        print_json({"text": text} if path is None else {"files": [str(path)]})
+    elif path is None and not given.quiet:
+        typer.echo(text, nl=False)
+    elif path is not None and not given.quiet:
+        print_paths([path])
 
 
 def _must_be_new(path: Path) -> None:
@@ -520,7 +526,7 @@ def _must_be_new(path: Path) -> None:
         raise CallError.of(str(path), "a file of that name is there already", "name another file")
 
 
-@command("scene", "lang", "json")
+@command("scene", "lang", "json", "quiet")
 def explain(given: Given) -> None:
     """Say in words what was understood: links, joints, mobility, drivers, groups, assembly, units."""
     from graphkin.api.explained import explain as explaining
@@ -528,7 +534,7 @@ def explain(given: Given) -> None:
     explained = given.call(explaining)
     if given.json:
         print_json(explained.data)
-    else:
+    elif not given.quiet:
         tell(explained.text)
     if not explained.ok:
         complain(explained.why)

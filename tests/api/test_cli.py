@@ -372,3 +372,44 @@ def test_designs_that_are_no_scenes_are_a_wrong_call(tmp_path, values):
     done = run(*call, cwd=tmp_path)
     assert 2 == done.returncode
     assert f"links.1.length: found {values.split(',')[0]}" in done.stderr.replace('"', "")
+
+
+@pytest.mark.parametrize("call", [["solve"], ["study", "stability"], []])
+def test_h_is_short_for_help(call):
+    assert run(*call, "--help").stdout == run(*call, "-h").stdout != ""
+
+
+@pytest.mark.parametrize(
+    ("call", "where", "found"),
+    [
+        (["solve", SIXBAR, "--bogus"], "graphkin solve", "No such option: --bogus"),
+        (["solve"], "graphkin solve", "Missing argument"),
+        (["solve", SIXBAR, "--sweep", "x"], "graphkin solve", "Invalid value for '--sweep'"),
+        (["bogus"], "graphkin", "No such command 'bogus'"),
+    ],
+)
+@pytest.mark.parametrize("language", [[], ["--lang", "zh"]])
+def test_a_program_reads_what_is_wrong_with_its_options(call, where, found, language):
+    done = run(*call, "--json", *language)
+    said = json.loads(done.stdout)
+    assert (2, False, "call") == (done.returncode, said["ok"], said["status"])
+    (problem,) = said["problems"]
+    assert where == problem["where"]
+    assert problem["found"].startswith(found)
+    assert problem["id"]
+    assert done.stderr
+
+
+@pytest.mark.parametrize("call", [[], [SIXBAR], ["--schema"], ["--new", "four-bar"], [SIXBAR, "--copy"]])
+def test_quiet_scenes_print_nothing(call, tmp_path):
+    assert ("", "", 0) == ((done := run("scenes", *call, "-q", cwd=tmp_path)).stdout, done.stderr, done.returncode)
+
+
+def test_a_quiet_explanation_says_whether_there_is_a_mechanism():
+    assert ("", 0) == ((done := run("explain", SIXBAR, "-q")).stdout, done.returncode)
+
+
+def test_scenes_tell_a_program_what_was_written(tmp_path):
+    copied = run("scenes", SIXBAR, "mine.toml", "--copy", "--json", cwd=tmp_path)
+    assert {"files": ["mine.toml"]} == json.loads(copied.stdout)
+    assert (tmp_path / "mine.toml").read_text("utf-8") == json.loads(run("scenes", SIXBAR, "--json").stdout)["text"]
