@@ -285,10 +285,10 @@ def asked_symbols(
         return problem
 
     no_link, no_point = missing("there is no link", scene.by_name), missing("there is no point", points)
-    asked, problems = list[Symbol](), list[Problem]()
+    asked, problems, pins = list[Symbol](), list[Problem](), {pair.key: pair.point for pair in scene.slidings}
     for text in [find] if isinstance(find, Symbol) else as_list("find", find, Phrase("give symbols v_b omega_3")):
         where = f"find {text!s:.120}"
-        symbol = known_symbol(where, str(text), no_link, no_point, scene.by_name, positions, drawn)
+        symbol = known_symbol(where, str(text), no_link, no_point, scene.by_name, positions, drawn, pins)
         no_such = no_force(scene, where, symbol) if isinstance(symbol, Symbol) else None
         if no_such is not None:
             problems.append(no_such)
@@ -340,6 +340,17 @@ def quantities_shown(
     from graphkin.study.quantities import Quantity
 
     return tuple(map(Quantity, asked_symbols(scene, find, drawn=False)))
+
+
+def columns_shown(
+    scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] | None
+) -> tuple[Quantity, ...]:
+    """The same for a table over the way of the driver.  Raises CallError for a quantity of one position too."""
+    shown = quantities_shown(scene, find)
+    if elsewhere := [quantity.symbol for quantity in shown if quantity.symbol.at]:
+        raise CallError(*(Problem(f"find {symbol}", Phrase("is of one position no column", position=symbol.at),
+                                  Phrase("ask for it alone", symbol=symbol.here)) for symbol in elsewhere))
+    return shown
 
 
 def own_folder(folder: str | os.PathLike[str] | None, name: str) -> Path:

@@ -58,7 +58,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Handout(OfScene, Result):
-    """A handout: its lesson, and its files by name (`files`).  In a notebook it shows the answer key."""
+    """A handout: its lesson, and its files by name (`files`).  In a notebook it shows the answer key.
+
+    ``elsewhere`` is what was asked of other positions, which papers of one position leave out.
+    """
 
     lesson: Lesson
     values: Mapping[str, float] | None
@@ -67,6 +70,7 @@ class Handout(OfScene, Result):
     progress: Progress | None = field(default=None, compare=False)
     question: Question | None = None
     exports: tuple[str, ...] = ()
+    elsewhere: tuple[Symbol, ...] = ()
 
     @property
     def mechanism(self) -> Mechanism:
@@ -100,8 +104,10 @@ class Handout(OfScene, Result):
 
     @property
     def notes(self) -> tuple[Phrase, ...]:
-        """Deviations from the request: typeset PDF without the extra ``pdf``."""
-        return (Phrase("no pdf extra"),) if "pdf" in self.formats and not can_typeset() else ()
+        """Deviations from the request: typeset PDF without the extra ``pdf``, quantities of other positions."""
+        untypeset = (Phrase("no pdf extra"),) if "pdf" in self.formats and not can_typeset() else ()
+        names = ", ".join(map(str, self.elsewhere))
+        return (*untypeset, *([Phrase("papers leave out", names=names)] if names else []))
 
     @cached_property
     def files(self) -> Mapping[str, bytes]:
@@ -194,7 +200,8 @@ def handout(
     wishes = given.question.sheet
     lesson = lesson_of(what, motion, language or wishes.language, convention or wishes.convention)
     question = question_of(lesson, what, motion, given.name) if platforms else None
-    made = Handout(lesson, values, tuple(dict.fromkeys(formats)), count, progress, question, platforms)
+    made = Handout(lesson, values, tuple(dict.fromkeys(formats)), count, progress, question, platforms,
+                   tuple(symbol for symbol in asked if symbol.at))
     if out is not None:
         made.write(out)
     return made

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphkin.api.arguments import as_scene, quantities_shown, whole_number
+from graphkin.api.arguments import as_scene, columns_shown, quantities_shown, whole_number
 from graphkin.api.results import OfScene, Tabled
 from graphkin.errors import CallError, as_list, as_text, did_you_mean, unfit
 from graphkin.scene.model import Mechanism
@@ -465,4 +465,5 @@ def prepare(
                            fast=f"{fast!r:.40}")
     if not asked:
         raise CallError.of("find", "asks for nothing", "name quantities for example v_c omega_3")
+    columns_shown(given, [name for name in asked if " at " in name])
     return Prepared(scene, asked, fast, solver.prepare(given, asked, given.units.per_si, bounds))

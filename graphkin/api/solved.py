@@ -11,7 +11,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.api.arguments import At, as_scene, known_words, placed, quantities_shown, whole_number
+from graphkin.api.arguments import (
+    At,
+    as_scene,
+    columns_shown,
+    known_words,
+    placed,
+    quantities_shown,
+    value_at,
+    whole_number,
+)
 from graphkin.api.results import OfScene, Result
 from graphkin.errors import CallError, Problem, Unsolvable, as_list, as_text
 from graphkin.files import Json
@@ -27,6 +36,7 @@ if TYPE_CHECKING:
     from graphkin.account.loops import LoopText
     from graphkin.solver import Forces, Motion
     from graphkin.structure import Structure
+    from graphkin.study.quantities import Quantity
     from graphkin.table import Array, Column, Table
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -124,7 +134,7 @@ class Solved(OfScene, Result):
         if name.startswith(("driver_", "time", "position", "status", "why")):
             return self.table[name]
         (shown,) = quantities_shown(self.mechanism, [name])
-        parts = shown.parts(None, self._moved)
+        parts = shown.parts(None, self._motion_of(shown))
         values = parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
         return Values.of(values, shown.unit(self.mechanism).text)
 
@@ -135,14 +145,33 @@ class Solved(OfScene, Result):
 
         motion, scene = self.motion, self.mechanism
         shown = quantities_shown(scene, self.find) or all_that_moves(motion.structure)
-        parts = tuple(quantity.parts(None, self._moved) for quantity in shown)
+        parts = tuple(quantity.parts(None, self._motion_of(quantity)) for quantity in shown)
         times = np.array(self.times) if self.times else None
         return motion_table(scene, shown, bool(self.find), 0, motion.values, parts, motion.status, motion.why, times)
 
     def columns(self, name: str) -> list[Column]:
         """A quantity by its name, as columns of the table: a vector's size and components.  Raises CallError."""
         (shown,) = quantities_shown(self.mechanism, [name])
-        return shown.columns(self.mechanism, shown.parts(None, self._moved))
+        return shown.columns(self.mechanism, shown.parts(None, self._motion_of(shown)))
+
+    def _motion_of(self, quantity: Quantity) -> Motion:
+        """The motion of which a quantity is told: its own, or where it is of a named position ("v_C at 10") that one.
+
+        Raises
+        ------
+        CallError : a quantity of a named position, of a sweep
+        Unsolvable : a position that cannot be assembled or reached, a dead point
+        """
+        name, driver = quantity.symbol.at, self.mechanism.drivers[0].key
+        if not name:
+            return self._moved
+        if self.count is not None:
+            columns_shown(self.mechanism, [quantity.symbol])
+        values = {**(self.values or {}), driver: value_at(self.mechanism, name)}
+        there = replace(self, values=values, find=(str(quantity.symbol.here),), part=None)
+        if not there.motion.ok[0]:
+            raise Unsolvable(str(there.motion.status[0]), Problem(Phrase("position", name=name), there.said))
+        return there._moved
 
     @cached_property
     def data(self) -> dict[str, Json]:

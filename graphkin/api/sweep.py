@@ -19,6 +19,7 @@ from graphkin.api.arguments import (
     CHART_FORMATS,
     At,
     as_scene,
+    columns_shown,
     driver_values,
     known_words,
     known_workers,
@@ -34,7 +35,7 @@ from graphkin.jobs import Progress, Workers, cluster
 from graphkin.scene.drivers import moves_by_law
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike, written
-from graphkin.scene.symbol import KINDS, Symbol
+from graphkin.scene.symbol import Symbol
 from graphkin.table import Table, Values, have, table_of_csv
 from graphkin.words import Phrase, say, word
 
@@ -52,7 +53,6 @@ if TYPE_CHECKING:
     from graphkin.table import Array
 
 MOST_POSITIONS = 1_000_000_000
-OF_TURN = tuple(f"{kind.name}_" for kind in KINDS.values() if kind.scope in ("turn", "cycle"))
 MOST_MOMENTS = 100_000
 ROWS = 36
 IN_MEMORY = 200_000_000
@@ -442,13 +442,14 @@ def _asked(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Quant
     asked: list[Quantity] = []
     problems: list[Problem] = []
     for name in [find] if isinstance(find, Symbol) else as_list("find", find, Phrase("give symbols v_b omega_3")):
-        if str(name).startswith(OF_TURN):
-            problems.append(Problem(f"find {name}", "is of the whole turn no column", "it stands in the summary"))
-            continue
         try:
-            asked += quantities_shown(scene, [name])
+            (quantity,) = columns_shown(scene, [name])
         except CallError as error:
             problems += error.problems
+            continue
+        if quantity.symbol.scope in ("turn", "cycle"):
+            problems.append(Problem(f"find {name}", "is of the whole turn no column", "it stands in the summary"))
+        asked.append(quantity)
     if problems:
         raise CallError(*problems)
     return tuple(asked)

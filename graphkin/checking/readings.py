@@ -51,6 +51,9 @@ def read_off(
                 continue
             symbol = Symbol(kind, link=link)
             readings[symbol] = Reading(symbol, r.mm, r.value, name)
+        fixed = Symbol(kind, link=sheet.scene.frame.name)  # it is told to who asks for it
+        if fixed in (*sheet.asked, *asked):
+            readings[fixed] = Reading(fixed, 0.0, 0.0, name)
     readings |= _measured(sheet, (*sheet.asked, *asked), instrument)
     if sheet.has_forces:
         from graphkin.construction.forces import force_readings, readings_of
@@ -61,6 +64,10 @@ def read_off(
             same = _as_drawn(symbol, readings)
             if same is not None and symbol not in readings:
                 readings[symbol] = replace(same, symbol=symbol, value=-same.value)
+            # where nothing begins or ends it is what it is anyway
+            same = readings.get(replace(symbol, plus=False)) if symbol.plus else None
+            if same is not None and symbol not in readings:
+                readings[symbol] = replace(same, symbol=symbol)
     if not asked:
         return tuple(readings.values())
     return tuple(readings[s] for s in asked if s in readings)

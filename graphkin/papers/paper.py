@@ -9,10 +9,12 @@ from typing import Literal, TypeAlias
 from graphkin.construction import Plan, Room, plan
 from graphkin.construction.scales import Scales
 from graphkin.drawing.box import Box
+from graphkin.errors import CallError, Problem
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene_tables import DIAGRAMS, PAPERS
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Structure
+from graphkin.words import Phrase
 
 SIDE, TOP, BOTTOM = 15.0, 13.0, 15.0  # mm, margins
 CAPTION = 7.0  # mm that a line under a figure takes
@@ -84,8 +86,19 @@ def paper_plan(
     of: Mechanism | Structure, values: Mapping[str, float] | None, asked: Sequence[Symbol], share: bool = True
 ) -> Plan:
     """What to draw: at the scales that the scene wishes, on a larger paper if need be, else at those that fit; with
-    ``share`` such that mechanism and polygon stand on one page where they stay large enough."""
-    fitted = plan(of, values, asked)
+    ``share`` such that mechanism and polygon stand on one page where they stay large enough.  What is asked of another
+    position ("v_C at 10") is left out.
+
+    Raises
+    ------
+    CallError : all is asked of other positions
+    """
+    here = tuple(symbol for symbol in asked if not symbol.at)
+    if asked and not here:
+        raise CallError(*(Problem(f"find {symbol}", Phrase("papers are of one position"),
+                                  Phrase("take that position", symbol=symbol.here, position=symbol.at))
+                          for symbol in asked))  # fmt: skip
+    fitted = plan(of, values, here)
     scene = fitted.structure.scene
     paper = paper_of(scene)
     wished = {name: getattr(scene.question.sheet, f"{name}_scale") for name in NAMES}

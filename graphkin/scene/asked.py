@@ -12,7 +12,7 @@ from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.bodies import Reading
 from graphkin.scene.model import Driver, Mechanism, StatedValues
 from graphkin.scene.scene_tables import Positions, StrokeStart
-from graphkin.scene.symbol import Printed, Symbol, known_symbol, stated
+from graphkin.scene.symbol import Printed, Symbol, Unreadable, known_symbol, stated
 from graphkin.scene.tables import Units, path_name
 from graphkin.words import Phrase
 
@@ -29,7 +29,8 @@ Stated = float | str | Sequence[float]
 
 def _symbol(where: str, text: str, reading: Reading) -> Symbol | Problem:
     """A symbol whose points, links and position exist, or its first problem."""
-    symbol = known_symbol(where, text[:120], reading.no_link, reading.no_point, reading.points, reading.positions)
+    symbol = known_symbol(where, text[:120], reading.no_link, reading.no_point, reading.points, reading.positions,
+                          pins={pair.key: pair.point for pair in reading.slides})
     return symbol if isinstance(symbol, Symbol) else symbol[0]
 
 
@@ -109,7 +110,8 @@ def _values(table: str, values: Mapping[str, Stated], reading: Reading) -> dict[
                 printed[symbol] = _printed(symbol, value, unit, reading.units)
             except ValueError as error:
                 like = "-1220 mm/s" if symbol.is_vector else "2.82 cw"
-                reading.say(where, error.args[0], "write a number its digits as printed 1.0", example=like)
+                found = error.phrase if isinstance(error, Unreadable) else error.args[0]
+                reading.say(where, found, "write a number its digits as printed 1.0", example=like)
     return printed
 
 

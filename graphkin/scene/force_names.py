@@ -87,6 +87,10 @@ def no_force(mechanism: Mechanism, where: str, symbol: Symbol) -> Problem | None
     """The problem of a symbol of a force or a flywheel that the mechanism does not have; None if it has it."""
     if symbol.scope == "cycle" and mechanism.loading.flywheel is None:
         return Problem(where, "belongs to a flywheel but there is none", "give flywheel", symbol=symbol)
+    if symbol.kind == "h":  # of the inertia force of a link
+        return no_force(mechanism, where, Symbol("Fi", link=symbol.link))
+    if symbol.kind == "arm":  # of a force on the lever
+        return no_force(mechanism, where, Symbol.parse(symbol.name))
     if not symbol.is_load:
         return None
     known = forces_named(mechanism)

@@ -344,6 +344,7 @@ def known_symbol(
     links: Container[str],
     positions: Sequence[str],
     drawn: bool = True,
+    pins: Mapping[str, str] | None = None,
 ) -> Symbol | list[Problem]:
     """The quantity that a name means, or the problem with the name.
 
@@ -354,6 +355,7 @@ def known_symbol(
     links : the names of all links, by which instant centres are named
     positions : the names of the positions
     drawn : whether it is asked of a drawing, which has neither places nor rates of sliding pairs by themselves
+    pins : of sliding pairs by their keys the point that slides, as far as they have one
     """
     try:
         symbol = Symbol.parse(text)
@@ -383,7 +385,8 @@ def known_symbol(
         return [Problem(where, "names two different points", "it is between coincident points of two links", text=text,
                         kind=symbol.kind)]
     if drawn and symbol.is_of_tables:
-        vector = str(symbol.whole) if symbol.axis else f"{symbol.kind}_B@{symbol.link}/B@{symbol.other}"
+        point = (pins or {}).get(symbol.pair) or "B"
+        vector = str(symbol.whole) if symbol.axis else f"{symbol.kind}_{point}@{symbol.link}/{point}@{symbol.other}"
         instead = f"x_{symbol.of.point}, y_{symbol.of.point}" if symbol.kind == "place" and symbol.of else vector
         return [Problem(where, "is given by tables alone", "ask a drawing for", text=text, instead=instead)]
     return symbol

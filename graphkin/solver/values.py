@@ -245,7 +245,7 @@ def _found(reach: DriverRange) -> FlywheelStudy:
     wanted = reach.scene.loading.flywheel
     assert wanted is not None
     if not reach.driver.turns or not reach.full or len(reach.scene.drivers) > 1:
-        raise _without(Phrase("the mechanism runs through no cycle one driver"), "leave [flywheel] out")
+        raise _without(Phrase("the mechanism runs through no cycle one driver"), Phrase("leave flywheel out"))
     speed = _mean_speed(reach, wanted.on)
     if not speed:
         rests = not reach.driver.rate

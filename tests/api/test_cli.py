@@ -413,3 +413,10 @@ def test_scenes_tell_a_program_what_was_written(tmp_path):
     copied = run("scenes", SIXBAR, "mine.toml", "--copy", "--json", cwd=tmp_path)
     assert {"files": ["mine.toml"]} == json.loads(copied.stdout)
     assert (tmp_path / "mine.toml").read_text("utf-8") == json.loads(run("scenes", SIXBAR, "--json").stdout)["text"]
+
+
+def test_a_printed_value_that_is_none_is_told_in_chinese(tmp_path):
+    scene = run("scenes", "four-bar-coupler-point").stdout + '\n[printed]\nv_C = "fast"\n'
+    (tmp_path / "s.toml").write_text(scene, encoding="utf-8")
+    told = run("audit", "s.toml", "--lang", "zh", cwd=tmp_path).stderr
+    assert "printed.v_C：“fast”不是数" in told

@@ -81,7 +81,7 @@ def test_a_name_that_cannot_be_drawn_is_refused_alike_in_a_file_and_in_a_call(na
 
 
 @pytest.mark.parametrize(("name", "instead"), [("v_2/3", "v_B@2/B@3"), ("a_2/3", "a_B@2/B@3"), ("D", "x_D, y_D"),
-                                               ("v_D.x", "v_D")])  # fmt: skip
+                                               ("v_D.x", "v_D"), ("v_5/6", "v_D@5/D@6")])  # fmt: skip
 def test_what_stands_in_tables_alone_is_refused_with_what_a_drawing_has(name: str, instead: str) -> None:
     assert graphkin.solve(SIXBAR, find=name).table[name if "_" in name else f"x_{name}"].size
     told = run("check", SIXBAR, "--find", name).stderr
@@ -127,3 +127,29 @@ def test_a_long_sweep_has_each_position_once_whether_it_is_whole_or_comes_in_blo
     assert solved.table["driver_2"] % 360 == pytest.approx(
         [math.degrees(entry["driver"]["2"]) % 360 for entry in in_blocks], abs=1e-9)  # fmt: skip
     assert in_blocks == list(solved.entries())
+
+
+def test_the_frame_rests_for_who_asks() -> None:
+    checked = graphkin.check(SIXBAR, find=["omega_6", "alpha_6"])
+    assert checked.ok
+    assert [0, 0] == [checked[name].measured for name in ("omega_6", "alpha_6")]
+
+
+@pytest.mark.parametrize("name", ["h_3", "arm_G_3", "arm_P_cut"])
+@pytest.mark.parametrize("command", ["check", "solve"])
+def test_what_belongs_to_forces_is_refused_without_any(command: str, name: str) -> None:
+    answer = run(command, SIXBAR, "--find", name)
+    assert (2, "") == (answer.returncode, answer.stdout)
+    assert "nothing makes any" in answer.stderr
+
+
+def test_a_force_with_what_begins_is_the_force_where_nothing_begins() -> None:
+    checked, solved = (call("shaper-forces", find=["F_5/6+"]) for call in (graphkin.check, graphkin.solve))
+    assert solved["F_5/6+"][0] == pytest.approx(checked["F_5/6+"].measured, rel=1e-9)
+
+
+@pytest.mark.parametrize(("name", "said"), [("swing_5/6", "names no link"), ("excess_W", "belongs to a flywheel"),
+                                            ("swing_3", "it stands in the summary")])  # fmt: skip
+def test_a_sweep_refuses_what_is_no_column_by_what_it_is(name: str, said: str) -> None:
+    with pytest.raises(graphkin.CallError, match=said):
+        graphkin.sweep(SIXBAR, find=[name])

@@ -87,3 +87,36 @@ def test_a_table_beside_the_scene_is_found_and_its_one_wrong_value_named(tmp_pat
     scene.save(tmp_path / "s.toml")
     values = graphkin.audit(tmp_path / "s.toml").data["values"]
     assert [(-70, "x_C")] == [(v["at"], v["symbol"]) for v in values if v["verdict"] != "right"]
+
+
+def test_what_is_asked_of_another_position_is_solved_there() -> None:
+    names = ["v_C at 10", "C at 10", "omega_4 at 1", "omega_4"]
+    solved, there = graphkin.solve(SHAPER, find=names), graphkin.solve(SHAPER, at="10")
+    assert there["v_C"][0] == pytest.approx(solved["v_C at 10"][0], rel=1e-12)
+    assert there["C"][0] == pytest.approx(solved["C at 10"][0], rel=1e-12)
+    (entry,) = solved.data["positions"]
+    assert 0 == pytest.approx(entry["values"]["omega_4 at 1"], abs=1e-12)
+    assert graphkin.solve(SHAPER)["omega_4"][0] == pytest.approx(entry["values"]["omega_4"], rel=1e-12)
+
+
+def test_a_position_without_forces_is_refused_where_they_are_asked_of_it() -> None:
+    loaded = SHAPER | {"loads": {"P": {"on": "2", "moment": 5}}, "balance": {"on": "6", "at": "C", "angle": 0}}
+    assert "ok" == graphkin.solve(loaded, find=["v_C at 1"]).data["positions"][0]["status"]
+    with pytest.raises(graphkin.Unsolvable, match="position 1: dead point"):
+        graphkin.solve(loaded, find=["F_5/6 at 1"])
+
+
+def test_a_table_has_no_column_of_one_position() -> None:
+    for call in (graphkin.sweep, graphkin.prepare):
+        with pytest.raises(CallError, match="v_C at 10: is of position 10 alone, no column; ask for v_C"):
+            call(SHAPER, find=["v_C at 10"])
+    with pytest.raises(CallError, match="is of position 10 alone"):
+        graphkin.solve(SHAPER, find=["v_C at 10"], sweep=3)
+
+
+def test_papers_of_one_position_ask_nothing_of_another() -> None:
+    made = graphkin.handout(SHAPER, find=["omega_4", "v_C at 10"], formats=["html"])
+    assert ["omega_4"] == [row.symbol for row in made.key if row.asked]
+    assert ["papers are of one position: left out v_C at 10"] == [str(note) for note in made.notes]
+    with pytest.raises(CallError, match="write them of that position: --find v_C --position 10"):
+        graphkin.handout(SHAPER, find=["v_C at 10"], formats=["html"])
