@@ -21,9 +21,8 @@ from itertools import combinations
 from typing import Literal
 
 from graphkin.construction.instruments import EXACT, Instrument
-from graphkin.construction.links_on_paper import LinkMotion
 from graphkin.construction.plan import draft
-from graphkin.construction.projective import Line, Place, ProjectiveChart, product, wedge
+from graphkin.construction.projective import Line, LinkMotion, Place, ProjectiveChart, product, wedge
 from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import Superposed

@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 
 from graphkin.construction.equations import (
     draw_equation,
-    draw_relative,
     first_ends,
     known_turns,
     parts_of,
@@ -27,7 +26,7 @@ from graphkin.construction.equations import (
     spread,
     turned,
 )
-from graphkin.construction.group_plan import GroupPlan, equation_of, plan_group
+from graphkin.construction.group_plan import GroupPlan, plan_group
 from graphkin.construction.links_on_paper import stuck
 from graphkin.construction.polygons import RATE, Polygons, letter
 from graphkin.construction.proportional_division import divide, magnified
@@ -72,7 +71,7 @@ def draw_element(plot: Polygons, order: Order, element: Element) -> None:
         _driven(plot, order, element)
     elif isinstance(element, Dyad):
         if element not in plot.chains:
-            chain = equation_of(_graph_of(plot, element), plot.ends["velocity"])
+            chain = _graph_of(plot, element).equation(plot.ends["velocity"])
             if chain is None:
                 # every dyad has an equation with two unknowns, but its points must be apart on the sheet
                 raise stuck("not drawn", element.links, "points of theirs fall together on any sheet")
@@ -87,6 +86,8 @@ def draw_element(plot: Polygons, order: Order, element: Element) -> None:
 
 
 def _driven(plot: Polygons, order: Order, element: Driven) -> None:
+    """Draw what a driven link adds: its rate, as given or read off a train's plan, with the points that turn so about
+    the hinge; or the given motion along its guide."""
     name, driver, pair = element.link, element.driver, element.pair
     mm = _roll(plot, order, driver) if driver.rolls else 0.0
     rate = plot.given[driver.key][ORDERS.index(order)]
@@ -196,6 +197,7 @@ def _take(plot: Polygons, order: Order, group: LargerGroup, plans: Iterable[Grou
 
 
 def _draw_by(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan) -> None:
+    """Draw a group by a plan: its contours, trial polygons for what is assumed, and the moves."""
     _draw_contours(plot, order, group)
     if order == "velocity":
         for _, one, two in plan.parallel:
@@ -229,12 +231,8 @@ def _draw_move(plot: Polygons, order: Order, group: LargerGroup, step: VectorCha
             plot.do(drawn)
     if step.is_special and step.end.point not in plot.places:
         _mark_special(plot, step)
-    if step.base:
-        # nothing in velocity where nothing drives a leg, but in acceleration
-        symbol = plot.symbol(letter(order), step.end, PointRef(step.end.point, step.base))
-        plot.ties[order, step.end.point] = draw_relative(plot, order, group, symbol, step.sides)
-    else:
-        draw_equation(plot, order, group, replace(step, sides=step.sides[::-1]) if step.is_special else step)
+    turned = step.is_special and not step.base
+    draw_equation(plot, order, group, replace(step, sides=step.sides[::-1]) if turned else step)
     _complete(plot, order, group)
 
 
@@ -331,6 +329,7 @@ def _mark_pitch_point(plot: Polygons, name: str) -> str:
 
 
 def _direction(plot: Polygons, edge: RelativeMotion, places: Mapping[str, complex]) -> complex:
+    """The direction of the velocity of an edge's end relative to its start; its length tells nothing."""
     if edge.rolling:
         return 1j * plot.touch(edge.rolling).normal
     if edge.slide is not None:

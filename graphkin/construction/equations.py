@@ -3,6 +3,11 @@
 The known vectors of each side of an equation are laid off one after the other.  Where no size is unknown, the last one
 ends in the end point sought; where one is, its vector is what is left between two end points that stand; where two are,
 lines along them cross in the end point.  The angular rates follow from the vectors found.
+
+Two points of one link at the distance l differ in velocity by omega l square to the bar, in acceleration by omega^2 l
+along it and alpha l square to it.  Points of two links that coincide on both sides of a sliding pair differ along the
+guide, in acceleration by 2 omega v_r, too, square to it (Sun Huan, Mechanical Principles, ch. 3; Norton, Design of
+Machinery, ch. 6 and 7).
 """
 
 from __future__ import annotations
@@ -16,6 +21,7 @@ from graphkin.construction.sheet import Equation, Rate
 from graphkin.construction.steps import (
     GIVEN,
     ORDERS,
+    Arrow,
     Bar,
     ConstructionVector,
     Direction,
@@ -154,9 +160,9 @@ def draw_equation(plot: Polygons, order: Order, element: Element, equation: Vect
 
     An equation that says no more of a vector than that it is itself is not written.
     """
-    if equation.link and not equation.is_special:
+    if equation.base or (equation.link and not equation.is_special):
         assert isinstance(element, LargerGroup)
-        _draw_parallel_legs(plot, order, element, equation)
+        _draw_vector(plot, order, element, equation)
         return
     end = equation.end
     whole = plot.symbol(letter(order), end)
@@ -177,7 +183,7 @@ def draw_equation(plot: Polygons, order: Order, element: Element, equation: Vect
             for edge in (edge for edge, _ in side if edge.link and edge.unknown):
                 if edge.link not in plot.rates[order]:
                     symbol = symbol_of(plot, "v" if order == "velocity" else "at", edge)
-                    _rate(plot, order, edge, symbol, plot.drawn[order][symbol].span, element)
+                    _rate(plot, order, edge, plot.drawn[order][symbol], element)
 
 
 def _close(plot: Polygons, order: Order, end: PointRef, side: Side, equation: int | None) -> None:
@@ -250,42 +256,42 @@ def _lines_meet(
     return meeting
 
 
-def draw_relative(
-    plot: Polygons, order: Order, group: LargerGroup, symbol: Symbol, paths: Sequence[Sequence[RelativeMotion]]
-) -> complex:
-    """The vector of one moving point relative to another, drawn from the pole by two ways that have no known start."""
-    sides = [_side_of(plot, order, path) for path in paths]
-    if not any(part.span for part in (*_parts(sides[0]), *_parts(sides[1]))):
-        return 0j  # exactly
-    number = _write(plot, order, group, (Term(symbol, False, False),), *map(_written, sides))
-    lines = []
-    for side in sides:
-        at = _carry(plot, order, (part for part in _parts(side) if part.span), 0j, number)
-        lines.append((at, _open(side)[0]))
-    meeting = _lines_meet(plot, order, symbol, 0j, lines, number)
-    found = ConstructionVector(symbol, 0j, meeting, plot.trial)
-    plot.do(Step("read", "vector", order, (found,), number, symbol=symbol, mm=abs(meeting)))
-    return meeting
+def _draw_vector(plot: Polygons, order: Order, group: LargerGroup, equation: VectorChain) -> None:
+    """Draw an equation of two unknowns that leads to no end point: all known terms of each side one behind the other,
+    then the lines of the unknown ones, which cross at the tip of the vector that is read.
 
-
-def _draw_parallel_legs(plot: Polygons, order: Order, group: LargerGroup, legs: VectorChain) -> None:
-    """The rate of a link whose two legs are parallel: from one leg's known end square to the bar between the joints,
-    from the other's along the direction that both leave free."""
-    (path,) = legs.sides
-    side = _side_of(plot, order, path)
-    head = Term(plot.symbol(letter(order), legs.end), True, True)
-    number = _write(plot, order, group, (head,), _from_pole(plot, order, side))
-    own = same_turn(plot, group).get(legs.link, legs.link)
-    at, goal = plot.end(order, path[0].start), plot.end(order, legs.end)
-    start = _carry(plot, order, _parts(side), at, number)
-    unknown = [(edge, part) for edge, parts in side for part in parts if part.span is None]
-    edge, turning = next((e, p) for e, p in unknown if e.link == legs.link and e.unknown == Unknown("turning", own))
-    free = [p for e, p in unknown if e is not edge][-1]  # both legs leave that free
-    meeting = _lines_meet(plot, order, turning.symbol, start, [(start, turning), (goal, free)], number)
-    found = ConstructionVector(turning.symbol, start, meeting, 0)
-    mm = plot.found_mm(turning.symbol, meeting - start)
-    plot.do(Step("read", "vector", order, (found,), number, symbol=turning.symbol, mm=mm))
-    _rate(plot, order, edge, turning.symbol, meeting - start, group)
+    It is that of one moving point relative to another, by two ways from the pole, for neither has a known start.  Or it
+    is that between joints of a link with two parallel legs: from one leg's known end square to the bar between the
+    joints, from the other's along the direction that both leave free; it gives the rate of the link.
+    """
+    sides = [_side_of(plot, order, path) for path in equation.sides]
+    if equation.base:
+        symbol = plot.symbol(letter(order), equation.end, PointRef(equation.end.point, equation.base))
+        plot.ties[order, equation.end.point] = 0j
+        if not any(part.span for side in sides for part in _parts(side)):
+            return  # exactly: nothing drives a leg
+        written = ((Term(symbol, False, False),), *map(_written, sides))
+        begun = [(0j, _parts(side), _open(side)[0]) for side in sides]
+    else:
+        (side,) = sides
+        own = Unknown("turning", same_turn(plot, group).get(equation.link, equation.link))
+        open_ends = [(edge, part) for edge, parts in side for part in parts if part.span is None]
+        bar, turning = next((e, p) for e, p in open_ends if e.link == equation.link and e.unknown == own)
+        free = [part for edge, part in open_ends if edge is not bar][-1]  # both legs leave that free
+        symbol, end = turning.symbol, plot.end(order, equation.end)
+        written = (Term(plot.symbol(letter(order), equation.end), True, True),), _from_pole(plot, order, side)
+        begun = [(plot.end(order, side[0][0].start), _parts(side), turning), (end, [], free)]
+    number = _write(plot, order, group, *written)
+    lines = [(_carry(plot, order, (part for part in parts if part.span), at, number), unknown)
+             for at, parts, unknown in begun]  # fmt: skip
+    tail = 0j if equation.base else lines[0][0]
+    found = ConstructionVector(symbol, tail, _lines_meet(plot, order, symbol, tail, lines, number), plot.trial)
+    mm = plot.found_mm(symbol, found.span)
+    plot.do(Step("read", "vector", order, (found,), number, symbol=symbol, mm=mm))
+    if equation.base:
+        plot.ties[order, equation.end.point] = found.span
+    else:
+        _rate(plot, order, bar, found, group)
 
 
 def _lay_off(plot: Polygons, order: Order, part: Term, at: complex, equation: int | None) -> complex:
@@ -306,8 +312,9 @@ def _fill(plot: Polygons, order: Order, side: Side, tip: complex, tail: complex,
         for part in parts:
             if part.span is None:
                 found = Vector(part.symbol, tail, plot.own_values.found(part.symbol, tail, tip), part.role)
-                plot.board.notice(order, "zero vector", part.symbol, size=abs(found.span))
-                mm = plot.found_mm(part.symbol, found.span)
+                span = found.tip - tail
+                plot.board.notice(order, "zero vector", part.symbol, size=abs(span))
+                mm = plot.found_mm(part.symbol, span)
                 plot.record(found, Step("read", "vector", order, (), equation, symbol=part.symbol, mm=mm))
                 at = tip
             else:
@@ -319,8 +326,10 @@ def _fill(plot: Polygons, order: Order, side: Side, tip: complex, tail: complex,
             plot.reach(order, edge.end, at, equation)
 
 
-def _rate(plot: Polygons, order: Order, edge: RelativeMotion, symbol: Symbol, span: complex, group: Element) -> None:
-    """The angular rate of a link, measured from a vector between two points of it and the bar that joins these."""
+def _rate(plot: Polygons, order: Order, edge: RelativeMotion, vector: Arrow, group: Element) -> None:
+    """The angular rate of a link, measured from a vector between two points of it and the bar that joins these: the
+    vector over the bar, omega = v / l, alpha = a_t / l (Sun Huan, Mechanical Principles, ch. 3)."""
+    symbol, span = vector.symbol, vector.span
     arm = plot.places[edge.end.point] - plot.places[edge.start.point]
     # in a trial the ends need not meet: only the part square to the bar turns it
     mm = abs(cross(arm, span) / abs(arm) if plot.trial else span)
@@ -343,7 +352,17 @@ def _rate(plot: Polygons, order: Order, edge: RelativeMotion, symbol: Symbol, sp
 
 
 def parts_of(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Term]:
-    """The terms of the motion of an edge's end relative to its start."""
+    """The terms of the motion of an edge's end relative to its start, one behind the other.
+
+    Parameters
+    ----------
+    plot : what stands on paper; in acceleration the velocities too
+    edge : with what is unknown of it; a term of unknown size has no ``span``, those of others are in mm on paper
+
+    Raises
+    ------
+    Unsolvable : "not drawn": a length that is too short to be read
+    """
     if edge.joint is not None:
         return _driven_joint_parts(plot, order, edge, edge.joint)
     if edge.contact:
@@ -399,13 +418,21 @@ def _by_rate(
 
 
 def _coriolis(plot: Polygons, edge: RelativeMotion, link: str, along: complex, mm: float, written: Direction) -> Term:
-    """The term of Coriolis: twice the rate of a link times the relative velocity of the edge."""
+    """The term of Coriolis, 2 omega v_r: twice the rate of a link times the relative velocity of the edge, which turned
+    by 90 degrees in the sense of omega is its direction.
+
+    Parameters
+    ----------
+    link : in which the edge's end moves
+    along, mm, written : as in `_term`
+    """
     size = _by_rate(plot, (link,), symbol_of(plot, "v", edge), twice=True)
     return _term(plot, edge, "ak", along, mm, written, size)
 
 
 def _rigid_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Term]:
-    """Two points of one link: omega times their distance, square to it; omega squared towards the start, and alpha."""
+    """Two points of one link at the distance l: v = omega l, square to the bar; a_n = omega^2 l towards the start, and
+    a_t = alpha l, square to the bar."""
     if edge.link in plot.still:
         return []
     arm, per, bar = plot.places[edge.end.point] - plot.places[edge.start.point], plot.per[order], edge.bar
@@ -425,7 +452,9 @@ def _rigid_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Ter
 
 
 def _driven_joint_parts(plot: Polygons, order: Order, edge: RelativeMotion, joint: DrivenJoint) -> list[Term]:
-    """A point of a link that a driver turns about a hinge of another link, relative to that link."""
+    """A point of a link that a driver turns about a hinge of another link, at the distance l from it, relative to that
+    link: v_r = omega_r l; a_n = omega_r^2 l towards the hinge, a_t = alpha_r l, and 2 omega omega_r l of Coriolis
+    towards the hinge, omega being the other link's."""
     hinge, per = joint.pair.point, plot.per[order]
     arm = plot.places[edge.end.point] - plot.places[hinge]
     way = 1 if (joint.driver.link == joint.b) == edge.forward else -1  # whether the driver turns the end from the start
@@ -446,7 +475,8 @@ def _driven_joint_parts(plot: Polygons, order: Order, edge: RelativeMotion, join
 
 def _contour_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Term]:
     """The point of one link of a contour relative to that of another, as a polygon with one of them held still gave it;
-    with the term of Coriolis, for that one turns."""
+    with the term of Coriolis, for that one turns: a = a_r + 2 omega v_r.  Seen from another link than the one held
+    still the relative acceleration is a_r + 2 (omega_held - omega) v_r."""
     seen = plot.seen[edge.held]
     way, moving = (1, edge.end) if edge.forward else (-1, edge.start)
     slip = way * seen.end("velocity", moving)
@@ -472,8 +502,8 @@ def _slip_read(plot: Polygons, edge: RelativeMotion, sense: complex) -> tuple[fl
 
 
 def _slide_parts(plot: Polygons, order: Order, edge: RelativeMotion, slide: Pair) -> list[Term]:
-    """Both sides of a sliding pair: the rest runs along the guide, Coriolis square to it; a curved guide adds the
-    square of the sliding velocity over the radius of curvature, towards its centre."""
+    """Both sides of a sliding pair: v_r and a_r along the guide, of given or unknown size, and 2 omega v_r of Coriolis
+    square to it, omega being the guide's; a curved guide adds v_r^2 / rho towards its centre of curvature."""
     sense = plot.paper.poses[slide.b].axis * slide.guide.direction * (1 if edge.forward else -1)
     given, per = _given(plot, slide.key, order), plot.per[order]
     mm, size = (None, None) if given is None else (given / per, GIVEN)
@@ -495,8 +525,12 @@ def _slide_parts(plot: Polygons, order: Order, edge: RelativeMotion, slide: Pair
 
 
 def _contact_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Term]:
-    """The material point of one body at a contact relative to that of the other: slip along the tangent; with the term
-    of Coriolis, and along the normal what the curvatures of both outlines give."""
+    """The material point of one body at a contact relative to that of the other: the slip v_r along the tangent, and
+    a_r; with 2 omega_1 v_r of Coriolis, and along the normal what the curvatures k of both outlines give.
+
+    With w = omega_2 - omega_1 that is w v_r - (w - k_1 v_r) (w - k_2 v_r) / (k_1 - k_2): the contact runs along the
+    outlines at rates that differ by the slip, and their tangents turn by w relative to each other (see `vector_graph`).
+    """
     one, two = (ref.link for ref in edge.labels)
     touch = plot.touch(edge.contact)
     plot.board.notice(order, "at contact", touch.name)
@@ -524,7 +558,9 @@ def _contact_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[T
 
 def _rolling_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Term]:
     """The material point of one link where it rolls relative to that of the other: they have one velocity, and their
-    accelerations differ along the normal alone, by what the curvatures give."""
+    accelerations differ along the normal alone, by w^2 / (k_2 - k_1) with the relative rate w and the curvatures k of
+    both outlines: w times the velocity with which the pole moves (Bottema and Roth, Theoretical Kinematics, ch. VIII).
+    """
     if order == "velocity":
         return []
     one, two = (ref.link for ref in edge.labels)

@@ -27,7 +27,7 @@ from graphkin.structure import LargerGroup
 
 FLAT = 1e-9  # sine below which the legs of a special point are parallel
 MOST_TRIALS = 4
-LONGEST, LONGEST_LEG = 5, 3  # edges of an equation, and of a leg between two moving links
+LONGEST_LEG = 3  # edges of a leg between two moving links
 OFF = 1e-9  # sine between a leg's line and the way from joint to joint, below which it is that way
 WORST = 0.05  # crossing and distance of a special point of two moving links that is still taken
 
@@ -109,32 +109,13 @@ class _Search:
 
     # -- ways ----------------------------------------------------------------------------------------------------------
 
-    def ways(
-        self, start: PointRef, most: int, stop: Callable[[PointRef], bool], shortest: int = 1
-    ) -> Iterator[Path]:
-        """Ways from a known point through unknown ones to where they stop, with so many unknowns at most.
+    def ways(self, start: PointRef, most: int, stop: Callable[[PointRef], bool]) -> Iterator[Path]:
+        """Ways from a known point through unknown ones to where they stop, with so many unknowns at most."""
+        return (tuple(map(self.seen, path)) for path in self.graph.paths(start, most, stop, self.nodes, self.known))
 
-        A way may come back to where it began, with more than the ``shortest`` number of edges besides the last.
-        """
-        stack: list[Path] = [(e,) for e in self.graph.edges[start]]
-        while stack:
-            path = stack.pop()
-            at = path[-1].end
-            open_ = [e.unknown for e in path if e.unknown and e.unknown not in self.known]
-            if len(open_) > most or len(set(open_)) < len(open_):
-                continue
-            if stop(at):
-                yield tuple(map(self.seen, path))
-                continue
-            if at in self.nodes or len(path) >= LONGEST:
-                continue
-            visited = {e.end for e in path}
-            stack += [(*path, e) for e in self.graph.edges[at] if e.end not in visited and (
-                e.end != start or len(path) > shortest)]
-
-    def strange(self, path: Path) -> int:
-        """How many points of a way are no joints."""
-        return len({n for e in path for n in (e.start, e.end)} - self.graph.natural)
+    def all_ways(self, most: int, ends: Collection[PointRef]) -> Iterator[Path]:
+        """Ways from every known point to some ends, with so many unknowns at most."""
+        return (path for start in self.graph.in_order(self.nodes) for path in self.ways(start, most, ends.__contains__))
 
     # -- moves, each tried in turn -------------------------------------------------------------------------------------
 
@@ -151,7 +132,7 @@ class _Search:
                 # from what was known before to what was found: from the frame where it can be
                 places = self.graph.places
                 best = max(pairs, key=lambda e: (
-                    -self.strange((e,)), e.start in self.graph.fixed, e.start in self.graph.known,
+                    -self.graph.strange((e,)), e.start in self.graph.fixed, e.start in self.graph.known,
                     abs(places[e.end.point] - places[e.start.point]), e.forward,
                 ))  # fmt: skip
                 return self.drawn(VectorChain.closing(self.seen(best)), (best,))
@@ -170,7 +151,7 @@ class _Search:
     def reach(self) -> bool:
         """A way from a known point with nothing unknown to a link of which no point is known; or one with one unknown
         between two known points."""
-        for start in self.in_order():
+        for start in self.graph.in_order(self.nodes):
             for path in self.ways(start, 1, self.nodes.__contains__):
                 if len(path) > 1 and not self.nodes.issuperset(e.end for e in path):
                     return self.drawn(VectorChain.closing(*path), path)
@@ -180,35 +161,31 @@ class _Search:
                     return self.drawn(VectorChain.closing(*path), path)
         return False
 
-    def in_order(self) -> list[PointRef]:
-        """The known points."""
-        return sorted(self.nodes, key=self.graph.order.__getitem__)
-
     def cross(self) -> bool:
         """The best equation with two unknown sizes."""
         best: tuple[tuple[float, ...], Path] | None = None
-        for path in (path for start in self.in_order() for path in self.ways(start, 2, self.nodes.__contains__)):
+        for path in self.all_ways(2, self.nodes):
             two = [e for e in path if e.unknown]
             sine = abs(cross(self.way(two[0]), self.way(two[1]))) if len(two) == 2 else 0.0
-            cost = (float(sine < 0.05), len(path) + 0.6 * self.strange(path) - sine,
+            cost = (float(sine < 0.05), len(path) + 0.6 * self.graph.strange(path) - sine,
                     float(self.graph.order[path[0].start]))  # fmt: skip
             if sine >= FLAT and (best is None or cost < best[0]):
                 best = cost, path
         if best is None:
             return False
         path = best[1]
-        return self.drawn(split(path, [i for i, e in enumerate(path) if e.unknown][1]), path)
+        return self.drawn(VectorChain.crossing(path), path)
 
     def legs(self, link: str) -> list[Path]:
         """Ways from known points to a link, each with one unknown that is not the link's own rate."""
         own, mine = self.graph.turning(link), set(self.of(link))
         best: dict[Unknown, Path] = {}
-        for path in (path for start in self.in_order() for path in self.ways(start, 1, mine.__contains__)):
+        for path in self.all_ways(1, mine):
             unknown = next((e.unknown for e in path if e.unknown), None)
             if unknown is None or unknown == own:
                 continue
             old = best.get(unknown)
-            if old is None or (len(path), self.strange(path)) < (len(old), self.strange(old)):
+            if old is None or (len(path), self.graph.strange(path)) < (len(old), self.graph.strange(old)):
                 best[unknown] = path
         return list(best.values())
 
@@ -376,33 +353,6 @@ class _Search:
         turning = [e for e in edges if e.link]
         sliding = [e for e in edges if e.slide is not None]
         return list(dict.fromkeys(e.unknown for e in (*near, *turning, *sliding) if e.unknown))
-
-
-def equation_of(graph: VectorGraph, drawn: Collection[PointRef]) -> VectorChain | None:
-    """The shortest equation with two unknown sizes of a dyad's links and all pairs that hold them; None where it has
-    none.
-
-    Parameters
-    ----------
-    drawn : nodes that stand in the polygon already (preferred as starting points)
-    """
-    search = _Search(graph, lambda *_: 1j, iter(()), set(graph.known), set(), [])
-    # it may come back to where it begins: a pin that both guides belong to
-    paths = [path for start in search.in_order() for path in search.ways(start, 2, search.nodes.__contains__, 0)
-             if sum(bool(e.unknown) for e in path) == 2]  # fmt: skip
-
-    def cost(path: Path) -> tuple[float, bool, int]:
-        ends = sum(n not in drawn for n in (path[0].start, path[-1].end))
-        start = path[0].start
-        return len(path) + 0.6 * search.strange(path) + 0.1 * ends, start in graph.fixed, graph.order[start]
-
-    best = min(reversed(paths), key=cost, default=None)
-    return None if best is None else split(best, [i for i, e in enumerate(best) if e.unknown][1])
-
-
-def split(path: Path, at: int) -> VectorChain:
-    """A path with two unknowns split at the node before the second of them, the edge of that number."""
-    return VectorChain(path[at].start, (tuple(e.reversed() for e in reversed(path[at:])), path[:at]))
 
 
 def plan_group(

@@ -115,6 +115,8 @@ class TurnOfCrank:
         return Limits(low[0], high[0], high[1] - low[1])
 
     def _extreme(self, output: Pair | str, travels: Sequence[float], sign: float) -> tuple[LimitPosition, float]:
+        """The highest position (``sign`` 1), or the lowest (-1), and the travel there; of equal ones the one at the
+        smaller angle of the crank."""
         height = [sign * value for value in travels]
         before = height[-2], *height
         tops = [k for k in range(len(height) - 1) if height[k] >= max(before[k], height[k + 1])]

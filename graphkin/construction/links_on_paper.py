@@ -44,19 +44,6 @@ def apart(one: Poses, other: Poses) -> float:
     return added_up(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) for n, p in one.items())
 
 
-@dataclass(frozen=True)
-class LinkMotion:
-    """A link moves so that its point ``at`` (mm) has ``velocity`` (mm/s on paper), and turns at ``omega`` (rad/s)."""
-
-    at: complex
-    velocity: complex
-    omega: float
-
-    def of(self, z: complex) -> complex:
-        """Velocity (mm/s on paper) of the point of the link that lies at z (mm)."""
-        return self.velocity + 1j * self.omega * (z - self.at)
-
-
 @dataclass
 class PlacedLinks:
     """Links on paper: their shapes at the length scale, the driver values, and where the known ones lie."""
@@ -313,10 +300,13 @@ def drive(paper: PlacedLinks, element: Driven) -> tuple[Pose, Steps]:
 
 
 def _arcs(gap: float, poses: list[Poses], steps: Callable[[int], Steps], cross: float | None = None) -> Intersection:
+    """Loci of which one is an arc; ``gap`` is the square of the sine at which they cross, negative where they miss."""
     return Intersection(gap, math.sqrt(max(gap, 0.0)), tuple(poses), steps, cross)
 
 
 def _rrr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Intersection:
+    """Arcs about both outer hinges meet in the inner one.  The sine of the angle between the bars is twice the area of
+    the triangle over r1 r2, the area by Heron's formula in the order that loses no figures (Kahan)."""
     letter, about = dyad.inner.point, (dyad.outer_first.point, dyad.outer_second.point)
     (p1, local1), (p2, local2) = one.hinge(dyad.outer_first), two.hinge(dyad.outer_second)
     inner1, inner2 = one.point(letter), two.point(letter)
@@ -338,6 +328,8 @@ def _rrr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Inte
 
 
 def _rrp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Intersection:
+    """An arc about the outer hinge meets the path of the inner one, parallel to the outer guide, which passes the outer
+    hinge at the distance h: they cross with the sine sqrt(1 - h^2 / r^2)."""
     letter, outer, slide = dyad.inner.point, dyad.outer_first, dyad.outer_second
     (p, local), (start, step) = one.hinge(outer), two.rail(slide)
     inner, q0 = one.point(letter), start.place(two.point(letter))
@@ -361,6 +353,8 @@ def _rrp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Inte
 
 
 def _rpr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Intersection:
+    """The guide passes one pivot at a distance e and goes through the other, or parallel to it: a tangent to a circle
+    about the pivot, found by the circle over the distance d of both (Thales); its foot lies sqrt(d^2 - e^2) away."""
     slide, pivots = dyad.inner, (dyad.outer_second.point, dyad.outer_first.point)
     (p1, local1), (p2, local2) = one.hinge(dyad.outer_first), two.hinge(dyad.outer_second)
     # the sliding body as seen from the guiding one, at travel 0
@@ -394,6 +388,7 @@ def _rpr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Inte
 
 
 def _prp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Intersection:
+    """The paths of the inner hinge, each parallel to an outer guide, cross in it."""
     letter, slides = dyad.inner.point, (dyad.outer_first, dyad.outer_second)
     (start1, step1), (start2, step2) = one.rail(slides[0]), two.rail(slides[1])
     q1, q2 = start1.place(one.point(letter)), start2.place(two.point(letter))
@@ -407,6 +402,8 @@ def _prp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Inte
 
 
 def _rpp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Intersection:
+    """The second body is pushed along its outer guide until the inner guide goes through the outer hinge, or what
+    slides there stands at it: the way is split along both guides."""
     outer, inner, slide = dyad.outer_first, dyad.inner, dyad.outer_second
     (p, local), (start, step) = one.hinge(outer), two.rail(slide)
     resting = two.placed(start)

@@ -144,16 +144,18 @@ def carried_out(
     task: Task, scales: Scales, instrument: Instrument = EXACT, own_values: OwnValues = AS_DRAWN
 ) -> Polygons:
     """Position and both polygons on a board."""
-    *_, made = _stages(task, positioned(task, scales, instrument, own_values))
-    return made
+    in_order = [*task.in_order]
+    polygons = positioned(task, scales, instrument, own_values)
+    for order, element in in_order:
+        draw_element(polygons, order, element)
+    return polygons
 
 
-def _stages(task: Task, polygons: Polygons, first: int = 0, kept: Instrument | None = None) -> Iterator[Polygons]:
-    """The polygons after so many elements, and after each further one; drawn on by other hands where what stood before
-    is ``kept``."""
+def _stages(task: Task, polygons: Polygons, hand: Instrument) -> Iterator[Polygons]:
+    """Polygons that are begun, and as they stand after each element."""
     yield polygons
-    for order, element in [*task.in_order][first:]:
-        polygons = polygons.again(kept) if kept else polygons
+    for order, element in task.in_order:
+        polygons = polygons.again(hand)
         draw_element(polygons, order, element)
         yield polygons
 
@@ -210,7 +212,7 @@ class Redrawn:
     def __init__(self, what: Task, scales: Scales, still: Instrument) -> None:
         self.what, self.scales = what, scales
         begun = positioned(what, scales, still)
-        self.kept = [(still.acts, polygons) for polygons in _stages(what, begun, kept=still)]
+        self.kept = [(still.acts, polygons) for polygons in _stages(what, begun, still)]
         """What stood there after so many acts."""
         self.sheet = finished(what, self.kept[-1][1].again(still))
 
@@ -223,8 +225,9 @@ class Redrawn:
         else:
             hand.acts, kept = before[-1]
             begun = kept.again(hand)
-        *_, polygons = _stages(self.what, begun, max(0, len(before) - 1))
-        return finished(self.what, polygons)
+        for order, element in [*self.what.in_order][max(0, len(before) - 1) :]:
+            draw_element(begun, order, element)
+        return finished(self.what, begun)
 
 
 Own = Mapping[Symbol, Value]
@@ -242,7 +245,7 @@ class GoneOn:
     def __init__(self, what: Task, scales: Scales, own_values: Callable[[Own], OwnValues]) -> None:
         self.what, self.own_values = what, own_values
         self.in_order = tuple(what.in_order)
-        self.kept = [*_stages(what, positioned(what, scales, with_steps=False), kept=EXACT)]
+        self.kept = [*_stages(what, positioned(what, scales, with_steps=False), EXACT)]
         """What stands there after so many elements."""
         self.found_by: dict[Symbol, int] = {}
         """How many elements lead to each vector and rate; one more than there are, to what only a question asks for."""
@@ -391,6 +394,7 @@ def _plan(
 
 
 def _planned(task: Task, room: Room | None) -> Plan:
+    """A task carried out exactly, with the limit positions and the loads that its question needs, and its scales."""
     polygons = carried_out(task, NATURAL)
     exact = finished(task, polygons)
     asked = task.asked

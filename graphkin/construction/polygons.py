@@ -76,7 +76,7 @@ class Polygons:
     ) -> None:
         self.board, self.structure, self.paper, self.scales = board, structure, paper, scales
         self.own_values = own_values
-        self.per = {order: scales.of(order) for order in ORDERS}  # m/s or m/s2 for one mm
+        self.per = {"velocity": scales.velocity, "acceleration": scales.acceleration}  # m/s, m/s2 for one mm
         self.given = {d.key: d.values[1:] for d in structure.drivers}  # rates of the drivers
         self.believed: set[tuple[Order, str]] = set()  # rates of links that are own values, not measured
         self.links = dict(structure.links)  # with the special points that larger groups get

@@ -43,6 +43,19 @@ def normal(a: Place) -> Place:
 
 
 @dataclass(frozen=True)
+class LinkMotion:
+    """A link moves so that its point ``at`` (mm) has ``velocity`` (mm/s on paper), and turns at ``omega`` (rad/s)."""
+
+    at: complex
+    velocity: complex
+    omega: float
+
+    def of(self, z: complex) -> complex:
+        """Velocity (mm/s on paper) of the point of the link that lies at z (mm)."""
+        return self.velocity + 1j * self.omega * (z - self.at)
+
+
+@dataclass(frozen=True)
 class ProjectiveChart:
     """The sheet as seen from the middle of the mechanism: ``unit`` (mm) is half its size, so that it spans about 1."""
 

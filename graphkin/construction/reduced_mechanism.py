@@ -127,6 +127,7 @@ def reduced_mechanisms(structure: Structure, group: LargerGroup, more_than: int 
 
 
 def _reduced(structure: Structure, group: LargerGroup, known: set[str], count: int) -> Iterator[ReducedMechanism]:
+    """The reduced mechanisms with so many constraints removed, rolling among them; ``known`` links stand before."""
     scene = structure.scene
     rails = (tuple(structure.slide(n) for kind, n in r.terms if kind == "travel") for r in group.rolling)
     rolling = tuple(RemovedConstraint("", slides=s, rolling=r) for r, s in zip(group.rolling, rails, strict=True))
@@ -158,6 +159,7 @@ def _reduced(structure: Structure, group: LargerGroup, known: set[str], count: i
 
 
 def _removable(structure: Structure, group: LargerGroup, driven: set[str]) -> Iterator[RemovedConstraint]:
+    """What may be left out of a group: bars with two hinges, links with a hinge and a guide or two guides, drivers."""
     scene = structure.scene
     touching = {n for c in scene.contacts for n in (*c.links, *((c.block, c.carrier) if c.rolling else ()))}
     touching |= {n for g in scene.gears for n in (*g.wheels, g.carrier)}
@@ -491,6 +493,7 @@ def best_trial(choices: Choices, group: LargerGroup, known: PlacedLinks, guess: 
 
 
 def _best_of(candidates: Sequence[ReducedMechanism], known: PlacedLinks, guess: Poses) -> _Tried | None:
+    """The trial drawing that finds the group best, or the first that finds it well; None where none can be drawn."""
     best: _Tried | None = None
     for reduced in candidates:
         now = _tried(reduced.rolled_from(guess, known.mm), known, guess)

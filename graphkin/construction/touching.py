@@ -197,7 +197,12 @@ class CamStation(NamedTuple):
 
 
 def station(cam: LawCam, degree: float, lift: Lift | None = None) -> CamStation:
-    """The follower at an angle of the law (rad), lengths in m; ``lift`` is that of one side, at a seam."""
+    """The follower at an angle of the law (rad), lengths in m; ``lift`` is that of one side, at a seam.
+
+    The instant centre of cam and follower, through which the normal goes, lies ds/dphi beside the axis, square to the
+    path of a sliding follower; that of a swinging one on the line of both pivots, at distances from the axis and from
+    the pivot that are as dpsi/dphi to 1 (Norton, Cam Design and Manufacturing Handbook, ch. 7).
+    """
     lift = lift or cam.law.at(degree)
     back = cmath.rect(1.0, -cam.sense * degree)
     motion = cam.motion

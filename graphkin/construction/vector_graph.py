@@ -15,7 +15,7 @@ the relative rate of turning, and its acceleration is the same seen from either 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from itertools import chain, pairwise
@@ -26,6 +26,8 @@ from graphkin.scene.model import PlacedLink
 from graphkin.scene.pairs import PlacedContact
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import DrivenJoint, Dyad, LargerGroup, Pair, Structure
+
+LONGEST = 5  # edges of an equation
 
 
 class Unknown(NamedTuple):
@@ -110,6 +112,12 @@ class VectorChain:
     def closing(cls, *path: RelativeMotion, link: str = "") -> VectorChain:
         """One way to a node."""
         return cls(path[-1].end, (path,), link)
+
+    @classmethod
+    def crossing(cls, path: Path) -> VectorChain:
+        """A way with two unknowns from one known node to another: both sides of the node before the second of them."""
+        second = [i for i, edge in enumerate(path) if edge.unknown][1]
+        return cls(path[second].start, (tuple(edge.reversed() for edge in reversed(path[second:])), path[:second]))
 
 
 def node(links: Mapping[str, PlacedLink], point: str, link: str) -> PointRef:
@@ -205,6 +213,62 @@ class VectorGraph:
         made.owners, made.nodes, made.order = dict(self.owners), list(self.nodes), dict(self.order)
         made.edges = {n: list(edges) for n, edges in self.edges.items()}
         return made
+
+    def equation(self, drawn: Collection[PointRef]) -> VectorChain | None:
+        """The shortest equation with two unknown sizes of a dyad's links and all pairs that hold them, if any.
+
+        Parameters
+        ----------
+        drawn : nodes that stand in the polygon already (preferred as starting points)
+        """
+        # it may come back to where it begins: a pin that both guides belong to
+        paths = [path for start in self.in_order(self.known)
+                 for path in self.paths(start, 2, self.known.__contains__, self.known, shortest=0)
+                 if sum(bool(e.unknown) for e in path) == 2]  # fmt: skip
+
+        def cost(path: Path) -> tuple[float, bool, int]:
+            start = path[0].start
+            ends = sum(n not in drawn for n in (start, path[-1].end))
+            return len(path) + 0.6 * self.strange(path) + 0.1 * ends, start in self.fixed, self.order[start]
+
+        best = min(reversed(paths), key=cost, default=None)
+        return None if best is None else VectorChain.crossing(best)
+
+    def paths(
+        self, start: PointRef, most: int, stop: Callable[[PointRef], bool], nodes: Collection[PointRef],
+        known: Collection[Unknown] = (), shortest: int = 1,
+    ) -> Iterator[Path]:  # fmt: skip
+        """Paths from a node through others to where they stop.
+
+        Parameters
+        ----------
+        most : the greatest number of unknowns along a path
+        nodes, known : nodes through which no path leads, as they stand already, and unknowns that are found
+        shortest : a path may come back to where it began, with more than so many edges besides the last
+        """
+        stack: list[Path] = [(e,) for e in self.edges[start]]
+        while stack:
+            path = stack.pop()
+            at = path[-1].end
+            unknown = [e.unknown for e in path if e.unknown and e.unknown not in known]
+            if len(unknown) > most or len(set(unknown)) < len(unknown):
+                continue
+            if stop(at):
+                yield path
+                continue
+            if at in nodes or len(path) >= LONGEST:
+                continue
+            visited = {e.end for e in path}
+            stack += [(*path, e) for e in self.edges[at] if e.end not in visited and (
+                e.end != start or len(path) > shortest)]
+
+    def strange(self, path: Path) -> int:
+        """How many nodes of a path are no joints."""
+        return len({n for e in path for n in (e.start, e.end)} - self.natural)
+
+    def in_order(self, nodes: Iterable[PointRef]) -> list[PointRef]:
+        """Some nodes in their order."""
+        return sorted(nodes, key=self.order.__getitem__)
 
     def turning(self, link: str) -> Unknown:
         """How a link turns, by the name of one that turns alike."""

@@ -68,6 +68,7 @@ def force_scale(sheet: Sheet) -> float:
 
 
 def _drawn(sheet: Sheet, hand: Instrument, per_mm: float) -> ForceSheet:
+    """Force polygons and levers at a scale (N for one mm), twice where a load begins or ends exactly here."""
     moves = any(driver.values[1] for driver in sheet.scene.drivers)
     growing = sheet if moves else sheet.growing[0]
     held, pushes = held_by_pairs(sheet), inertias(sheet, hand)
@@ -172,6 +173,16 @@ def levers_of(sheet: Sheet, state: ForceState, hand: Instrument) -> tuple[Lever,
 
 
 def _lever(sheet: Sheet, drawn: Sheet, state: ForceState, driver: Driver, hand: Instrument) -> Lever | None:
+    """The lever by which the balance of a driver is found: the sum of all moments about the pole is nought.
+
+    Parameters
+    ----------
+    sheet, drawn : the position, and that with this driver's value alone growing, whose velocity polygon is the lever
+
+    Returns
+    -------
+    None where what balances does no work there
+    """
     images = DrawnPosition(drawn)
     balance = images.balance(driver)
     per_mm = drawn.scales.velocity
@@ -224,6 +235,7 @@ def readings_of(sheet: Sheet, forces: ForceSheet, hand: Instrument = EXACT) -> t
 
 
 def _of_states(forces: ForceSheet, hand: Instrument) -> Iterator[Reading]:
+    """Forces (N) and moments (N m) of each state; of the second only those that differ from the first."""
     base, *_ = forces.states
     for state in forces.states:
         most = max((abs(m) for m in state.moments.values()), default=0.0)

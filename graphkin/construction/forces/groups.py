@@ -500,6 +500,8 @@ def of_larger_group(cut: CutFree, group: LargerGroup, balances: Sequence[ForceVe
 
 
 def _unknown_forces(cut: CutFree, members: Sequence[str], balances: Sequence[ForceVector]) -> list[Unknown]:
+    """The unit forces and couples of a group: two along the axes at each pin, one square to the guide and a couple at
+    each sliding pair, and what balances."""
     unknowns, inside, structure = list[Unknown](), set(members), cut.drawn.structure
     for point, holders in structure.hinges.items():
         mine = [n for n in holders if n in inside]

@@ -227,6 +227,8 @@ def acting_loads(sheet: Sheet, growing: Sheet) -> dict[str, bool | None]:
 
 
 def _acts(sheet: Sheet, growing: Sheet, load: LoadOn) -> bool | None:
+    """Whether a load acts here by its phase: by the driver's value, or by how far its stroke has gone and which way it
+    runs; None where it begins or ends exactly here."""
     phase = load.phase
     if phase is None:
         return True
@@ -253,6 +255,7 @@ def inertias(sheet: Sheet, hand: Instrument) -> dict[str, Inertia]:
 
 
 def _inertia(sheet: Sheet, drawn: DrawnPosition, mass: LinkMass, hand: Instrument) -> Inertia:
+    """F = -m a_S at the centre of mass (N), M = -J alpha (N m), and both as one force at h = M / F from it."""
     centre = drawn.place(mass.link, mass.at)
     image = drawn.end("acceleration", mass.link, centre)
     size = hand.read(abs(image))
