@@ -49,8 +49,9 @@ def comparable(printed: Printed, value: Value, line: complex | None) -> Value:
 class Suspect:
     """An explanation: the value that it would give (SI), and its share among wrong values (rough, from experience).
 
-    ``drawn`` tells whether it may have the errors of a drawing, ``copied`` whether the right value was copied wrong;
-    ``follows_from`` are earlier wrong values of the same person from which it follows.
+    ``drawn`` tells whether it may have the errors of a drawing, ``copied`` whether the right value was copied wrong,
+    ``of_components`` whether it is a slip in two components, which no size shows; ``follows_from`` are earlier wrong
+    values of the same person from which it follows.
     """
 
     phrase: Phrase
@@ -58,6 +59,7 @@ class Suspect:
     share: float
     drawn: bool = True
     copied: bool = False
+    of_components: bool = False
     follows_from: tuple[Symbol, ...] = ()
 
 
@@ -91,6 +93,7 @@ class Suspects:
             return values.real
         if isinstance(printed.value, complex):
             return values
+        values = np.where([s.of_components for s in self.all], np.nan, values)
         if printed.value >= 0 and not (printed.signed and line is not None):
             return np.abs(values)
         signed = (values * line.conjugate()).real if line is not None else -np.abs(values)

@@ -234,6 +234,14 @@ def _suspects(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
     """Every explanation for a wrong value of a symbol."""
     exact = case.exact(symbol)
     yield Suspect(Phrase("slip sign"), -exact, 0.15)
+    if isinstance(exact, complex):
+        x, y = exact.real, exact.imag
+        for phrase, value in (
+            (Phrase("slip component sign", axis="x"), complex(-x, y)),
+            (Phrase("slip component sign", axis="y"), complex(x, -y)),
+            (Phrase("slip components exchanged"), complex(y, x)),
+        ):
+            yield Suspect(phrase, value, 0.05, of_components=True)
     yield from _slipped(case.slipped, symbol, exact)
     gravity = abs(case.plan.structure.scene.loading.gravity)
     if gravity and symbol.kind in ("G", "Fi", "Mi"):

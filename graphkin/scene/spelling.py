@@ -482,7 +482,7 @@ _UNIT_VECTORS = re.compile(rf"({NUMBER}){_HAT.format('iîI')}\s*([+-])\s*({NUMBE
 _LABELLED = re.compile(
     rf"[A-Za-z_]*x\s*[=:]\s*({NUMBER})([^;,=:]*)[;,]?\s*[A-Za-z_]*y\s*[=:]\s*({NUMBER})", re.IGNORECASE
 )
-_CELL_PART = rf"({NUMBER})([^\d,;+°→←↑↓-]*?)\s*(?:to the |向)?(?:({{}})|({{}}))(?:wards?|方)?"
+_CELL_PART = rf"({NUMBER})((?:[^\d,;+°→←↑↓-]|(?<=[A-Za-z^])\d)*?)\s*(?:to the |向)?(?:({{}})|({{}}))(?:wards?|方)?"
 _TWO_WAYS = re.compile(
     _CELL_PART.format("right|east|E|→|右|东", "left|west|W|←|左|西") + r"\s*(?:[,;，；]|and|和)?\s*"
     + _CELL_PART.format("up|north|N|↑|上|北", "down|south|S|↓|下|南") + "(?![A-Za-z])"

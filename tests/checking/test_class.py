@@ -359,3 +359,21 @@ def test_a_template_filled_in_is_read_in_both_languages(tmp_path):
         assert ["right", "right"] == [v["verdict"] for v in found["values"]]
         assert [("王", "007")] == [(p["person"], p["id"]) for p in found["people"]]
         assert "unused" not in found
+
+
+def test_components_with_words_are_read_with_units_that_hold_a_digit():
+    read = read_cell("1590.8 mm/s² right, 2852.1 mm/s² down", Symbol.parse("a_B"), Units())
+    assert complex(1.5908, -2.8521) == pytest.approx(read.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "slip"),
+    [
+        ("7500; -12990", "the sign of the x component"), ("-7500; 12990", "the sign of the y component"),
+        ("-12990; -7500", "x and y components exchanged"), ("7500; 12990", "sign"),
+    ],
+)  # fmt: skip
+def test_a_slip_in_two_components_is_named_not_taken_for_another_position(text, slip):
+    four_bar = "fourbar-150-500-300-400"  # a_B = (-7500, -12990.4)
+    (value,) = graphkin.audit(four_bar, answers={"A": {"a_B": text}}).data["values"]
+    assert ("wrong", slip) == (value["verdict"], value["looks_like"])
