@@ -1,8 +1,7 @@
-"""What a handout is made of, whatever it is written as: headings, sentences, steps, figures, tables.
+"""The blocks of a handout, whatever its format: headings, sentences, steps, figures, tables.
 
-Words are said in one language or in several, one below the other; symbols in them stand between dollar signs, in the
-notation of `graphkin.drawing.text`.  Words from a scene are made fit to be shown: nothing in them hides, turns
-or breaks a line of text.
+Words are in one language or in several, below each other; symbols in them stand between dollar signs, in the notation
+of `graphkin.words.symbols`.  Words from a scene are cleaned: they cannot hide, turn or break a line of text.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ _UNFIT = re.compile(
 
 
 def clean(text: str) -> str:
-    """The words without characters that could hide what stands beside them.
+    """The words without characters that could hide their neighbours.
 
     >>> clean("sheet\\u202egpj.exe")
     'sheetgpj.exe'
@@ -46,8 +45,8 @@ class Heading:
 
 @dataclass(frozen=True)
 class Paragraph:
-    """Sentences; ``small`` for remarks; ``fills`` makes the rest of a page below them room to write in, and leaves them
-    out where little of it is left."""
+    """Sentences; ``small`` for remarks; ``fills`` leaves the rest of the page below them free to write in, and omits
+    them where little of it is left."""
 
     words: Said
     small: bool = False
@@ -56,8 +55,8 @@ class Paragraph:
 
 @dataclass(frozen=True)
 class StepItem:
-    """One step of the construction: its number, its reason, the lines of numbers computed in it; ``parted`` sets it and
-    those beside it on paper in two columns, down the left and then down the right."""
+    """A step of the construction: its number, its reason, the lines of its sums; ``parted`` sets it and its neighbours
+    on paper in two columns, down the left and then down the right."""
 
     number: int
     words: Said
@@ -67,10 +66,10 @@ class StepItem:
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure at true scale with its caption; ``drawing.desc`` says in words what it shows.
+    """A figure at true scale with its caption; ``drawing.desc`` describes it in words.
 
-    ``joined`` keeps it with what follows on one page (an equation with its steps); ``floats`` lets it stand at the head
-    of the next page, what follows it before it.
+    ``joined`` keeps it on one page with the next block (an equation with its steps); ``floats`` allows it at the head
+    of the next page, after the blocks that follow it.
     """
 
     drawing: Drawing
@@ -81,8 +80,8 @@ class Picture:
 
 @dataclass(frozen=True)
 class Plate:
-    """A finished page of a figure as an SVG with its letters as paths (mm), shown as wide as the paper allows at most;
-    ``seen`` says what it shows."""
+    """A finished page of a figure as an SVG with its letters as paths (mm), at most as wide as the paper allows;
+    ``seen`` describes it in words."""
 
     svg: str
     width: float
@@ -93,9 +92,9 @@ class Plate:
 
 @dataclass(frozen=True)
 class TableBlock:
-    """Rows under heads; ``align`` is one of l, r, c for each column; ``bold`` are the rows that stand out.
+    """Rows under heads; ``align`` is one of l, r, c for each column; ``bold`` are the emphasised rows.
 
-    ``roomy`` makes cells to write in by hand, ``halved`` sets them in two halves side by side.
+    ``roomy`` makes cells to write in by hand, ``halved`` sets the rows in two halves side by side.
     """
 
     heads: tuple[Said, ...]
@@ -108,7 +107,7 @@ class TableBlock:
 
 @dataclass(frozen=True)
 class Fields:
-    """Names of what is filled in on lines, as at the head of a sheet."""
+    """Names of blanks to fill in, as at the head of a sheet."""
 
     names: tuple[Said, ...]
 
@@ -123,7 +122,7 @@ class Beside:
 
 @dataclass(frozen=True)
 class Together:
-    """Blocks that stand on one page if they fit on one."""
+    """Blocks that are kept on one page if they fit on it."""
 
     blocks: tuple[Leaf, ...]
 
@@ -135,8 +134,8 @@ Block: TypeAlias = Leaf | Together
 
 @dataclass(frozen=True)
 class Document:
-    """A whole document: its title in words, its languages in order, its blocks, and its paper, of which ``folded`` sets
-    in two halves what stands before the first fresh heading."""
+    """A whole document: its title in words, its languages in order, its blocks, and its paper; on ``folded`` paper the
+    blocks before the first fresh heading are set in two halves."""
 
     title: str
     languages: tuple[str, ...]
@@ -146,7 +145,7 @@ class Document:
 
 
 def laid_out(blocks: Iterable[Block]) -> Iterator[Leaf]:
-    """Every block by itself, in the order in which they are read."""
+    """Every block by itself, in reading order."""
     for block in blocks:
         if isinstance(block, Together):
             yield from laid_out(block.blocks)
@@ -171,8 +170,8 @@ def table_of(
     language: str, rows: Iterable[Mapping[str, str]], keys: Sequence[str], bold: Collection[int] = (),
     roomy: bool = False,
 ) -> TableBlock:  # fmt: skip
-    """Rows of cells by the keys of their heads as a table of some of these columns; a cell that a row does not have is
-    left empty.  Names, units and senses stand on the left, numbers on the right, rooms to write in in the middle."""
+    """Rows of cells by the keys of their heads as a table of some of these columns; a missing cell is empty.  Names,
+    units and senses are aligned to the left, numbers to the right, cells to write in to the middle."""
     left = ("quantity", "unit") if roomy else ("quantity", "unit", "sense")
     align = "".join("l" if key in left else "c" if roomy else "r" for key in keys)
     cells = tuple(tuple(row.get(key, "") for key in keys) for row in rows)
@@ -185,7 +184,7 @@ def in_each(language: str, words: Callable[[str], str]) -> Said:
 
 
 def spoken(markup: str, language: str) -> Said:
-    """Words that are the same in every language, said once."""
+    """Words that are the same in every language, once."""
     return ((languages(language)[0], markup),)
 
 
@@ -195,14 +194,14 @@ def finished(words: Said) -> Said:
 
 
 def numbered(count: int, caption: Said) -> Said:
-    """The caption of a figure behind its number."""
+    """The caption of a figure after its number."""
     return tuple(
         (each, say(Phrase("figure numbered", number=count, caption=capital(text)), each)) for each, text in caption
     )
 
 
 def sentences(*several: Said) -> Said:
-    """Sentences one after the other, by language."""
+    """Sentences in order, by language."""
     by_language: dict[str, list[str]] = {}
     for one in several:
         for each, text in one:

@@ -44,7 +44,7 @@ Figures = tuple[Picture | Plate, ...]
 
 @dataclass(frozen=True)
 class Student:
-    """Who a report is for, and which scheme and position are theirs ("" where nothing is said)."""
+    """The student of a report, with their scheme and position ("" where the table names none)."""
 
     name: str = ""
     id: str = ""
@@ -54,8 +54,8 @@ class Student:
 
 @dataclass(frozen=True)
 class PlaceValues:
-    """What was read off at one position: the first driver's value and the readings by symbol, both in scene units
-    (vectors by size, rates with sign), and the exact values beside them; no values where it cannot be drawn."""
+    """The readings at a position: the first driver's value and the readings by symbol, both in scene units (vectors by
+    size, rates with sign), and the exact values; no values where it cannot be drawn."""
 
     name: str
     driver: float
@@ -73,7 +73,7 @@ class ClassRow:
 
 @dataclass(frozen=True)
 class Scheme:
-    """One mechanism of a course: its positions (SI values of the first driver) and what was read off at each."""
+    """A mechanism of a course: its positions (SI values of the first driver) and the readings at each."""
 
     name: str
     scene: Mechanism
@@ -86,8 +86,8 @@ class Scheme:
 
 
 def on_paper(drawing: Drawing, paper: Paper, caption: Said = ()) -> Picture | Plate:
-    """A page that was drawn for itself within the margins of a paper: without its own margins and titles true to scale
-    where that fits, else made small, with its check bar."""
+    """A drawn page within the margins of a paper: without its own margins and titles true to scale if that fits, else
+    reduced, with its check bar."""
     narrow = bare_picture(drawing)
     if narrow.width <= paper.body.width and narrow.height <= paper.body.height - HEADED:
         return Picture(narrow, caption)
@@ -95,7 +95,7 @@ def on_paper(drawing: Drawing, paper: Paper, caption: Said = ()) -> Picture | Pl
 
 
 def plate(svg: bytes, size: tuple[float, float], paper: Paper, words: str, caption: Said = ()) -> Plate:
-    """A page of a figure, made small where it is larger than the body of a paper below a heading."""
+    """A page of a figure, reduced if it is larger than the body of a paper below a heading."""
     times = min(1.0, paper.body.width / size[0], (paper.body.height - HEADED) / size[1])
     return Plate(svg.decode(), size[0] * times, size[1] * times, words, caption)
 
@@ -110,9 +110,9 @@ def course_report(
     ----------
     lesson : the mechanism in the student's position
     stands : value of the first driver there (rad, m)
-    data : heads and rows of the data of all schemes, the name of each first; without any nothing is told of them
-    asked : what the table of all positions shows
-    figures : "structure", "positions", "loops" and "diagrams", where they could be drawn
+    data : heads and rows of the data of all schemes, the name of each first; empty without such data
+    asked : the quantities in the table of all positions
+    figures : "structure", "positions", "loops" and "diagrams", if they could be drawn
     """
     language, driver = lesson.language, scheme.scene.unit_of(scheme.scene.drivers[0])
     driver_value = said("course place", language, value=driver.said(stands))
@@ -147,7 +147,7 @@ def course_report(
 
 
 def class_document(lesson: Lesson, rows: Sequence[ClassRow], asked: Sequence[Symbol], unit: str) -> Document:
-    """The values of a whole class in one table; the lesson lends its letters, units and paper."""
+    """The values of a whole class in one table; letters, units and paper are the lesson's."""
     language = lesson.language
     keys = ["name of student"]
     cells: list[tuple[str, ...]] = [(row.student.name or "–",) for row in rows]
@@ -171,7 +171,7 @@ def class_document(lesson: Lesson, rows: Sequence[ClassRow], asked: Sequence[Sym
 
 
 def _cover(lesson: Lesson, student: Student, place: Said) -> Iterable[Block]:
-    """Title, whose it is, what is theirs, and the mechanism."""
+    """Title, the student and their data, and the mechanism."""
     language = lesson.language
     yield Heading(said("course design", language), 1)
     yield Heading(scene_title(lesson), 2)
@@ -206,7 +206,7 @@ def _letters(head: str) -> str:
 
 
 def _data(data: tuple[tuple[str, ...], ...], student: Student, language: str) -> Iterable[TableBlock]:
-    """The data of the schemes, split where they are many, the student's own row in bold."""
+    """The data of the schemes, split into tables if they are many, the student's own row in bold."""
     heads, *rows = data
     bold = frozenset(i for i, row in enumerate(rows) if row[0] == student.scheme)
     for k in range(1, len(heads), MOST_VALUES):
@@ -235,7 +235,7 @@ def _lower(block: Block) -> Block:
 
 
 def value_read(lesson: Lesson, row: Compared) -> float:
-    """A reading in the scene's unit: a vector by size, a rate with its sign; zero where it is nothing but rounding."""
+    """A reading in the scene's unit: a vector by size, a rate with its sign; zero where it is rounding alone."""
     value = row.reading.value
     size = abs(value) if row.symbol.is_vector else float(complex(value).real)
     return lesson.in_unit(row.symbol, size) if row.true != 0.0 else 0.0
@@ -245,7 +245,7 @@ def _value_tables(
     lesson: Lesson, heads: tuple[Said, ...], cells: Sequence[tuple[str, ...]], places: Sequence[PlaceValues],
     asked: Sequence[Symbol], unit: str, bold: frozenset[int] = frozenset(),
 ) -> list[TableBlock]:  # fmt: skip
-    """A row for each position behind its names; what one table has no room for stands in a further one."""
+    """A row for each position after its names; columns without room in a table are in a further one."""
     language = lesson.language
     driver = said("course driver head", language, unit=unit)
     tables = []

@@ -4,7 +4,7 @@ cells also by formulas of other columns ("0.3 O4B", "O4B*(1 + cos(asin(O2A/O2O4)
 A head is a key of the scene file with dots (``links.2.length``, ``frame.guides.h.through.y``, ``driver.angle``), two
 points whose distance is given (``O4B``, ``lO4B``, ``l_O2A``), the driver's speed (``n2`` in r/min, ``omega1``), or its
 angle (``phi1``, ``theta1``).  A length between fixed points moves the second away from the first.  Any other head is no
-datum: the first names the row, the rest is left alone.
+datum: the first names the row, the rest is unused.
 """
 
 from __future__ import annotations
@@ -50,11 +50,11 @@ _LETTERS = {"rpm": "n", "omega": "omega ω w", "angle": "phi theta φ θ ϕ"}
 
 
 def value_of(text: str, known: Mapping[str, float]) -> float:
-    """The number that a cell stands for: plain, or made of names by + - * / and functions; angles in degrees.
+    """The number of a cell: plain, or a formula of names with + - * / and functions; angles in degrees.
 
     Raises
     ------
-    ValueError : it is no number and no such formula, or names something unknown
+    ValueError : it is no number and no such formula, or has an unknown name
 
     >>> value_of("0.3 O4B", {"O4B": 580.0})
     174.0
@@ -76,7 +76,7 @@ def _plain(text: str) -> float | None:
 
 
 def _names_in(text: str) -> set[str]:
-    """The names that a cell needs; none for a plain number or what is no formula."""
+    """The names in a cell's formula; none for a plain number or another text."""
     try:
         tree = None if _plain(text) is not None else _tree(text)
     except ValueError:
@@ -118,8 +118,8 @@ def _evaluated(node: ast.expr, known: Mapping[str, float]) -> float:
 
 @dataclass(frozen=True)
 class Columns:
-    """What the columns of a table are: the one that names the row, the data by column with their short names, and the
-    heads that are no data of the scene."""
+    """The columns of a table: the column that names the row, the data by column with their short names, and the heads
+    that are no data of the scene."""
 
     name: int | None
     data: Mapping[int, str]
@@ -127,7 +127,7 @@ class Columns:
 
 
 def columns_of(source: Tables, heads: Sequence[str]) -> Columns:
-    """Tell the columns of a table apart."""
+    """Distinguish the columns of a table."""
     known = _known_names(source)
     shorts = {i: _short(head) for i, head in enumerate(heads)}
     data = {i: short for i, short in shorts.items() if "." in short or _bare(short) in known}
@@ -136,7 +136,7 @@ def columns_of(source: Tables, heads: Sequence[str]) -> Columns:
 
 
 def replaced(source: Tables, columns: Columns, cells: Sequence[str]) -> list[Setting]:
-    """Keys of the scene file with their values in one row.
+    """Keys of the scene file with their values in a row.
 
     Raises
     ------
@@ -149,7 +149,7 @@ def replaced(source: Tables, columns: Columns, cells: Sequence[str]) -> list[Set
 
 
 def _short(head: str) -> str:
-    """A head without unit, blanks and braces, and without the words that say what its symbol means.
+    """A head without unit, blanks and braces, and without the words that explain its symbol.
 
     >>> _short("曲柄转速 n2 (r/min)"), _short("l_{O2A}/mm")
     ('n2', 'l_O2A')
@@ -189,7 +189,7 @@ Setter = Callable[[float], list[Setting]]
 
 
 def _known_names(source: Tables) -> dict[str, Setter]:
-    """Every short name that stands for a datum of the file: speeds and angles of drivers, distances of points."""
+    """Every short name of a datum of the file: speeds and angles of drivers, distances of points."""
     known: dict[str, Setter] = {}
     for i, (path, driver) in enumerate(drivers_of(source)):
         where = ".".join(str(part + 1) if isinstance(part, int) else part for part in path)
@@ -222,7 +222,7 @@ def _placed(entries: Entries, value: float) -> list[Setting]:
 
 
 def _distances(source: Tables) -> Iterator[tuple[str, str, Entries]]:
-    """Two points and the entries of the file that give their distance, both ways."""
+    """The entries of the file that give distances, by their two points in either order."""
     for name, link in source.get("links", {}).items():
         points = link.get("points", [])
         if len(points) == 2:

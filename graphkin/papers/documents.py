@@ -1,6 +1,6 @@
 """The papers of a lesson: the problem sheet with room to solve it with ruler and compass; the worked solution, step by
-step with reasons, equations and figures as far as drawn; the answer key with what to accept from a pencil drawing, as
-CSV too, and the table for a class.
+step with reasons, equations and the figures of each stage; the answer key with the tolerances of a pencil drawing, also
+as CSV, and the table for a class.
 """
 
 from __future__ import annotations
@@ -115,14 +115,14 @@ def problem(lesson: Lesson) -> Document:
 def _space(
     lesson: Lesson, bare: Drawing, diagrams: Sequence[DiagramName], paper: Paper, above: float = 0.0
 ) -> Drawing | None:
-    """Mechanism and poles together below the heading of a page, and so many mm of equations above them."""
+    """Mechanism and poles together below the heading of a page, with ``above`` mm of equations above them."""
     return pictures.workspace(lesson, bare, diagrams, Box(0.0, 0.0, paper.body.width, paper.body.height - HEAD - above))
 
 
 def _polygon_pages(
     lesson: Lesson, bare: Drawing, paper: Paper, both: Drawing | None
 ) -> tuple[list[Block], list[Block]]:
-    """The equations that stand before the sums, and a page for each polygon, or one for both."""
+    """The equations before the sums, and a page for each polygon, or one for both."""
     drawn = [d for d in pictures.POLYGONS if any(e.diagram == d for e in lesson.sheet.equations)]
     names = {d: said(FIGURE_WORDS[d], lesson.language) for d in drawn}
     room = paper.body.width / 2 - ROOM_BETWEEN if paper.folded else paper.body.width
@@ -144,14 +144,14 @@ def _polygon_pages(
 
 
 def _poles(lesson: Lesson, diagrams: Sequence[DiagramName]) -> Paragraph:
-    """From which poles polygons are to be drawn."""
+    """The poles from which polygons are to be drawn."""
     poles = [f"${pole(lesson.letters.convention, diagram)}$" for diagram in diagrams]
     names = word("list comma", languages(lesson.language)[0]).join(poles)
     return Paragraph(said("your polygon", lesson.language, poles=names), small=True)
 
 
 def _equations(lesson: Lesson, diagram: DiagramName, width: float) -> tuple[Paragraph | Picture, ...]:
-    """What a sheet gives of the equations: blanks; at the level "easy" the equations, at "hard" nothing."""
+    """The equations on a sheet: blanks; at the level "easy" the equations, at "hard" none."""
     equations = [e for e in lesson.sheet.equations if e.diagram == diagram]
     if lesson.level == "hard":
         return ()
@@ -162,13 +162,13 @@ def _equations(lesson: Lesson, diagram: DiagramName, width: float) -> tuple[Para
 
 
 def _height(asked: Sequence[Paragraph | Picture]) -> float:
-    """The height of what a sheet gives of equations (mm)."""
+    """The height of the equations on a sheet (mm)."""
     return added_up(block.drawing.height + 3.0 for block in asked if isinstance(block, Picture))
 
 
 def _forces(lesson: Lesson, bare: Drawing, paper: Paper) -> Iterator[Block]:
     """The equations of the groups cut free, and room for their polygons beside the mechanism, from which directions and
-    arms are taken; the equations go before where a page does not hold both."""
+    arms are taken; the equations are on a page before if both do not fit on one."""
     forces, language = lesson.forces, lesson.language
     if forces is None:
         return
@@ -190,7 +190,7 @@ def _forces(lesson: Lesson, bare: Drawing, paper: Paper) -> Iterator[Block]:
 
 
 def paper_title(lesson: Lesson, key: str) -> str:
-    """The title of one of the papers, in the first language: that of the scene, and which paper it is."""
+    """The title of a paper, in the first language: the scene's title and the name of the paper."""
     first = languages(lesson.language)[0]
     return plain_words(scene_title(lesson)[0][1]) + word("colon", first) + word(key, first)
 
@@ -206,7 +206,7 @@ def scene_title(lesson: Lesson) -> Said:
 
 
 def given(lesson: Lesson) -> Iterator[Paragraph]:
-    """What is given, in sentences: lengths, fixed points, guides, drivers; then what is asked, and the source."""
+    """The given data in sentences: lengths, fixed points, guides, drivers; then the question, and the source."""
     scene, letters, language = lesson.sheet.scene, lesson.letters, lesson.language
     unit = scene.units.length
     lengths = [f"${name}$ = {value}{BOUND}{unit}" for name, value in given_lengths(scene, letters)]
@@ -235,7 +235,7 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
 
 
 def _guides(lesson: Lesson, language: str) -> list[str]:
-    """Each guide of the frame that has a name, by a point of it and its direction."""
+    """Each named guide of the frame, by a point of it and its direction."""
     scene, phrases = lesson.sheet.scene, []
     for name, place, angle in fixed_guides(scene, lesson.letters):
         key = {"0": "guide level", "90": "guide upright"}.get(angle, "guide at")
@@ -245,12 +245,12 @@ def _guides(lesson: Lesson, language: str) -> list[str]:
 
 
 def reach(lesson: Lesson) -> Iterator[Paragraph]:
-    """That only a part of the mechanism is on the paper, where nothing asked for needs the rest."""
+    """The sentence that only a part of the mechanism is on the paper, if the asked quantities need no more."""
     return (Paragraph(lesson.sentence(phrase)) for phrase in lesson.sheet.left_out)
 
 
 def _speeds(scene: Mechanism) -> Iterator[str]:
-    """Speeds of drivers in r/min, where these are the round ones."""
+    """Speeds of drivers in r/min, where these are round numbers."""
     for driver in scene.drivers:
         if driver.turns and driver.rate and driver.rpm is None:  # a given one stands there already
             rpm = float(f"{driver.rate * RPM:.9g}")
@@ -259,7 +259,7 @@ def _speeds(scene: Mechanism) -> Iterator[str]:
 
 
 def _senses(scene: Mechanism) -> Iterator[Phrase]:
-    """Which way drivers turn, and whether that is ever faster."""
+    """The senses of drivers, and whether they turn faster and faster."""
     for driver in scene.drivers:
         if driver.turns and driver.rate:
             on = "" if driver.relative_to == scene.frame.name else Phrase("seen from link", link=driver.relative_to)
@@ -270,7 +270,7 @@ def _senses(scene: Mechanism) -> Iterator[Phrase]:
 
 
 def _formulas(lesson: Lesson, key: str, items: Sequence[str], between: str = "list comma") -> Iterator[Paragraph]:
-    """Formulas, where there are some, with their label; on papers of two languages once, with both labels."""
+    """Formulas, if there are any, with their label; on papers of two languages once, with both labels."""
     first, *others = languages(lesson.language)
     text = word(between, first).join(items)
     if items and not others:
@@ -282,7 +282,7 @@ def _formulas(lesson: Lesson, key: str, items: Sequence[str], between: str = "li
 
 
 def _clauses(lesson: Lesson, key: str, clauses: dict[str, list[str]]) -> Iterator[Paragraph]:
-    """Clauses in each language, where there are some, with their label."""
+    """Clauses in each language, if there are any, with their label."""
     if any(clauses.values()):
         yield Paragraph(in_each(lesson.language, lambda each: labelled(key, "; ".join(clauses[each]), each)))
 
@@ -297,9 +297,9 @@ def labelled(key: str, text: str, language: str) -> str:
 
 @dataclass(frozen=True)
 class KeyRow:
-    """One line of the key, in scene units: the size of a vector, a rate with its sign.
+    """A line of the key, in scene units: the size of a vector, a rate with its sign.
 
-    ``tolerance`` is three predicted standard deviations of a pencil drawing, None where nothing can be promised.
+    ``tolerance`` is three predicted standard deviations of a pencil drawing, None where the prediction has no bound.
     """
 
     symbol: str
@@ -337,7 +337,7 @@ def _degrees(value: complex | float) -> float:
 
 
 def result_cells(lesson: Lesson) -> Iterator[dict[str, str]]:
-    """What is told of each result, by the keys of the heads under which it stands."""
+    """The cells of each result, by the keys of their heads."""
     scales, units = lesson.report.scales, lesson.sheet.scene.units
     for line, row in zip(key_rows(lesson), lesson.results, strict=True):
         placed = row.symbol.scope == "position"
@@ -353,8 +353,8 @@ def result_cells(lesson: Lesson) -> Iterator[dict[str, str]]:
 
 
 def accepted(value: float, off: float, least: float) -> tuple[str, str]:
-    """What a pencil drawing may be off a value, to two figures, and between which values it is accepted; dashes where
-    that has no bound, and of what is nought whatever the hand does."""
+    """The tolerance of a value for a pencil drawing, to two figures, and the accepted range; dashes where it has no
+    bound, and for a value that every drawing makes zero."""
     if not off or not math.isfinite(off):
         return "–", "–"
     places = 1 - math.floor(math.log10(off))  # negative for tens and hundreds
@@ -366,7 +366,7 @@ def accepted(value: float, off: float, least: float) -> tuple[str, str]:
 
 
 def results_table(lesson: Lesson, *keys: str) -> TableBlock:
-    """The results in columns with these heads, what is asked in bold."""
+    """The results in columns with these heads, asked ones in bold."""
     asked = [i for i, row in enumerate(lesson.results) if row.symbol in lesson.questions]
     return table_of(lesson.language, result_cells(lesson), keys, asked)
 
@@ -398,13 +398,13 @@ def key_table(lesson: Lesson) -> table.Table:
 def answers_template(
     asked: Sequence[Symbol], units: Units, language: str, lines: Iterable[Sequence[str]] = (("", ""),), *more: str
 ) -> table.Table:
-    """A table for a class to fill in, as ``audit`` reads it: behind names and numbers a column for each quantity asked
-    for, and for a vector its direction.
+    """A table for a class to fill in, as ``audit`` reads it: after names and numbers a column for each asked quantity,
+    and for a vector its direction.
 
     Parameters
     ----------
-    lines : what stands there already
-    more : keys of the words that head further columns of them
+    lines : the filled-in rows
+    more : keys of the heads of their further columns
     """
     lead = [word(key, language) for key in ("name in a class", "id in a class", *more)]
     heads = [head for s in asked for head in (head_of(s, units), *_way_head(s, language))]
@@ -412,7 +412,7 @@ def answers_template(
 
 
 def _way_head(symbol: Symbol, language: str) -> list[str]:
-    """The head of the column for the direction of a vector; none of anything else."""
+    """The head of the column for the direction of a vector; none for another quantity."""
     return [f"{symbol} {word('direction of', language)}"] if symbol.is_vector else []
 
 
@@ -423,13 +423,13 @@ def head_of(symbol: Symbol, units: Units) -> str:
 
 
 def length_on_paper(row: Compared) -> str:
-    """The length on paper of what is a length there; a rate has none of its own."""
+    """The length on paper of a drawn length; a rate has none of its own."""
     is_length = row.symbol.is_vector or row.symbol.measure == "length"
     return written(paper(row.reading, row)) if is_length else "–"
 
 
 def unsigned(row: Compared, text: str) -> str:
-    """A value whose sense is said in words; the sign of a place says where it lies."""
+    """A value without its sign where its sense is in words; a place keeps its sign."""
     placed = row.symbol.scope == "position" or row.symbol.kind in ("h", "arm")
     return text if placed else text.removeprefix("−")
 
@@ -453,7 +453,7 @@ MANY = 6  # steps that stand in two columns above their figure
 
 
 def solution(lesson: Lesson, worked: Iterable[Block] | None = None) -> Document:
-    """The worked solution of a lesson; ``worked`` are its stages, where they are there already."""
+    """The worked solution of a lesson; ``worked`` are its stages, if they are made already."""
     stages = solution_blocks(lesson, beginning(lesson)) if worked is None else worked
     blocks = (Heading(scene_title(lesson), 1), *stages, *results_blocks(lesson))
     title = paper_title(lesson, "worked solution")
@@ -461,12 +461,12 @@ def solution(lesson: Lesson, worked: Iterable[Block] | None = None) -> Document:
 
 
 def beginning(lesson: Lesson) -> tuple[Paragraph, ...]:
-    """What is given, and how the numbers of the steps are to be read."""
+    """The given data, and a note on the numbers of the steps."""
     return (*given(lesson), Paragraph(said("bracket words", lesson.language), small=True))
 
 
 def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterator[Block]:
-    """Stage by stage; ``lead`` stands before the first."""
+    """The solution stage by stage; ``lead`` comes before the first."""
     layers: dict[str, pictures.Layers] = {}
     first: int | None = None  # of steps that the next figure of their diagram shows too
     figure = train_figure(lesson.sheet, language=lesson.language, convention=lesson.convention)
@@ -501,7 +501,7 @@ def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterato
 def _plan_blocks(
     lesson: Lesson, order: str, figure: Drawing | None, count: int, stage: Stage | None = None
 ) -> Iterator[Heading | StepItem | Picture]:
-    """A velocity plan with its steps; without a figure where nothing of it moves."""
+    """A velocity plan with its steps; without a figure where no part of it moves."""
     title = said("plan" if order == "velocity" else "plan accelerations", lesson.language)
     yield Heading(title)
     if stage is not None:
@@ -511,7 +511,7 @@ def _plan_blocks(
 
 
 def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
-    """Force polygons group by group, and Zhukovsky's lever; ``count`` figures stand before them."""
+    """Force polygons group by group, and Zhukovsky's lever; ``count`` figures come before them."""
     sheet, forces, language = lesson.sheet, lesson.forces, lesson.language
     if forces is None:
         return
@@ -570,7 +570,7 @@ def results_blocks(lesson: Lesson) -> Iterator[Block]:
 
 
 def stage_title(lesson: Lesson, stage: Stage) -> Said:
-    """What a stage is about: the position, an equation and its kind, or the vectors asked for besides."""
+    """The subject of a stage: the position, an equation and its kind, or the other asked vectors."""
     equation = stage.equation
     if stage.diagram == "mechanism":
         return said("the position", lesson.language)
@@ -600,8 +600,8 @@ def _leads_on(stage: Stage, after: Stage | None) -> bool:
 
 
 def _told(lesson: Lesson, stage: Stage, count: int) -> Iterator[Heading | Paragraph | Picture]:
-    """What stands above the steps of an equation: the equation over its rows, and why it is so; ``count`` is the number
-    of the figure that shows them."""
+    """The head of an equation's steps: the equation over its rows, and its reasons; ``count`` is the number of their
+    figure."""
     equation = stage.equation
     assert equation is not None
     where = dict(said("see figure", lesson.language, figure=count))
@@ -615,7 +615,7 @@ def _told(lesson: Lesson, stage: Stage, count: int) -> Iterator[Heading | Paragr
 def _stage(
     lesson: Lesson, stage: Stage, layers: pictures.Layers, lead: tuple[Paragraph, ...], begun: int, count: int
 ) -> Iterator[Heading | Paragraph | StepItem | Picture | Beside]:
-    """A stage with its figure, on which what is new since step ``begun`` stands out."""
+    """A stage with its figure, on which strokes after step ``begun`` are emphasised."""
     sheet = lesson.sheet
     drawn = pictures.stage_picture(lesson, layers, stage.diagram, begun, stage.last)
     start = next(step.number for step in sheet.steps if step.diagram == stage.diagram)

@@ -42,8 +42,8 @@ _NOTHING = re.compile(r"[^A-Za-z0-9]+")
 
 @dataclass(frozen=True)
 class AskedNumber:
-    """One number that is asked for: its symbol, how it is written (HTML and plain), unit, right value, tolerance; and
-    known wrong values, each with what was done to get it, in words."""
+    """An asked number: its symbol, its letters (HTML and plain), unit, right value, tolerance; and known wrong values,
+    each with its slip in words."""
 
     symbol: str
     html: str
@@ -55,14 +55,14 @@ class AskedNumber:
 
     @property
     def answers(self) -> tuple[tuple[int, str, str, str], ...]:
-        """The right answer and the known wrong ones: share of the mark (%), value, tolerance, what is said to it."""
+        """The right answer and the known wrong ones: share of the mark (%), value, tolerance, feedback."""
         right = 100, f"{self.value:.10g}", f"{self.tolerance:.3g}", ""
         return right, *((0, f"{value:.10g}", f"{self.tolerance / 2:.3g}", words) for value, words in self.slips)
 
 
 @dataclass(frozen=True)
 class Question:
-    """A problem as a platform asks it: title, structure and data as HTML, the figure (PNG), and what is seen on it."""
+    """A problem for a platform: title, structure and data as HTML, the figure (PNG), and its description."""
 
     name: str
     title: str
@@ -75,12 +75,12 @@ class Question:
 
     @property
     def key(self) -> str:
-        """A name that can be a file's."""
+        """A name that a file can have."""
         return _NOTHING.sub("-", self.name).strip("-") or "question"
 
 
 def question_of(lesson: Lesson, what: Plan, motion: Motion, name: str) -> Question:
-    """The question of a lesson, drawn by a plan; quantities for which a drawing promises nothing are left out."""
+    """The question of a lesson, drawn by a plan; quantities without a bound of the drawing's error are left out."""
     evidence = Evidence.of(what, motion, lesson.tolerance, what.asked)
     first = languages(lesson.language)[0]
     scene = lesson.sheet.scene
@@ -113,7 +113,7 @@ def question_of(lesson: Lesson, what: Plan, motion: Motion, name: str) -> Questi
 def _slips(
     lesson: Lesson, evidence: Evidence, symbol: Symbol, right: float, tolerance: float, language: str
 ) -> Iterator[tuple[float, str]]:
-    """The commonest slips whose values can be told from the right one and from each other."""
+    """The commonest slips whose values differ clearly from the right value and from each other."""
     taken = [right]
     try:
         suspects = sorted(evidence.suspects(symbol).all, key=lambda s: -s.share)
@@ -144,7 +144,7 @@ def files_for(question: Question, platforms: Sequence[str]) -> dict[str, bytes]:
 
 
 def bank(category: str, files: Iterable[Mapping[str, bytes]]) -> dict[str, bytes]:
-    """One bank of the questions of many variants, from the files of each."""
+    """A bank of the questions of many variants, from the files of each."""
     moodle: list[str] = []
     gifts: list[str] = []
     for made in files:
@@ -172,7 +172,7 @@ def moodle_bank(category: str, entries: Sequence[str]) -> bytes:
 
 
 def moodle_entries(question: Question) -> str:
-    """A cloze question with all that is asked, and a numerical one for each quantity."""
+    """A cloze question with all asked quantities, and a numerical question for each."""
     return rendered(
         "moodle_questions.xml",
         question=question,
@@ -190,8 +190,8 @@ def _body(
     asked: Sequence[AskedNumber],
     field: Callable[[AskedNumber], str] | None = None,
 ) -> str:
-    """The HTML of a question: structure, data, the figure, the rule of signs, and what is asked, with the field in
-    which it is answered or else with its unit."""
+    """The HTML of a question: structure, data, the figure, the rule of signs, and the asked quantities, with the field
+    of the answer or else with the unit."""
     return rendered("question.html", question=question, source=source, asked=asked, field=field)
 
 
@@ -208,7 +208,7 @@ def _cloze_field(asked: AskedNumber) -> str:
 
 
 def gift(question: Question) -> str:
-    """The same in plain text, the figure within it as a data URI: a numerical question in HTML for each quantity."""
+    """The question in GIFT, with the figure as a data URI: a numerical question in HTML for each quantity."""
     figure = f"data:image/png;base64,{base64.b64encode(question.picture).decode()}"
     made = []
     for asked in question.asked:

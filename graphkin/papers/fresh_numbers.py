@@ -1,10 +1,9 @@
-"""Fresh numbers for a scene file: which of them vary, by how much, rounded so that they look like a problem's; what
-``[vary]`` of the scene says about them (ranges, ties, what stays, what is asked, how hard a problem may be); and those
-that must fit each other when they vary: teeth that mesh, discs that roll, pieces of a cam's law, a driver's law and the
-moment asked.
+"""New numbers for a scene file: the varied numbers and their ranges, rounded as in textbook problems; the rules of the
+scene's ``[vary]`` (ranges, ties, constant numbers, questions, level); and numbers that must fit each other: teeth that
+mesh, discs that roll, pieces of a cam's law, a driver's law and the asked moment.
 
-A candidate depends on nothing but the seed, the number of the variant and the attempt, so that a set is the same
-whatever computes it.
+A candidate depends on the seed, the number of the variant and the attempt alone, so that a set is the same on every
+machine.
 """
 
 from __future__ import annotations
@@ -37,8 +36,8 @@ ALIKE = 1e-6
 
 @dataclass(frozen=True)
 class Bounds:
-    """How badly lines may cross (rad), how far an answer may be missed with a pencil (part of it), the least
-    transmission and the greatest pressure angle (rad)."""
+    """The limits of a good problem: the least crossing angle (rad), the greatest error of an answer by pencil (part of
+    it), the least transmission and the greatest pressure angle (rad)."""
 
     crossing: float
     tolerance: float = 0.05
@@ -57,8 +56,8 @@ pressure angle of a slider."""
 
 @dataclass(frozen=True)
 class Spread:
-    """How far the data vary: lengths, rates and teeth by a part of their size, places by a part of theirs, angles by
-    all, or within the ``reach`` (degrees) of a first driver that cannot turn fully."""
+    """The variation of the data: lengths, rates and teeth by a part of their size, places by a part of theirs, angles
+    over the whole turn, or within the ``reach`` (degrees) of a first driver that cannot turn fully."""
 
     lengths: float = 0.15
     places: float = 0.08
@@ -68,7 +67,7 @@ class Spread:
     reach: tuple[float, float] | None = None
 
     def narrower(self) -> Spread:
-        """For mechanisms that do not assemble with lengths much unlike their own."""
+        """A smaller variation, for mechanisms that do not assemble with very different lengths."""
         return replace(self, lengths=0.4 * self.lengths, places=0.4 * self.places)
 
 
@@ -81,7 +80,7 @@ def drivers_of(source: Tables) -> list[tuple[KeyPath, Tables]]:
 
 
 def varied_keys(source: Tables) -> tuple[tuple[KeyPath, str], ...]:
-    """The numbers of a scene file that variants change, with what they are: "length", "place", "angle", "rate",
+    """The numbers of a scene file that variants change, with their kinds: "length", "place", "angle", "rate",
     "travel", "teeth", the "end" of a piece of a cam's law, the "moment" of a driver's.
 
     Zeros stay zero, and so do accelerations and the directions of guides.  Falls of cams follow the rises, lengths of
@@ -91,7 +90,7 @@ def varied_keys(source: Tables) -> tuple[tuple[KeyPath, str], ...]:
 
 
 def _plain_keys(source: Tables) -> Iterator[tuple[KeyPath, str]]:
-    """The numbers that need fit no others."""
+    """The numbers that need not fit others."""
     for name, link in source.get("links", {}).items():
         if "length" in link:
             yield ("links", name, "length"), "length"
@@ -142,7 +141,7 @@ def _fitting_keys(source: Tables) -> Iterator[tuple[KeyPath, str]]:
 
 
 def candidate(source: Tables, spread: Spread, seed: int, number: int, attempt: int) -> OwnTables:
-    """One try at a variant: every number that varies drawn afresh and rounded; not looked at yet."""
+    """A candidate for a variant: every varied number newly drawn and rounded, not examined yet."""
     dice = random.Random(f"{seed}/{number}/{attempt}")
     made = copy.deepcopy(dict(source))
     rules = _vary(source)
@@ -194,7 +193,7 @@ def _within(dice: random.Random, reach: tuple[float, float], spread: Spread) -> 
 
 
 def _fit(source: Tables, made: OwnTables, free: Callable[[KeyPath], bool]) -> None:
-    """Make the numbers of a candidate fit each other; those that cannot are put back as they were.
+    """Make the numbers of a candidate fit each other; numbers that cannot fit get their old values.
 
     Parameters
     ----------
@@ -219,7 +218,7 @@ def _fit(source: Tables, made: OwnTables, free: Callable[[KeyPath], bool]) -> No
 
 
 def _cam(was: Tables, cam: OwnTables) -> None:
-    """Pieces one after the other, that come back to where they began."""
+    """Make the pieces of a cam's law follow each other and return to their beginning."""
     law, old = cam["law"], was["law"]
     ends = [0.0, *(float(piece["to"]) for piece in law)]
     if any(b - a < LEAST_PIECE for a, b in pairwise(ends)):
@@ -234,7 +233,7 @@ def _cam(was: Tables, cam: OwnTables) -> None:
 
 
 def _set_moment(driver: OwnTables, law: Tables) -> None:
-    """A moment, or an angle, well within what a law goes through."""
+    """Set a moment, or an angle, well inside the range of a law."""
     if driver.get("time"):
         within = min(max(driver["time"] / law["duration"], EARLY), 1.0 - EARLY)
         driver["time"] = float(f"{within * law['duration']:.3g}")
@@ -245,7 +244,7 @@ def _set_moment(driver: OwnTables, law: Tables) -> None:
 
 
 def _rims(was: Tables, link: OwnTables) -> None:
-    """A bar that ends on the rim of a disc goes on doing so."""
+    """Keep a bar's end on the rim of a disc."""
     points = link.get("points", ())
     for name, disc in link.get("discs", {}).items():
         if disc.get("centre") in points and len(points) == 2 and was.get("length") == was["discs"][name].get("r"):
@@ -253,14 +252,14 @@ def _rims(was: Tables, link: OwnTables) -> None:
 
 
 def _axle_key(made: Tables, carrier: str, axes: tuple[str, str]) -> KeyPath | None:
-    """Where the distance of two axes stands as the length of their carrier."""
+    """The key of the distance of two axes, the length of their carrier."""
     link = made.get("links", {}).get(carrier, {})
     return ("links", carrier, "length") if set(link.get("points", ())) == set(axes) and "length" in link else None
 
 
 def _teeth(scene: Mechanism, made: OwnTables, free: Callable[[KeyPath], bool]) -> bool:
-    """Wheels that mesh with several others keep one pitch circle: of wheels about the same two axes the last number of
-    teeth follows, else the distance of the axes.  False where neither can."""
+    """Fit wheels that mesh with several others, so that each keeps one pitch circle: of wheels about the same two axes
+    the last number of teeth follows, else the distance of the axes.  False where neither can."""
     meshes: list[tuple[PlacedGear, list[int]]] = []
     modules: dict[tuple[str, int], float] = {}  # distance of the axes for a tooth, by link and teeth before
     numbers = {  # those that somebody has ranged or kept hold for the whole wheel
@@ -301,7 +300,7 @@ def _teeth(scene: Mechanism, made: OwnTables, free: Callable[[KeyPath], bool]) -
 
 
 def _radii(scene: Mechanism, made: OwnTables, free: Callable[[KeyPath], bool]) -> bool:
-    """Discs that roll on each other stand as far apart as their radii say.  False where they cannot."""
+    """Fit the distances of discs that roll on each other to their radii.  False where they cannot fit."""
     for contact in scene.contacts:
         if not contact.rolling:
             continue
@@ -324,7 +323,7 @@ def _radii(scene: Mechanism, made: OwnTables, free: Callable[[KeyPath], bool]) -
 
 
 def _on_its_face(made: OwnTables, contact: PlacedContact) -> bool:
-    """A drawn centre of a disc that rolls on a face of the frame goes off it by the radius.  False where it cannot."""
+    """Move the drawn centre of a disc that rolls on a face of the frame to a radius from it.  False where it cannot."""
     (disc,) = contact.round
     drawn = made.get("drawn", {}).get(disc.centre)
     if drawn is None:
@@ -350,7 +349,7 @@ def _disc(made: Tables, ref: str) -> float:
 
 
 def _put_back(was: Any, now: Any) -> None:
-    """Radii of discs as they were."""
+    """Put back the old radii of discs."""
     if "discs" in now:
         for name, disc in now["discs"].items():
             disc["r"] = was["discs"][name]["r"]
@@ -363,7 +362,7 @@ def _put_back(was: Any, now: Any) -> None:
 
 
 def level_of(source: Tables) -> Bounds:
-    """The bounds that a scene asks for: those of its level, and what it says itself."""
+    """The bounds that a scene asks for: those of its level, with its own changes."""
     table = _vary(source)
     keys = ("crossing", "transmission", "pressure", "tolerance")
     levels = {key: table[key] for key in keys if table.get(key) is not None}
@@ -385,7 +384,7 @@ def _path_of_number(source: Tables, key: str) -> KeyPath | None:
 
 
 def rules_checked(source: Tables) -> None:
-    """Raise CallError naming every key of ``[vary]`` that is no number of the scene, and every range that is none."""
+    """Raise CallError with every key of ``[vary]`` that is no number of the scene, and every wrong range."""
     table = _vary(source)
     keys = [(f"vary.ranges.{k}", k) for k in table.get("ranges", {})]
     keys += [("vary.keep", k) for k in table.get("keep", ())]
@@ -407,12 +406,13 @@ def rules_checked(source: Tables) -> None:
 
 
 def _paths(source: Tables, keys: Iterable[str]) -> list[KeyPath]:
-    """The places of numbers that are there (`rules_checked`)."""
+    """The places of existing numbers (see `rules_checked`)."""
     return [path for key in keys if (path := _path_of_number(source, key)) is not None]
 
 
 def _draw_ruled(source: Tables, made: OwnTables, dice: random.Random, step_of: Mapping[str, float]) -> None:
-    """Draw what has a range, and let what is tied follow; ``step_of`` gives the steps of angles by the last key."""
+    """Draw the numbers with a range, and compute the tied ones; ``step_of`` gives the steps of angles by the last
+    key."""
     table = _vary(source)
     ranges = table.get("ranges", {})
     for path, (low, high) in zip(_paths(source, ranges), ranges.values(), strict=True):
@@ -432,7 +432,7 @@ def _draw_ruled(source: Tables, made: OwnTables, dice: random.Random, step_of: M
 
 
 def round_step(value: float) -> float:
-    """The step of the 1-2-5 series that is about a sixtieth of a value, so that its multiples look round beside it.
+    """The step of the 1-2-5 series of about a sixtieth of a value, so that its multiples look round.
 
     >>> round_step(580), round_step(90), round_step(0.34)
     (5.0, 1.0, 0.005)

@@ -1,5 +1,5 @@
 """Blocks as HTML, and documents as whole pages: every word of a scene escaped, figures as SVG in the page, symbols with
-how they are read aloud, for readers of screens (``v_{B3B2}`` is "velocity of B3 relative to B2")."""
+their words for screen readers (``v_{B3B2}`` is "velocity of B3 relative to B2")."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ PIXEL = 25.4 / 96  # mm
 
 
 def words_html(markup: str, language: str) -> str:
-    """Words with symbols between dollar signs, which are read aloud in words of a language."""
+    """Words with symbols between dollar signs, which screen readers read in words of a language."""
     parts = []
     for part in parsed(markup):
         if isinstance(part, str):
@@ -56,19 +56,19 @@ def _atoms(atoms: tuple[Atom, ...]) -> str:
 
 
 def said_html(said: Said, tag: str = "span") -> str:
-    """Words in each language, each in an element that names it."""
+    """Words in each language, each in an element with its language."""
     return "".join(
         f'<{tag} lang="{word("code in pages", each)}">{words_html(markup, each)}</{tag}>' for each, markup in said
     )
 
 
 def blocks_html(blocks: Iterable[Block], language: str) -> str:
-    """Blocks one after the other; what is the same in every language is read aloud in one."""
+    """Blocks in order; parts that are the same in every language are read aloud in one."""
     return rendered("blocks.html", blocks=blocks, language=language, ALIGNED=ALIGNED)
 
 
 def rendered(name: str, **values: object) -> str:
-    """A file by its template in the folder ``templates``; what is put into it is escaped, but for `markupsafe.Markup`.
+    """A file by its template in the folder ``templates``; inserted values are escaped, except `markupsafe.Markup`.
 
     Raises jinja2.UndefinedError where a value is missing.
     """
@@ -106,9 +106,9 @@ def whole_page(document: Document, body: str, script: str = "", data: object = N
 
     Parameters
     ----------
-    body : what it shows (HTML)
+    body : its content (HTML)
     script : the name of its script, a file of this room
-    data : what the script reads, packed in the page
+    data : the script's data, packed in the page
     """
     paper, code = document.paper, _file(script) if script else ""
     json_text = "" if data is None else json.dumps(
@@ -154,7 +154,7 @@ _UNSEEN = re.compile(r"<(style|title|desc)\b.*?</\1>", re.DOTALL)
 
 
 def _used_characters(body: str) -> dict[Style, set[str]]:
-    """The characters of a page in each face in which it shows them; the same for figures that a script holds."""
+    """The characters of a page in each font face, those of figures in a script included."""
     plain = _UNSEEN.sub("", unescape(body.replace('\\"', '"')))
     faces = {
         style: {c for match in pattern.finditer(plain) for c in _TAG.sub("", match[0])}

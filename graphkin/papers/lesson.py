@@ -1,5 +1,5 @@
-"""A drawing as a lesson: what belongs together, equation by equation, what is asked and found; and lessons of a scene:
-its drawing held against the solver, and those of the positions for a screen."""
+"""A drawing as a lesson: its stages, equation by equation, its questions and results; and the lessons of a scene: its
+drawing compared with the solver, and the positions for a screen."""
 
 from __future__ import annotations
 
@@ -75,17 +75,17 @@ def stages(sheet: Sheet) -> tuple[Stage, ...]:
 
 @dataclass(frozen=True)
 class Lesson:
-    """Everything a handout tells of one scene at one position.
+    """The content of a handout on a scene at one position.
 
     Parameters
     ----------
     sheet : the drawing, at the scales of the handout's paper
-    report : its readings held against the exact values
+    report : its readings compared with the exact values
     tolerance : predicted uncertainty of each reading on a pencil drawing at these scales
     language : "en", "zh" or "both"
     convention : "chinese", "us", "british" or "russian"
-    asked : what is to be found; empty for everything
-    centres : the instant centres of the position, for a screen, where they can be had
+    asked : the asked quantities; empty for all
+    centres : the instant centres of the position, for a screen, if they exist
     """
 
     sheet: Sheet
@@ -110,7 +110,7 @@ class Lesson:
 
     @cached_property
     def forces(self) -> ForceSheet | None:
-        """The forces as they are drawn; None where there is neither mass nor load, or nothing of them is asked."""
+        """The drawn forces; None where there is neither mass nor load, or no force is asked for."""
         return forces_on(self.sheet) if self.sheet.has_forces else None
 
     @cached_property
@@ -121,7 +121,7 @@ class Lesson:
 
     @property
     def level(self) -> str:
-        """How hard the problem is meant to be, as ``[vary]`` of the scene says: "easy", "usual" or "hard"."""
+        """The level of the problem by the scene's ``[vary]``: "easy", "usual" or "hard"."""
         vary = self.sheet.scene.question.vary
         return vary.level if vary is not None else "usual"
 
@@ -131,7 +131,7 @@ class Lesson:
 
     @cached_property
     def results(self) -> tuple[Compared, ...]:
-        """The readings that are results: not what is given, nor the same rate under a second name.
+        """The readings that are results: not given ones, nor a rate under a second name.
 
         Positions come first, then velocities, angular velocities, accelerations, angular accelerations, forces,
         moments.
@@ -147,7 +147,7 @@ class Lesson:
 
     @cached_property
     def questions(self) -> tuple[Symbol, ...]:
-        """What a student is asked for: the scene's own questions, or every absolute vector and every rate found."""
+        """The questions for a student: the scene's own, or every absolute vector and every found rate."""
         have = {row.symbol for row in self.report.rows}
         if self.asked:
             return tuple(s for s in self.asked if s in have)
@@ -166,7 +166,7 @@ class Lesson:
         return rate.is_own
 
     def unit(self, symbol: Symbol) -> str:
-        """The unit in which a quantity is given."""
+        """The unit of a quantity in the handout."""
         return symbol.unit(self.sheet.scene.units).written
 
     def in_unit(self, symbol: Symbol, value: float) -> float:
@@ -182,7 +182,7 @@ def lesson_of(what: Plan, motion: Motion, language: str, convention: str) -> Les
 
     Raises
     ------
-    Disagreement : its own check finds a value out of tolerance
+    Disagreement : its check finds a value out of tolerance
     """
     lesson = compared(execute(what), motion, language, convention, what.asked)
     scene = lesson.sheet.scene
@@ -191,7 +191,7 @@ def lesson_of(what: Plan, motion: Motion, language: str, convention: str) -> Les
 
 
 def compared(sheet: Sheet, motion: Motion, language: str, convention: str, asked: tuple[Symbol, ...]) -> Lesson:
-    """The lesson of a sheet, its readings held against the motion; without tolerances of a pencil."""
+    """The lesson of a sheet, its readings compared with the motion; without tolerances of a pencil."""
     motion = solver.as_drawn(motion, sheet.structure)
     exact = solver.exact_values(motion, asked)
     scale, lost = (force_scale(sheet), float(forces_here(motion).bound[0][0])) if sheet.has_forces else (0.0, 0.0)
@@ -201,8 +201,8 @@ def compared(sheet: Sheet, motion: Motion, language: str, convention: str, asked
 
 
 def usual_count(scene: Mechanism) -> int:
-    """How many positions of the driver a page shows where nobody says: fewer of a mechanism of many links, of which
-    each takes its time to draw and to load; only its own of one whose drivers move by laws over the time."""
+    """The default number of the driver's positions on a page: fewer for a mechanism of many links, since each takes
+    time to draw and to load; only the scene's own if drivers move by laws over time."""
     if moves_by_law(scene):
         return 1
     return POSITIONS if len(scene.links) <= MANY_LINKS else POSITIONS // 2
@@ -211,7 +211,7 @@ def usual_count(scene: Mechanism) -> int:
 def positions(
     of: Mechanism | Structure, values: Mapping[str, float] | None, count: int = POSITIONS
 ) -> tuple[list[dict[str, float]], int]:
-    """Driver values (rad, m) spread over a turn or over what the motion reaches, and which of them is the given one."""
+    """Driver values (rad, m) spread over a turn or over the range of the motion, and the index of the given one."""
     motion = solver.solve(of, at=values, sweep=count)
     drivers = motion.scene.drivers
     keys = [d.key for d in drivers]
@@ -236,11 +236,11 @@ def views_of(
     count: int = POSITIONS,
     progress: Progress | None = None,
 ) -> tuple[list[Lesson], int]:
-    """The positions that the screen shows, each drawn and with its centres, and which of them is the given one.
+    """The positions for the screen, each drawn and with its centres, and the index of the given one.
 
-    ``progress`` is called with the number of positions done and the number of all.  ``paper`` are the scales of the
-    solution on paper, kept wherever the figures fit.  Positions in which the construction fails (dead points), or its
-    check, are left out.
+    ``progress`` is called with the number of finished positions and of all.  ``paper`` are the scales of the solution
+    on paper, kept if the figures fit.  Positions in which the construction (dead points) or its check fails are left
+    out.
     """
     rows, start = positions(structure, values, count)
     made = {start: plan(structure, rows[start], asked)}
@@ -286,7 +286,7 @@ def _centres(
 
 
 def common_scales(plans: Sequence[Plan], paper: Scales) -> list[Scales]:
-    """Scales for several positions: those of the paper, and coarser ones for the polygons that would be too large.
+    """Scales for several positions: those of the paper, and coarser ones for polygons that would be too large.
 
     The mechanism has one scale in all positions.
     """
@@ -305,12 +305,12 @@ def common_scales(plans: Sequence[Plan], paper: Scales) -> list[Scales]:
 
 
 def _coarser(scale: float, factor: float) -> float:
-    """The scale itself where it is coarse enough, else the first of the series so many times coarser."""
+    """The scale itself if it is coarse enough, else the first of the series that is coarser by the factor."""
     return scale if factor <= 1.0 else next_of_series(scale * factor)
 
 
 def rows_in_order(ok: Array) -> list[int]:
-    """The rows of a motion that stand, beginning behind the gap where there is one, so that neighbours in the list are
+    """The solved rows of a motion, beginning after the gap if there is one, so that neighbours in the list are
     neighbours in the motion."""
     good = [bool(stands) for stands in ok]
     cut = next((i for i in range(len(good)) if good[i] and not good[i - 1]), 0)

@@ -1,4 +1,4 @@
-"""The paper of a handout: its size, what fits between its margins, and the scales that suit it."""
+"""The paper of a handout: its size, the space between its margins, and the scales that suit it."""
 
 from __future__ import annotations
 
@@ -29,34 +29,34 @@ COLUMN = 92.0  # mm: a column of words beside a figure, with the gap between the
 
 @dataclass(frozen=True)
 class Paper:
-    """A sheet of paper, as it is read (mm)."""
+    """A sheet of paper in reading position (mm)."""
 
     width: float
     height: float
 
     @property
     def body(self) -> Box:
-        """What a page holds between its margins, with a caption below it."""
+        """The space of a page between its margins, with a caption below it."""
         return Box(0.0, 0.0, self.width - 2 * SIDE, self.height - TOP - BOTTOM - CAPTION)
 
     @property
     def facing(self) -> Paper:
-        """Two such pages side by side, or one above the other where they are wide: the next larger paper."""
+        """Two such pages side by side, or above each other if they are wide: the next larger paper."""
         upright = self.height >= self.width
         return Paper(2 * self.width, self.height) if upright else Paper(self.width, 2 * self.height)
 
     @property
     def folded(self) -> bool:
-        """Whether a page is as two smaller ones beside each other."""
+        """Whether a page is set as two smaller ones beside each other."""
         return self.width > self.height
 
     @property
     def narrow(self) -> float:
-        """Width of a figure so narrow that words stand beside it."""
+        """The greatest width of a figure with words beside it."""
         return self.body.width - COLUMN
 
     def room(self, on_a4: Room, part: float = 1.0) -> Room:
-        """A room as large by this paper as another, or a part of it, by A4."""
+        """A room in proportion to this paper as the given one, or a part of it, to A4."""
         wide, high = part * self.body.width / A4.body.width, part * self.body.height / A4.body.height
         mechanism, polygon = ((x * wide, y * high) for x, y in (on_a4.mechanism, on_a4.polygon))
         return Room(mechanism, polygon)
@@ -85,13 +85,13 @@ def _scales(choice: Callable[[str], float]) -> Scales:
 def paper_plan(
     of: Mechanism | Structure, values: Mapping[str, float] | None, asked: Sequence[Symbol], share: bool = True
 ) -> Plan:
-    """What to draw: at the scales that the scene wishes, on a larger paper if need be, else at those that fit; with
-    ``share`` such that mechanism and polygon stand on one page where they stay large enough.  What is asked of another
-    position ("v_C at 10") is left out.
+    """The plan of the drawing: at the scales that the scene wishes, on a larger paper if necessary, else at scales that
+    fit; with ``share`` mechanism and polygon are on one page if they stay large enough.  Quantities asked of another
+    position ("v_C at 10") are left out.
 
     Raises
     ------
-    CallError : all is asked of other positions
+    CallError : all quantities are asked of other positions
     """
     here = tuple(symbol for symbol in asked if not symbol.at)
     if asked and not here:
@@ -117,8 +117,8 @@ def paper_plan(
 
 
 def _sharing(whole: Plan, paper: Paper, wished: Mapping[str, float | None]) -> Plan:
-    """At scales that let the mechanism share a page with each polygon, from which directions are carried over, where
-    the scene leaves them open and figures stay large enough for a pencil; else as it is."""
+    """The plan at scales that let the mechanism share a page with each polygon, since directions are carried over, if
+    the scene leaves them open and the figures stay large enough for a pencil; else unchanged."""
     if _share(whole, paper):
         return whole
     for part in PARTS:
@@ -138,7 +138,7 @@ def _sizes(what: Plan) -> list[tuple[float, float]]:
 
 
 def _share(what: Plan, paper: Paper) -> bool:
-    """Whether the mechanism, with its dimensions, and each polygon stand side by side or one above the other."""
+    """Whether the mechanism, with its dimensions, fits beside or above each polygon."""
     (wide, high), *polygons = _sizes(what)
     wide, high, body = wide + BESIDE, high + BESIDE, paper.body
     for across, up in polygons:
@@ -157,7 +157,7 @@ def _fits(what: Plan, paper: Paper) -> dict[str, bool]:
 
 
 def _larger(what: Plan, paper: Paper, wished: Mapping[str, float | None]) -> PaperName | None:
-    """The next paper on which the figures of wished scales fit, None where they fit already or nowhere."""
+    """The next paper on which the figures at the wished scales fit, None where they fit already or on no paper."""
 
     def serves(size: Paper) -> bool:
         return all(fit or wished[name] is None for name, fit in _fits(what, size).items())

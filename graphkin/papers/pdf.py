@@ -1,11 +1,11 @@
 """Documents as typeset PDF, with the extra ``pdf`` (Typst): pages filled, figures at true scale, page numbers, the same
 bytes every time.
 
-Typst stays behind this module.  The template is fixed; the document is handed to it as data, so that no word of a
-scene is ever read as a command.  Typst measures each piece of a document once.  Words are never parted from what they
-lead to; a figure that a page has no more room for may stand at the head of the next one, while the words behind it go
-on.  Among all ways the one with the least white is taken, as Knuth and Plass take lines of a paragraph (Software:
-Practice and Experience 11, 1981).
+Typst stays behind this module.  The template is fixed; the document is given to it as data, so that no word of a scene
+is read as a command.  Typst measures each piece of a document once.  Words stay with the block to which they lead; a
+figure without room on a page may stand at the head of the next one, after the words that follow it.  Of all page breaks
+those with the least white are taken, as Knuth and Plass break the lines of a paragraph (Software: Practice and
+Experience 11, 1981).
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ def can_typeset() -> bool:
 
 
 def can_join() -> bool:
-    """Whether several PDFs can be made one: the extra ``pdf`` has a library for it."""
+    """Whether several PDFs can be joined: the extra ``pdf`` has a library for it."""
     return find_spec("pypdf") is not None
 
 
@@ -117,7 +117,7 @@ def pdf(document: Document) -> bytes:
 
 
 def papers_as(formats: Collection[str], documents: Mapping[str, Document]) -> dict[str, bytes]:
-    """Documents as files by name: HTML, and PDF where it can be typeset."""
+    """Documents as files by name: HTML, and PDF if it can be typeset."""
     made: dict[str, bytes] = {}
     if "html" in formats:
         made |= {f"{name}.html": document_page(document).encode() for name, document in documents.items()}
@@ -131,7 +131,7 @@ def _inputs(data: Data) -> dict[str, str]:
 
 
 def one_after_another(papers: Sequence[bytes]) -> bytes:
-    """Several PDFs as one, to be printed at once.
+    """Several PDFs as one, for printing at once.
 
     Raises
     ------
@@ -149,7 +149,7 @@ def one_after_another(papers: Sequence[bytes]) -> bytes:
 
 @lru_cache(maxsize=1)
 def _fonts() -> tuple[list[str], typst.Fonts]:
-    """Names of the faces in the order of liking, and the faces found, read once."""
+    """Names of the font faces in order of preference, and the found faces, read once."""
     import typst
 
     fonts = typst.Fonts(font_paths=[str(FOLDER)])
@@ -158,8 +158,7 @@ def _fonts() -> tuple[list[str], typst.Fonts]:
 
 
 def _block(block: Leaf, bare: bool = False) -> Data:
-    """A leaf as the template reads it, its fields by name; ``bare`` without the ink of figures, where only the size
-    counts."""
+    """A leaf for the template, its fields by name; ``bare`` without the ink of figures, to measure their size."""
     if isinstance(block, Beside):
         lines = [{"gap": gap, "block": _block(line)} for gap, line in lines_of(block)]
         return {"kind": "Beside", "lines": lines, "picture": _block(block.picture)}
@@ -193,7 +192,7 @@ def _atoms(atoms: tuple[Atom, ...]) -> list[Data]:
 
 
 def _drawing(drawing: Drawing) -> Data:
-    """A figure as an SVG with the faces of the document, and what it shows in words; nothing of one without ink."""
+    """A figure as an SVG with the faces of the document, and its description; no SVG for a figure without ink."""
     seen = clean(re.sub(r"\s+", " ", f"{drawing.title}. {drawing.desc}").strip())
     # a handout has no picture under its figures
     inked = map_tree(drawing.children, lambda thing: None if isinstance(thing, Scan) else thing.moved(EDGE * (1 + 1j)))
@@ -249,8 +248,8 @@ Sizes: TypeAlias = dict[Question, tuple[float, float]]
 
 @dataclass(frozen=True)
 class Piece:
-    """Something that is not parted: what it shows, its height and the gap above it (mm), and what a page break before
-    it costs; with ``half`` it stands in one of two columns, with its neighbours that do."""
+    """A piece that is not broken: its block, its height and the gap above it (mm), and the cost of a page break before
+    it; with ``half`` it stands in one of two columns, with its neighbours of that kind."""
 
     block: Leaf
     height: float = 0.0
@@ -260,12 +259,12 @@ class Piece:
 
     @property
     def floats(self) -> bool:
-        """Whether it is a figure that what follows may overtake."""
+        """Whether it is a figure that later pieces may overtake."""
         return isinstance(self.block, Picture) and self.block.floats
 
     @property
     def fills(self) -> bool:
-        """Whether it takes what is left of its page."""
+        """Whether it takes the rest of its page."""
         return isinstance(self.block, Paragraph) and self.block.fills
 
     @property
@@ -277,7 +276,7 @@ class Piece:
 @dataclass(frozen=True)
 class Row:
     """A part of a page: a piece, or those of two columns side by side; the gap above them, and the ``height`` of a
-    piece that takes what a page has left (mm)."""
+    piece that takes the rest of a page (mm)."""
 
     left: tuple[Piece, ...]
     right: tuple[Piece, ...] = ()
@@ -289,7 +288,7 @@ Page: TypeAlias = tuple[Row, ...]
 
 
 def pages_of(document: Document, measure: Measure) -> list[tuple[Page, ...]]:
-    """The pages of a document; what stands before its first fresh heading in two halves where it is ``folded``."""
+    """The pages of a document; on ``folded`` paper the pieces before its first fresh heading in two halves."""
     wide, high = document.paper.width - 2 * SIDE, document.paper.height - TOP - BOTTOM - LEEWAY
     pieces = list(_pieces(document.blocks))
     half = (wide - HALVES_GAP) / 2
@@ -310,7 +309,7 @@ def pages_of(document: Document, measure: Measure) -> list[tuple[Page, ...]]:
 
 
 def _pieces(blocks: Iterable[Block]) -> Iterator[Piece]:
-    """Leaf by leaf, and what it costs to part it from the one before."""
+    """The pieces leaf by leaf, each with the cost of a break before it."""
     leads, before = False, None  # whether words or an equation lead to what follows them
     for block in blocks:
         leaves: Sequence[Leaf] = block.blocks if isinstance(block, Together) else (block,)
@@ -331,12 +330,12 @@ def lines_of(beside: Beside) -> list[tuple[float, Heading | Paragraph | StepItem
 
 
 def _narrow(picture: Picture, wide: float) -> float:
-    """What a figure leaves of a width for the words at its left."""
+    """The width beside a figure for the words at its left."""
     return wide - picture.drawing.width - FIGURE_GAP
 
 
 def _questions(piece: Piece, wide: float) -> Iterator[Question]:
-    """Every leaf and width of which the size may be wanted."""
+    """Every leaf and width whose size may be needed."""
     block, half = piece.block, (wide - COLUMN_GAP) / 2
     if isinstance(block, Beside):
         yield block.picture, block.picture.drawing.width
@@ -351,13 +350,14 @@ def _questions(piece: Piece, wide: float) -> Iterator[Question]:
 
 
 def _in_halves(table: TableBlock, wide: float) -> Question | None:
-    """A table in two halves side by side, and how wide it is; None where it has few rows."""
+    """A table in two halves side by side, and its width; None for few rows."""
     few = len(table.rows) < HALVED * (1 + table.roomy)
     return None if few else (replace(table, halved=True), wide if table.roomy else None)
 
 
 def _filled(pieces: Sequence[Piece], wide: float, high: float, sizes: Sizes) -> list[Page]:
-    """Pages of some pieces.  A figure beside its words keeps much together: where pages gape, some go below them."""
+    """Pages of some pieces.  Figures beside their words make large pieces: where pages would have much white, some
+    figures go below their words."""
 
     def filled(below: frozenset[int]) -> tuple[list[Page], float, bool]:
         ready = [one for i, piece in enumerate(pieces) for one in _fitted(piece, wide, sizes, i in below)]
@@ -378,8 +378,8 @@ def _filled(pieces: Sequence[Piece], wide: float, high: float, sizes: Sizes) -> 
 
 
 def _fitted(piece: Piece, wide: float, sizes: Sizes, below: bool) -> Iterator[Piece]:
-    """A table in two halves where they have room; words beside a figure as far as it reaches and the rest below, or
-    with ``below`` the figure below them all."""
+    """The pieces of a piece: a table in two halves if they fit; words beside a figure down to its end and the rest
+    below, or with ``below`` the figure below all words."""
     block = piece.block
     if isinstance(block, TableBlock):
         halved = _in_halves(block, wide)
@@ -419,12 +419,12 @@ def _height(piece: Piece, wide: float, sizes: Sizes) -> float:
 
 
 def _gap(above: Leaf, below: Leaf) -> float:
-    """The gap between two leaves (mm): what the one asks for below it, or the other above."""
+    """The gap between two leaves (mm): the larger of the gap below the first and the gap above the second."""
     return max(_around(above)[1], _around(below)[0])
 
 
 def _around(block: Leaf) -> tuple[float, float]:
-    """What a leaf asks for above and below it (mm)."""
+    """The gaps above and below a leaf (mm)."""
     if isinstance(block, Heading):
         return {1: (5.8, 3.2), 2: (5.2, 2.5)}.get(block.level, (4.1, 2.2))
     if isinstance(block, StepItem):
@@ -440,8 +440,8 @@ def _around(block: Leaf) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class _Begun:
-    """A page as far as it is filled: the numbers of its pieces, the height (mm) up to the steps in two columns that end
-    it, these, and what a piece takes that fills the page (mm)."""
+    """A partly filled page: the numbers of its pieces, the height (mm) above the steps in two columns at its end, these
+    steps, and the height of a piece that fills the page (mm)."""
 
     numbers: tuple[int, ...]
     base: float
@@ -450,7 +450,7 @@ class _Begun:
 
 
 def balanced(heights: Sequence[float]) -> tuple[int, float]:
-    """How many of some steps stand in the left one of two columns, and the height of both.
+    """The number of steps in the left of two columns, and the height of both.
 
     >>> balanced([10.0, 10.0, 10.0])
     (2, 22.0)
@@ -466,12 +466,12 @@ def balanced(heights: Sequence[float]) -> tuple[int, float]:
 
 
 def fill_pages(pieces: Sequence[Piece], height: float) -> tuple[list[Page], float, bool]:
-    """Pages of a height (mm), each with what stands on it from its head on; what their white costs, and whether some of
-    it is seen."""
+    """Pages of a height (mm), each with its pieces from the head on; the cost of their white, and whether any of it is
+    visible."""
 
     @cache
     def onwards(at: int, waiting: int | None) -> tuple[float, tuple[_Begun, ...]]:
-        """The cheapest pages from a piece on, behind a figure that waits."""
+        """The cheapest pages from a piece on, after a waiting figure."""
         if at == len(pieces) and waiting is None:
             return 0.0, ()
         best: tuple[float, tuple[_Begun, ...]] | None = None
@@ -499,7 +499,7 @@ def fill_pages(pieces: Sequence[Piece], height: float) -> tuple[list[Page], floa
 def _begun(
     pieces: Sequence[Piece], height: float, at: int, waiting: int | None
 ) -> Iterator[tuple[_Begun, int, int | None]]:
-    """Every page that may begin with a piece, behind a figure that waits; the piece after it, and the figure that
+    """Every page that may begin with a piece, after a waiting figure; the piece after the page, and the figure that
     waits then."""
     empty = _Begun((), 0.0) if waiting is None else _Begun((waiting,), pieces[waiting].height)
     stack: list[tuple[_Begun, int, int | None]] = [(empty, at, None)]
@@ -522,7 +522,7 @@ def _begun(
 
 
 def _used(page: _Begun, pieces: Sequence[Piece]) -> float:
-    """The height that a page has taken (mm)."""
+    """The filled height of a page (mm)."""
     if not page.columns:
         return page.base
     gap = pieces[page.columns[0]].gap if page.base else 0.0
@@ -530,7 +530,7 @@ def _used(page: _Begun, pieces: Sequence[Piece]) -> float:
 
 
 def _with(page: _Begun, i: int, pieces: Sequence[Piece], height: float) -> _Begun | None:
-    """A page with one more piece; None where it has no room."""
+    """A page with a further piece; None without room for it."""
     piece, used = pieces[i], _used(page, pieces)
     numbers = (*page.numbers, i)
     if piece.half:
@@ -550,7 +550,7 @@ def _with(page: _Begun, i: int, pieces: Sequence[Piece], height: float) -> _Begu
 
 
 def _rows(page: _Begun, pieces: Sequence[Piece], height: float, last: bool) -> list[Row]:
-    """The pieces of a page with their gaps, a little wider where that fills it."""
+    """The pieces of a page with their gaps, slightly wider if that fills it."""
     rows: list[Row] = []
     for half, some in groupby((pieces[n] for n in page.numbers), key=lambda piece: piece.half):
         columns = tuple(some)

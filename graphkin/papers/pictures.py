@@ -61,8 +61,8 @@ def parts(lesson: Lesson, diagram: DiagramName) -> Layers:
 def _cropped(
     lesson: Lesson, children: Iterable[Primitive], title: str, desc: str, diagram: DiagramName | None = None
 ) -> Drawing:
-    """Primitives as a drawing just as large as they are; below those of a diagram the scale, and its check bar beside
-    or under it."""
+    """Primitives as a drawing of their own size; below those of a diagram the scale, and its check bar beside or under
+    it."""
     first = languages(lesson.language)[0]
     children = tuple(children)
     box = (ink_box(children) or Box(0.0, 0.0, 10.0, 10.0)).grown(1.2)
@@ -90,14 +90,14 @@ def _scale_foot(lesson: Lesson, diagram: DiagramName) -> tuple[Text, tuple[Primi
 
 
 def bare_picture(figure: Drawing) -> Drawing:
-    """A figure as large as its ink and without the scene's titles, where the page has them already."""
+    """A figure of the size of its ink, without the scene's titles if the page has them already."""
     untitled = without_titles(figure.children)
     box = (ink_box(untitled) or Box(0.0, 0.0, 10.0, 10.0)).grown(1.0)
     return replace(figure, width=box.width, height=box.height, children=moved(untitled, -box.corners[0]), further=())
 
 
 def stage_picture(lesson: Lesson, layers: Layers, diagram: DiagramName, first: int, last: int) -> Drawing:
-    """A figure up to step ``last``, what is new since step ``first`` on a light band."""
+    """A figure up to step ``last``, the strokes from step ``first`` on with a light band."""
     steps = [step.number for step in lesson.sheet.steps if step.diagram == diagram]
     seen = so_far(layers, first if first > steps[0] else last + 1, last)
     if first <= steps[0]:
@@ -107,9 +107,9 @@ def stage_picture(lesson: Lesson, layers: Layers, diagram: DiagramName, first: i
 
 
 def mechanism_picture(lesson: Lesson) -> Drawing:
-    """The mechanism as a problem shows it: nothing that was found, no arcs, described without its solution.
+    """The mechanism of a problem: without found quantities and arcs, described without its solution.
 
-    Names of angular velocities and accelerations that are to be found go with their arcs, so do special points and
+    Names of unknown angular velocities and accelerations are left out with their arcs, and so are special points and
     trial positions; those of drivers stay.
     """
     special = lesson.sheet.special_points
@@ -134,8 +134,8 @@ def mechanism_picture(lesson: Lesson) -> Drawing:
 
 
 def equation_picture(lesson: Lesson, equation: Equation) -> Drawing:
-    """A vector equation over its rows of sizes and directions; on one line, ``v_B3 = v_B2 + v_B3B2``, for those who do
-    not see it."""
+    """A vector equation over its rows of sizes and directions; on one line, ``v_B3 = v_B2 + v_B3B2``, for readers who
+    do not see it."""
     sheet, letters = lesson.sheet, lesson.letters
     sides = (" + ".join(plain_words(f"${letters.vector(t.symbol)}$") for t in side) for side in equation.sides)
     width = paper_of(sheet.scene).body.width - 4.0
@@ -148,8 +148,8 @@ def equation_picture(lesson: Lesson, equation: Equation) -> Drawing:
 
 def workspace(lesson: Lesson, bare: Drawing, diagrams: Sequence[DiagramName], page: Box) -> Drawing | None:
     """The bare mechanism and the frames for polygons in one drawing, so that directions are carried over with two set
-    squares: the frames at its right, side by side or one above the other, or a single one below it; None where a page
-    (its body given) does not hold them."""
+    squares: the frames at its right, side by side or above each other, or a single one below it; None where a page (its
+    body given) has no room for them."""
     needs = [extent(lesson.sheet, diagram) for diagram in diagrams]
     leasts = [complex(max(need.width + 2 * AROUND, BAR + 40.0), need.height + 2 * AROUND) for need in needs]
     count, left, top = len(diagrams), bare.width + GAP, bare.height + GAP
@@ -180,8 +180,8 @@ def workspace(lesson: Lesson, bare: Drawing, diagrams: Sequence[DiagramName], pa
 def draw_frame(
     lesson: Lesson, diagram: DiagramName, height: float | None = None, width: float | None = None
 ) -> Drawing:
-    """A frame to draw a polygon in, with the pole where the polygon will have room, and its scale; of forces, which
-    have no pole, a bare one."""
+    """A frame for drawing a polygon, with the pole where the polygon will have room, and its scale; an empty frame for
+    forces, which have no pole."""
     page, language = paper_of(lesson.sheet.scene).body, lesson.language
     title, wide, marks = term(FIGURE_WORDS[diagram], language), width or page.width, list[Primitive]()
     tall = height or page.height - 40.0
@@ -206,7 +206,7 @@ def draw_frame(
 
 def force_space(lesson: Lesson, bare: Drawing, page: Box) -> Drawing:
     """The bare mechanism, on which directions and arms are taken, and a frame for force polygons with their scale: side
-    by side, one above the other, or the frame alone where the mechanism leaves no room on a page."""
+    by side, above each other, or the frame alone where the mechanism leaves no room on a page."""
     beside = page.width - bare.width - GAP >= LEAST_FRAME and bare.height <= page.height
     above = not beside and page.height - bare.height - GAP >= LEAST_FRAME / 2 and bare.width <= page.width
     corner = complex(bare.width + GAP if beside else 0.0, bare.height + GAP if above else 0.0)
@@ -216,7 +216,7 @@ def force_space(lesson: Lesson, bare: Drawing, page: Box) -> Drawing:
 
 
 def blank_equations(lesson: Lesson, equations: Iterable[Equation], width: float) -> Drawing:
-    """A blank for each equation: a box for each term, above boxes for its size and direction where they are rows."""
+    """A blank for each equation: a box for each term, above boxes for its size and direction if they are rows."""
     rows = []
     for equation in equations:
         cells = [len(side) for side in equation.sides]
@@ -226,12 +226,12 @@ def blank_equations(lesson: Lesson, equations: Iterable[Equation], width: float)
 
 
 def blank_sums(lesson: Lesson, counts: Iterable[int], width: float) -> Drawing:
-    """A blank for each sum of so many forces that is nought."""
+    """A blank for each sum of forces that is zero, given by the number of forces."""
     return _blanks(lesson, [(count, ["+"] * (count - 1), "= 0") for count in counts], width)
 
 
 def _blanks(lesson: Lesson, rows: Iterable[tuple[int, Sequence[str], str]], width: float) -> Drawing:
-    """Rows of so many boxes with these signs between them and these words behind them."""
+    """Rows of boxes with these signs between them and these words after them."""
     language = lesson.language
     rowed = rows_of(lesson.letters.convention) in ("rows", "table")
     heads = (term("size", language), term("direction of", language)) if rowed else ()

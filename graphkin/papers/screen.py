@@ -1,6 +1,6 @@
 """The worked solution as a page to step through: the figures and steps of every position of the driver, drawn in the
-same frames, every part with its step; what each step finds, so that somebody may try it first; and the mechanism in
-motion, as plain numbers over what the driver reaches.
+same frames, every part with its step; the results of each step, for readers who try it first; and the mechanism in
+motion, as plain numbers over the driver's range.
 """
 
 from __future__ import annotations
@@ -86,12 +86,12 @@ def handout_page(
 
     Parameters
     ----------
-    lesson : the solution on paper, which is what is printed
-    views : a lesson for each position of the driver that the screen shows
-    start : which of them is the given one
-    progress : called with the number of positions done and the number of all
-    moving : what the page plays (`motion_data`)
-    worked : the stages of the solution, where they are there already
+    lesson : the solution on paper, for printing
+    views : a lesson for each position of the driver on the screen
+    start : the index of the given position
+    progress : called with the number of finished positions and of all moving : the motion that the page plays
+        (`motion_data`)
+    worked : the stages of the solution, if they are made already
     """
     stages = tuple(solution_blocks(lesson, tuple(given(lesson))) if worked is None else worked)
     whole = solution(lesson, stages)
@@ -146,14 +146,14 @@ def _to_fill(key: str, language: str) -> str:
 
 
 def positions_data(views: Sequence[Lesson], progress: Progress | None = None) -> dict[str, object]:
-    """Names, figures and steps of the positions, ready for the page, and the stages of all of them, each once.
+    """Names, figures and steps of the positions for the page, and the stages of all of them, each once.
 
-    What is alike stands together, by key the values of all positions, of figures and steps row by row (None where a
-    position has fewer): so packed it takes two thirds of the room.
+    Values are grouped by key over all positions, those of figures and steps row by row (None where a position has
+    fewer): packed so, they take two thirds of the space.
 
     Parameters
     ---------
-    views : a lesson for each position, with its instant centres where they can be had
+    views : a lesson for each position, with its instant centres if they exist
     progress : called with the number of positions done and the number of all
     """
     pieces = [mechanism_piece(v.sheet, v.letters, (MECHANISM[0] + 20, MECHANISM[1] + 20)) for v in views]
@@ -201,7 +201,7 @@ StageTold: TypeAlias = tuple[dict[str, str], str, Sequence[tuple[StepItem, dict[
 def _position(
     lesson: Lesson, piece: Piece, frames: Frames, cams: Sequence[Figure]
 ) -> tuple[dict[str, object], list[dict[str, str]]]:
-    """One position as the page takes it, and its stages."""
+    """A position for the page, and its stages."""
     first = languages(lesson.language)[0]
     name = drivers(lesson.sheet, lesson.letters)
     figures = [*_figures(lesson, piece, frames), *_plans(lesson)]
@@ -239,13 +239,13 @@ def _motion(lesson: Lesson) -> Iterator[StageTold]:
 
 
 def _figure(name: str, drawing: Drawing, caption: str, scale: str = "", named: bool = False) -> Figure:
-    """A figure with its caption (HTML), and its scale behind that."""
+    """A figure with its caption (HTML), and its scale after it."""
     shown = f'{caption} <span class="scale">{scale}</span>' if scale else caption
     return {"name": name, "svg": svg_element(drawing, named=named), "caption": shown}
 
 
 def _figures(lesson: Lesson, piece: Piece, frames: Frames) -> Iterator[Figure]:
-    """Mechanism, polygons and centres, with what they show in words: each vector with its size and direction."""
+    """Mechanism, polygons and centres, with their description: each vector with its size and direction."""
     first, letters = languages(lesson.language)[0], lesson.letters
     at = drivers(lesson.sheet, letters)
     for name, drawn, panel in _drawings(lesson, piece, frames):
@@ -264,7 +264,7 @@ def _figures(lesson: Lesson, piece: Piece, frames: Frames) -> Iterator[Figure]:
 
 
 def _drawings(lesson: Lesson, piece: Piece, frames: Frames) -> Iterator[tuple[FigureName, Piece, Box]]:
-    """Each figure by its name, and the panel (mm) that it stands in."""
+    """Each figure by its name, and its panel (mm)."""
     sheet, letters = lesson.sheet, lesson.letters
     frame, _ = frames["mechanism"]
     yield "mechanism", with_labels(piece, frame), frame
@@ -284,7 +284,7 @@ def _drawings(lesson: Lesson, piece: Piece, frames: Frames) -> Iterator[tuple[Fi
 
 
 def _plans(lesson: Lesson) -> Iterator[Figure]:
-    """The velocity plans of what rolls, each there from the step on that ends it."""
+    """The velocity plans of rolling links, each shown from its last step on."""
     sheet, language = lesson.sheet, lesson.language
     figure = train_figure(sheet, language=language, convention=lesson.convention)
     for plan, page in zip(moving_plans(sheet), (figure, *figure.further) if figure else (), strict=True):
@@ -297,7 +297,7 @@ def _plans(lesson: Lesson) -> Iterator[Figure]:
 
 
 def _cams(lesson: Lesson) -> Iterator[Figure]:
-    """Displacement diagram and inversion of each cam that is drawn by its law."""
+    """Displacement diagram and inversion of each cam drawn by its law."""
     scene, language = lesson.sheet.scene, lesson.language
     for i, cam in enumerate(scene.cams):
         pictures = cam_pictures(scene, scaled_cam(scene, cam), language)
@@ -310,7 +310,7 @@ def _caption(words: Said) -> str:
 
 
 def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
-    """The stages of the forces, behind those of the motion; their figures are added to the others."""
+    """The stages of the forces, after those of the motion; their figures are added to the others."""
     forces, language = lesson.forces, lesson.language
     if forces is None:
         return
@@ -340,7 +340,7 @@ def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
 
 
 def _find(lesson: Lesson, symbol: Symbol, name: str, value: complex | float) -> dict[str, Json]:
-    """What is to be found: symbol, name, size in its unit, and direction (degrees) or sense; nothing for a zero."""
+    """A quantity to find: symbol, name, size in its unit, and direction (degrees) or sense; none for a zero."""
     if not value:
         return {}
     size = float(f"{lesson.in_unit(symbol, abs(value)):.5g}")
@@ -352,7 +352,7 @@ def _find(lesson: Lesson, symbol: Symbol, name: str, value: complex | float) -> 
 
 
 def _found(lesson: Lesson, step: Step) -> dict[str, Json]:
-    """What a step of the motion finds: the rate that it measures, or its last vector."""
+    """The result of a step of the motion: its measured rate, or its last vector."""
     sheet = lesson.sheet
     if step.finds_rate:
         rate, symbol = sheet.rates(step.kind).get(step.link), Symbol(step.kind, link=step.link)
@@ -366,7 +366,7 @@ def _found(lesson: Lesson, step: Step) -> dict[str, Json]:
 
 
 def _force_found(lesson: Lesson, stage: ForceStage, step: ForceStep) -> dict[str, Json]:
-    """What a step of the forces finds, where it finds one force or moment."""
+    """The result of a step of the forces that finds a single force or moment."""
     if len(step.found) != 1 or lesson.forces is None:
         return {}
     (symbol,) = step.found
@@ -380,7 +380,7 @@ def _force_found(lesson: Lesson, stage: ForceStage, step: ForceStep) -> dict[str
 
 
 def _tolerances(lesson: Lesson) -> dict[str, float]:
-    """By symbol the part of a value within which an answer is taken for right: that of the key, within bounds."""
+    """The relative tolerance of an answer by symbol: that of the key, within bounds."""
     parts = {}
     for row in lesson.results:
         spread = lesson.tolerance.get(row.symbol)
@@ -402,14 +402,14 @@ Place: TypeAlias = Callable[[Array], int]
 def motion_data(
     sheet: Sheet, letters: Letters, values: Mapping[str, float] | None, count: int = FRAMES
 ) -> dict[str, Json]:
-    """Everything that moves, ready for the page, in mm on paper at the scales of the handout; the page joins places, it
-    computes nothing.  Empty where the driver reaches no two places.
+    """All moving points and vectors for the page, in mm on paper at the scales of the handout; the page joins places,
+    it computes nothing.  Empty where the driver does not move.
 
     Returns
     ------
     ``at`` : values of the first driver (degrees, or travel in scene units); ``tracks`` : coordinates of each place over
     them, [x0, y0, x1, y1, ...]; ``bars`` : places joined, with the number of their link; ``lines`` : ends of guides;
-    ``points``, ``centres`` : places with their names; ``fixed`` : places that stand; ``velocity``, ``acceleration`` :
+    ``points``, ``centres`` : places with their names; ``fixed`` : fixed places; ``velocity``, ``acceleration`` :
     vectors as pairs of places and names of ends
     """
     scene = sheet.scene.whole  # what stands for a cam does so at one position only
@@ -467,7 +467,8 @@ def _track(z: Array, rows: Sequence[int]) -> Track:
 
 
 def _guide(motion: Motion, on: str, guide: str, size: float, length: float) -> list[Array]:
-    """Both ends of a guide: of the frame's through the whole mechanism, of a link's along the link."""
+    """Both ends of a guide: through the whole mechanism for a guide of the frame, along the link for a guide of a
+    link."""
     placed = motion.link(on).guides[guide]
     if on == motion.scene.frame.name:
         ends = (placed.through / length + sense * size * placed.direction for sense in (-1, 1))
@@ -480,7 +481,7 @@ def _guide(motion: Motion, on: str, guide: str, size: float, length: float) -> l
 def _centres(
     motion: Motion, place: Place, tracks: Sequence[Track], letters: Letters, size: float, length: float
 ) -> Iterator[list[int | str]]:
-    """Instant centres, where they lie within reach; permanent ones bear the names of their points."""
+    """Instant centres within reach; permanent ones have the names of their points."""
     scene = motion.scene
     middle = np.mean(list(scene.frame.points.values()) or [0j]) / length
     for a, b in combinations([scene.frame.name, *(link.name for link in scene.links)], 2):

@@ -1,8 +1,8 @@
-"""Variants of a problem: the same mechanism with other round numbers, solvable on paper, and no two with one answer; a
-set of them, one for each student, made by whatever works, kept as it grows, none lost.
+"""Variants of a problem: the same mechanism with other round numbers, solvable on paper, no two with the same answer;
+and sets of them, one for each student, made by any workers and kept while they grow.
 
-In the folder of results a hidden one holds what is finished until the set is whole; a variant whose files are gone is
-made again.
+A hidden folder in the folder of results holds the finished variants until the set is complete; a variant with missing
+files is made again.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ _DATA = re.compile(r"(?:\s+[\d.]+(?=[,、]\s*\d))?\s*[,:，：;；(（、][^,:�
 
 @dataclass(frozen=True)
 class Answer:
-    """A right answer in the file's unit (vectors by size), and how far one drawn in pencil may lie off."""
+    """A right answer in the file's unit (vectors by size), and the tolerance of a pencil drawing."""
 
     symbol: str
     value: float
@@ -60,8 +60,8 @@ class Answer:
 
 @dataclass(frozen=True)
 class Variant:
-    """One variant: its name, the mapping of its scene file, its answers, what should be known of it, and the attempt
-    that gave it; or ``why`` it could not be made, with the exit code of that."""
+    """A variant: its name, the mapping of its scene file, its answers, remarks on it, and the attempt that gave it; or
+    the reason ``why`` it could not be made, with its exit code."""
 
     name: str
     source: Tables = field(default_factory=dict)
@@ -77,12 +77,12 @@ class Variant:
         return mechanism_of(self.source)
 
     def failed(self, error: Exception) -> Variant:
-        """The variant as one whose papers could not be made."""
+        """The variant as failed: its papers could not be made."""
         return replace(self, why=_reason(error), exit_code=getattr(error, "exit_code", Unsolvable.exit_code))
 
 
 class Unfit(Exception):
-    """A candidate that makes no good problem, and why."""
+    """The error of a candidate that makes no good problem, with the reason."""
 
     def __init__(self, why: Wording) -> None:
         super().__init__(why)
@@ -90,8 +90,8 @@ class Unfit(Exception):
 
 
 def asked_of(scene: Mechanism) -> tuple[Symbol, ...]:
-    """What a problem asks: the scene's own ``find``, else the motion of the last group's joint, and the rates of
-    the links about fixed pivots; of what has no groups what the drivers lead: wheels, racks, followers of cams."""
+    """The questions of a problem: the scene's own ``find``, else the motion of the last group's joint, and the rates of
+    the links about fixed pivots; without groups the motions of followers: wheels, racks, followers of cams."""
     if scene.question.find:
         return scene.question.find
     structure = analyse(scene)
@@ -116,7 +116,7 @@ def asked_of(scene: Mechanism) -> tuple[Symbol, ...]:
 
 
 def _led(scene: Mechanism) -> Iterator[Symbol]:
-    """The rates of what the drivers lead, as far as they are not given, and the motion of its last point."""
+    """The rates of the links that follow the drivers, if they are not given, and the motion of the last point."""
     drivers = {d.key.partition("/")[0] for d in scene.drivers}
     led = [link for link in scene.links if link.name not in drivers]
     sliding = {pair.link for pair in scene.slidings}
@@ -135,8 +135,8 @@ def _led(scene: Mechanism) -> Iterator[Symbol]:
 
 
 def _of_larger_groups(scene: Mechanism, asked: Sequence[Symbol]) -> Iterator[Symbol]:
-    """What else may be asked of a mechanism's larger groups: the motion of the points that they find, the rates of
-    their links."""
+    """Further questions on a mechanism's larger groups: the motion of the points that they find, the rates of their
+    links."""
     known = set(scene.frame.points)
     for group in analyse(scene).elements:
         links = [scene.by_name[name] for name in group.members if name in scene.by_name]
@@ -157,12 +157,11 @@ def examined(
     Parameters
     ----------
     source : the scene file
-    base : where the driver's value was changed, the same file with the value it had, from which the assembly is
-        followed
-    strict : refuse what cannot be drawn well; else say it in the remarks
-    bounds : how well lines must cross, and how far a pencil drawing may miss an answer
-    fewest : ask only for what a pencil drawing does not miss, so many quantities at least, where the scene does not
-        say what is asked; 0: for everything
+    base : if the driver's value was changed, the file with its old value, from which the assembly is followed
+    strict : refuse a variant that cannot be drawn well; else note it in the remarks
+    bounds : the least crossing angle of lines, and the greatest error of an answer by pencil
+    fewest : ask only for quantities that a pencil drawing gives well, at least this many, if the scene has no
+        questions; 0: for all
 
     Raises
     ------
@@ -229,7 +228,7 @@ def examined(
 
 
 def _held(answers: Sequence[tuple[Symbol, float]], bounds: Mapping[Symbol, float], tolerance: float) -> None:
-    """Raise Unfit for an answer that a pencil can miss by more than a part of it."""
+    """Raise Unfit for an answer whose error by pencil may exceed the allowed part of it."""
     for symbol, value in answers:
         bound = bounds.get(symbol, 0.0)
         if not math.isfinite(bound):
@@ -241,13 +240,13 @@ def _held(answers: Sequence[tuple[Symbol, float]], bounds: Mapping[Symbol, float
 def _within_reach(
     answers: Sequence[tuple[Symbol, float]], bounds: Mapping[Symbol, float], tolerance: float, fewest: int
 ) -> tuple[Symbol, ...]:
-    """What a pencil does not miss of what may be asked, where that are so many quantities, or else everything."""
+    """The quantities that a pencil gives well, if they are at least ``fewest``, else all."""
     kept = tuple(s for s, value in answers if bounds.get(s, 0.0) <= AMPLE * tolerance * abs(value))
     return kept if len(kept) >= fewest else tuple(s for s, _ in answers)
 
 
 def _moved(source: Tables, base: Tables) -> OwnTables:
-    """The file with its driver's value reached from that of ``base``, and a sketch that tells this assembly."""
+    """The file with its driver's value reached from that of ``base``, and a sketch that gives this assembly."""
     start, goal = mechanism_of(base), mechanism_of(source)
     motion = solve(start, {d.key: d.values[0] for d in goal.drivers})
     if motion.status[0] != "ok":
@@ -268,7 +267,7 @@ def _sketch(scene: Mechanism, motion: Motion) -> dict[str, list[float]]:
 
 
 def _flat(motion: Motion, bounds: Bounds) -> Iterator[Phrase]:
-    """The groups of two links that pass on forces worse than is allowed."""
+    """The groups of two links with a transmission angle below the allowed one."""
     structure = motion.structure
     for dyad in structure.elements:
         if not isinstance(dyad, Dyad) or (not bounds.transmission and bounds.pressure >= math.pi / 2):
@@ -296,7 +295,7 @@ def _uncut(scene: Mechanism) -> Iterator[Phrase]:
 
 
 def _remarks(sheet: Sheet, asked: tuple[Symbol, ...], crossing: float) -> Iterator[Phrase]:
-    """What makes a sheet hard to draw or to read."""
+    """Remarks on difficulties in drawing or reading a sheet."""
     for equation in sheet.equations:
         rays = [s for step in sheet.steps if step.equation == equation.number for s in step.strokes]
         lines = [r for r in rays if isinstance(r, Ray)]
@@ -308,7 +307,7 @@ def _remarks(sheet: Sheet, asked: tuple[Symbol, ...], crossing: float) -> Iterat
 
 
 def _unread(sheet: Sheet, asked: tuple[Symbol, ...]) -> Iterator[Phrase]:
-    """What of the asked cannot be read well off a sheet."""
+    """The asked quantities that cannot be read well on a sheet."""
     readings = {r.symbol: r for r in read_off(sheet, asked)}
     for symbol in asked:
         if symbol not in readings:
@@ -342,10 +341,10 @@ Render = Callable[[Variant], Mapping[str, bytes]]
 
 @dataclass(frozen=True)
 class Job:
-    """One variant to make: drawn from a seed within a range, or a row of given data.
+    """A variant to make: drawn from a seed within a range, or from a row of given data.
 
-    ``source`` is the scene file to vary, or that of the row; ``base`` the row's with the driver where it was;
-    ``trouble`` what is wrong with a row.
+    ``source`` is the scene file to vary, or the file of the row; ``base`` the row's file with the driver's old value;
+    ``trouble`` are the problems of a row.
     """
 
     name: str
@@ -358,15 +357,15 @@ class Job:
 
 
 def jobs_of_seed(source: Tables, count: int, seed: int, spread: Spread) -> list[Job]:
-    """One job for each of so many variants of a scene file."""
+    """A job for each of ``count`` variants of a scene file."""
     digits = max(2, len(str(count)))
     return [Job(f"{number:0{digits}d}", number, source, spread, seed) for number in range(1, count + 1)]
 
 
 def work(job: Job, attempt: int) -> Variant:
-    """The first good variant of a job from an attempt on; depends on nothing else, so it runs anywhere.
+    """The first good variant of a job from an attempt on; it depends on its arguments alone, so it runs anywhere.
 
-    Only how soon it is given up depends on the machine.
+    Only the time after which it is given up depends on the machine.
     """
     if job.spread is None:
         return _row(job)
@@ -399,7 +398,7 @@ def work(job: Job, attempt: int) -> Variant:
 
 
 def _row(job: Job) -> Variant:
-    """A row of data as it stands; what makes it hard to draw is a remark."""
+    """A variant of a row of data as it is; difficulties in drawing it are remarks."""
     why = job.trouble
     for base in (job.base, None) if job.base is not None else (None,):
         if job.trouble:
@@ -425,7 +424,7 @@ def _named(source: Tables, name: str) -> OwnTables:
 
 
 def _where_it_was(source: Tables, original: Tables) -> OwnTables:
-    """The file with the drivers' values of the original, where its sketch holds."""
+    """The file with the drivers' values of the original, for which its sketch holds."""
     made = copy.deepcopy(dict(source))
     for path, kind in varied_keys(original):
         if kind in ("angle", "travel", "moment") or (path[0] == "driver" and "law" in path):
@@ -434,7 +433,7 @@ def _where_it_was(source: Tables, original: Tables) -> OwnTables:
 
 
 def distinct(answers: Sequence[Answer], others: Iterable[Sequence[Answer]]) -> bool:
-    """Whether some answer differs from that of every other variant by more than both may be drawn wrong."""
+    """Whether for every other variant some answer differs by more than both tolerances."""
     for other in others:
         known = {a.symbol: a for a in other}
         shared = [(a, known[a.symbol]) for a in answers if a.symbol in known]
@@ -456,11 +455,11 @@ def make(
 
     Parameters
     ----------
-    folder : where finished variants are kept, so that an interrupted set goes on
+    folder : the folder of finished variants, so that an interrupted set is continued
     keep : called with each variant in order, and with its rendered files; gives the names of the files it wrote
     render : called by the workers for each variant accepted; gives files by name
-    progress : called with the number done and the number of all
-    finish : called with the whole set, before the checkpoints of what is done are taken away
+    progress : called with the number of finished variants and of all
+    finish : called with the whole set, before its checkpoints are removed
 
     A variant whose papers cannot be made or written is a failure, and the next call tries it again.
     """
@@ -507,7 +506,7 @@ def make(
 
 
 def accepted(jobs: Iterable[Job], done: Mapping[int, Variant], workers: Workers) -> Iterator[tuple[Job, Variant]]:
-    """What becomes of each job, in order; variants drawn from a seed are distinct from all before them."""
+    """The result of each job, in order; variants drawn from a seed differ from all before them."""
     taken: list[tuple[Answer, ...]] = []
     refused: Variant | None = None
     queue: deque[tuple[Job, Started[Variant] | None]] = deque()
@@ -534,7 +533,7 @@ def accepted(jobs: Iterable[Job], done: Mapping[int, Variant], workers: Workers)
 
 
 def _finished(points: Checkpoints | None) -> dict[int, Variant]:
-    """Finished jobs by number, of those whose files are all there."""
+    """Finished jobs by number, if their files are complete."""
     variants: dict[int, Variant] = {}
     for number, piece in points.done()[0].items() if points is not None else ():
         facts = dict(piece.facts)
@@ -546,7 +545,7 @@ def _finished(points: Checkpoints | None) -> dict[int, Variant]:
 
 
 def _rendered(render: Render | None, variant: Variant) -> tuple[Variant, Mapping[str, bytes]]:
-    """A variant with its papers by name, or failed, with the reason why there are none."""
+    """A variant with its papers by name, or failed, with the reason."""
     try:
         return variant, render(variant) if render is not None else {}
     except Exception as error:  # whatever goes wrong with one must not take the others along
@@ -554,7 +553,7 @@ def _rendered(render: Render | None, variant: Variant) -> tuple[Variant, Mapping
 
 
 def _reason(error: Exception) -> Wording:
-    """What went wrong; what the program did not foresee in one line with the kind of error."""
+    """The reason of a failure; for an unforeseen error a line with its kind."""
     if isinstance(error, Unfit):
         return error.why
     if isinstance(error, GraphkinError) and error.problems:
