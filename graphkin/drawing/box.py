@@ -1,4 +1,4 @@
-"""Upright rectangles on the page: where things lie, what overlaps, and lines clipped to them."""
+"""Upright rectangles on the page: their overlaps, distances, and lines clipped to them."""
 
 from __future__ import annotations
 

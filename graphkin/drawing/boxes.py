@@ -43,7 +43,7 @@ BAR = 50.0  # length of the check bar
 
 @dataclass(frozen=True)
 class Block:
-    """Content about its left upper corner, so high and so wide."""
+    """Content about its left upper corner, with its height and width."""
 
     piece: Piece
     height: float
@@ -76,14 +76,14 @@ def line(text: str, width: float, size: float = SIZE) -> Block:
 
 def numeral(number: int, width: float, size: float = SIZE, *, bold: bool = False, step: int | None = None,
             classes: tuple[str, ...] = ()) -> Block:  # fmt: skip
-    """A number at the left of what it numbers, which begins after a width."""
+    """A number at the left of numbered content, which begins after a width."""
     line = LEADING * size
     at, runs = complex(width - 2.5, BASE * line), plain(str(number), size, bold=bold)
     return Block(Piece({"labels": (Text(at, runs, "end", classes=classes, step=step),)}), line, width)
 
 
 def numbered(number: int, text: str, width: float, size: float = SIZE, *, step: int | None = None) -> Block:
-    """A paragraph behind its number."""
+    """A paragraph after its number."""
     told = prose((text,), width - INDENT, size, classes=TOLD, step=step)
     return row(numeral(number, INDENT, size, bold=True, step=step, classes=TOLD), told)
 
@@ -110,7 +110,7 @@ def row(*blocks: Block, gap: float = 0.0) -> Block:
 
 
 def pages(blocks: Iterable[Block], height: float, gap: float) -> list[Block]:
-    """Blocks below each other, as many to a page as it holds."""
+    """Blocks below each other, divided into pages of a height."""
     made: list[list[Block]] = [[]]
     y = 0.0
     for block in blocks:
@@ -123,7 +123,7 @@ def pages(blocks: Iterable[Block], height: float, gap: float) -> list[Block]:
 
 
 def rows(blocks: Sequence[Block], width: float, gap: float) -> list[Block]:
-    """Blocks beside each other, as many to a row as a width holds."""
+    """Blocks beside each other, divided into rows of a width."""
     made: list[list[Block]] = []
     for block in blocks:
         if made and added_up((one.width + gap for one in made[-1]), block.width) <= width + 0.1:
@@ -134,7 +134,7 @@ def rows(blocks: Sequence[Block], width: float, gap: float) -> list[Block]:
 
 
 def panel(width: float, height: float, draw: Callable[[Box], Piece]) -> Block:
-    """A room for a drawing, which is told the room."""
+    """A room for a drawing; ``draw`` gets the room."""
     return Block(draw(Box(0.0, 0.0, width, height)), height, width)
 
 
@@ -149,7 +149,7 @@ def table(
     line: float = 0.0, layer: str = "labels",
 ) -> Block:  # fmt: skip
     """A table: lines of heads (one a language) over a rule, rows of cells, a thin rule below; the first column begins
-    at the left, the others end at the right.  What is wider than its column is set smaller."""
+    at the left, the others end at the right.  Text wider than its column is set smaller."""
     line = line or LEADING * size
     edges = [added_up(widths[:k]) for k in range(len(widths) + 1)]
     drawn: list[Primitive] = []
@@ -189,7 +189,7 @@ def _shrunk(runs: tuple[Run, ...], width: float) -> tuple[Run, ...]:
 
 
 def heading(names: Iterable[str], below: str, width: float) -> Block:
-    """Titles, and below them what is shown or given."""
+    """Titles, and below them lines on the content or the given data."""
     parts = [prose((text,), width, TITLE, bold=True, line=HEAD_LINE, classes=("heading",)) for text in names]
     return column(*parts, prose((below,) if below else (), width, GIVEN, line=HEAD_LINE, classes=("heading",)))
 
@@ -207,11 +207,12 @@ def page(
     head: Block, body: Block, low: Block, *, title: str, said: str, language: str, metadata: Mapping[str, object],
     margin: float = MARGIN, height: float = 0.0,
 ) -> Drawing:  # fmt: skip
-    """Heading, body and foot on a page as wide and as high as they are, or as high as its paper, the foot at its end.
+    """Heading, body and foot on a page of their own width and height, or of the height of its paper, the foot at its
+    end.
 
     Parameters
     ----------
-    said : the figure in words, for those who do not see it
+    said : the figure in words, for readers who do not see it
     language : "en", "zh" or "both"
     """
     top = margin + head.height + (GAP if head.height else 0.0)
@@ -225,12 +226,12 @@ def page(
 
 
 def without_titles(children: tuple[Primitive, ...]) -> tuple[Primitive, ...]:
-    """What a page shows without its heading, for a paper that tells the same."""
+    """The content of a page without its heading, for a paper with the same heading."""
     return map_tree(children, lambda one: None if isinstance(one, Text) and "heading" in one.classes else one)
 
 
 def steps(told: Iterable[tuple[int, str]], width: float = WORKED) -> Block:
-    """Steps below each other behind their numbers, each a part of its step."""
+    """Steps below each other after their numbers, each marked with its step."""
     return column(*(numbered(number, text, width, STEP, step=number) for number, text in told))
 
 
@@ -238,12 +239,11 @@ def worked_page(
     names: Iterable[str], given: str, parts: Sequence[Block], notes: Iterable[Wording], scale: str, *, title: str,
     said: str, language: str, metadata: Mapping[str, object],
 ) -> Drawing:  # fmt: skip
-    """A page on which a task is worked out: what is given, ``parts`` of the width `WORKED` below each other, notes, and
-    the foot.
+    """The page of a worked task: the given data, ``parts`` of the width `WORKED` below each other, notes, and the foot.
 
     Parameters
     ----------
-    names : of the task, in each language that it has one in
+    names : of the task, in each language in which it has one
     title, said : of the figure as a key of the table of words, and the figure in words
     """
     own = dict.fromkeys(map(in_markup, names))
@@ -256,7 +256,7 @@ def worked_page(
 
 
 def picture(body: Block, title: str, language: str, metadata: Mapping[str, object], scale: str = "") -> Drawing:
-    """A block by itself, with the scale below it where it has one, for a paper that tells the rest."""
+    """A block by itself, with its scale below it if it has one, for a paper with the other words."""
     told = word(title, languages(language)[0])
     low = foot(scale, WORKED, language) if scale else BARE
     return page(BARE, body, low, title=told, said=told, language=language, metadata=metadata, margin=2.0)
@@ -264,7 +264,7 @@ def picture(body: Block, title: str, language: str, metadata: Mapping[str, objec
 
 @dataclass(frozen=True)
 class FigurePage:
-    """The page of a figure of a drawn mechanism: in which language and letters it speaks, and how wide it is inside.
+    """The page of a figure of a drawn mechanism: its language and letters, and its width inside.
 
     name : of the figure in the metadata
     """
@@ -279,13 +279,13 @@ class FigurePage:
     def of(
         cls, sheet: Sheet, name: str, language: str | None, convention: str | None, width: float = INSIDE
     ) -> FigurePage:
-        """``language`` and ``convention`` are the scene's own where they are None."""
+        """``language`` and ``convention`` are by default the scene's own."""
         wish = sheet.scene.question.sheet
         letters = letters_of(sheet, convention or wish.convention)  # type: ignore[arg-type]
         return cls(sheet, name, language or wish.language, letters, width)
 
     def wide_enough(self, width: float) -> FigurePage:
-        """The page as wide as a drawing wants it, and not narrower than its words do."""
+        """The page at the width of a drawing, but not narrower than its words need."""
         return replace(self, width=max(LEAST, width))
 
     @property
@@ -296,22 +296,22 @@ class FigurePage:
         return term(key, self.language)
 
     def at_drivers(self, name: str) -> str:
-        """What a figure shows, and where the drivers stand: the line below its title."""
+        """The name of a figure, and the values of the drivers: the line below its title."""
         return f"{name}{punctuation('colon', self.language)}{drivers(self.sheet, self.letters)}"
 
     def said(self, key: str, /, **gaps: object) -> tuple[str, ...]:
-        """A phrase in each language of the page, one line where its formulas can stand once."""
+        """A phrase in each language of the page, a single line if its formulas can stand once."""
         return in_all(Phrase(key, **gaps), self.language)
 
     def prose(self, said: Iterable[Wording], size: float = SIZE, *, bold: bool = False) -> Block:
-        """What is said in every language of the page."""
+        """A statement in every language of the page."""
         return prose((line for one in said for line in in_all(one, self.language)), self.width, size, bold=bold)
 
     def panel(self, height: float, draw: Callable[[Box], Piece]) -> Block:
         return panel(self.width, height, draw)
 
     def scale(self, diagram: DiagramName, per_mm: float | None = None) -> str:
-        """The scale of a diagram as the convention writes it; ``per_mm`` (SI) stands for the sheet's own."""
+        """The scale of a diagram in the form of the convention; ``per_mm`` (SI) in place of the sheet's own."""
         sheet = self.sheet
         if per_mm is not None:
             name = "length" if diagram == "mechanism" else diagram
@@ -319,7 +319,7 @@ class FigurePage:
         return scale_statement(sheet, self.convention, diagram)
 
     def height_for(self, below: str, height: float) -> float:
-        """How high the body may be on a paper so high."""
+        """The height of the body on a paper of a height."""
         head = heading(titles(self.sheet, self.language), below, self.width)
         return height - MARGIN - head.height - 2 * GAP - foot("", self.width, self.language).height - BELOW
 
@@ -331,10 +331,10 @@ class FigurePage:
 
         Parameters
         ----------
-        below : what stands below the titles
-        scale, note : of the foot; there is none of a figure without a scale (None)
-        title : what the figure is called, as a key of the table of words
-        height : of the paper, where the page is not as high as its content
+        below : the lines below the titles
+        scale, note : of the foot; a figure without a scale (None) has no foot
+        title : the name of the figure, as a key of the table of words
+        height : of the paper, if the page is not as high as its content
         """
         low = BARE if scale is None else foot(scale, self.width, self.language, note)
         return page(

@@ -1,6 +1,6 @@
 """Charts on a page in millimetres: axes, curves and marks by matplotlib, words and labels as on every other figure.
 
-Everything is told by dash and shape of marker, so that black on white is enough.
+Dash and shape of marker distinguish all curves, so that black on white is enough.
 """
 
 from __future__ import annotations
@@ -99,7 +99,7 @@ class ChartPage(Kept):
     """A page drawn by matplotlib: size in mm, title and description in words, language, facts for programs.
 
     ``paint`` puts panels, curves and words on an empty figure of that size; it is called anew for every file, so that
-    no two of them share anything.
+    files share no state.
     """
 
     width: float
@@ -118,7 +118,7 @@ class ChartPage(Kept):
                            "pickle the result that it belongs to or")
 
     def figure(self, dpi: float = 72.0) -> Figure:
-        """The page as a matplotlib figure of its own, to be changed at will."""
+        """The page as a new matplotlib figure, which the caller may change."""
         faces(self._more, warn=False)
         with own_settings(**_SETTINGS):
             figure = self._painted(self.width, self.height, dpi)
@@ -127,7 +127,7 @@ class ChartPage(Kept):
 
     @property
     def _more(self) -> bool:
-        """Whether its title holds Chinese that the family lacks."""
+        """Whether its title has Chinese characters that the family lacks."""
         return not holds(self.title)
 
     def _painted(self, width: float, height: float, dpi: float = 72.0) -> Figure:
@@ -146,7 +146,7 @@ class ChartPage(Kept):
             return figure_pdf(self._painted(self.width, self.height), self.title, self._more)
 
     def _svg(self, outlines: bool = False) -> bytes:
-        """With the head and the faces that all figures have."""
+        """The SVG with the head and the font faces of all figures."""
         from matplotlib.backends.backend_svg import FigureCanvasSVG
 
         buffer = BytesIO()
@@ -167,8 +167,8 @@ class ChartPage(Kept):
 
 
 def _with_length(text: re.Match[str]) -> str:
-    """A text of an SVG of matplotlib with the length that its glyphs have: readers that round each of them to whole
-    pixels keep to it."""
+    """A text of an SVG of matplotlib with the length of its glyphs, which also holds in readers that round each glyph
+    to whole pixels."""
     look, inner = text.groups()
     size = _SIZE.search(look)
     if size is None or "<" in inner or not inner:
@@ -194,8 +194,8 @@ def _used(svg: str) -> dict[Style, set[str]]:
 
 
 def add_panel(figure: Figure, box: Box, id: str, title: str = "", x_title: str = "") -> Axes:
-    """Axes whose frame is a box of the page (mm): the title of what goes up stands over it, that of what goes right
-    below its right end (markup of ``text.rich``)."""
+    """Axes whose frame is a box of the page (mm): the title of the vertical axis stands over it, that of the horizontal
+    axis below its right end (markup of ``text.rich``)."""
     width, height = _size(figure)
     shares = box.left / width, 1 - box.bottom / height, box.width / width, box.height / height
     axes = figure.add_axes(shares, gid=id)
@@ -209,7 +209,7 @@ def add_panel(figure: Figure, box: Box, id: str, title: str = "", x_title: str =
 
 
 def add_words(figure: Figure, *things: Primitive) -> None:
-    """Texts, and strokes that belong to them, in mm of the page."""
+    """Texts with their strokes, in mm of the page."""
     for thing in things:
         more = isinstance(thing, Text) and not holds(thing.string)
         ink(figure, (thing,), faces(more, warn=False), IN_FRONT)
@@ -237,7 +237,7 @@ def look(stroke: Stroke) -> Look:
 
 
 def marker(shape: Shape) -> Look:
-    """A marker as matplotlib's properties of a line that is not drawn itself; whole also at the edge of a panel."""
+    """A marker as matplotlib's properties of an invisible line; whole also at the edge of a panel."""
     return {
         "linestyle": "", "color": "#000000", "marker": _SIGNS[shape],
         "markersize": MARKER * _SMALLER.get(shape, 1.0) * POINTS_PER_MM,
@@ -247,11 +247,11 @@ def marker(shape: Shape) -> Look:
 
 
 def count_steps(axis: Axis, step: float | None = None, most: int = 6) -> None:
-    """Ticks of an axis at whole steps; at steps of the series 1, 2, 2.5, 5 where none is given."""
+    """Ticks of an axis at whole steps; by default at steps of the series 1, 2, 2.5, 5."""
     from matplotlib.ticker import MaxNLocator, MultipleLocator, ScalarFormatter
 
     class Numbers(ScalarFormatter):
-        """Plain numbers; the power of ten that they all stand for is set as one."""
+        """Plain numbers; their common power of ten is written once."""
 
         def get_offset(self) -> str:
             power = super().get_offset().removeprefix("1e")
@@ -262,7 +262,7 @@ def count_steps(axis: Axis, step: float | None = None, most: int = 6) -> None:
 
 
 def degree_step(wide: float, most: int = 13) -> float:
-    """Ticks of an axis of angles (degrees): 30, 45, 60, 90 or parts of them, at most so many."""
+    """Ticks of an axis of angles (degrees): 30, 45, 60, 90 or parts of them, at most ``most``."""
     steps = (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0)
     return next((step for step in steps if wide / step <= most), 360.0)
 
@@ -285,13 +285,13 @@ def add_labels(
     axes: Axes, labels: Sequence[tuple[str, ArrayLike]], sizes: Sequence[float] = (NUMBER,),
     toward: Sequence[tuple[float, ...]] = (),
 ) -> None:  # fmt: skip
-    """Words at points or stretches of the curves, in the panel and clear of all that is drawn there and of each other.
+    """Words at points or stretches of the curves, in the panel and clear of its strokes and of each other.
 
     Parameters
     ----------
     labels : markup of each, with a point (x, y) or the two ends of a stretch, shape (2, 2), in values of the axes
-    sizes : letters (mm), the largest with which all stand clear is taken
-    toward : directions (rad) from each point in the order of liking
+    sizes : of letters (mm); the largest with which all stand clear is taken
+    toward : directions (rad) from each point in order of preference
     """
     panel, obstacles = _box(axes), _in_the_way(axes)
     marks: list[Mark] = []

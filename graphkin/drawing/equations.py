@@ -1,4 +1,4 @@
-"""Vector equations as they are set: terms with what is known of their size and direction, in columns on a sheet."""
+"""Typeset vector equations: terms with the known parts of size and direction, in columns on a sheet."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ WIDE = 150.0  # mm: a page that holds two of them
 
 @dataclass(frozen=True)
 class Written:
-    """A block of writing: what it holds about its left upper corner, and how large it is (mm)."""
+    """A block of writing: its content about its left upper corner, and its size (mm)."""
 
     children: tuple[Primitive, ...]
     width: float
@@ -61,7 +61,7 @@ LineToSet = Callable[[float, float], Written]
 
 
 def line_to_set(line: WrittenLine, sheet: Sheet, letters: Letters, language: str) -> LineToSet:
-    """A line that is set once for each width and size, however many places are tried for it."""
+    """A line that is set once for each width and size, for all places tried."""
     short = _short(sheet, line, letters) if isinstance(line, Equation) else line
     if short is not None:
         return cache(lambda width, size: _sentence(short, size, width))
@@ -73,8 +73,8 @@ def line_to_set(line: WrittenLine, sheet: Sheet, letters: Letters, language: str
 def equations_in_room(
     lines: Sequence[LineToSet], width: float, height: float, most: float = WAYS[0][0]
 ) -> tuple[tuple[Primitive, ...], int]:
-    """Lines as large as they fit an area (mm), with letters of ``most`` mm, in one column or two, about its left upper
-    corner; and how many of them, the first ones, fit."""
+    """Lines as large as they fit an area (mm), with letters of at most ``most`` mm, in one column or two, about its
+    left upper corner; and the number of first lines that fit."""
 
     def tried() -> Iterator[Placed]:
         for size, columns in WAYS:
@@ -87,7 +87,7 @@ def equations_in_room(
 
 
 def equations_on_page(lines: Sequence[LineToSet], width: float, height: float) -> tuple[tuple[Primitive, ...], int]:
-    """Lines on a page of their own (mm), as ``equations_in_room``, in columns of one height where it is wide."""
+    """Lines on a page of their own (mm), as ``equations_in_room``, in columns of equal height on a wide page."""
     columns = 2 if width >= WIDE else 1
     wide = (width - (columns - 1) * COLUMN_GAP) / columns
 
@@ -103,7 +103,7 @@ def equations_on_page(lines: Sequence[LineToSet], width: float, height: float) -
 
 
 def _fullest(tried: Iterable[Placed], count: int) -> tuple[tuple[Primitive, ...], int]:
-    """What is drawn of the first way in which all lines fit, or the most, and how many."""
+    """The first arrangement in which all lines fit, or most of them, and their number."""
     best: Placed = []
     for placed in tried:
         best = max(best, placed, key=len)
@@ -113,7 +113,7 @@ def _fullest(tried: Iterable[Placed], count: int) -> tuple[tuple[Primitive, ...]
 
 
 def _in_columns(blocks: Iterable[Written], wide: float, height: float, columns: int) -> Placed:
-    """Blocks below each other in columns, with their corners, as far as they fit."""
+    """Blocks below each other in columns, with their corners, up to the last that fits."""
     placed: Placed = []
     column, y = 0, 0.0
     for block in blocks:
@@ -127,7 +127,7 @@ def _in_columns(blocks: Iterable[Written], wide: float, height: float, columns: 
 
 
 def _sentence(markup: str, size: float, width: float) -> Written:
-    """Words with symbols, in as many lines as they take."""
+    """Words with symbols, broken into lines."""
     lines = wrapped(markup, size, width)
     texts = tuple(Text(complex(0, size * (1 + 1.5 * k)), runs) for k, runs in enumerate(lines))
     return Written(texts, max(map(runs_width, lines), default=0.0), (0.4 + 1.5 * len(lines)) * size)
@@ -136,12 +136,12 @@ def _sentence(markup: str, size: float, width: float) -> Written:
 def write_equation(
     sheet: Sheet, equation: Equation, letters: Letters, language: str, width: float, size: float = 3.2
 ) -> Written:
-    """One equation, at most ``width`` mm wide: long ones are broken."""
+    """An equation, at most ``width`` mm wide, broken if it is longer."""
     return line_to_set(equation, sheet, letters, language)(width, size)
 
 
 def _written_cells(cells: list[_Cell], letters: Letters, language: str, width: float, size: float) -> Written:
-    """Terms and operators with their rows, broken where a line gets too long."""
+    """Terms and operators with their rows, broken before a line gets too long."""
     gap = 1.2 * GAP if rows_of(letters.convention) == "table" else 0.6 * GAP
     heads = _heads(letters, language, size)
     lead = max((runs_width(h) for h in heads), default=0.0) + (2 * GAP if heads else 0.0)
@@ -158,7 +158,7 @@ def _written_cells(cells: list[_Cell], letters: Letters, language: str, width: f
 def write_sum(
     sheet: Sheet, terms: Sequence[Term], letters: Letters, language: str, width: float, size: float = 3.2
 ) -> Written:
-    """Vectors whose sum is nought, with their rows of sizes and directions, at most ``width`` mm wide."""
+    """Vectors whose sum is zero, with their rows of sizes and directions, at most ``width`` mm wide."""
     cells = _cells(sheet, [terms], letters, size)
     cells += [_Cell(symbol("=", size), is_term=False), _Cell(rich("0", size), is_term=True)]
     return _written_cells(cells, letters, language, width, size)
@@ -185,7 +185,7 @@ def _short(sheet: Sheet, equation: Equation, letters: Letters) -> str | None:
 
 
 def _cells(sheet: Sheet, sides: Sequence[Sequence[Term]], letters: Letters, size: float) -> list[_Cell]:
-    """The terms of equal sums, each behind its sign."""
+    """The terms of equal sums, each after its sign."""
     cells: list[_Cell] = []
     for k, one in (numbered for side in sides for numbered in enumerate(side)):
         if cells:
@@ -199,7 +199,7 @@ def _row_size(size: float) -> float:
 
 
 def _cell(sheet: Sheet, one: Term, letters: Letters, size: float) -> _Cell:
-    """A term with its rows; where marks say what is known, the rows only tell how large and along what."""
+    """A term with its rows; if marks show what is known, the rows only give size and direction."""
     rows = rows_of(letters.convention)
     small = _row_size(size)
     whole = symbol(letters.term(one), size)
@@ -224,7 +224,7 @@ def _heads(letters: Letters, language: str, size: float) -> tuple[tuple[Run, ...
 
 
 def _lines(cells: list[_Cell], width: float, gap: float) -> list[list[_Cell]]:
-    """Broken before an operator where a line gets too long."""
+    """The cells in lines, broken before an operator."""
     lines: list[list[_Cell]] = [[]]
     used = 0.0
     for i, cell in enumerate(cells):
@@ -273,8 +273,8 @@ def _set(
 def _baselines(
     stack: list[list[tuple[Run, ...]]], heads: tuple[tuple[Run, ...], ...], top: float, under: float, between: float
 ) -> tuple[list[float], list[float]]:
-    """Baselines of the rows of an equation, marks above it first, and the lower edge of each; ``under`` the terms and
-    ``between`` other rows is so much room (mm)."""
+    """Baselines of the rows of an equation, marks above it first, and the lower edge of each; ``under`` and ``between``
+    are the spaces (mm) below the terms and between other rows."""
     bases: list[float] = []
     down: list[float] = []
     below = next((i for i in (2, 3) if any(stack[i])), 0)  # the first row under the terms

@@ -1,12 +1,12 @@
-"""The one family in which figures are set, read from its files: glyphs, advances, and parts of it to be embedded; and
-Chinese characters that it lacks, from a face of this machine.
+"""The font family of all figures, read from its files: glyphs, advances, and embedded parts of it; and Chinese
+characters that it lacks, from a face of this machine.
 
 ``fonts`` holds it as three TrueType files (made by figures/make_fonts.py).  Widths are read from them here, since
-fontTools takes 40 ms for that and every command that draws wants them.  What a figure needs of a face fontTools packs
-as WOFF: in 5 ms a figure, where WOFF2 takes 20 to 70 ms and a library more, for letters smaller by a quarter
-and files smaller by 3 %.
+fontTools takes 40 ms for that and every drawing command needs them. fontTools packs the used part of a face as WOFF: in
+5 ms a figure, while WOFF2 takes 20 to 70 ms and a further library, for letters smaller by a quarter and files smaller
+by 3 %.
 
-Letters come along with a file, so that a figure looks the same wherever it is opened: the used glyphs of the family as
+A file contains its letters, so that a figure looks the same everywhere: the used glyphs of the family as
 a rule of a style sheet; or as outlines, for programs that have no fonts.
 """
 
@@ -39,7 +39,7 @@ def style_of(italic: bool, bold: bool) -> Style:
 
 @dataclass(frozen=True)
 class Glyph:
-    """A glyph: how far the next stands from it, and its outline, in thousandths of the size.
+    """A glyph: its advance and its outline, in thousandths of the size.
 
     ``outline`` is a simple glyph of a glyf table, empty for a blank.
     """
@@ -114,8 +114,8 @@ def holds(text: str) -> bool:
 
 @lru_cache(maxsize=8192)
 def glyph(character: str, style: Style = "regular") -> Glyph | None:
-    """A glyph of the family; of a face of this machine where the family has none of a Chinese character, and None
-    where no face is at hand."""
+    """A glyph of the family; for a Chinese character that it lacks a glyph from a face of this machine, None without
+    such a face."""
     own = _face(style).glyph(ord(character))
     if own is None and style != "regular":
         own = _face("regular").glyph(ord(character))
@@ -209,7 +209,7 @@ def _font() -> TTFont | None:
 
 
 def _installed() -> list[Path]:
-    """The known faces that are there, the best first."""
+    """The installed known faces, the best first."""
     found: dict[str, Path] = {}
     for folder in _FOLDERS:
         for place, _, names in os.walk(os.path.expanduser(folder)):
@@ -229,8 +229,8 @@ _LOOK: Mapping[Style, str] = {"regular": "", "italic": ";font-style:italic", "bo
 def face_rules(used: Mapping[Style, Iterable[str]]) -> tuple[str, str]:
     """The name of a family with the used characters of each style, and the rules that hold it.
 
-    The name tells the glyphs, since several figures with different ones may stand in one page; not how they are packed,
-    which may differ with the version of a library.
+    The name depends on the glyphs, since figures with different ones may stand in one page; not on their packing, which
+    may differ with the version of a library.
     """
     letters = {style: frozenset(used[style]) for style in _LOOK if used.get(style)}
     if not letters:
@@ -255,11 +255,11 @@ def families(name: str) -> str:
 
 
 def outline(text: str, at: complex, size: float, style: Style) -> str:
-    """The letters of a text on a page (mm) as the data of an SVG path; "" where no face at hand has them.
+    """The letters of a text on a page (mm) as the data of an SVG path; "" where no face has them.
 
     Parameters
     ----------
-    at : where its baseline begins
+    at : the beginning of its baseline
     size : of the letters
     """
     from fontTools.pens.svgPathPen import SVGPathPen

@@ -1,4 +1,4 @@
-"""A construction on paper in the making: strokes by layer, and names that want a place; places in mm, y up."""
+"""A construction on paper while it is drawn: strokes by layer, and names that need a place; places in mm, y up."""
 
 from __future__ import annotations
 
@@ -18,20 +18,20 @@ from graphkin.drawing.text import symbol
 
 @dataclass
 class Plate:
-    """What is drawn of a construction, by layer, and the names that it asks for, in their order."""
+    """The strokes of a construction by layer, and its names, in their order."""
 
     layers: dict[str, list[Primitive]] = field(default_factory=dict)
     labels: list[Label] = field(default_factory=list)
 
     @property
     def piece(self) -> Piece:
-        """All of it, about the construction's own origin (y down)."""
+        """The whole construction about its own origin (y down)."""
         return Piece({layer: tuple(things) for layer, things in self.layers.items()}, tuple(self.labels))
 
     def put(
         self, layer: str, *things: Primitive, id: str = "", classes: tuple[str, ...] = (), step: int | None = None
     ) -> None:
-        """Things of a page in a layer; as one group where they have an id, a class or a step."""
+        """Put primitives in a layer; as a group if they have an id, a class or a step."""
         if id or classes or step is not None:
             things = (Group(things, id=id, classes=classes, step=step),)
         self.layers.setdefault(layer, []).extend(things)
@@ -72,9 +72,9 @@ def centred(
 
     Parameters
     ----------
-    content : what comes to lie in the middle (mm about the figure's own origin, y down)
-    draw : the figure about its own origin, by the room that it has there
-    name : puts its names in their places
+    content : the box to be centred (mm about the figure's own origin, y down)
+    draw : function of the room there to the figure about its own origin
+    name : function that puts its names in their places
     """
 
     def drawn(room: Box) -> Piece:
@@ -86,6 +86,6 @@ def centred(
 
 
 def cut_piece(piece: Piece, box: Box) -> Piece:
-    """What of a piece lies in a box, with the names of what is seen there."""
+    """The part of a piece in a box, with the names of its visible parts."""
     layers = {name: cut_to(things, box) for name, things in piece.layers.items()}
     return Piece(layers, tuple(one for one in piece.labels if box.distance(middle_of(one.mark)) == 0.0), piece.marks)

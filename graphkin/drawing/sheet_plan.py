@@ -1,7 +1,7 @@
-"""Where everything may stand on a sheet: plans of its page, and which of them suits a mechanism.
+"""Plans of a sheet's page, and the choice of the plan that suits a mechanism.
 
-The usual plan has the equations under the mechanism.  Others give the mechanism or the polygons more room; where the
-scene wishes for scales that none of them holds, writing goes overleaf, and after that the paper grows.
+The usual plan has the equations under the mechanism.  Others give the mechanism or the polygons more room; if the scene
+wishes for scales that fit none of them, writing goes to a further page, and then the paper grows.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ TALL, NARROW, STRIP, LESS_BELOW, OVERLEAF, LARGER = 0.28, 0.35, 0.45, 0.1, 3.0, 
 
 @dataclass(frozen=True)
 class SheetPlan:
-    """Where everything stands on the page (mm); panels without their captions.  What is None stands overleaf."""
+    """The places of panels on the page (mm), without their captions; None for a panel on a further page."""
 
     width: float
     height: float
@@ -59,7 +59,7 @@ class SheetPlan:
 
     @property
     def room(self) -> Room:
-        """Where the figures may be drawn in it."""
+        """The room for the figures in it."""
         mechanism = self.mechanism.width - AROUND_MECHANISM[0], self.mechanism.height - AROUND_MECHANISM[1]
         return Room(mechanism, (self.velocity.width * FILL, self.velocity.height * FILL), cost=self.cost)
 
@@ -74,13 +74,13 @@ class SheetPlan:
 
 
 def sheet_room(scene: Mechanism) -> Room:
-    """The room in which a sheet for ``sheet_page`` is to be drafted: ``draft(scene, room=sheet_room(scene))``."""
+    """The room for drafting a sheet for ``sheet_page``: ``draft(scene, room=sheet_room(scene))``."""
     first, *others = (plan.room for plan in _plans(scene))
     return Room(first.mechanism, first.polygon, others=tuple(others), keeps_wishes=True)
 
 
 def sheet_plan(sheet: Sheet) -> SheetPlan:
-    """The cheapest plan that holds the figures as they are drawn."""
+    """The cheapest plan with room for the figures as drawn."""
     plans = sorted(_plans(sheet.scene), key=lambda plan: plan.cost)
     sizes = sheet.drawn_sizes
     return next((plan for plan in plans if plan.holds(sizes)), plans[0])
@@ -101,7 +101,7 @@ def with_less_mechanism(plan: SheetPlan, sheet: Sheet) -> Iterator[SheetPlan]:
 
 
 def with_less_polygons(plan: SheetPlan, heights: Sequence[float]) -> Iterator[SheetPlan]:
-    """Plans whose polygons, so high (mm) with their names, leave room for writing below them."""
+    """Plans whose polygons, of these heights (mm) with their names, leave room for writing below them."""
     velocity, acceleration = plan.velocity, plan.acceleration
     if plan.equations is None or velocity.left != acceleration.left:
         return
@@ -121,7 +121,7 @@ def with_less_polygons(plan: SheetPlan, heights: Sequence[float]) -> Iterator[Sh
 
 
 def _plans(scene: Mechanism) -> Iterator[SheetPlan]:
-    """All plans, the usual one first; larger papers where scales are wished for."""
+    """All plans, the usual one first; larger papers if the scene wishes for scales."""
     wishes = scene.question.sheet
     wished = any((wishes.length_scale, wishes.velocity_scale, wishes.acceleration_scale))
     landscape = wishes.orientation == "landscape"

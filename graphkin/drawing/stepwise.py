@@ -1,6 +1,6 @@
-"""A figure as far as it is drawn: later parts left out, new ones lit.
+"""A figure up to a step: later parts left out, new ones emphasised.
 
-Lines of a step bear its number from the start; names, points, links and senses bear that from which on they are there.
+Lines of a step have its number; names, points, links and senses have the number of the step from which they are shown.
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ HALO, HALO_WIDTH = "#ffe08a", 2.0  # mm around what is new: pale enough to print
 
 
 def step_of(thing: Primitive) -> int | None:
-    """Number of the step that puts a thing there; None where none does, and for what is part of a group."""
+    """The number of the step that draws a primitive; None without a step, and for a part of a group."""
     if not isinstance(thing, Group | Text):
         return None
     return thing.since if thing.step is None else thing.step
 
 
 def stepped(children: Iterable[Primitive]) -> tuple[Primitive, ...]:
-    """The same figure with its step, by which pages show and hide it, on everything that has one."""
+    """The figure with the step of every primitive as a class, by which pages show and hide it."""
     return tied(map_tree(children, _with_step))
 
 
@@ -43,7 +43,7 @@ def _with_step(thing: Primitive) -> Primitive:
 
 
 def tied(children: Iterable[Primitive]) -> tuple[Primitive, ...]:
-    """The same figure with every leader in a group of the step of its name."""
+    """The figure with every leader in a group of the step of its name."""
 
     def change(thing: Primitive) -> Primitive:
         if not isinstance(thing, Group):
@@ -62,7 +62,7 @@ def _leader(thing: Primitive, after: Primitive | None) -> Primitive:
 
 
 def so_far(children: Iterable[Primitive], first: int, last: int) -> tuple[Primitive, ...]:
-    """The parts up to step ``last``, those before step ``first`` faded, the new ones on a pale band."""
+    """The parts up to step ``last``, parts before step ``first`` faded, new ones on a pale band."""
     found: list[Primitive] = []
     for thing in children:
         step = step_of(thing)

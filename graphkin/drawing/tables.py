@@ -47,8 +47,8 @@ class TableRow:
 def readings_table(
     sheet: Sheet, rows: Sequence[TableRow], letters: Letters, language: str, area: Box
 ) -> tuple[tuple[Primitive, ...], int]:
-    """Readings in columns that fill an area (mm): symbol, mm on paper, measured, exact, relative difference; and how
-    many of them, the first ones, fit."""
+    """Readings in columns that fill an area (mm): symbol, mm on paper, measured, exact, relative difference; and the
+    number of first readings that fit."""
     count, columns, row_height = _grid(len(rows), area, len(languages(language)))
     rows = rows[: max(0, count)]
     width = (area.width - GUTTER * (columns - 1)) / columns
@@ -61,8 +61,7 @@ def readings_table(
 
 
 def table_rows(sheet: Sheet, report: Report | None) -> list[TableRow]:
-    """Readings to show, in the order of the table: rates that are given are left out, links that turn alike share a
-    row."""
+    """The readings of the table in order: without given rates; links that turn alike share a row."""
     if report is not None:
         rows = [TableRow(row.reading, row) for row in report.rows if row.symbol.scope != "force"]
     else:
@@ -88,7 +87,7 @@ def _alike(one: TableRow, two: TableRow) -> bool:
 
 
 def _grid(count: int, area: Box, heads: int) -> tuple[int, int, float]:
-    """How many rows fit under so many lines of heading, in how many columns, how high."""
+    """The number of rows that fit under the heads, the number of columns, and the height of a row."""
     widest = 3 if area.width > 170 else 2 if area.width > 100 else 1
     room = 0
     for columns in range(1, widest + 1):
@@ -151,8 +150,8 @@ def given_lines(sheet: Sheet, letters: Letters, language: str, width: float, siz
 def given_data(
     sheet: Sheet, letters: Letters, language: str, area: Box, most: float
 ) -> tuple[tuple[Primitive, ...], list[tuple[Run, ...]]]:
-    """The given data as lines of text in an area (mm), as large as they fit, in letters of at most ``most`` mm; and
-    those lines for which there is no room."""
+    """The given data as lines of text in an area (mm), as large as they fit, in letters of at most ``most`` mm; and the
+    lines without room."""
     for size in (each for each in (2.8, 2.5, 2.2) if each <= most):
         lines = given_lines(sheet, letters, language, area.width, size)
         if len(lines) * 1.55 * size <= area.height:
@@ -168,7 +167,7 @@ def set_lines(lines: Sequence[tuple[Run, ...]], corner: complex) -> tuple[Primit
 
 
 def _flowed(items: Sequence[str], size: float, width: float) -> list[tuple[Run, ...]]:
-    """Items one after the other in lines, each whole; one longer than a line is broken."""
+    """Items in lines, each unbroken; an item longer than a line is broken."""
     lines: list[str] = []
     for item in items:
         joined = f"{lines[-1]};  {item}" if lines else item

@@ -1,5 +1,5 @@
 r"""Texts as runs: plain words, and symbols with sub- and superscripts at places of their own; fitted to a width;
-and how wide a text is and how far its ink reaches, from the glyphs in which it is set.
+and the width and the ink of a text, from its glyphs.
 
 Between dollar signs stands a symbol, in the notation of TeX: ``"velocity $v_{B3}$ of the ram"``.
 Letters of symbols are italic, digits and signs upright, Chinese upright everywhere; ``_`` and ``^`` take one character
@@ -33,7 +33,7 @@ _ARROW_SIZE, _ARROW_GAP, _SLANT = 0.57, 0.05, 0.04  # of the size of the letter 
 
 
 def plain(text: str, size: float = LETTER, italic: bool = False, bold: bool = False) -> tuple[Run, ...]:
-    """Words as they are, with no notation read into them; white space is folded to single spaces."""
+    """Words without any notation; white space is folded to single spaces."""
     folded = " ".join(text.split())
     return (Run(folded, 0.0, 0.0, size, italic, bold),) if folded else ()
 
@@ -41,14 +41,14 @@ def plain(text: str, size: float = LETTER, italic: bool = False, bold: bool = Fa
 def symbol(markup: str, size: float = LETTER) -> tuple[Run, ...]:
     """A symbol set as runs from its notation without dollar signs: ``symbol("a^{n}_{C/B}")``.
 
-    Raises ValueError where a brace is not closed or an index has nothing to stand at.
+    Raises ValueError where a brace is not closed or an index follows no character.
     """
     return _symbol(markup, size)[0]
 
 
 @lru_cache(maxsize=1024)
 def rich(markup: str, size: float = LETTER, bold: bool = False) -> tuple[Run, ...]:
-    """Words with symbols between dollar signs, set as runs one after the other.  Raises ValueError as ``symbol``."""
+    """Words with symbols between dollar signs, set as runs in order.  Raises ValueError as ``symbol``."""
     runs: list[Run] = []
     x = 0.0
     for index, part in enumerate(in_turn(markup)):
@@ -64,7 +64,7 @@ def rich(markup: str, size: float = LETTER, bold: bool = False) -> tuple[Run, ..
 
 
 def fitted(markup: str, size: float, width: float, bold: bool = False, least: float = SMALLEST) -> tuple[Run, ...]:
-    """Words with symbols set as large as they fit a width (mm), at most ``size`` and at least ``least``."""
+    """Words with symbols as large as they fit a width (mm), at most ``size`` and at least ``least``."""
     runs = rich(markup, size, bold)
     wide = runs_width(runs)
     if wide <= width:
@@ -94,7 +94,7 @@ def wrapped(markup: str, size: float, width: float, bold: bool = False) -> list[
 
 
 def stacked(lines: Sequence[str], size: float = LETTER) -> tuple[Run, ...]:
-    """Lines of words with symbols, one below the other, as one text."""
+    """Lines of words with symbols, below each other, as one text."""
     return tuple(
         run._replace(y=run.y + _LEADING * size * i) for i, line in enumerate(lines) for run in rich(line, size)
     )
@@ -174,8 +174,7 @@ def _set(atoms: tuple[Atom, ...], x: float, y: float, size: float, level: int, b
 
 
 def _arrow_over(letter: str, face: tuple[bool, bool], x: float, y: float, size: float) -> tuple[Run, float, float]:
-    """The arrow over a letter that would stand at a place, where the letter stands then, and how far the arrow
-    reaches."""
+    """The arrow over a letter at a place, the place of the letter with it, and the end of the arrow."""
     own, sign = glyph(letter, style_of(*face)), glyph(_ARROW)
     left, low, right, _ = sign.box if sign else (0, 0, EM, 0)
     start, _, end, top = own.box if own else (0, 0, EM, EM)
@@ -200,7 +199,7 @@ def is_italic(character: str) -> bool:
 
 
 def _trimmed(text: str, x: float, y: float, size: float, italic: bool, bold: bool) -> list[Run]:
-    """One run without outer spaces (SVG drops them), standing where its first letter stands; none for spaces alone."""
+    """A run without outer spaces (SVG drops them), at the place of its first letter; none for spaces alone."""
     body = text.lstrip(" ")
     start = x + width(text[: len(text) - len(body)], size, italic, bold)
     body = body.rstrip(" ")
@@ -243,8 +242,8 @@ def _advance(character: str, style: Style) -> float:
 
 
 def run_box(run: Run) -> Box:
-    """Box of one run about its text's own point: from ascender to descender, from start to advance, and further where
-    slanted letters reach further."""
+    """The box of a run about its text's own point: from ascender to descender, from start to advance, with the overhang
+    of slanted letters."""
     before, ascent, after, descent = _reach(run.text, style_of(run.italic, run.bold))
     return Box(
         run.x - before * run.size, run.y - ascent * run.size,
@@ -254,7 +253,7 @@ def run_box(run: Run) -> Box:
 
 @lru_cache(maxsize=4096)
 def _reach(text: str, style: Style) -> tuple[float, float, float, float]:
-    """How far ink reaches beyond the start, above the baseline, beyond the advance and below the baseline, in sizes."""
+    """The reach of ink beyond the start, above the baseline, beyond the advance and below the baseline, in sizes."""
     found = [g for c in text if (g := glyph(c, style)) is not None]
     if not found:
         return 0.0, ASCENT, 0.0, DESCENT
@@ -266,7 +265,7 @@ def _reach(text: str, style: Style) -> tuple[float, float, float, float]:
 
 
 def runs_width(runs: tuple[Run, ...]) -> float:
-    """From the text's own point to the end of the run that reaches furthest (mm)."""
+    """The distance from the text's own point to the farthest end of a run (mm)."""
     if len(runs) == 1:
         return runs[0].x + width(runs[0].text, runs[0].size, runs[0].italic, runs[0].bold)
     return max((run.x + width(run.text, run.size, run.italic, run.bold) for run in runs), default=0.0)

@@ -1,5 +1,5 @@
-"""Figures that can be asked for by name.  Each is a file of this folder that says in its ``FIGURES`` what it is called,
-what it needs and how it is drawn; nothing else has to be told of it but its words."""
+"""Figures that can be asked for by name.  Each is a file of this folder that gives in its ``FIGURES`` its name, its
+needs and its function; besides it needs only its words."""
 
 from __future__ import annotations
 
@@ -22,12 +22,11 @@ __all__ = ["Figure", "figure_kinds"]
 class Figure:
     """A figure that can be asked for by name.
 
-    draw : draws it from what it needs, with keywords ``language`` and ``convention``; None where there is nothing to
-        draw
-    needs : of what it is drawn ("sheet", "forces", ...), as `graphkin.draw` supplies it
-    by_itself : whether it is drawn of a scene where no figure is asked for by name
-    of_all : whether it shows all links, whatever is asked
-    place : where it stands among the figures
+    draw : function of its needs, with keywords ``language`` and ``convention``; its result is None for an empty figure
+    needs : its sources ("sheet", "forces", ...), as `graphkin.draw` supplies them
+    by_itself : whether it is drawn of a scene if no figure is asked for by name
+    of_all : whether it shows all links, whatever the question
+    place : its place among the figures
     """
 
     name: str

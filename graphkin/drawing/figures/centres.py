@@ -1,7 +1,7 @@
 """The figure of the instant centres: the mechanism pale behind all its centres; beside it the circle diagram (links as
-points on a circle, centres as the lines between them, numbered as they were found) and how each centre was found; below
-the velocities taken through them.  Centres whose lines have no room for their names there stand each in a small picture
-of its own.
+points on a circle, centres as the lines between them, numbered in the order of construction) and the construction of
+each centre; below the velocities taken through them.  A centre whose lines have no room for their names there has a
+small picture of its own.
 
 Centres are marked by kind, with the lines near what they find, and arrows to those that lie far away.
 """
@@ -73,8 +73,8 @@ PERMANENT, FOUND, OTHERWISE = Stroke(0.5), Stroke(0.25), Stroke(0.35, (2.4, 0.9)
 def circle_diagram(centres: Centres, middle: complex, radius: float) -> Group:
     """The diagram about a page point.
 
-    Links stand clockwise in the order of counting, the first at the top; a line found bears its number where along it
-    there is most room, none where there is too little.
+    Links stand clockwise in the order of counting, the first at the top; a found line has its number where it has most
+    room, and none where there is too little.
     """
     names = sorted(centres.names, key=in_counting_order)
     ways = {n: cmath.rect(1.0, 2 * math.pi * k / len(names)) * -1j for k, n in enumerate(names)}
@@ -116,8 +116,8 @@ def _free(
     a: complex, b: complex, others: Sequence[tuple[complex, complex]], taken: Sequence[complex],
     middle: complex, radius: float,
 ) -> complex | None:  # fmt: skip
-    """The place on a side that lies furthest from all other sides, from the circle and from numbers that stand already;
-    None where a number would touch one of them."""
+    """The place on a side that lies farthest from all other sides, from the circle and from placed numbers; None where
+    a number would touch one of them."""
     places = np.array([a + (b - a) * (0.1 + 0.01 * k) for k in range(81)])
     near = [radius - np.abs(places - middle), *(np.abs(places - w) - HALF for w in taken)]
     near += [np.abs(cross(places - p, np.array(q - p))) / abs(q - p) for p, q in others]
@@ -138,7 +138,7 @@ IN_LINE = 4  # names of centres at one place
 
 def mark_of(centre: Centre, frame: str, at: complex) -> tuple[Primitive, ...]:
     """The mark of a centre at a page point: permanent ones in rings (the fixed filled), found ones as dots in a cross,
-    those found in another way as lozenges."""
+    centres found by another method as lozenges."""
     line = strokes.RELATIVE
     if centre.kind == "permanent":
         inner = strokes.BLACK if frame in centre.pair else strokes.WHITE
@@ -150,15 +150,15 @@ def mark_of(centre: Centre, frame: str, at: complex) -> tuple[Primitive, ...]:
 
 
 def _lines_of(centre: Centre, letters: Letters) -> str:
-    """The lines that cross in a centre, by the centres that each leads through, or the normal of a pin in a slot."""
+    """The lines that cross in a centre, by the centres on each, or as the normal of a pin in a slot."""
     named = (line_through(line, letters.centre, lambda pin: "n_{" + pin.partition("/")[0] + "}")
              for line in centre.lines)  # fmt: skip
     return " × ".join(f"${line}$" for line in named)
 
 
 def near_box(centres: Centres, mechanism: Box, most: tuple[float, float]) -> Box:
-    """The box (mm about the world's origin, y down) of the mechanism and of the centres that lie near enough to be
-    shown with it: the nearest first, as long as the whole stays within a width and height."""
+    """The box (mm about the world's origin, y down) of the mechanism and of the centres near enough to be shown with
+    it: the nearest first, while the whole stays within a width and height."""
     box = mechanism
     spots = [on_page(c.point) for c in centres.found if c.point is not None]
     for z in sorted(spots, key=mechanism.distance):
@@ -169,8 +169,8 @@ def near_box(centres: Centres, mechanism: Box, most: tuple[float, float]) -> Box
 
 
 def centre_marks(centres: Centres, letters: Letters, panel: Box, drawn: tuple[Primitive, ...]) -> Piece:
-    """All centres of a figure about the world's origin (y down); ``drawn`` is the mechanism, of which arrows to what
-    lies outside the panel keep clear."""
+    """All centres of a figure about the world's origin (y down); ``drawn`` is the mechanism, from which arrows to
+    centres outside the panel keep clear."""
     inside, frame = panel.grown(-2.5), centres.scene.frame.name
     known = [c for c in centres.found if c.place is not None]
     far = [c for c in known if _off(c, inside)]
@@ -206,17 +206,17 @@ def centre_marks(centres: Centres, letters: Letters, panel: Box, drawn: tuple[Pr
 
 
 def _spot(centre: Centre) -> complex:
-    """Where a centre lies on the page."""
+    """The place of a centre on the page."""
     return on_page(centre.point or 0j)
 
 
 def _off(centre: Centre, inside: Box) -> bool:
-    """Whether a centre lies at infinity, or off a part of the page."""
+    """Whether a centre lies at infinity, or outside a part of the page."""
     return centre.point is None or inside.distance(on_page(centre.point)) > 0.0
 
 
 def _grouped(some: Iterable[Centre], alike: Callable[[Centre, Centre], bool]) -> list[list[Centre]]:
-    """Centres in groups, each with the first of a group that it is like."""
+    """Centres in groups of like ones, by the first of each group."""
     groups: list[list[Centre]] = []
     for centre in some:
         home = next((group for group in groups if alike(group[0], centre)), None)
@@ -239,12 +239,12 @@ def _names(group: Sequence[Centre], letters: Letters, tail: str = "") -> list[st
 
 
 def _key(group: Sequence[Centre], letters: Letters) -> Text:
-    """The first of several centres, for all of them."""
+    """The name of the first of several centres, for all of them."""
     return Text(0j, rich(f"${letters.centre(group[0].pair)}$" + ", …" * (len(group) > 1), 3.2))
 
 
 def _far_names(centres: Centres, group: Sequence[Centre], letters: Letters) -> list[str]:
-    """Names of centres at infinity; of one that lies far off its distance from a fixed pivot."""
+    """Names of centres at infinity; for a far centre with its distance from a fixed pivot."""
     first, scene = group[0], centres.scene
     if first.point is None:
         return _names(group, letters, " → ∞")
@@ -255,8 +255,8 @@ def _far_names(centres: Centres, group: Sequence[Centre], letters: Letters) -> l
 
 
 def _lines(centres: Centres, centre: Centre, panel: Box) -> Iterator[Line]:
-    """The two lines that cross in a centre, each from the centres that it leads through to just beyond, cut at the
-    panel; towards a centre at infinity as far as the panel goes."""
+    """The two lines that cross in a centre, each from its given centres to just beyond it, cut at the panel; towards a
+    centre at infinity up to the edge of the panel."""
     for relation in centre.lines:
         a, b, c = relation.line
         if abs(complex(a, b)) <= 1e-12 * abs(c):
@@ -276,8 +276,7 @@ def _lines(centres: Centres, centre: Centre, panel: Box) -> Iterator[Line]:
 
 
 def _leads_through(centres: Centres, relation: CentreRelation) -> Iterator[complex]:
-    """The places (mm, y up) that a line leads through: those of its two centres, or of the pin whose path it is square
-    to."""
+    """The places (mm, y up) on a line: of its two centres, or of the pin to whose path it is square."""
     for held in relation.through:
         if not isinstance(held, str):
             point = centres.of(*held).point
@@ -288,7 +287,7 @@ def _leads_through(centres: Centres, relation: CentreRelation) -> Iterator[compl
 
 
 def _pointer(inside: Box, solid: Sequence[tuple[complex, complex]], centre: Centre) -> tuple[complex, complex]:
-    """Where an arrow to a far centre stands: pointing straight at it, clear of what is drawn, near the edge."""
+    """The place of an arrow to a far centre: it points straight at the centre, clear of strokes, near the edge."""
     middle, drawn = inside.centre, np.array(solid, dtype=complex).reshape(-1, 2)
     best: tuple[float, complex, complex] | None = None
 
@@ -332,7 +331,7 @@ LEGEND = ("legend",)
 
 
 def centres_figure(centres: Centres, *, language: str | None = None, convention: str | None = None) -> Drawing:
-    """Draw all centres of a position on a page of its own; those whose lines have no room for their names there again
+    """Draw all centres of a position on a page of its own; centres whose lines have no room for their names there again
     on further pages, each in a picture of its own.
 
     Parameters
@@ -366,7 +365,7 @@ def centres_figure(centres: Centres, *, language: str | None = None, convention:
 
 
 def background(piece: Piece, *also: str) -> Piece:
-    """The mechanism alone, pale: without lengths, senses and compass arcs; with groups of ``also`` these classes."""
+    """The mechanism alone, pale: without lengths, senses and compass arcs; with groups of the classes ``also``."""
     kept = tuple(
         thing for thing in piece.layers["mechanism"]
         if isinstance(thing, Group) and {"frame", "link", "point", "cam", *also} & set(thing.classes)
@@ -376,8 +375,8 @@ def background(piece: Piece, *also: str) -> Piece:
 
 
 def _side(centres: Centres, letters: Letters, language: str) -> Block:
-    """The column beside the mechanism: circle diagram, legend, and the centres in the order in which they were found,
-    and how."""
+    """The column beside the mechanism: circle diagram, legend, and the centres in the order of construction, with their
+    constructions."""
     radius = RADIUS.get(len(centres.names), 23.0)
     circle = panel(SIDE, 2 * radius + 18.0, lambda room: Piece(
         {"centres": (circle_diagram(centres, room.centre, radius),)}))
@@ -407,12 +406,12 @@ def _legend(centres: Centres, language: str) -> Iterator[Block]:
 
 
 def _how_found(centre: Centre, letters: Letters, language: str) -> str:
-    """The construction of a centre in short: the two lines that cross, or the name of another way."""
+    """The construction of a centre in short: the two lines that cross, or the name of another method."""
     return _lines_of(centre, letters) or term(f"way {centre.way or 'none'}", language)
 
 
 def _report(centres: Centres, letters: Letters, language: str, width: float) -> Block:
-    """What Kennedy's theorem does not give and why, and the velocities by centres."""
+    """The centres that Kennedy's theorem does not give, with the reason, and the velocities by centres."""
     lines: list[str] = []
     for each in languages(language):
         for centre in centres.indeterminate:
@@ -435,7 +434,7 @@ def _in_all(phrase: Phrase, language: str, letters: Letters) -> tuple[str, ...]:
 
 
 def _rich(phrase: Phrase, language: str, letters: Letters) -> RichText:
-    """A sentence with its symbols as a convention writes them."""
+    """A sentence with its symbols in the letters of a convention."""
 
     def show(argument: object) -> str:
         if isinstance(argument, Symbol):
@@ -453,7 +452,7 @@ def _bare(markup: str) -> str:
 
 
 def _description(centres: Centres, letters: Letters, language: str) -> str:
-    """Every centre in words, for those who do not see the figure."""
+    """Every centre in words, for readers who do not see the figure."""
     said = []
     for each in languages(language):
         for centre in centres.found:
@@ -477,8 +476,8 @@ ROUNDS = 4  # how often names are placed anew without those that have no clear p
 
 
 def named_centres(piece: Piece, panel: Box, centres: Centres) -> Piece:
-    """A figure of centres with its names in their places; in a crowd without those of found centres that would stand on
-    others or have leaders through joints, which `untold` then returns too."""
+    """A figure of centres with its names in their places; in a crowd without names of found centres that would stand on
+    others or have leaders through joints: `untold` returns these too."""
     for _ in range(ROUNDS):
         named, crowded = with_crowd(piece, panel)
         ids = _overlapping(named) if crowded else set()
@@ -502,7 +501,7 @@ def _overlapping(named: Piece) -> set[str]:
 
 
 def _found(label: Label, centres: Centres) -> bool:
-    """Whether a name is that of centres that all lie where two lines cross."""
+    """Whether a name belongs to centres that are all crossings of two lines."""
     at = label.mark
     if isinstance(at, tuple) or not label.text.id.startswith("label-centre-"):
         return False
@@ -510,7 +509,7 @@ def _found(label: Label, centres: Centres) -> bool:
 
 
 def untold(centres: Centres, drawn: Sequence[Primitive]) -> tuple[Centre, ...]:
-    """The found centres within a figure whose lines are not named in what is drawn of it."""
+    """The found centres within a figure whose lines have no names on it."""
     things = [*walk(tuple(drawn))]
     ids = {thing.id for thing in things if isinstance(thing, Text)}
     near = {thing.id for thing in things if isinstance(thing, Group) and "centre" in thing.classes
@@ -522,8 +521,8 @@ def untold(centres: Centres, drawn: Sequence[Primitive]) -> tuple[Centre, ...]:
 def _centre_by_centre(
     centres: Centres, some: Sequence[Centre], letters: Letters, language: str
 ) -> Iterator[Drawing]:
-    """Pages with a small picture of each of some centres: the mechanism, the two lines through the centres that are
-    known, and where they meet."""
+    """Pages with a small picture of each of some centres: the mechanism, the two lines through known centres, and their
+    crossing."""
     small = centres.at(centres.sheet.scales_for(SMALL))
     behind = Piece(background(bare_mechanism(small.sheet, letters), "touch").layers)
     page = FigurePage(small.sheet, "centres", language, letters, WIDTH)
@@ -541,7 +540,7 @@ def _centre_by_centre(
 
 
 def _picture(centres: Centres, centre: Centre, behind: Piece, letters: Letters, room: Box) -> Piece:
-    """One centre with its two lines and the centres through which they lead."""
+    """A centre with its two lines and the centres on them."""
     through = dict.fromkeys(pair for line in centre.lines for pair in line.through if not isinstance(pair, str))
     known = (centres.of(*pair) for pair in through)
     alone = replace(centres, table={c.pair: replace(c, lines=()) for c in known} | {centre.pair: centre})

@@ -1,5 +1,5 @@
 """The instant centres as the mechanism moves: links, centres and the paths of the centres, played by any program that
-shows SVG; the figure of the centrodes, the fixed and the moving one of a link, which roll on each other, with a coupler
+shows SVG; and the figure of the fixed and the moving centrode of a link, which roll on each other, with a coupler
 curve."""
 
 from __future__ import annotations
@@ -46,8 +46,8 @@ def centres_in_motion(
 
     Parameters
     ----------
-    origins, turned, points, paths : places over the frames (mm on paper, y up), and how far links have turned (rad); a
-        centre is NaN where it is at infinity.  The first frame is the position of ``centres``.
+    origins, turned, points, paths : places over the frames (mm on paper, y up), and angles of links from the first
+        frame (rad); a centre at infinity is NaN.  The first frame is the position of ``centres``.
     """
     sheet = centres.sheet
     page = FigurePage.of(sheet, "centres", language, convention)
@@ -80,7 +80,7 @@ def centres_in_motion(
 
 
 def _inside(path: Places, box: Box) -> Places:
-    """A path as far as it lies inside a box; NaN elsewhere."""
+    """The part of a path inside a box; NaN elsewhere."""
     x, y = path.real, -path.imag
     with np.errstate(invalid="ignore"):
         inside = (x >= box.left) & (x <= box.right) & (y >= box.top) & (y <= box.bottom)
@@ -88,8 +88,8 @@ def _inside(path: Places, box: Box) -> Places:
 
 
 def _travel(path: Places, base: complex, turned: NDArray[np.float64] | None = None, about: complex = 0j) -> Travel:
-    """How something moves that is drawn where it stands at a base: a move on the page for each frame, None where it is
-    away."""
+    """The motion of a part drawn at its base place: a displacement on the page for each frame, None where it is
+    hidden."""
     moves = tuple(complex(on_page(z - base)) if np.isfinite(z) else None for z in path)
     turns = () if turned is None else tuple(-math.degrees(float(t)) if math.isfinite(t) else 0.0 for t in turned)
     return Travel(moves, turns, about, SECONDS)
@@ -145,11 +145,11 @@ def centrodes_figure(
     centres: Centres, link: str, fixed: Sequence[Branch], moving: Sequence[Branch], curve: Sequence[Branch] = (),
     point: str = "", *, language: str | None = None, convention: str | None = None,
 ) -> Drawing:  # fmt: skip
-    """Draw the centrodes of a link about the mechanism, cut off where they leave its surroundings.
+    """Draw the centrodes of a link about the mechanism, cut where they leave its surroundings.
 
     Parameters
     ----------
-    fixed, moving : branches of the two curves, the moving one where it lies at this position
+    fixed, moving : branches of the two curves, the moving one at this position
     curve : the path of ``point``, a point of the link
     language, convention : as for `centres_figure`
     """

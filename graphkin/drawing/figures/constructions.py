@@ -1,7 +1,7 @@
-"""The figures of tasks that are worked out by one construction, on a page of its own at its true scale: its steps in
-words, a table, and what is found.
+"""The figures of tasks with a single construction, on a page of its own at its true scale: its steps in words, a table,
+and the results.
 
-Of a synthesis the lengths measured beside the exact ones, and what a turn of the found mechanism confirms.  Of a cam
+Of a synthesis the measured lengths beside the exact ones, and the values of the found mechanism over a turn.  Of a cam
 the displacement diagram divided and numbered, the cam by inversion, and the pressure angle at each division.
 """
 
@@ -69,7 +69,7 @@ _NAME = re.compile(r"([A-Z])(\d+)")
 
 @dataclass(frozen=True)
 class Confirmed:
-    """What was asked beside what the found mechanism does, in words and numbers of a unit ("mm", "deg", "")."""
+    """An asked value beside that of the found mechanism, in words and numbers of a unit ("mm", "deg", "")."""
 
     what: Phrase
     asked: float
@@ -78,15 +78,15 @@ class Confirmed:
     unit: str = ""
 
     def shown(self, value: float) -> str:
-        """One of the two with its unit."""
+        """Either value with its unit."""
         if not math.isfinite(value):
             return "–"
         return number(value) + {"deg": "°", "": ""}.get(self.unit, f" {self.unit}")
 
 
 def design_scale(design: Design, natural: DesignSheet) -> float:
-    """Units of length for one mm of paper: the file's own, or the finest of the series at which the construction
-    fits; ``natural`` is it at any scale."""
+    """Units of length for one mm of paper: the file's own, or the finest of the series at which the construction fits;
+    ``natural`` is the construction at any scale."""
     if design.sheet.length_scale:
         return design.sheet.length_scale / (design.units.metres * 1e3)
     box = _content(natural)
@@ -94,7 +94,7 @@ def design_scale(design: Design, natural: DesignSheet) -> float:
 
 
 def _content(sheet: DesignSheet) -> Box:
-    """What must be seen (mm, y down): all points, help points that lie far off left out."""
+    """The box to be shown (mm, y down): all points, without far help points."""
     far = [sheet.points[name] for name in ("O",) if name in sheet.points]
     near = [s.places[0] for s in sheet.strokes if s.kind in ("point", "pivot") and s.name != "O"]
     near += [z for s in sheet.strokes if s.kind in _LINES and s.kind != "direction" for z in s.places if z not in far]
@@ -116,8 +116,8 @@ def design_figure(
 
     Parameters
     ----------
-    rows : the lengths measured and compared
-    notes : sentences to be said of the result
+    rows : the measured and compared lengths
+    notes : sentences on the result
     language : "en", "zh" or "both"
     """
     unit, every = design.units.length, languages(language)
@@ -153,13 +153,13 @@ def step_words(phrase: Phrase, language: str) -> str:
 
 
 def construction_picture(design: Design, sheet: DesignSheet, language: str, upto: int | None = None) -> Drawing:
-    """The construction by itself, as far as a step, on a figure as large as all of it."""
+    """The construction by itself, up to a step, on a figure of the size of the whole."""
     return picture(_construction(sheet, upto), "design figure", language, _design_facts(design, sheet),
                    _design_scale(design, sheet))  # fmt: skip
 
 
 def asked_words(design: Design, language: str) -> str:
-    """What the file asks, in its own names."""
+    """The questions of the file, in its names."""
     task, unit = design.task, design.units.length
     parts = []
     for key, value in vars(task).items():
@@ -188,7 +188,7 @@ def _at(z: complex) -> str:
 
 
 def _construction(sheet: DesignSheet, upto: int | None = None) -> Block:
-    """The construction, as far as a step, in the room of all of it."""
+    """The construction, up to a step, in the room of the whole."""
     content = _content(sheet)
 
     def drawn(room: Box) -> Piece:
@@ -201,8 +201,7 @@ def _construction(sheet: DesignSheet, upto: int | None = None) -> Block:
 
 
 def _draw(plate: Plate, made: Sequence[DesignStroke], step: int, room: Box) -> None:
-    """The strokes of one step, cut at the room that there is: help lines, and over them the mechanism with its
-    points."""
+    """The strokes of a step, cut at the room: help lines, and over them the mechanism with its points."""
     lines: list[Primitive] = []
     for stroke in made:
         at, *others = stroke.places
@@ -235,7 +234,7 @@ def _draw(plate: Plate, made: Sequence[DesignStroke], step: int, room: Box) -> N
 
 
 def _arcs(centre: complex, radius: float, near: Sequence[complex], room: Box) -> list[Primitive]:
-    """A circle as far as it lies in the room, or its arcs near points."""
+    """The part of a circle in the room, or its arcs near points."""
     middle = on_page(centre)
 
     def arc(start: float, end: float) -> Arc:
@@ -259,7 +258,7 @@ def _arcs(centre: complex, radius: float, near: Sequence[complex], room: Box) ->
 def _tables(
     design: Design, scale: float, rows: Sequence[FoundLength], confirmed: Sequence[Confirmed], language: str
 ) -> Block:
-    """Lengths on paper, measured, exact; beside them what a turn confirms."""
+    """Lengths on paper, measured, exact; beside them the values over a turn."""
     unit, per, every = design.units.length, amount(scale, 12), languages(language)
     lengths = table(
         [[word("length found", each), word("on paper", each), f"{word('measured', each)} ({unit})",
@@ -361,7 +360,7 @@ def cam_figure(scene: Mechanism, sheet: CamSheet, notes: Sequence[Phrase], langu
 
     Parameters
     ----------
-    notes : what is found of it
+    notes : sentences on its values
     language : "en", "zh" or "both"
     """
     first, every = languages(language)[0], languages(language)
@@ -390,14 +389,14 @@ def _facts(scene: Mechanism, sheet: CamSheet) -> dict[str, object]:
 
 
 def cam_pictures(scene: Mechanism, sheet: CamSheet, language: str, begun: bool = False) -> tuple[Drawing, Drawing]:
-    """The displacement diagram and the cam, each by itself; ``begun`` leaves out all that is to be found."""
+    """The displacement diagram and the cam, each by itself; ``begun`` leaves out the parts to be found."""
     facts = _facts(scene, sheet)
     return (picture(_diagram(scene, sheet, language, begun), "cam diagram", language, facts),
             picture(_cam(scene, sheet, begun), "cam figure", language, facts, _scale(scene, sheet)))  # fmt: skip
 
 
 def cam_given(scene: Mechanism, cam: LawCam, language: str) -> str:
-    """What is given of a cam, the pieces of its law among it, in one language."""
+    """The given data of a cam with the pieces of its law, in a language."""
     unit, pieces = _unit(scene, cam), []
     for piece in cam.law.pieces:
         said = f"{number(math.degrees(piece.start))}°–{number(math.degrees(piece.end))}°"
@@ -414,7 +413,7 @@ def _law(by: str, language: str) -> str:
 
 
 def _given(scene: Mechanism, cam: LawCam, language: str) -> str:
-    """Base circle, roller, offset, and the law, as they are given."""
+    """The given base circle, roller, offset, and law."""
     lengths = {"r_{0}": cam.base, "r_{r}": cam.roller}
     if isinstance(cam.motion, SlidingFollower):
         lengths["e"] = cam.motion.offset
@@ -434,12 +433,12 @@ def _lift(scene: Mechanism, cam: LawCam, lift: float) -> float:
 
 
 def _unit(scene: Mechanism, cam: LawCam) -> str:
-    """The unit of a lift, as it stands behind a number."""
+    """The unit of a lift after a number."""
     return "°" if isinstance(cam.motion, SwingingFollower) else f" {scene.units.length}"
 
 
 def _diagram(scene: Mechanism, sheet: CamSheet, language: str, begun: bool = False) -> Block:
-    """The displacement diagram; only ``begun``, its axes with the pieces of the law."""
+    """The displacement diagram; with ``begun`` only its axes with the pieces of the law."""
     cam, law = sheet.cam, sheet.cam.law
     span, low = _lift(scene, cam, law.greatest - law.least) or 1.0, _lift(scene, cam, law.least)
     rise = (law.greatest - law.least) / sheet.scale
@@ -489,7 +488,7 @@ def _diagram(scene: Mechanism, sheet: CamSheet, language: str, begun: bool = Fal
 
 
 def _cam(scene: Mechanism, sheet: CamSheet, begun: bool = False) -> Block:
-    """The cam with all that finds it; only ``begun``, the circles and the follower where it starts."""
+    """The cam with its construction; with ``begun`` only the circles and the follower at its start."""
     plate, cam, start = Plate(), sheet.cam, sheet.divisions[0]
     swings = isinstance(cam.motion, SwingingFollower)
     colour, other = (strokes.colour_of_link(scene, link) for link in (cam.link, cam.follower))
@@ -537,7 +536,7 @@ def _cam(scene: Mechanism, sheet: CamSheet, begun: bool = False) -> Block:
 
 
 def _shown(sheet: CamSheet) -> list[CamStation]:
-    """The divisions that are drawn: neighbours keep a millimetre and a half from each other at the base circle."""
+    """The drawn divisions: neighbours are at least a millimetre and a half apart at the base circle."""
     shown: list[CamStation] = []
     for d in sheet.divisions:
         if all(abs(d.base - other.base) >= 1.5 for other in shown):
@@ -554,7 +553,7 @@ def _face(d: CamStation, half: float, stroke: Stroke) -> Line:
 
 
 def _ray(sheet: CamSheet, d: CamStation, far: float) -> tuple[list[Primitive], complex]:
-    """What carries a division, turned back about the cam, and where its number stands."""
+    """The line of a division, turned back about the cam, and the place of its number."""
     if isinstance(sheet.cam.motion, SlidingFollower):
         beyond = math.sqrt(max((far + sheet.roller + PAST) ** 2 - sheet.offset**2, 0.0))
         end = d.line + beyond * d.way
@@ -586,13 +585,13 @@ def cams_figure(
     scene: Mechanism, cams: Sequence[tuple[CamSheet, Sequence[Phrase]]], *, language: str | None = None,
     convention: str | None = None,
 ) -> Drawing | None:  # fmt: skip
-    """A page for each cam; None where there is none.
+    """A page for each cam; None without cams.
 
     Parameters
     ----------
-    cams : what was drawn of each, and what is found of it
+    cams : the construction of each, and sentences on its values
     language : "en", "zh" or "both"; the scene's own if None
-    convention : says nothing here, since the letters of cams are those of all books
+    convention : without effect here, since all books use the same letters for cams
     """
     pages = [cam_figure(scene, sheet, notes, language or scene.question.sheet.language) for sheet, notes in cams]
     return replace(pages[0], further=tuple(pages[1:])) if pages else None

@@ -1,4 +1,4 @@
-"""One figure on a page of its own: mechanism, velocity polygon, acceleration polygon, with heading and scale; and the
+"""A figure on a page of its own: mechanism, velocity polygon, acceleration polygon, with heading and scale; and the
 polygons of several positions beside each other, all at the same scales, a column a position.
 
 While a hand moves the mechanism its links, vectors and letters are drawn at once, without the search for free room;
@@ -55,8 +55,8 @@ ROOM = 12.0  # mm around the figure, for names
 def diagram_figure(
     diagram: DiagramName, sheet: Sheet, *, language: str | None = None, convention: str | None = None
 ) -> Drawing | None:
-    """The mechanism or one of its polygons at its true scale, on a page of its own; None of accelerations that were not
-    drawn.
+    """The mechanism or one of its polygons at its true scale, on a page of its own; None for accelerations that were
+    not drawn.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def diagram_figure(
 def diagram_figures(
     sheet: Sheet, language: str | None = None, convention: str | None = None, names: Sequence[DiagramName] = DIAGRAMS
 ) -> dict[str, Drawing]:
-    """Those of the figures of a sheet that were drawn, by name."""
+    """The drawn figures of a sheet by name."""
     made = ((name, diagram_figure(name, sheet, language=language, convention=convention)) for name in names)
     return {name: page for name, page in made if page is not None}
 
@@ -118,7 +118,7 @@ ASIDE = 1.6  # mm from a point, or from the middle of a segment, to the box of i
 def figure_in_motion(
     sheet: Sheet, diagram: DiagramName, *, language: str | None = None, convention: str | None = None
 ) -> Drawing:
-    """The mechanism or one of its polygons, every name beside what it names wherever that is; parameters as for
+    """The mechanism or one of its polygons, every name beside its mark, wherever that is; parameters as for
     `graphkin.drawing.figures.diagrams.diagram_figure`."""
     spoken = language or sheet.scene.question.sheet.language
     letters = letters_of(sheet, convention or sheet.scene.question.sheet.convention)  # type: ignore[arg-type]
@@ -141,7 +141,7 @@ def _named_at_once(piece: Piece) -> Piece:
 
 
 def _beside(label: Label) -> Text:
-    """A name on the side of its mark that it likes best, right above where it likes none."""
+    """A name on the preferred side of its mark, by default right above it."""
     text = Text(0j, label.text.runs, "start", label.text.colour, label.text.id, label.text.classes, label.text.step)
     box = text_box(text)
     if label.toward:
@@ -168,11 +168,11 @@ MOST = 3  # columns of a page
 def polygons_beside(
     sheets: Sequence[tuple[str, Sheet]], *, language: str | None = None, convention: str | None = None
 ) -> Drawing:
-    """The polygons of positions beside each other, what does not fit a page on further ones.
+    """The polygons of positions beside each other, continued on further pages.
 
     Parameters
     ----------
-    sheets : the name of each position, and what exact hands have drawn there
+    sheets : the name of each position, and the exact drawing there
     language : "en", "zh" or "both"; the scene's own if None
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
     """
@@ -207,7 +207,7 @@ def _page(
 def _position(
     page: FigurePage, name: str, sheet: Sheet, shown: Sequence[DiagramName], size: tuple[float, float]
 ) -> Block:
-    """The polygons of a position below each other, and what the scene asks for, as it is measured there."""
+    """The polygons of a position below each other, and the measured values of the scene's questions there."""
     letters, units = page.letters, sheet.scene.units
 
     def polygon(diagram: DiagramName, room: Box) -> Piece:
@@ -228,7 +228,7 @@ def _position(
 
 
 def _plain(name: str) -> str:
-    """A name as it may stand in an id: a prime becomes p."""
+    """A name for an id: a prime becomes p."""
     return "".join(c if c.isalnum() else "p" if c in "'′" else "-" for c in name)
 
 

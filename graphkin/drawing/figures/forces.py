@@ -1,9 +1,9 @@
-"""The figures of forces, on as many pages as they take.
+"""The figures of forces, on one page or more.
 
 The sheet of forces: given masses and loads, each group cut free, its polygon beside the sketch of its links with the
-forces on them, its equations and readings, in the order in which they are found, and the readings with their check.
+forces on them, its equations and readings, in the order of construction, and the readings with their check.
 Zhukovsky's lever: the velocity polygon turned by 90 degrees, each force at the end point of its point's velocity, arms
-about the pole, and the sum of moments that gives what balances.
+about the pole, and the sum of moments that gives the balancing load.
 """
 
 from __future__ import annotations
@@ -68,8 +68,8 @@ def forces_figure(
 
     Parameters
     ----------
-    sheet, forces : what is drawn of motion and of forces
-    report : readings held against the exact values; without it there is no table
+    sheet, forces : the drawings of the motion and of the forces
+    report : readings compared with the exact values; without it there is no table
     language : "en", "zh" or "both"; the scene's own if None
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
     """
@@ -111,8 +111,8 @@ def _given(page: FigurePage, forces: ForceSheet) -> Block:
 
 
 def _groups(page: FigurePage, forces: ForceSheet, room: float) -> Iterator[Block]:
-    """Group by group in the order in which forces are found, each with its caption and what is written below it, in
-    parts where a page does not hold it; where loads begin or end here, without and with them."""
+    """Group by group in the order of construction, each with its caption and the text below it, in parts if it does not
+    fit a page; if loads begin or end here, without and with them."""
     names: Counter[str] = Counter()
     state = None
     account = ForceAccount(page.sheet, forces, page.letters)
@@ -135,11 +135,11 @@ def _loaded(page: FigurePage, again: bool) -> Block:
 
 
 def group_picture(page: FigurePage, forces: ForceSheet, stage: ForceStage, tag: str) -> Drawing:
-    """The sketch of a group cut free with its polygons, every part with its step, and nothing written below.
+    """The sketch of a group cut free with its polygons, every part with its step, without text below.
 
     Parameters
     ----------
-    page : of a sheet with the scale of the forces, as wide as the picture may be
+    page : of a sheet with the scale of the forces, at the greatest width of the picture
     tag : ends the names of its parts
     """
     whole = column(*_pictures(page, forces, stage, Counter(), tag), gap=CLOSE)
@@ -178,7 +178,7 @@ def _pictures(
 
 
 def _below(page: FigurePage, account: ForceAccount, stage: ForceStage) -> Block:
-    """Moments with their reasons, the vector equation with its rows, and what was read off."""
+    """Moments with their reasons, the vector equation with its rows, and the readings."""
     group, said = stage.group, stage.told("moments", "system")
     if len(group.polygon) > 1 and group.way == "polygon":
         said.append(Phrase("force reason polygon", links=links_named(group.links)))
@@ -202,7 +202,7 @@ def group_equation(page: FigurePage, group: ForceGroup) -> Drawing | None:
 
 
 def _tables(page: FigurePage, some: Sequence[TableRow]) -> Iterator[Block]:
-    """The readings with their check, parted where they do not fit one page."""
+    """The readings with their check, in parts if they do not fit a page."""
     left = list(some)
     while left:
         most = min(len(left), 80)
@@ -247,7 +247,7 @@ def _free_body(page: FigurePage, forces: ForceSheet, stage: ForceStage, panel: B
 
 
 def _sketch_height(sheet: Sheet, group: ForceGroup, width: float) -> float:
-    """How high a sketch wants to be that is so wide (mm)."""
+    """The height of a sketch of a width (mm)."""
     box = _extent(sheet, group)
     return min(HIGHEST, box.height * min((width - ROOM) / max(box.width, 1e-6), 1.0) + ROOM)
 
@@ -264,7 +264,7 @@ def _extent(sheet: Sheet, group: ForceGroup) -> Box:
 
 
 def _sketch(page: FigurePage, forces: ForceSheet, stage: ForceStage, times: float, tag: str) -> Piece:
-    """The sketch at so many times the size of the mechanism as it is drawn, about the mechanism's own origin."""
+    """The sketch at ``times`` the size of the drawn mechanism, about the mechanism's own origin."""
     plate, links = Plate(), set(_cut_free(stage.group))
     here = MechanismOnPaper(page.sheet.larger(times), page.letters)
     parts, labels = _links(here, links)
@@ -302,7 +302,7 @@ def _links(here: MechanismOnPaper, links: set[str]) -> tuple[list[Primitive], li
 
 
 def _outside(group: ForceGroup) -> Sequence[ForceVector]:
-    """What acts on the group from outside; of a group drawn link by link everything."""
+    """The forces on the group from outside; of a group drawn link by link all forces."""
     return [v for polygon in ([group.polygon] if group.polygon else group.inner.values()) for v in polygon if v.span]
 
 
@@ -345,7 +345,8 @@ def _kind(vector: ForceVector) -> symbols.ArrowKind:
 
 
 def _colour(sheet: Sheet, vector: ForceVector) -> str:
-    """Black for what was known; else that of the link that a force comes from or, of the frame's, acts on."""
+    """Black for known forces; else the colour of the link from which a force comes or, for forces of the frame, on
+    which it acts."""
     if vector.known:
         return strokes.BLACK
     names = vector.symbol.link, vector.symbol.other, vector.link
@@ -354,7 +355,7 @@ def _colour(sheet: Sheet, vector: ForceVector) -> str:
 
 
 def _letters_of(letters: Letters, vector: ForceVector) -> str:
-    r"""A force as a vector, with its part; ``−`` before the opposite of what its symbol says."""
+    r"""A force as a vector, with its part; ``−`` before the opposite of its symbol."""
     markup = force_letters(letters.convention, vector.symbol, vector.part)
     return ("−" if vector.turned else "") + as_vector(letters.convention, markup)
 
@@ -388,7 +389,7 @@ and its panel at least (mm, y down)."""
 
 
 def _polygons(group: ForceGroup) -> list[_Polygon]:
-    """The polygons of a group that are drawn apart."""
+    """The polygons of a group that are drawn separately."""
     closing: list[ForceVector] = []
     alone: list[tuple[str, Sequence[ForceVector]]] = []
     drawn = {frozenset((v.symbol.link, v.symbol.other)): {v.tail, v.tip} for v in group.polygon if v.symbol.other}
@@ -458,12 +459,12 @@ def _drawn_polygon(
 
 
 def _key(vector: ForceVector) -> Symbol:
-    """A symbol that tells the parts of a force apart."""
+    """A symbol that distinguishes the parts of a force."""
     return replace(vector.symbol, at=vector.part)
 
 
 def _wholes(vectors: Sequence[ForceVector]) -> Iterator[ForceVector]:
-    """Forces of which both parts stand in a polygon, whole."""
+    """Forces with both parts in a polygon, as whole vectors."""
     for first, second in zip(vectors, (*vectors[1:], *vectors[:1]), strict=True):
         both = first.symbol == second.symbol and {first.part, second.part} == {"t", "n"}
         if both and abs(first.tip - second.tail) < SHORT:
@@ -473,7 +474,7 @@ def _wholes(vectors: Sequence[ForceVector]) -> Iterator[ForceVector]:
 
 
 def _unique(vector: ForceVector, names: Counter[str], suffix: str) -> str:
-    """Its symbol as an id, counted where it is drawn again."""
+    """Its symbol as an id, with a number if it is drawn again."""
     name = vector.symbol.id + (f"-{vector.part}" if vector.part else "") + suffix
     names[name] += 1
     return name if names[name] == 1 else f"{name}-again{names[name] - 1}"
@@ -490,12 +491,12 @@ def lever_figure(
     sheet: Sheet, forces: ForceSheet, report: Report | None = None, *, language: str | None = None,
     convention: str | None = None,
 ) -> Drawing | None:
-    """A lever for each driver, at the scale of the velocities; None where nothing that balances moves.
+    """A lever for each driver, at the scale of the velocities; None where no balancing load moves.
 
     Parameters
     ----------
     sheet, forces, language, convention : as for `forces_figure`
-    report : its check, where that has scales of its own
+    report : its check, if that has scales of its own
     """
     shown = [(k, state, lever) for k, state in enumerate(forces.states) for lever in state.levers]
     if not shown:
@@ -518,7 +519,7 @@ def lever_figure(
 
 
 def _lever(page: FigurePage, account: ForceAccount, state: ForceState, lever: Lever, tag: str) -> Iterator[Block]:
-    """A lever, its scale, the moment of each force, their sum, and what balances beside the value of the polygons."""
+    """A lever, its scale, the moment of each force, their sum, and the balancing load beside that of the polygons."""
     per_mm, units = lever_scale(page.sheet, lever), page.sheet.scene.units
     box, drawn = Box.around(map(on_page, spots_of(lever, per_mm))), _drawn_lever(page, lever, per_mm, tag)
     yield page.panel(box.height + 2 * LEVER_ROOM, lambda room: with_labels(
@@ -579,7 +580,7 @@ def _drawn_lever(page: FigurePage, lever: Lever, per_mm: float, tag: str) -> Pie
 
 
 def _forces_at(row: MomentTerm, per_mm: float) -> list[tuple[complex, complex]]:
-    """Where a row's force or pair of forces stands (mm at a scale), and its direction."""
+    """The places of a row's force or pair of forces (mm at a scale), and its direction."""
     force = row.acting.force
     if not force:
         return []

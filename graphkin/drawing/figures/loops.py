@@ -1,5 +1,5 @@
-"""The figure of the vector loops: each loop as a closed polygon of arrows, tip to tail, with the angles that it has
-from the x axis, and below it its equations in numbers."""
+"""The figure of the vector loops: each loop as a closed polygon of arrows, tip to tail, with its angles from the x
+axis, and below it its equations in numbers."""
 
 from __future__ import annotations
 
@@ -40,14 +40,14 @@ AXIS = 8.5  # mm of x axis at a tail
 
 
 def loop_blocks(sheet: Sheet) -> tuple[LoopBlock, ...]:
-    """The loops of what stands on a sheet, measured on the drawn mechanism.  Raises CallError for a chosen loop that
-    does not go from point to point."""
+    """The loops of a sheet's mechanism, measured on the drawing.  Raises CallError for a chosen loop that does not go
+    from point to point."""
     axes, travels = places_of_loops(sheet)
     return loops_in_numbers(sheet.structure, axes, travels)
 
 
 def loops_figure(sheet: Sheet, *, language: str | None = None, convention: str | None = None) -> Drawing | None:
-    """Every vector loop with its equations; None where there is none.
+    """Every vector loop with its equations; None without loops.
 
     Parameters
     ----------
@@ -130,7 +130,7 @@ def _polygon(sheet: Sheet, loop: Loop, block: LoopBlock, scale: float) -> tuple[
 
 
 def _as_printed(plate: Plate, sheet: Sheet, loop: Loop, scale: float) -> None:
-    """The loop with the printed angles and travels, dashed, where these leave it open, and its gap."""
+    """The loop with the printed angles and travels, dashed, if these leave it open, and its gap."""
     gap = _gap(sheet, loop)
     if gap is None:
         return
@@ -146,8 +146,7 @@ def _as_printed(plate: Plate, sheet: Sheet, loop: Loop, scale: float) -> None:
 
 
 def _gap(sheet: Sheet, loop: Loop) -> float | None:
-    """How far the values printed for this position leave a loop open (m); None where it closes as well as they are
-    printed."""
+    """The gap of a loop with the values printed for this position (m); None where it closes within their last digit."""
     if any(abs(sheet.drivers[d.key] - d.values[0]) > 1e-9 for d in sheet.scene.drivers):
         return None
     vectors = stated_arrows(sheet, loop, sheet.scene.question.printed)
@@ -169,7 +168,7 @@ def _angle(tail: complex, vector: complex) -> list[Primitive]:
 
 
 def _lines(page: FigurePage, loop: Loop, block: LoopBlock) -> Iterator[tuple[str, bool]]:
-    """What is written of a loop, and whether it is bold."""
+    """The lines of text of a loop, and whether each is bold."""
     scene = page.sheet.scene
     sum_ = Neutral(equation(loop, page.convention))
     head = Phrase("loop heading", loop=loop.name, links=", ".join(loop.links), equation=sum_)

@@ -54,15 +54,15 @@ NUMBERED, LIMIT, PATH = Stroke(0.18), Stroke(0.35, (3.0, 1.2)), Stroke(0.25, (4.
 
 @dataclass(frozen=True)
 class Shown:
-    """What the figure shows, all at one scale.
+    """The content of the figure, all at one scale.
 
     own : the scene's own position
-    limits : of an output the low and the high limit position, by the output's sliding pair or link
+    limits : the low and the high limit position of an output, by the output's sliding pair or link
     numbered : other positions by name
-    least : where the transmission angle of the last group is least, and the angle (rad)
+    least : the position of the least transmission angle of the last group, and the angle (rad)
     paths : places (mm) of points of couplers over a turn
     measured : readings of the whole turn (m, rad), by kind ("stroke", "swing", "K", "theta_lag") and output
-    without : where limit positions are asked for and there are none, why, by the stroke or swing asked for
+    without : the reason for missing limit positions, by the asked stroke or swing
     """
 
     own: Sheet
@@ -154,8 +154,8 @@ def _numbers(shown: Shown) -> Piece:
 
 
 def _dimensions(shown: Shown, drawn: Piece) -> Piece:
-    """Angles between the crank's limit positions, strokes and swings, clear of everything drawn; numbers that find no
-    such place at their arcs or lines are labels."""
+    """Angles between the crank's limit positions, strokes and swings, clear of all strokes; numbers without such a
+    place at their arcs or lines are labels."""
     ink = obstacles_of(drawn.drawn)
     # no number stands on a dashed limit position either
     room = DimensionClearance(replace(ink, solid=ink.solid + ink.dashed, dashed=()), None)
@@ -174,7 +174,7 @@ def _dimensions(shown: Shown, drawn: Piece) -> Piece:
 
 
 def _mark(lines: Sequence[Primitive]) -> Mark:
-    """What of a dimension its number belongs to: the middle of its arc, or its line."""
+    """The part of a dimension at which its number stands: the middle of its arc, or its line."""
     arc = next((part for part in lines if isinstance(part, Arc)), None)
     if arc is not None:
         return arc.at((arc.start + arc.end) / 2)
@@ -184,7 +184,7 @@ def _mark(lines: Sequence[Primitive]) -> Mark:
 
 
 def _limits_of_crank(shown: Shown) -> tuple[float, complex, complex, complex] | None:
-    """The angle theta (rad), the pivot and the two limit positions of the crank from there."""
+    """The angle theta (rad), the pivot and the two limit positions of the crank from it."""
     for pair, both in shown.limits.items():
         low, high = map(_crank_end, both)
         lag = shown.measured.get(("theta_lag", pair))
@@ -213,7 +213,8 @@ def _arcs(centre: complex, radii: Sequence[float], start: float, end: float, wor
 
 
 def _crank(shown: Shown) -> Iterator[_Wanted]:
-    """The angle theta between the crank's limit positions, and its two ways, in the driver's sense."""
+    """The angle theta between the crank's limit positions, and the crank's two angles between them, in the driver's
+    sense."""
     crank = _limits_of_crank(shown)
     if crank is None:
         return
@@ -277,7 +278,7 @@ def _gamma(shown: Shown) -> Piece:
 
 
 def _measured_lines(shown: Shown, page: FigurePage) -> list[str]:
-    """What was measured of the whole turn, in words."""
+    """The readings of the whole turn, in words."""
     metres, unit = shown.own.scene.units.metres, shown.own.scene.units.length
     kinds: dict[str, tuple[str, float, str]] = {
         "stroke": ("H", 1.0 / metres, f" {unit}"), "swing": ("ψ", math.degrees(1.0), "°"),

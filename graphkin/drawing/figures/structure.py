@@ -1,5 +1,5 @@
 """The figure of the structure: the numbered diagram with its compound hinges and high pairs, the mobility in numbers,
-and the groups taken apart one by one against the order of solution, for one driver or for two beside each other."""
+and the groups taken apart one by one against the order of solution, for one driver or for two side by side."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def structure_figure(
 
     Parameters
     ----------
-    others : the same mechanism with other drivers, shown beside it
+    others : the mechanism with other drivers, shown beside it
     language : "en", "zh" or "both"; the scene's own if None
     convention : letters of points; the scene's own if None
     """
@@ -102,7 +102,7 @@ def _diagram(sheet: Sheet, letters: Letters, spoken: str, panel: Box) -> Piece:
 
 
 def _counted(structure: Structure, spoken: str) -> list[tuple[str, bool]]:
-    """The mobility with its numbers, what it means, and the class of the mechanism."""
+    """The mobility with its numbers, its meaning, and the class of the mechanism."""
     m, drivers = structure.mobility, len(structure.scene.drivers)
     high = f" − {m.higher}" if m.higher else ""
     lines = [
@@ -133,7 +133,7 @@ def _counted(structure: Structure, spoken: str) -> list[tuple[str, bool]]:
 
 
 def _class(structure: Structure) -> int | None:
-    """The class of the mechanism: the highest of its groups; None where nothing but wheels follows the driver."""
+    """The class of the mechanism: the highest of its groups; None where only wheels follow the driver."""
     led = any(not e.driver.given for e in structure.driven)
     return max((g.order for g in structure.groups), default=None if led else 1)
 
@@ -157,13 +157,13 @@ def _taken_apart(page_: FigurePage, structure: Structure) -> Block:
 
 
 def _about(sheet: Sheet, elements: Sequence[Element], language: str) -> list[str]:
-    """What each element is, without blocks that only stand for a pair."""
+    """The name of each element, without blocks that replace a pair."""
     return [_told(sheet, element, each) for each in languages(language) for element in elements
             if not isinstance(element, Driven) or element.link in sheet.scene.by_name]  # fmt: skip
 
 
 def _told(sheet: Sheet, element: Element, language: str) -> str:
-    """A driver with what it moves against, a link that follows from the drivers, or a group with its joints."""
+    """A driver with its reference link, a link that follows the drivers, or a group with its joints."""
     if not isinstance(element, Driven):
         inner, outer = _joints(element)
         blocks = {name: Phrase("structure block", points=points) for name, points in _blocks(sheet).items()}
@@ -203,8 +203,8 @@ def _joints(element: Element) -> tuple[list[Pair], list[Pair]]:
 
 
 def _group(sheet: Sheet, elements: Sequence[Element], letters: Letters, tag: str, panel: Box) -> Piece:
-    """The links of a group alone, where they lie, inner joints filled and outer ones open; what replaces a higher pair
-    is dashed.  As large as the panel allows, and not larger than in the diagram of the sheet."""
+    """The links of a group alone, in their places, inner joints filled and outer ones open; links that replace a higher
+    pair are dashed.  As large as the panel allows, but not larger than in the diagram of the sheet."""
     here = MechanismOnPaper(sheet, letters)
     times, (parts, labels) = 1.0, _drawn_apart(here, elements)
     room = complex(panel.width - 16.0, panel.height - 14.0)

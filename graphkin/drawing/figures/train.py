@@ -1,5 +1,5 @@
-"""The figure of the velocity plan: each train laid on its line of centres, beside it one line of velocities a link, and
-the rate scale, on which parallels through a pole mark off the angular rates."""
+"""The figure of the velocity plan: each train on its line of centres, beside it a line of velocities for each link, and
+the rate scale, on which parallels through a pole give the angular rates."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ SHORT = 0.3
 
 
 def train_figure(sheet: Sheet, *, language: str | None = None, convention: str | None = None) -> Drawing | None:
-    """A page for each plan; None where nothing rolls, or nothing of it moves.
+    """A page for each plan; None without moving trains.
 
     Parameters
     ----------
-    sheet : what was drawn
+    sheet : the drawing
     language : "en", "zh" or "both"; the scene's own if None
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
     """
@@ -51,7 +51,7 @@ def train_figure(sheet: Sheet, *, language: str | None = None, convention: str |
 
 
 def moving_plans(sheet: Sheet) -> list[TrainPlan]:
-    """The plans in which anything moves: these have a page."""
+    """The plans with motion: these have a page."""
     moving = ((*plan.velocities.values(), *(line.value for line in plan.lines.values())) for plan in sheet.trains)
     return [plan for plan, values in zip(sheet.trains, moving, strict=True) if any(values)]
 
@@ -83,12 +83,12 @@ def _page(page: FigurePage, plan: TrainPlan) -> Drawing:
 
 
 def _rates(plan: TrainPlan) -> tuple[str, str, str]:
-    """The sign of the rates of a plan, their unit, and what follows a length in that of its speeds."""
+    """The sign of the rates of a plan, their unit, and the suffix of a length in the unit of its speeds."""
     return ("ω", "rad/s", "/s") if plan.order == "velocity" else ("α", "rad/s²", "/s²")
 
 
 def _train(page: FigurePage, plan: TrainPlan, k: int) -> Block:
-    """A line of centres: the train seen from the side, and the velocities of its places."""
+    """A line of centres: the train seen from the side, and the velocities of its points."""
     line, mm = plan.on[k], 1.0 / plan.length
     heights = [spot.height * mm for spot in line.spots]
     seen = scheme(page.sheet.scene, line, mm, SCHEME)
@@ -144,7 +144,7 @@ def _bars(plan: TrainPlan, k: int) -> Iterator[tuple[str, Bar]]:
 
 
 def foot(line: Step) -> float:
-    """Where the parallel to a link's line cuts the rate scale (mm), counter-clockwise to the right."""
+    """The place where the parallel to a link's line cuts the rate scale (mm), counter-clockwise to the right."""
     return math.copysign(line.mm, line.value)
 
 
@@ -171,14 +171,14 @@ def _rate_scale(sheet: Sheet, plan: TrainPlan) -> Piece:
 
 
 def _plan_lines(sheet: Sheet, plan: TrainPlan) -> list[Step]:
-    """One line for each link of the scene: that from which its rate is read."""
+    """The line of each link of the scene from which its rate is read."""
     links = dict.fromkeys(link for _, link in plan.lines if link in sheet.scene.by_name)
     lines = (plan.line(link) for link in links if link != sheet.scene.frame.name)
     return [line for line in lines if line is not None]
 
 
 def _table(page: FigurePage, plan: TrainPlan) -> Block:
-    """What is read off the rate scale: mm, and the rate."""
+    """The readings of the rate scale: mm, and the rate."""
     (sign, unit, tail), units, rows = _rates(plan), page.sheet.scene.units.rates, []
     tried = {symbol.link for symbol, _ in plan.trial.found} if plan.trial else ()
     for line in _plan_lines(page.sheet, plan):
@@ -203,7 +203,7 @@ STEP = 13.0
 
 
 def _planes(line: CentreLine) -> tuple[Mapping[str, int], Mapping[str, int], int]:
-    """In which plane each pair lies, where the carriers and the legs of rings stand, and how many there are."""
+    """The plane of each pair, of the carriers and of the legs of rings, and the number of planes."""
     of: dict[str, int] = {}
     rims: dict[tuple[str, str, float], int] = {}
     for mesh in line.meshes:
@@ -220,7 +220,7 @@ def _planes(line: CentreLine) -> tuple[Mapping[str, int], Mapping[str, int], int
 
 
 def _ring(mesh: Mesh, part: object) -> bool:
-    """Whether a wheel has its teeth inside; what runs on a rack has them outside."""
+    """Whether a wheel has its teeth inside; a wheel on a rack has them outside."""
     return part is not None and part < 0 and all(mesh.axes)  # type: ignore[operator]
 
 
@@ -296,7 +296,7 @@ def _shafts(
     plate: Plate, scene: Mechanism, line: CentreLine, on_axis: Mapping[tuple[str, str], set[int]],
     at: Callable[[int, float], complex], heights: Mapping[str, float],
 ) -> None:  # fmt: skip
-    """Wheels of one link that turn about one axis in several planes joined; planets on their pins."""
+    """The shafts that join wheels of one link about one axis in several planes; planets on their pins."""
 
     def shaft(link: str, axis: str, first: int, last: int) -> None:
         stroke = strokes.LINK.coloured(strokes.colour_of_link(scene, link))

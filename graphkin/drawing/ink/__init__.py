@@ -1,1 +1,1 @@
-"""Ink: what a figure is made of, strokes, fills and texts on a page in mm, and the kinematic symbols."""
+"""Ink: strokes, fills and texts on a page in mm, and the kinematic symbols."""

@@ -1,4 +1,4 @@
-"""What a figure is made of: strokes, fills and texts on a page, in millimetres.
+"""The primitives of a figure: strokes, fills and texts on a page, in millimetres.
 
 A point of the page is a complex number, x to the right and y **down** from the left upper corner (the user units of
 the SVG).  Angles are radians, counter-clockwise as seen on the page.  Every writer draws this same list.
@@ -29,7 +29,7 @@ def on_page(z: complex) -> complex:
 
 @dataclass(frozen=True)
 class Stroke:
-    """How a line is drawn: width (mm), dashes and gaps in turn (mm; none for a solid line), colour ``#rrggbb``."""
+    """The look of a line: width (mm), dashes and gaps in turn (mm; none for a solid line), colour ``#rrggbb``."""
 
     width: float
     dash: tuple[float, ...] = ()
@@ -134,9 +134,8 @@ class Run(NamedTuple):  # a page has thousands
 class Text:
     """Runs of text about a point of the baseline.
 
-    ``anchor`` says which part of the whole text stands at the point: "start", "middle" or "end".  ``id`` and
-    ``classes`` are those of the element in the SVG, ``step`` is the number of the step of which it tells, ``since`` of
-    that from which on it is there.
+    ``anchor`` is the part of the whole text at the point: "start", "middle" or "end".  ``id`` and ``classes`` belong to
+    the element in the SVG, ``step`` is the number of its step, ``since`` of the step from which it is shown.
     """
 
     at: complex
@@ -150,7 +149,7 @@ class Text:
 
     @property
     def string(self) -> str:
-        """The words alone, as a reader copies them."""
+        """Its words, as a reader copies them."""
         return "".join(run.text for run in self.runs)
 
     def moved(self, by: complex) -> Text:
@@ -161,8 +160,8 @@ class Text:
 class Scan:
     """A photograph or scan, paled so that lines show over it: its pixel (x, y) lies at ``corner + step (x + iy)``.
 
-    ``data`` is a file of the media type ``kind``, ``width`` and ``height`` are in pixels; nothing of it is seen outside
-    of the corners of ``panel``.
+    ``data`` is a file of the media type ``kind``, ``width`` and ``height`` are in pixels; it is cut at the corners of
+    ``panel``.
     """
 
     corner: complex
@@ -179,11 +178,11 @@ class Scan:
 
 @dataclass(frozen=True)
 class Travel:
-    """How a group moves, over and over, on a screen; on paper it stands as it is drawn.
+    """The repeated motion of a group on a screen; on paper it stands as it is drawn.
 
-    moves : for each frame by how much (mm on the page), None where it is not there; the last frame is the first again
-    turns : for each frame by how much it is turned (degrees, clockwise on the page) about ``about``; empty for none
-    seconds : how long the whole takes
+    moves : for each frame its displacement (mm on the page), None where it is hidden; the last frame is the first again
+    turns : for each frame its rotation (degrees, clockwise on the page) about ``about``; empty for none
+    seconds : the duration of the whole
     """
 
     moves: tuple[complex | None, ...]
@@ -194,9 +193,9 @@ class Travel:
 
 @dataclass(frozen=True)
 class Group:
-    """Things that belong together: ``layer`` names it as a layer for Inkscape, ``title`` says in words what it is,
-    ``step`` is the number of the step whose strokes it holds, ``since`` of that from which on it is there, ``motion``
-    how it moves on a screen."""
+    """A group of primitives: ``layer`` is its name as a layer for Inkscape, ``title`` its description in words,
+    ``step`` the number of the step of its strokes, ``since`` of the step from which it is shown, ``motion`` its motion
+    on a screen."""
 
     children: tuple[Primitive, ...]
     id: str = ""
@@ -208,7 +207,7 @@ class Group:
     since: int | None = None
 
     def moved(self, by: complex) -> Group:
-        """With the same children, of which each moves itself."""
+        """The group with its children moved."""
         return self if self.motion is None else replace(self, motion=replace(self.motion, about=self.motion.about + by))
 
 
@@ -216,15 +215,15 @@ Primitive: TypeAlias = Line | Polyline | Polygon | Circle | Arc | Text | Scan | 
 
 
 def class_names(thing: Group | Text) -> tuple[str, ...]:
-    """Its classes in the SVG, that of its step behind the first."""
+    """Its classes in the SVG, with the class of its step after the first."""
     stage = () if thing.step is None else (f"step-{thing.step:02d}",)
     return *thing.classes[:1], *stage, *thing.classes[1:]
 
 
 @dataclass(frozen=True)
 class Page:
-    """A page as writers take it: size in mm, title and description in words, language ("en", "zh"), facts for programs,
-    what is on it."""
+    """A page for the writers: size in mm, title and description in words, language ("en", "zh"), facts for programs,
+    content."""
 
     width: float
     height: float
@@ -236,7 +235,7 @@ class Page:
 
 
 def walk(children: tuple[Primitive, ...]) -> Iterator[Primitive]:
-    """Everything in the order of drawing, groups before what they hold."""
+    """All primitives in the order of drawing, groups before their children."""
     for child in children:
         yield child
         if isinstance(child, Group):
@@ -246,7 +245,7 @@ def walk(children: tuple[Primitive, ...]) -> Iterator[Primitive]:
 def map_tree(
     children: Iterable[Primitive], change: Callable[[Primitive], Primitive | None]
 ) -> tuple[Primitive, ...]:
-    """The same things, each changed, or left out where ``change`` says None; groups after what they hold."""
+    """The primitives, each changed, or left out where ``change`` gives None; groups after their children."""
     found: list[Primitive] = []
     for thing in children:
         if isinstance(thing, Group):
@@ -260,5 +259,5 @@ def map_tree(
 
 
 def moved(children: Iterable[Primitive], by: complex) -> tuple[Primitive, ...]:
-    """The same things elsewhere on the page (mm)."""
+    """The primitives moved on the page (mm)."""
     return map_tree(children, lambda thing: thing.moved(by))

@@ -1,7 +1,7 @@
-"""How lines are drawn: their kinds, after ISO 128, and the colours of links.
+"""The kinds of lines, after ISO 128, and the colours of links.
 
-A kind is told by width and dash, so that black on white is enough; colour comes on top of it: one for each link, the
-same in the mechanism and in every diagram, where a vector has that of the link whose motion it shows.
+Width and dash distinguish the kinds, so that black on white is enough; colour is added: one for each link, the same in
+the mechanism and in every diagram, where a vector has the colour of the link whose motion it shows.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ LINK_COLOURS = ("#0067a6", "#b34700", "#007a5a", "#a0467c", "#7a6200", "#1f7f93"
 
 
 def link_colour(index: int) -> str:
-    """Colour of the moving link at an index of the scene's order; it comes round again after eight links."""
+    """Colour of the moving link at an index of the scene's order; colours repeat after eight links."""
     return LINK_COLOURS[index % len(LINK_COLOURS)]
 
 
@@ -51,7 +51,7 @@ _TEXTURES = (
 
 
 def texture(index: int) -> Stroke | None:
-    """What lies in white along the lines of the moving link at an index of the scene's order; None for nothing."""
+    """The white texture along the lines of the moving link at an index of the scene's order; None for none."""
     stroke = _TEXTURES[index % len(_TEXTURES)]
     return None if stroke is None else stroke.coloured(WHITE)
 
@@ -63,7 +63,7 @@ def tint(colour: str, strength: float = 0.14) -> str:
 
 
 def pale(children: Iterable[Primitive], strength: float = 0.45, words: float = 1.0) -> tuple[Primitive, ...]:
-    """The same things in colours thinned to a strength, texts to that of ``words``."""
+    """The primitives in colours thinned to a strength, texts to the strength ``words``."""
 
     def thinned(thing: Primitive) -> Primitive:
         if isinstance(thing, Group | Scan):

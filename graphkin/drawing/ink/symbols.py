@@ -34,7 +34,7 @@ POINTER = ArrowKind(strokes.DIMENSION, 2.0, 0.65)  # dimensions, arcs with a sen
 
 def head_size(kind: ArrowKind, length: float) -> tuple[float, float]:
     """Length and width (mm) of the arrowhead on a vector of a length: at most three quarters of the vector long, and
-    never so narrow that its own line hides it."""
+    wider than its line."""
     head = min(kind.head_length, 0.75 * length)
     width = max(kind.head_width * head / kind.head_length, min(kind.head_width, 1.4 * kind.stroke.width))
     return head, width
@@ -68,7 +68,7 @@ def vector_group(
     Parameters
     ----------
     id : the symbol as an id (``Symbol.id``)
-    step : number of the step that draws it, None where it is none
+    step : number of the step that draws it, None without a step
     tail, tip : page points (mm)
     title : the vector in words
     classes : further classes
@@ -97,7 +97,7 @@ def pin(at: complex, colour: str = strokes.BLACK) -> tuple[Circle, ...]:
 
 
 def hatched_line(start: complex, end: complex, stroke: Stroke = strokes.FRAME) -> tuple[Line, ...]:
-    """The edge of the frame from start to end, hatched on its right as one walks along it on the page."""
+    """The edge of the frame from start to end, hatched on its right in this sense on the page."""
     length = abs(end - start)
     along = (end - start) / length
     right = along * 1j
@@ -108,7 +108,7 @@ def hatched_line(start: complex, end: complex, stroke: Stroke = strokes.FRAME) -
 
 
 def fixed_pivot(at: complex, angle: float = -math.pi / 2) -> tuple[Shape, ...]:
-    """Turning pair on a hatched foot; the foot points along ``angle``, downwards unless told otherwise."""
+    """Turning pair on a hatched foot; the foot points along ``angle``, by default downwards."""
     down = page_direction(angle)
     right = down * -1j
     left_foot, right_foot = (at + FOOT_HEIGHT * down + side * FOOT_WIDTH / 2 * right for side in (-1, 1))
@@ -127,7 +127,7 @@ def guide(
 ) -> tuple[Shape, ...]:
     """Frame guide for a block at a place: hatched edges beside its path, ``length`` (mm) long.
 
-    ``sides`` says which edges: +1 the left one, -1 the right one, as one looks along ``angle``.
+    ``sides`` are the drawn edges: +1 left, -1 right, looking along ``angle``.
     """
     along = page_direction(angle)
     side = along * 1j * width / 2
@@ -183,7 +183,7 @@ def circular_slot(
 def weld(
     at: complex, first: complex, second: complex, colour: str = strokes.BLACK, size: float = 3.2
 ) -> tuple[Polygon, ...]:
-    """Filled corner between two bars of one link that meet at a point, towards a point on each: they turn as one."""
+    """Filled corner between two bars of one link that meet at a point, towards a point on each: they turn together."""
     a, b = ((end - at) / abs(end - at) for end in (first, second))
     return (Polygon((at, at + size * a, at + size * b), fill=colour),)
 
@@ -198,7 +198,7 @@ def sense_arc(
     ----------
     middle : direction (rad) of the middle of the arc from ``at``
     sense : +1 counter-clockwise, -1 clockwise
-    span : angle of the arc (rad), made larger where the arrowheads would fill it
+    span : angle of the arc (rad), enlarged where the arrowheads would fill it
     """
     kind = POINTER
     span = max(span, 2.2 * heads * kind.head_length / radius)

@@ -1,6 +1,6 @@
-"""Which lengths and angles of a mechanism are dimensioned, after ISO 129-1: given bars, the places of the frame's
-points and guides, the angles of the drivers and how far they have pushed, places and angles of what slides; each drawn
-where there is room for it, or written at its bar.
+"""The dimensioned lengths and angles of a mechanism, after ISO 129-1: given bars, the places of the frame's points and
+guides, the angles and travels of the drivers, places and angles of sliding links; each drawn where it has room, or
+written at its bar.
 """
 
 from __future__ import annotations
@@ -57,14 +57,14 @@ LEAST_ANGLE = math.radians(0.5)
 def drawn_lengths(
     here: MechanismOnPaper, drawn: Iterable[Primitive], panel: Box | None, most: tuple[float, float] | None = None
 ) -> Piece | None:
-    """Dimensions of the frame, bars, drivers and guides for which there is room; the lengths of bars and values of
-    drivers for whose dimensions there is none are labels.  Drivers come before all others where they had no room.
+    """Dimensions of the frame, bars, drivers and guides that have room; lengths of bars and values of drivers without
+    room for a dimension are labels.  Drivers without room are placed again before all others.
 
     Parameters
     ----------
     drawn : the mechanism, of which the dimensions keep clear
     panel : no dimension leaves it
-    most : width and height (mm) that both may take together; where they take more there is no piece
+    most : greatest width and height (mm) of both together; without a piece where they take more
     """
     drawn = tuple(drawn)
     obstacles, around = obstacles_of(drawn), ink_box(drawn)
@@ -86,8 +86,8 @@ def drawn_lengths(
 def _placed(
     dimensions: Iterable[Parts | Label], reach: Box | None, most: tuple[float, float] | None
 ) -> tuple[Piece, int] | None:
-    """Dimensions as a piece, and how many drivers have none; None as soon as they and what reaches so far take more
-    than they may."""
+    """Dimensions as a piece, and the number of drivers without one; None where they and the mechanism take more than
+    ``most``."""
     parts: list[Primitive] = []
     labels: list[Label] = []
     without = 0
@@ -105,7 +105,7 @@ def _placed(
 
 
 def _bars(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts | Label]:
-    """Lengths of bars, and of further points from them: as many as it takes, round ones first."""
+    """Lengths of bars, and distances of further points from them, as many as a link needs, round ones first."""
     places, scene = here.places, here.scene.whole
     for link in scene.links:
         if link.redundant:
@@ -135,7 +135,7 @@ def _bars(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts | 
 
 def _spans(link: PlacedLink, metres: float) -> tuple[list[tuple[str, str]], list[tuple[str, str, str]]]:
     """The distances and angles that give a link: its bar, and each further point by a distance from one point of the
-    bar where it lies on it; else from both, or by one distance and the angle there where these are the round ones."""
+    bar if it lies on the bar; else from both, or by a distance and the angle there if these are round numbers."""
     spans = [(link.bar[0], link.bar[1])] if link.length is not None else []
     corners = []
     for further in (p for p in link.points if p not in link.bar):
@@ -177,7 +177,7 @@ def _turned(
 
 
 def _round(link: PlacedLink, one: str, other: str, metres: float) -> bool:
-    """Whether a distance looks like one that was given: at most four digits."""
+    """Whether a distance looks like a given one: at most four digits."""
     value = abs(link.points[other] - link.points[one]) / metres
     return value > 0.0 and abs(float(f"{value:.4g}") - value) < 1e-9 * value
 
@@ -235,7 +235,7 @@ def _datums(here: MechanismOnPaper) -> Iterator[str]:
 
 
 def _levels(one: complex, other: complex, upright: bool) -> tuple[float, float]:
-    """How low and how high two places are, or how far to the left and to the right."""
+    """The levels of two places: lower and upper, or left and right."""
     low, high = sorted((_part(one, upright), _part(other, upright)))
     return round(low, 6), round(high, 6)
 
@@ -247,8 +247,8 @@ def _part(z: complex, imaginary: bool) -> float:
 def _beside(
     here: MechanismOnPaper, room: DimensionClearance, places: Sequence[Spot], levels: Sequence[float], upright: bool
 ) -> Parts | None:
-    """The distances of levels, one after the other on a line beside the mechanism; for want of room within it, over
-    other lines only where nothing else is left."""
+    """The distances of levels, in order on a line beside the mechanism; inside it if there is no room, over other lines
+    only if there is no other place."""
     box = room.content
     sides = (-1, 1) if upright else (1, -1)  # left first, and below
     left, right = (box.left, box.right) if upright else (box.top, box.bottom)
@@ -274,7 +274,7 @@ def _beside(
 
 
 def _given(here: MechanismOnPaper, level: float, upright: bool) -> float:
-    """What the problem gives for a level (mm on paper) that a hand has drawn, in its unit."""
+    """The given value of a level (mm on paper) drawn by a hand, in its unit."""
     frame = here.scene.frame
     fixed = [*frame.points.values(), *(guide.through for guide in frame.guides.values())]
     given = [_part(on_page(z), upright) / here.sheet.scales.length for z in fixed]
@@ -323,7 +323,7 @@ LEVEL = 1e-9
 
 
 def guide_dimensions(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts]:
-    """Those for which there is room: of the frame's guides, then of links."""
+    """The dimensions of guides that have room: of the frame's guides, then of links."""
     scene = here.scene.whole
     shown = _shown(here)
     tried: list[Parts | None] = []
@@ -342,8 +342,8 @@ def guide_dimensions(here: MechanismOnPaper, room: DimensionClearance) -> Iterat
 
 
 def travels(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts | Label]:
-    """How far each driver has pushed along its guide, from the guide's origin; where there is no room for a dimension,
-    as a label."""
+    """The travel of each driver along its guide, from the guide's origin; a label if there is no room for a
+    dimension."""
     for slider in _shown(here):
         if slider.driven:
             key, pose = slider.slide.key, here.sheet.poses[slider.slide.b]
@@ -355,19 +355,19 @@ def travels(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts 
 
 
 def driven_value(here: MechanismOnPaper, key: str, runs: tuple[Run, ...], mark: Mark) -> Label:
-    """The value of a driver as a label; it is given, so everything else gives way to it."""
+    """The value of a driver as a label; it is given, so all other labels give way to it."""
     id, since = f"{DRIVEN}{key.replace('/', '-')}", here.since(key.split("/")[0])
     return Label.of(runs, mark, id, since=since)
 
 
 def _shown(here: MechanismOnPaper) -> list[Slider]:
-    """The sliding pairs of the scene, not those that stand for something else."""
+    """The sliding pairs of the scene, without those that replace higher pairs."""
     keys = {pair.key for pair in here.scene.whole.slides}
     return [one for one in here.sliders if one.slide.key in keys]
 
 
 def _off_pivot(here: MechanismOnPaper, room: DimensionClearance, slider: Slider) -> Parts | None:
-    """How far a slanted guide of the frame runs from the nearest fixed point, square to it."""
+    """The distance of a slanted guide of the frame from the nearest fixed point, square to the guide."""
     frame = here.scene.frame
     guide = slider.slide.guide
     apart = {p: abs(cross(z - guide.through, guide.direction)) for p, z in frame.points.items() if p in here.places}
@@ -413,7 +413,7 @@ def _slant(room: DimensionClearance, slider: Slider) -> Parts | None:
 def _on_link(
     here: MechanismOnPaper, scene: Mechanism, link: PlacedLink, room: DimensionClearance, shown: Sequence[Slider]
 ) -> Iterator[Parts]:
-    """The places of a link's points and guides, and its angles, as they follow from what it slides on."""
+    """The places of a link's points and guides, and its angles, from the guide on which it slides."""
     pairs = along_its_guide(scene, link)
     pose, metres = here.sheet.poses[link.name], scene.units.metres
     tried: list[Parts | None] = []
@@ -444,19 +444,19 @@ def _on_link(
 
 
 def _drawn_at(here: MechanismOnPaper, link: PlacedLink, corner: complex) -> bool:
-    """Whether two lines of a link meet in a place as it is drawn."""
+    """Whether two drawn lines of a link meet at a place."""
     shape = next((s for s in here.shapes if s.link == link.name), None)
     ends = [end for segment in (shape.segments if shape else ()) for end in segment]
     return sum(abs(end - corner) < NEAR for end in ends) > 1
 
 
 def _shows_its_axis(link: PlacedLink, shown: Sequence[Slider]) -> bool:
-    """Whether the own axis of a link is drawn: a bar, or what something slides on."""
+    """Whether the own axis of a link is drawn: as a bar, or as a guide in use."""
     return len(link.bar) == 2 or any(s.slide.b == link.name and not s.slide.guide.name for s in shown)
 
 
 def _guide_angle(room: DimensionClearance, at: complex, one: complex, other: complex) -> Parts | None:
-    """The angle between two lines through a place, drawn from one to the other the shortest way."""
+    """The angle between two lines through a place, drawn from the first to the second the shorter way."""
     turn = phase(other / one)
     if abs(turn) > math.pi / 2 + LEVEL:  # between the lines, the smaller angle
         one, turn = -one, turn - math.copysign(math.pi, turn)
@@ -467,8 +467,8 @@ def _apart(
     room: DimensionClearance, ones: Sequence[complex], others: Sequence[complex], along: complex, value: float,
     runs: tuple[Run, ...] = (), also: Parts = (),
 ) -> Parts | None:  # fmt: skip
-    """How far two places are apart in a direction, y up, each measured from the nearest of some spots on its level;
-    with what else is drawn for it."""
+    """The distance of two places in a direction, y up, each measured from the nearest of some spots on its level; with
+    its further strokes."""
     spots, along = [[(on_page(z), 0.0) for z in each] for each in (ones, others)], on_page(along)
     aside = -1j * along
     levels = [dot(each[0][0], along) for each in spots]
@@ -485,12 +485,12 @@ def _on_line(
     spots: Sequence[Sequence[Spot]], levels: Sequence[float], line: float, along: complex, aside: complex,
     values: Sequence[tuple[Run, ...]], share: float = 0.5, also: Parts = (),
 ) -> Parts | None:  # fmt: skip
-    """Levels dimensioned one after the other on one line, each from that of its spots which is nearest to the line,
-    the numbers at a share of it; None where it runs through a spot.
+    """Levels dimensioned in order on one line, each from its spot nearest to the line, the numbers at a share of it;
+    None where the line runs through a spot.
 
     Parameters
     ----------
-    levels, line : how far along, and aside of it, they lie from the page's corner (mm)
+    levels, line : their distances along and across the line from the page's corner (mm)
     along, aside : directions on the page
     """
     feet = [level * along + line * aside for level in levels]

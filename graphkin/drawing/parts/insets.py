@@ -1,7 +1,6 @@
-"""What stands in insets: the senses of Coriolis terms and parts of a polygon that are too small for a ruler, in a strip
-or in free corners of its panel; and a place of the mechanism where points lie so near to each other that their symbols
-overlap, drawn again larger.  Under a figure lie the scene's picture, and scans of drawings with their lines as they
-were read.
+"""Insets: the senses of Coriolis terms and parts of a polygon that are too small for a ruler, in a strip or in free
+corners of its panel; and an enlarged place of the mechanism where the symbols of points overlap.  Under a figure lie
+the scene's picture, and scans of drawings with their read lines.
 
 The inset of a Coriolis term shows its sense: 2 ω v stands square to the sliding velocity v, on the side to which the
 guide's ω turns it.
@@ -74,11 +73,11 @@ def polygon_with_insets(
     ----------
     panel : room of the polygon (mm)
     origin : page point of its pole
-    strip : where insets stand in rows; None for free corners of the panel
+    strip : the strip of insets in rows; None for free corners of the panel
 
     Returns
     -------
-    the piece, and the Coriolis terms for whose insets there was no room
+    the piece, and the Coriolis terms without room for their insets
     """
     senses, small = _coriolis(sheet, diagram), details(sheet, diagram)[:MOST_DETAILS]
     count = len(senses) + len(small)
@@ -114,8 +113,8 @@ def polygon_with_insets(
 def _boxes(
     panel: Box, drawn: Piece, strip: Box | None, count: int, size: tuple[float, float], taken: Sequence[Box] = ()
 ) -> list[Box]:
-    """Up to ``count`` boxes for insets beside those that are taken, in free places of a strip first; clear of what is
-    drawn on the panel."""
+    """Up to ``count`` boxes for insets besides the taken ones, in free places of a strip first; clear of the strokes on
+    the panel."""
     found: list[Box] = []
     if count < 1:
         return found
@@ -131,8 +130,8 @@ def _boxes(
 def _with_details(
     here: PolygonOnPage, own: Piece, boxes: Sequence[Box], fences: Sequence[Box]
 ) -> tuple[Piece, list[Piece], tuple[Label, ...]]:
-    """A polygon, ``own`` as drawn, with its names, the insets of what is drawn again larger, each in its box, and the
-    names that stand badly."""
+    """A polygon, ``own`` as drawn, with its names, the insets of its enlarged parts, each in its box, and the badly
+    placed names."""
     pieces = []
     shown: set[str] = set()
     again: set[str] = set()  # with the letters that stand at other vectors too
@@ -152,14 +151,14 @@ def _named_detail(here: PolygonOnPage, own: Piece, one: Detail, box: Box, number
 
 
 def _shown_in(inset: Piece) -> set[str]:
-    """The ids of the names in the figure that an inset has."""
+    """The ids of the names that an inset shows."""
     return {
         text.id.replace("label-detail-", "label-") for text in inset.layers["labels"] if isinstance(text, Text)
     }
 
 
 def _points_in(piece: Piece, here: PolygonOnPage, detail: Detail) -> list[Label]:
-    """The letters of points in a place that is drawn again larger."""
+    """The letters of points in an enlarged place."""
     middle = here.at(detail.centre)
     return [
         one for one in piece.labels if isinstance(one.mark, complex) and abs(one.mark - middle) <= detail.radius + 0.6
@@ -223,12 +222,12 @@ def _detail_inset(
 
 
 def _inside(box: Box, caption: float) -> Box:
-    """The part of an inset above its caption, which takes so much (mm)."""
+    """The part of an inset above its caption, whose height is given (mm)."""
     return Box(box.left + 0.6, box.top + 0.6, box.right - 0.6, box.bottom - caption)
 
 
 def _enlarged(factor: float, language: str) -> str:
-    """What stands below what is drawn so many times larger."""
+    """The caption of a part enlarged by a factor."""
     return term("detail", language, scale=f"{factor:g}")
 
 
@@ -236,7 +235,7 @@ def _inset(
     box: Box, layer: str, parts: Sequence[Primitive], words: tuple[Run, ...], up: float, id: str, label: str,
     classes: tuple[str, ...], step: int | None = None,
 ) -> Piece:  # fmt: skip
-    """Parts in the frame of an inset, with words in its middle so far (mm) above its lower edge."""
+    """Parts in the frame of an inset, with words in its middle at ``up`` mm above its lower edge."""
     frame = Polygon(box.corners, "", strokes.DIMENSION)
     caption = Text(complex(box.centre.real, box.bottom - up), words, "middle", id=label, step=step)
     group = Group((frame, *parts), id=id, classes=classes, step=step)
@@ -270,10 +269,10 @@ def mechanism_with_inset(
 def _mechanism_detail(
     sheet: Sheet, letters: Letters, language: str, panel: Box, drawn: tuple[Primitive, ...]
 ) -> Piece:
-    """The inset for the two nearest points, in a free corner of the panel, nothing
-    where all lie apart, where there is no room, or for hands that err, who would draw it anew.
+    """The inset for the two nearest points, in a free corner of the panel; none where all points lie apart, where there
+    is no room, or for erring hands, which would draw it anew.
 
-    ``drawn`` is everything on the panel, its names too.
+    ``drawn`` are all strokes on the panel, and the names.
     """
     near = _nearest(sheet)
     if near is None or sheet.instrument != EXACT_NAME:
@@ -305,7 +304,7 @@ def _mechanism_detail(
 
 
 def _nearest(sheet: Sheet) -> tuple[PointRef, PointRef] | None:
-    """The two joints that lie nearest to each other, if so near that their symbols overlap."""
+    """The two nearest joints, if their symbols overlap."""
     points = [
         (ref, z) for ref, z in sheet.points.items() if not ref.link and len(sheet.scene.holders.get(ref.point, ())) > 1
     ]
@@ -315,7 +314,7 @@ def _nearest(sheet: Sheet) -> tuple[PointRef, PointRef] | None:
 
 
 def _plain(thing: Primitive) -> Primitive:
-    """Without its id, which the mechanism itself bears."""
+    """The primitive without its id, which the mechanism itself has."""
     return Group(thing.children, "", thing.classes) if isinstance(thing, Group) else thing
 
 
@@ -382,7 +381,7 @@ def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Letters, box: Box)
 
 
 def coriolis_row(sheet: Sheet, terms: Sequence[CoriolisTerm], letters: Letters, row: Box) -> Piece:
-    """Insets of Coriolis terms side by side in a row, as many as fit."""
+    """Insets of Coriolis terms side by side in a row, up to the last that fits."""
     boxes = inset_boxes(row, min(len(terms), per_row(row.width)))
     return joined(named_inset(sheet, one, letters, box) for one, box in zip(terms, boxes, strict=False))
 
@@ -393,12 +392,12 @@ def named_inset(sheet: Sheet, one: CoriolisTerm, letters: Letters, box: Box) -> 
 
 
 def per_row(width: float) -> int:
-    """How many insets stand side by side in a width (mm), one at least."""
+    """The number of insets side by side in a width (mm), at least one."""
     return max(1, int((width + GUTTER) // (INSET[0] + GUTTER)))
 
 
 def inset_boxes(strip: Box, count: int) -> list[Box]:
-    """So many boxes of insets in rows from the upper left corner of a strip."""
+    """``count`` boxes of insets in rows from the upper left corner of a strip."""
     many = per_row(strip.width)
     corners = [
         (strip.left + (i % many) * (INSET[0] + GUTTER), strip.top + (i // many) * (INSET[1] + GUTTER))
@@ -428,7 +427,7 @@ def background_piece(sheet: Sheet, origin: complex, panel: Box) -> Piece:
 
 def scan_piece(sheet: Sheet, diagram: DiagramName, origin: complex, panel: Box) -> Piece:
     """The scans of a figure, cut to a panel (mm, y down) in which the pole, or the world's origin, lies at ``origin``:
-    the picture, if there is one, and the lines as they were read, the one that is off bold and with a name."""
+    the picture, if there is one, and the read lines, the wrong line bold and with a name."""
     under: list[Primitive] = []
     lines: list[Primitive] = []
     for judged in judge_scans(sheet, diagram):

@@ -1,7 +1,7 @@
-"""The drawn mechanism: its frame and links, its points with their letters, names of links and guides, dimensions, the
-compass arcs that found it; the arcs of driving and found angular velocities and accelerations, clear of bars, joints,
-feet and each other, and the arrows of driven slides; and where a group is larger than a dyad, trial positions with the
-curve of the free end, and lines to special points.  It is cut to its room where it has to be.
+"""The drawn mechanism: its frame and links, its points with their letters, names of links and guides, dimensions, its
+compass arcs; the arcs of driving and found angular velocities and accelerations, clear of bars, joints, feet and each
+other, and the arrows of driven slides; and for groups larger than a dyad trial positions with the curve of the free
+end, and lines to special points.  It is cut to its room if necessary.
 """
 
 from __future__ import annotations
@@ -70,8 +70,8 @@ def links(here: MechanismOnPaper) -> Piece:
 def links_alone(
     here: MechanismOnPaper, names: Collection[str], rank: int, replaced: bool = False
 ) -> tuple[list[Primitive], list[Label]]:
-    """Areas and bars of some links cut free, with their numbers as labels of a ``rank``; pairs are the caller's, and
-    with ``replaced`` all that slides on another link's outline."""
+    """Areas and bars of some links cut free, with their numbers as labels of a ``rank``; pairs are left to the caller,
+    with ``replaced`` also the contacts that slide on another link's outline."""
     cams = () if replaced else here.cams
     parts: list[Primitive] = [_cam_alone(here, one) for one in cams if one.cam.link in names]
     parts += [part for one in cams if one.cam.follower in names for part in _follower_end(here, one)]
@@ -94,7 +94,7 @@ def links_alone(
 
 
 def _depth(here: MechanismOnPaper, shape: LinkShape) -> int:
-    """What carries a block lies under it, what ends in its pin over it."""
+    """The order of drawing: a block lies over its guide, and under links that end in its pin."""
     if any(b.slide.b == shape.link for b in here.sliders):
         return 0
     if any(b.slide.a == shape.link for b in here.sliders):
@@ -107,7 +107,7 @@ NORMAL, FACE = 9.0, 13.0
 
 
 def _profile(here: MechanismOnPaper, one: CamOnPaper) -> Iterator[Group]:
-    """A cam with its profile, the follower's roller or face, tangent and normal where they touch."""
+    """A cam with its profile, the follower's roller or face, tangent and normal at their contact."""
     across = 1j * one.normal
     yield Group((_cam_alone(here, one),), id=f"cam-{one.cam.link}", classes=("cam",), since=here.stands)
     end = tuple(_follower_end(here, one))
@@ -126,7 +126,7 @@ def _cam_alone(here: MechanismOnPaper, one: CamOnPaper) -> Polygon:
 
 
 def _follower_end(here: MechanismOnPaper, one: CamOnPaper) -> Iterator[Primitive]:
-    """What of a follower touches its cam: the roller, the flat face."""
+    """The part of a follower that touches its cam: the roller or the flat face."""
     stroke, across = strokes.LINK.coloured(here.colour(one.cam.follower)), 1j * one.normal
     if one.roller:
         yield Circle(on_page(one.point), one.roller, stroke=stroke)
@@ -184,7 +184,7 @@ def _link(here: MechanismOnPaper, shape: LinkShape) -> Group:
 
 
 def _texture(here: MechanismOnPaper, shape: LinkShape) -> list[Primitive]:
-    """What tells the lines of a link from those of others in black and white."""
+    """The texture that distinguishes the lines of a link in black and white."""
     white = strokes.texture(here.scene.order[shape.link])
     if white is None or shape.redundant:
         return []
@@ -193,7 +193,7 @@ def _texture(here: MechanismOnPaper, shape: LinkShape) -> list[Primitive]:
 
 
 def _curved(here: MechanismOnPaper, curved: CurvedSlot) -> Iterator[Primitive]:
-    """A circular slot, and what joins it to a moving link that has it."""
+    """A circular slot, and the bars that join it to its moving link."""
     slot, radius = curved.slot, abs(curved.at - curved.centre)
     colour = strokes.BLACK if slot.on == here.ground else here.colour(slot.on)
     if slot.on != here.ground:
@@ -227,7 +227,7 @@ def _welds(here: MechanismOnPaper, shape: LinkShape, colour: str) -> list[Primit
 
 
 def joints(here: MechanismOnPaper, without: Collection[str] = ()) -> Piece:
-    """Every point but some with its symbol, and the letters that want a place beside them."""
+    """Every point except some with its symbol, and its letters as labels."""
     pieces = [Piece({"mechanism": ()})]
     for point in here.places:
         if point not in without:
@@ -262,7 +262,7 @@ def _letter(here: MechanismOnPaper, point: str) -> Label:
 
 
 def _over_block(here: MechanismOnPaper, z: complex) -> list[Primitive]:
-    """Edges of areas that end in the pin of a block, drawn on over it."""
+    """Edges of areas that end in the pin of a block, drawn over the block."""
     parts: list[Primitive] = []
     for shape in here.shapes:
         for i, corner in enumerate(shape.corners):
@@ -275,7 +275,7 @@ def _over_block(here: MechanismOnPaper, z: complex) -> list[Primitive]:
 
 
 def _through(here: MechanismOnPaper, z: complex, held: list[str]) -> list[Primitive]:
-    """A bar that goes on beyond a joint is drawn through its circle."""
+    """A bar that continues beyond a joint is drawn through its circle."""
     parts: list[Primitive] = []
     for shape in here.shapes:
         if shape.link not in held:
@@ -290,7 +290,7 @@ def _through(here: MechanismOnPaper, z: complex, held: list[str]) -> list[Primit
 
 
 def link_names(here: MechanismOnPaper, panel: Box | None = None) -> Piece:
-    """Numbers of links and frame, letters of guides that equations speak of: at the edge of a panel that cuts these."""
+    """Numbers of links and frame, letters of guides that occur in equations: at the edge of a panel that cuts these."""
     return Piece(labels=(*_numbers(here), *_guides(here, panel), *_frame_name(here)))
 
 
@@ -360,12 +360,12 @@ def mechanism_piece(sheet: Sheet, letters: Letters, room: tuple[float, float] | 
 
     Parameters
     ----------
-    room : width and height (mm) of its panel; None for as much as it takes
+    room : width and height (mm) of its panel; None for its own size
 
     Returns
     -------
-    the piece, and the box (mm, y down) that it takes up, names left out.  Where it does not fit the room, dimensions
-    are left out first, then what reaches far beyond its points is cut at the edge of the room.
+    the piece, and its box (mm, y down) without names.  If it does not fit the room, dimensions are left out first, then
+    strokes far beyond its points are cut at the edge of the room.
     """
     here = MechanismOnPaper(sheet, letters)
     bare = _without_lengths(here)
@@ -391,7 +391,7 @@ def mechanism_piece(sheet: Sheet, letters: Letters, room: tuple[float, float] | 
 
 
 def _least_cut(ink: Box, points: Box, room: tuple[float, float]) -> complex:
-    """The middle of a room about points with their symbols that cuts least of all that is drawn."""
+    """The middle of a room around points with their symbols that cuts the fewest strokes."""
     right = max(0.0, (room[0] - points.width) / 2 - AROUND_POINTS)
     down = max(0.0, (room[1] - points.height) / 2 - AROUND_POINTS)
     off = ink.centre - points.centre
@@ -403,8 +403,8 @@ def _fits(box: Box, room: tuple[float, float]) -> bool:
 
 
 def bare_mechanism(sheet: Sheet, letters: Letters) -> Piece:
-    """Frame, links and points of the mechanism with their names, about the world's origin: no lengths, no senses, no
-    special points, which serve its polygons alone."""
+    """Frame, links and points of the mechanism with their names, about the world's origin: without lengths, senses, and
+    special points, which only its polygons need."""
     here = MechanismOnPaper(sheet, letters)
     special = sheet.special_points
     return joined((links(here), _springs(here), joints(here, special), link_names(here), _marks(here)))
@@ -435,7 +435,7 @@ DRIVER_RADIUS, RADIUS = 6.5, 5.5
 
 
 def clearance(here: MechanismOnPaper) -> RateArrowClearance:
-    """Everything that arcs keep clear of."""
+    """The strokes from which arcs keep clear."""
     segments = [segment for shape in here.shapes for segment in shape.segments]
     segments += [(z, z + 0.01) for z in here.places.values()]
     for point in here.scene.frame.points:
@@ -452,7 +452,7 @@ def clearance(here: MechanismOnPaper) -> RateArrowClearance:
 
 
 def drivers(here: MechanismOnPaper, clear: RateArrowClearance) -> Piece:
-    """What drives, and which way."""
+    """The drivers with their senses."""
     pieces = [Piece({"mechanism": ()})]
     for driver in here.scene.drivers:
         if not driver.turns:
@@ -513,7 +513,7 @@ def found_rates(here: MechanismOnPaper, clear: RateArrowClearance) -> Piece:
 
 
 def _centres_of_turn(here: MechanismOnPaper, link: str, other: str) -> list[complex]:
-    """Where an arc of sense may stand: about the pivot of the link, else about places along it."""
+    """The centres for an arc of sense: the pivot of the link, else places along it."""
     mine = here.scene.by_name[link].points
     theirs = here.scene.by_name[other].points
     for point in mine:
@@ -561,7 +561,7 @@ CROSS = 0.9  # mm: half a cross that marks a trial position
 
 
 def compass_arcs(here: MechanismOnPaper) -> Piece:
-    """Compass arcs near the points that they find, over a block that would leave but their ends."""
+    """Compass arcs near the points that they find, drawn over a block that would hide all but their ends."""
     under: list[Primitive] = []
     over: list[Primitive] = []
     arcs = [
@@ -584,7 +584,7 @@ def compass_arcs(here: MechanismOnPaper) -> Piece:
 
 
 def _along_a_bar(arc: CompassArc, side: int, bars: set[complex]) -> bool:
-    """Whether an arc, to one side, 1 counter-clockwise, begins nearly along one of the bars that meet there."""
+    """Whether an arc to a side (1 counter-clockwise) begins nearly along a bar that meets it."""
     way = side * 1j * unit(arc.at - arc.centre)
     return any(dot(way, bar) > 0.0 and abs(cross(way, bar)) < SPLINTER for bar in bars)
 

@@ -1,5 +1,5 @@
-"""The mechanism as it stands on paper: where its points, links and sliding pairs are, what a link looks like, and what
-the parts must know of each other to be drawn.
+"""The mechanism on paper: the places of its points, links and sliding pairs, the shapes of links, and the relations of
+the parts that their drawing needs.
 
 Places are in mm, y up, about the world's origin, until `on_page` turns them.
 """
@@ -36,7 +36,7 @@ FOOT = {-math.pi / 2: 0.0, 0.0: 0.5, math.pi: 0.5, math.pi / 2: 0.7}  # where fe
 
 @dataclass(frozen=True)
 class Slider:
-    """A sliding pair on paper: where its block stands and along which direction, and whether a driver moves it."""
+    """A sliding pair on paper: the place and the direction of its block, and whether a driver moves it."""
 
     slide: Pair
     at: complex
@@ -46,8 +46,8 @@ class Slider:
 
 @dataclass(frozen=True)
 class CamOnPaper:
-    """A cam and its follower on paper (mm): the profile, the follower's point, where they touch, the normal (unit, out
-    of the cam), the radius of the roller (0 without one)."""
+    """A cam and its follower on paper (mm): the profile, the follower's point, the contact, the normal (unit, out of
+    the cam), the radius of the roller (0 without one)."""
 
     cam: LawCam
     profile: tuple[complex, ...]
@@ -59,7 +59,8 @@ class CamOnPaper:
 
 @dataclass(frozen=True)
 class CurvedSlot:
-    """A circular slot on paper: its centre, what runs in it, and the angles (rad) between which it is drawn."""
+    """A circular slot on paper: its centre, the point that runs in it, and the angles (rad) between which it is
+    drawn."""
 
     slot: CircularSlot
     centre: complex
@@ -70,7 +71,7 @@ class CurvedSlot:
 
 @dataclass(frozen=True)
 class LinkShape:
-    """The parts of one link on paper (mm): the corners of its area, bars, slots, and where its points are."""
+    """The parts of a link on paper (mm): the corners of its area, bars, slots, and the places of its points."""
 
     link: str
     points: dict[str, complex]
@@ -81,7 +82,7 @@ class LinkShape:
 
     @property
     def segments(self) -> tuple[Segment, ...]:
-        """Everything straight in it."""
+        """Its straight strokes."""
         edges = zip(self.corners, (*self.corners[1:], *self.corners[:1]), strict=True)
         return (*self.bars, *self.slots, *edges)
 
@@ -106,7 +107,7 @@ class MechanismOnPaper:
         return self.sheet.scene.frame.name
 
     def since(self, link: str) -> int | None:
-        """The step from which on a link is there: all its points are marked, and it is drawn."""
+        """The step from which a link is shown: all its points are marked, and it is drawn."""
         steps, last = [step for step in self.sheet.steps if step.diagram == "mechanism"], self.stands
         if link == self.ground or last is None:
             return steps[0].number if steps else None
@@ -117,14 +118,14 @@ class MechanismOnPaper:
 
     @cached_property
     def stands(self) -> int | None:
-        """The step from which on the mechanism stands; what is found later in it is no part of it."""
+        """The step from which the whole mechanism is shown; parts found later do not belong to it."""
         steps = [step.number for step in self.sheet.steps if step.diagram == "mechanism"]
         polygons = min((step.number for step in self.sheet.steps if step.diagram != "mechanism"), default=math.inf)
         return max((number for number in steps if number < polygons), default=max(steps, default=None))
 
     @cached_property
     def found(self) -> Mapping[str, int]:
-        """The step that marks each point of the mechanism first."""
+        """The first step that marks each point of the mechanism."""
         found: dict[str, int] = {}
         for step in self.sheet.steps:
             for mark in (s for s in step.strokes if step.diagram == "mechanism" and isinstance(s, Mark)):
@@ -133,7 +134,7 @@ class MechanismOnPaper:
 
     @cached_property
     def shapes(self) -> tuple[LinkShape, ...]:
-        """The moving links on paper, in the order of the file; links that were not reached are left out."""
+        """The moving links on paper, in the order of the file, without links that were not reached."""
         slides = tuple(one for one in self.sliders if one.slide.key not in self.replaced_pairs)
         found = []
         centres = {slot.bar: slot.centre for slot in self.scene.slots}
@@ -152,14 +153,14 @@ class MechanismOnPaper:
 
     @cached_property
     def replaced_pairs(self) -> frozenset[str]:
-        """Keys of the sliding pairs that only stand for a cam and its follower."""
+        """Keys of the sliding pairs that replace a cam and its follower."""
         whole = self.scene.instead_of
         held = self.scene.pins if whole is None else whole.pins
         return frozenset(pin.key for pin in self.scene.pins) - {pin.key for pin in held}
 
     @cached_property
     def sliders(self) -> tuple[Slider, ...]:
-        """All sliding pairs whose two links stand on paper, pins in slots too."""
+        """All sliding pairs whose two links are on paper, with pins in slots."""
         sheet = self.sheet
         driven = {d.key for d in self.scene.drivers if not d.turns}
         # a follower's block stands clear of its roller
@@ -178,7 +179,7 @@ class MechanismOnPaper:
 
     @cached_property
     def _faces(self) -> tuple[Slider, ...]:
-        """The flat faces of moving links: a contact, the direction of the face, as if a slider stood there."""
+        """The flat faces of moving links as sliders: a contact with the direction of the face."""
         found = []
         for contact in self.scene.contacts:
             slide = next((s for s in self.sheet.structure.slides if s.key == contact.block), None)
@@ -189,7 +190,7 @@ class MechanismOnPaper:
 
     @cached_property
     def places(self) -> Mapping[str, complex]:
-        """Where each point is."""
+        """The place of each point."""
         return {ref.point: z for ref, z in self.sheet.points.items() if not ref.link}
 
     @cached_property
@@ -208,7 +209,7 @@ class MechanismOnPaper:
 
     @cached_property
     def curved(self) -> tuple[CurvedSlot, ...]:
-        """The circular slots between links that stand on paper."""
+        """The circular slots between links on paper."""
         found = []
         for slot in self.scene.whole.slots:  # what stands for a cam is no slot
             if slot.on not in self.sheet.poses or not {slot.centre, slot.point} <= set(self.places):
@@ -262,19 +263,19 @@ class MechanismOnPaper:
         return ways
 
     def nested(self, link: str) -> int:
-        """How many larger blocks stand around the block of a link: two that slide at one pin lie in each other."""
+        """The number of larger blocks around the block of a link: two that slide at one pin lie in each other."""
         mine = next(b for b in self.sliders if b.slide.a == link)
         around = [b for b in self.sliders if not b.slide.slot and b.slide.a != link and abs(b.at - mine.at) < 0.5]
         rank = (mine.slide.b != self.ground, self.scene.order.get(link, 0))
         return sum((b.slide.b != self.ground, self.scene.order.get(b.slide.a, 0)) < rank for b in around)
 
     def pivot(self, b: Slider) -> complex:
-        """Where the guiding link of a slide is held."""
+        """The place at which the guiding link of a slide is held."""
         link = self.scene.by_name[b.slide.b]
         return next((self.places[p] for p in link.points if p in self.places), self.sheet.poses[b.slide.b].origin)
 
     def rod(self, b: Slider) -> tuple[complex, complex]:
-        """The part of a cylinder's rod that is seen."""
+        """The visible part of a cylinder's rod."""
         pivot = self.pivot(b)
         return pivot + 0.6 * (b.at - pivot), b.at
 
@@ -325,7 +326,7 @@ def _shape(
 
 
 def _reach(sliding: list[Slider], span: list[float]) -> tuple[float, float]:
-    """From where to where a guide is drawn: over the link's points on it and a little beyond all that runs on it."""
+    """The ends of a drawn guide: over the link's points on it and a little beyond all blocks and pins on it."""
     start, along = sliding[0].at, sliding[0].along
     low, high = (min(span), max(span)) if span else (float("inf"), float("-inf"))
     fixed = len(span) > 1
@@ -342,7 +343,7 @@ def _reach(sliding: list[Slider], span: list[float]) -> tuple[float, float]:
 
 
 def _solid(sliding: list[Slider], low: float, high: float, line: Slider) -> list[tuple[float, float]]:
-    """The stretches of a guide that are bar, the slots taken out."""
+    """The stretches of a guide that are bar, without its slots."""
     start, along = line.at, line.along
     solid = [(low, high)]
     for b in sliding:
@@ -359,7 +360,7 @@ def _solid(sliding: list[Slider], low: float, high: float, line: Slider) -> list
 
 
 def _spanned(places: tuple[complex, ...]) -> tuple[tuple[complex, ...], tuple[Segment, ...]]:
-    """Corners of the area spanned by places, or one bar along them where they lie on a line."""
+    """Corners of the area spanned by places, or a bar along them if they lie on a line."""
     places = _apart(places)
     if len(places) < 2:
         return (), ()
@@ -370,7 +371,7 @@ def _spanned(places: tuple[complex, ...]) -> tuple[tuple[complex, ...], tuple[Se
 
 
 def _apart(places: tuple[complex, ...]) -> tuple[complex, ...]:
-    """Places without those that repeat another."""
+    """Places without repetitions."""
     kept: list[complex] = []
     for z in places:
         if all(abs(z - w) > NEAR for w in kept):

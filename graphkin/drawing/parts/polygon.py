@@ -1,8 +1,8 @@
-"""A polygon as it stands on a page: its vectors and steps, where its pole is, how large it is, which of its parts are
-too small for a ruler, how far vectors of one line, which would cover each other, are shifted off their places; and how
-it is drawn: points (end points of vectors, feet between components, the pole), each with its letter; vectors with their
-names and the numbers of their steps; and what leads to them: direction lines, images of links, carried vectors, trial
-polygons in line kinds of their own, rings around details.
+"""A polygon on a page: its vectors and steps, its pole, its size, its parts that are too small for a ruler, and the
+shifts of collinear vectors that would cover each other; and its drawing: points (end points of vectors, feet between
+components, the pole), each with its letter; vectors with their names and the numbers of their steps; and their
+construction: direction lines, images of links, carried vectors, trial polygons in line kinds of their own, rings around
+details.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ CROWD = 5.0  # how many times larger a crowd is drawn again at most
 @dataclass(frozen=True)
 class PolygonOnPage:
     """A sheet's polygon with the letters of a convention and the words of a language, its pole at ``origin`` of a page;
-    lines known by direction only are clipped to the ``panel``, and ``enlarged`` places are drawn again larger."""
+    lines known by direction only are clipped to the ``panel``, and ``enlarged`` places are drawn again in insets."""
 
     sheet: Sheet
     diagram: DiagramName
@@ -71,32 +71,32 @@ class PolygonOnPage:
 
     @cached_property
     def lettered(self) -> PolygonPoints:
-        """Its points with their letters; those of special points as far as they lie on the panel."""
+        """Its points with their letters; those of special points only on the panel."""
         return PolygonPoints(self.sheet, self.diagram, self.letters, lambda z: self.panel.distance(self.at(z)) == 0.0)
 
     @cached_property
     def ends_since(self) -> Mapping[PointRef, int]:
-        """The step that marks the end point of each point first."""
+        """The first step that marks the end point of each point."""
         marks = ((s.ref, step.number) for step in self.steps for s in step.strokes if isinstance(s, Mark))
         return dict(reversed([*marks]))
 
     def since(self, detail: Detail) -> int:
-        """The step from which on a place that is drawn again larger is all there."""
+        """The step from which an enlarged place is complete."""
         return detail.crowd or max(self.vectors[vector.symbol][0] for vector in detail.vectors)
 
     @cached_property
     def shifts(self) -> Mapping[Symbol, complex]:
-        """How far (mm on the page) vectors lie off their places, so that they do not cover others."""
+        """The shifts (mm on the page) of vectors that would cover others."""
         found = side_by_side(vector for _, vector in self.vectors.values())
         return {symbol: on_page(shift) for symbol, shift in found.items()}
 
     def drawn(self, vector: Vector) -> Segment:
-        """Where a vector is drawn on the page."""
+        """The place of a vector on the page."""
         shift = self.shifts.get(vector.symbol, 0j)
         return self.at(vector.tail) + shift, self.at(vector.tip) + shift
 
     def in_order(self) -> list[tuple[int, Vector]]:
-        """Long vectors first, so that short ones lie on top."""
+        """The vectors with long ones first, so that short ones lie on top."""
         return sorted(self.vectors.values(), key=lambda sv: (-round(abs(sv[1].span), 6), sv[0]))
 
     def covered(self, a: complex, b: complex) -> bool:
@@ -108,13 +108,13 @@ class PolygonOnPage:
 
 
 def same_place(z: complex) -> complex:
-    """A key that is the same for points that fall together."""
+    """A key that coincident points share."""
     return complex(round(z.real / SAME), round(z.imag / SAME))
 
 
 def extent(sheet: Sheet, diagram: DiagramName, within: Box | None = None) -> Box:
-    """The box (mm, y down, about the pole) around all vectors of a polygon, trial polygons among them; lines that lead
-    to them are counted in where they do not reach far."""
+    """The box (mm, y down, about the pole) around all vectors of a polygon and its trial polygons; construction lines
+    count if they do not reach far."""
     seen = sheet.vectors_seen(diagram)
     vectors: list[Arrow] = [*sheet.vectors(diagram).values(), *seen, *sheet.trials(diagram)]
     ends = [0j, *(z for v in vectors for z in (v.tail, v.tip))]
@@ -133,8 +133,8 @@ def extent(sheet: Sheet, diagram: DiagramName, within: Box | None = None) -> Box
 
 @dataclass(frozen=True)
 class Detail:
-    """A place of a polygon (mm on paper, y up) with its small vectors, or those that end there in a crowd, and how much
-    larger they are drawn; of a crowd the step after which it is all there."""
+    """A place of a polygon (mm on paper, y up) with its small vectors, or the vectors that end there in a crowd, and
+    the factor of their enlargement; of a crowd the step after which it is complete."""
 
     centre: complex
     radius: float
@@ -151,8 +151,8 @@ def details(sheet: Sheet, diagram: DiagramName) -> list[Detail]:
 
 
 def crowds(here: PolygonOnPage, crowded: Iterable[Label]) -> list[Detail]:
-    """The places around points whose letters, and tips of vectors whose names, find no good place at the size of the
-    figure, near ones together; not those that are drawn again larger already."""
+    """The places around points and tips of vectors whose letters and names find no good place at the size of the
+    figure, near ones together; without places that are enlarged already."""
     vectors = {f"label-{symbol.id}": vector for symbol, (_, vector) in here.vectors.items()}
     groups: list[list[tuple[complex, tuple[Vector, ...]]]] = []
     for label in crowded:
@@ -181,7 +181,7 @@ def _crowd(here: PolygonOnPage, group: Sequence[tuple[complex, tuple[Vector, ...
 
 
 def _near(small: Sequence[Vector]) -> list[list[Vector]]:
-    """Vectors in groups that lie near each other."""
+    """Vectors in groups of neighbours."""
     groups: list[list[Vector]] = []
     for vector in small:
         near = [g for g in groups if any(_apart(vector, other) < TOGETHER for other in g)]
@@ -191,7 +191,7 @@ def _near(small: Sequence[Vector]) -> list[list[Vector]]:
 
 
 def _at_their_scales(group: Sequence[Vector]) -> Iterator[Detail]:
-    """A group drawn larger, and again those of it that are too small even there, at a scale of their own."""
+    """A group drawn larger, and its vectors that are too small even there at a further scale."""
     box = Box.around([z for v in group for z in (v.tail, v.tip)])
     size = max(box.width, box.height)
     factor = _factor(LONGEST / size)
@@ -204,7 +204,7 @@ def _at_their_scales(group: Sequence[Vector]) -> Iterator[Detail]:
 
 
 def _factor(most: float) -> float:
-    """The largest of the series 1, 2, 2.5, 5, 10 that is not more; 1 where there is none."""
+    """The largest number of the series 1, 2, 2.5, 5, 10 up to ``most``; 1 if there is none."""
     decade = 10.0 ** math.floor(math.log10(most))
     return max(1.0, *(float(f"{step * decade:.12g}") for step in SERIES if step * decade <= most * (1 + 1e-12)))
 
@@ -221,7 +221,7 @@ OVERLAP = 1.0  # mm that two must have in common
 def side_by_side(vectors: Iterable[Vector]) -> Mapping[Symbol, complex]:
     """For each vector that would cover another, or lie under it, its shift square to itself (mm, y up).
 
-    Of those on one line the longest resultant stays; what is equal or opposite lies beside it.
+    The longest resultant on a line stays; equal or opposite vectors lie beside it.
     """
     shown = [v for v in vectors if abs(v.span) >= SMALL]
     shown.sort(key=lambda v: (v.role != "resultant", -round(abs(v.span), 6)))
@@ -237,7 +237,7 @@ def side_by_side(vectors: Iterable[Vector]) -> Mapping[Symbol, complex]:
 
 
 def _way(vector: Vector) -> complex:
-    """The direction of the line of a vector, the same for one and its opposite."""
+    """The direction of the line of a vector, the same for the opposite vector."""
     way = vector.span / abs(vector.span)
     return -way if (round(way.real, 6), round(way.imag, 6)) < (0.0, 0.0) else way
 
@@ -257,7 +257,7 @@ MOST_AT_POLE = 24.0  # mm of names of points at rest beside the letter of the po
 
 
 def points(here: PolygonOnPage) -> Piece:
-    """All points with what they are called."""
+    """All points with their letters."""
     places = here.lettered.places
     return joined((*_ends(here, places), *_feet(here, here.lettered.feet), _pole(here, places[0j])))
 
@@ -278,14 +278,14 @@ def _ends(here: PolygonOnPage, places: Mapping[complex, Sequence[PointRef]]) -> 
 
 
 def _dot(at: complex, ring: int) -> Circle:
-    """A dot for the first point of a place, rings round it for those that fall together with it."""
+    """A dot for the first point of a place, rings around it for coincident ones."""
     if ring == 0:
         return Circle(at, END_RADIUS, fill=strokes.BLACK)
     return Circle(at, END_RADIUS + ring * DOT_RING, stroke=Stroke(0.18))
 
 
 def _feet(here: PolygonOnPage, feet: Sequence[NamedPoint]) -> Iterator[Piece]:
-    """Points between components: where one ends and no end point lies."""
+    """Points between components: ends of components without an end point."""
     for foot in feet:
         assert foot.symbol is not None
         at, id = here.at(foot.at), f"foot-{foot.symbol.id}"
@@ -328,18 +328,18 @@ BEYOND = 9.0  # mm: how far a direction line runs past the crossing
 
 
 def polygon_piece(here: PolygonOnPage) -> Piece:
-    """Draw a polygon at its place; what is drawn again larger gets a ring, and its vectors no names here."""
+    """Draw a polygon at its place; an enlarged place gets a ring, and its vectors have no names here."""
     return joined((_construction(here), _vectors(here), points(here), _vector_names(here)))
 
 
 def _construction(here: PolygonOnPage) -> Piece:
-    """Everything thin, with its names."""
+    """The thin strokes of the construction, with their names."""
     shapes = Piece({"construction": (*rings(here), *_images(here))})
     return joined((shapes, *trial_marks_in_polygon(here), *_bars(here), *_rays(here)))
 
 
 def rings(here: PolygonOnPage) -> Iterator[Group]:
-    """A ring about each place that is drawn again larger."""
+    """A ring about each enlarged place."""
     for number, d in enumerate(here.enlarged, 1):
         ring = Circle(here.at(d.centre), d.radius + RING, stroke=strokes.CONSTRUCTION)
         yield Group((ring,), id=f"ring-{here.diagram}-{number}", classes=("ring",), step=d.crowd, since=here.since(d))
@@ -398,7 +398,7 @@ def _carried(here: PolygonOnPage, step: Step, line: Segment) -> Iterator[Label]:
 
 
 def _rays(here: PolygonOnPage) -> Iterator[Piece]:
-    """Lines known by direction only, each named once where several lead to one point."""
+    """Lines known by direction only, each named once if several lead to one point."""
     named: set[tuple[str, complex]] = set()
     for step in here.steps:
         for ray in (s for s in step.strokes if isinstance(s, Ray)):
@@ -419,7 +419,7 @@ def _rays(here: PolygonOnPage) -> Iterator[Piece]:
 
 
 def _line(here: PolygonOnPage, ray: Ray, end: complex) -> tuple[Segment | None, Segment | None]:
-    """A ray from its start to beyond its end, and the part of it on which no vector comes to lie."""
+    """A ray from its start to beyond its end, and its part without a vector on it."""
     way = end - ray.through
     e = way / abs(way) if abs(way) > 1.0 else ray.along
     first, last = ray.through, end + BEYOND * e
@@ -453,14 +453,14 @@ def _arrow(here: PolygonOnPage, step: int, vector: Vector) -> Group:
 
 
 def _vector_names(here: PolygonOnPage) -> Piece:
-    """One name for vectors that share tail and tip; those of zero length are named in words."""
+    """A name for vectors that share tail and tip; vectors of zero length are named in words."""
     letters = {same_place(point.at): point.letter for point in reversed(here.lettered.named)}
     named = (_name(here, length, shared, letters) for length, shared in _shared(here))
     return Piece(labels=tuple(name for name in named if name))
 
 
 def _shared(here: PolygonOnPage) -> Iterator[tuple[float, list[Vector]]]:
-    """Length, and vectors that share tail and tip, the longest first; not those that are drawn again larger."""
+    """Length, and vectors that share tail and tip, the longest first; without enlarged ones."""
     groups: dict[tuple[complex, complex, bool], list[Vector]] = {}
     for _, vector in here.in_order():
         key = same_place(vector.tail), same_place(vector.tip), vector.span == 0.0
@@ -510,12 +510,12 @@ SHARES = np.array((0.5, 0.38, 0.62, 0.26, 0.74, 0.16, 0.84, 0.44, 0.56, 0.32, 0.
 def step_numbers(
     arrows: Sequence[tuple[int, Segment, Box | None]], panel: Box, around: Obstacles
 ) -> tuple[Text, ...]:
-    """A number in brackets beside each arrow, or beside its name, where there is room.
+    """A number in brackets beside each arrow, or beside its name, if there is room.
 
     Parameters
     ----------
     arrows : number of the step, tail and tip (page points, mm), and the box of the name
-    around : everything drawn and written
+    around : all strokes and texts
     """
     shown = [arrow for arrow in arrows if abs(arrow[1][1] - arrow[1][0]) >= LEAST]
     if not shown:
@@ -539,7 +539,7 @@ def step_numbers(
 
 
 def _by_name(name: Box | None, half: complex) -> tuple[complex, ...]:
-    """Places for the middle of a number beside a name, nan of none."""
+    """Places for the middle of a number beside a name, nan without a name."""
     if name is None:
         return (complex(np.nan, np.nan),) * 4
     middle, x, y = name.centre, name.width / 2 + BESIDE + half.real, name.height / 2 + BESIDE + half.imag
@@ -587,6 +587,6 @@ def trial_marks_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
 
 
 def _of_one_point(aid: ConstructionVector) -> bool:
-    """Whether a vector is what two points that lie under each other move apart by."""
+    """Whether a vector is the relative motion of two coincident points."""
     of, to = aid.symbol.of, aid.symbol.to
     return of is not None and to is not None and of.point == to.point

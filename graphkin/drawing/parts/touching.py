@@ -1,4 +1,4 @@
-"""What touches, on the drawn mechanism: discs, faces, pitch circles of wheels, and at a contact its tangent and normal.
+"""Higher pairs on the drawn mechanism: discs, faces, pitch circles of wheels, and tangent and normal of contacts.
 
 A pitch circle is dash-dotted (ISO 2203), an outline of the frame is hatched on the side of its body.
 """
@@ -37,8 +37,8 @@ def _on_paper(here: MechanismOnPaper) -> Touching:
 
 
 def outlines_of(here: MechanismOnPaper, link: str, replaced: bool = False) -> list[Primitive]:
-    """The round outlines of a link; a hollow one, and every one of the frame, hatched where its body is.  With
-    ``replaced`` only those that roll: for the others stand bars and blocks."""
+    """The round outlines of a link; hollow ones, and those of the frame, are hatched on the side of the body.  With
+    ``replaced`` only rolling ones: bars and blocks replace the others."""
     if link not in here.sheet.poses:
         return []
     rolling = {d for contact in here.scene.contacts if contact.rolling for d in contact.round if d.link == link}
@@ -56,7 +56,7 @@ def outlines_of(here: MechanismOnPaper, link: str, replaced: bool = False) -> li
 
 
 def _outline(centre: complex, radius: float, stroke: Stroke) -> tuple[Arc, Arc]:
-    """A circle in two halves: labels may stand inside, as they may not in the symbol of a joint."""
+    """A circle in two halves: labels may stand inside, unlike in the symbol of a joint."""
     return Arc(centre, radius, 0.0, math.pi, stroke), Arc(centre, radius, math.pi, 2 * math.pi, stroke)
 
 
@@ -109,8 +109,8 @@ def faces_of_frame(here: MechanismOnPaper) -> list[Primitive]:
 
 
 def within_round_body(here: MechanismOnPaper, link: str) -> complex | None:
-    """A place (mm) in the body of a wheel or disc, on the side away from what touches it: within its circle, outside
-    that of an internal one; None of a link that has neither."""
+    """A place (mm) in the body of a wheel or disc, on the side away from its contacts: inside its circle, outside the
+    circle of an internal wheel; None for a link without either."""
     links = _on_paper(here)
     rounds = [(centre, radius) for wheel, centre, radius in links.pitch_circles() if wheel == link]
     if link in here.sheet.poses:
@@ -124,8 +124,8 @@ def within_round_body(here: MechanismOnPaper, link: str) -> complex | None:
 
 
 def beside_face_of_frame(here: MechanismOnPaper) -> tuple[complex, complex] | None:
-    """A place (mm) at the end of the hatching where the frame is touched, and the direction into its body; None where
-    nothing touches it."""
+    """A place (mm) at the end of the hatching where a link touches the frame, and the direction into its body; None
+    where no link touches it."""
     for touch in _on_paper(here).touches():
         if here.ground in touch.links:
             centres = [centre for link, (_, centre) in touch.centres.items() if link != here.ground]
@@ -141,8 +141,8 @@ def contact_marks(here: MechanismOnPaper) -> Piece:
 
 
 def marks_cut_free(here: MechanismOnPaper, cut: frozenset[str], tag: str) -> Piece:
-    """The same with their letters where links cut free touch others, in the pitch points of wheels too; ``tag`` ends
-    the names of the parts."""
+    """Normals and tangents with their letters where links cut free touch others, also at the pitch points of wheels;
+    ``tag`` ends the names of the parts."""
     touches = (t for t in _on_paper(here).touches() if cut.intersection(t.links))
     return _marks(((t.name, t.at, t.normal) for t in touches), f"-{tag}")
 
@@ -165,9 +165,9 @@ def _marks(places: Iterable[tuple[str, complex, complex]], tag: str = "") -> Pie
 
 
 def replacing_links(here: MechanismOnPaper, clear: float = 0.0) -> tuple[Primitive, ...]:
-    """What replaces the higher pairs, dashed: the bar between two centres of curvature, that of a cam's pitch curve
-    among them with the cam's own to its axis, the block at the one of a disc whose guide runs along the face; bars end
-    ``clear`` mm before the middles of their pins."""
+    """The links that replace higher pairs, dashed: the bar between two centres of curvature (of a cam from the centre
+    of the pitch curve, with the cam's bar to its axis), or the block at the centre of a disc with its guide along the
+    face; bars end ``clear`` mm before the middles of their pins."""
     links, drawn = _on_paper(here), list[Primitive]()
     for contact, touch in links.contacts():
         if contact.rolling:
@@ -202,7 +202,7 @@ def replacing_links(here: MechanismOnPaper, clear: float = 0.0) -> tuple[Primiti
 
 
 def _dashed(start: complex, end: complex, colour: str, clear: float) -> Iterator[Primitive]:
-    """A bar that stands for a higher pair; none between pins that cover each other."""
+    """A bar that replaces a higher pair; none between pins that cover each other."""
     far = abs(end - start)
     if far > 2 * clear + TOUCHING:
         off = (end - start) / far * clear

@@ -1,1 +1,1 @@
-"""Places on a figure: labels and dimensions among what is drawn there."""
+"""Places of labels and dimensions among the strokes of a figure."""

@@ -1,8 +1,8 @@
-"""Dimensions, after ISO 129-1, of lengths and angles, and where there is room for them; and the bar that checks the
+"""Dimensions, after ISO 129-1, of lengths and angles, and the search for room for them; and the bar that checks the
 scale of a print.
 
-A dimension keeps clear of the mechanism and of other dimensions; its extension lines begin beyond the symbols of the
-points that they come from.
+A dimension keeps clear of the mechanism and of other dimensions; its extension lines begin beyond the symbols of their
+points.
 """
 
 from __future__ import annotations
@@ -32,8 +32,7 @@ Parts: TypeAlias = tuple[Part, ...]
 def dimension(start: complex, end: complex, offset: float, runs: tuple[Run, ...], share: float = 0.5) -> Parts:
     """The distance of two points, its line ``offset`` mm to the right of the way from start to end (negative: left).
 
-    The number stands upright in a gap of the line, at a ``share`` of it, or past its end where the line is too short
-    for both.
+    The number stands upright in a gap of the line, at a ``share`` of it, or past its end if the line is too short.
     """
     along = (end - start) / abs(end - start)
     right = along * 1j
@@ -65,7 +64,7 @@ def angle_dimension(
     centre: complex, radius: float, start: float, end: float, runs: tuple[Run, ...], share: float = 0.5
 ) -> Parts:
     """The angle from one direction to another (rad) about a point: an arc with an arrowhead at ``end``, its number
-    outside the arc at a ``share`` of it, or outside its beginning where it is short."""
+    outside the arc at a ``share`` of it, or outside its beginning if it is short."""
     sense = math.copysign(1.0, end - start)
     turn = min(POINTER.head_length / radius, abs(end - start) * 0.75)
     tip = centre + radius * page_direction(end)
@@ -84,7 +83,7 @@ def angle_dimension(
 def check_bar(at: complex, runs: tuple[Run, ...] = (), length: float = 50.0) -> Parts:
     """A bar of 50 mm with a tick each 10 mm, from its left end: lay a ruler on it to see that a print is true to scale.
 
-    The words stand above it; without any, its length.
+    The words stand above it; by default its length.
     """
     ticks = [Line(at, at + length, strokes.OUTLINE)]
     for mm in range(0, round(length) + 1, 10):
@@ -117,7 +116,7 @@ TRIM, LEAST_EXTENSION = 0.8, 2.2  # mm between a symbol and an extension line; a
 
 
 class _Choice(NamedTuple):
-    """One of the dimensions that may be taken: its extension lines, its other lines with the chords of its arcs, the
+    """A candidate for a dimension: its extension lines, its other lines with the chords of its arcs, the
     boxes around these arcs, and those of its numbers and of its arrowheads."""
 
     parts: Parts
@@ -146,7 +145,7 @@ class _Choice(NamedTuple):
 
 
 class DimensionClearance:
-    """What is drawn already, as arrays: segments, shape (n, 2), and boxes by their middles and half sizes, shape
+    """The strokes already drawn, as arrays: segments, shape (n, 2), and boxes by their middles and half sizes, shape
     (2, n)."""
 
     def __init__(self, obstacles: Obstacles, panel: Box | None) -> None:
@@ -162,14 +161,13 @@ class DimensionClearance:
         self, choices: Iterable[Parts], extensions: int = 2, *, over: bool = False, ends_on_line: bool = False,
         crossing: bool = False, over_lines: bool = False,
     ) -> Parts | None:  # fmt: skip
-        """The first of some dimensions that is clear of everything, added to what is drawn; None where none is.
+        """The first clear dimension of some, added to the drawn strokes; None where none is clear.
 
-        Its first lines are extension lines: they begin beyond what stands around the point they come from, and run
-        over other lines only where they must, as its number does over dashed ones, or where that is allowed at once
-        (``over``).  The arrowhead of an angle
-        ends on a line that is drawn, and its arc may run over what is drawn where it is given leave to
-        (``crossing``), its number not.  The lines of a distance may run over lines and arrowheads, its own arrowheads
-        end on lines, but none lies over a symbol of a point (``over_lines``).
+        Its first lines are extension lines: they begin beyond the symbols around their points, and run over other lines
+        only if necessary, as its number does over dashed ones, or if that is allowed (``over``).  The arrowhead of an
+        angle ends on a drawn line, and its arc may run over strokes if that is allowed (``crossing``), its number not.
+        The lines of a distance may run over lines and arrowheads, its own arrowheads end on lines, but none lies over a
+        symbol of a point (``over_lines``).
         """
         left = [choice for choice in (_Choice.of(parts, extensions) for parts in choices) if self._inside(choice)]
         bad = self._covered(left, ends_on_line or over_lines, crossing, over_lines)
@@ -191,7 +189,8 @@ class DimensionClearance:
         return self.panel is None or all(map(self.panel.holds, (*choice.numbers, *choice.heads, *choice.arcs)))
 
     def _covered(self, choices: Sequence[_Choice], on_lines: bool, crossing: bool, over_lines: bool) -> Flags:
-        """Which of some dimensions stand on anything; with arrowheads on lines, with lines over what they may cross."""
+        """Whether dimensions stand on strokes; arrowheads may lie on lines, and lines over strokes that they may
+        cross."""
         bad = np.zeros(len(choices), dtype=bool)
         of_numbers, numbers = _owned([choice.numbers for choice in choices], _boxes)
         of_heads, heads = _owned([choice.heads for choice in choices], _boxes)
@@ -211,8 +210,8 @@ class DimensionClearance:
     def _extended(
         self, choices: Sequence[_Choice], crossing: bool, over_lines: bool
     ) -> tuple[list[_Choice], Flags, Flags]:
-        """Some dimensions with their extension lines trimmed; which of them run over what they may not, and which over
-        lines, or have dashed ones under their numbers."""
+        """Some dimensions with their extension lines trimmed; whether they run over forbidden strokes, and whether over
+        lines, or have dashed lines under their numbers."""
         found = []
         each = iter(self._trimmed([line for choice in choices for line in choice.extensions]))
         for choice in choices:
@@ -234,11 +233,11 @@ class DimensionClearance:
         return found, bad, over
 
     def _symbols(self, large: bool) -> Points:
-        """Areas, or those that are larger than arrowheads."""
+        """Areas, or the areas larger than arrowheads."""
         return self.areas[:, np.abs(self.areas[1]) > ARROWHEAD] if large else self.areas
 
     def _trimmed(self, lines: Sequence[Line]) -> list[Line | None]:
-        """Extension lines, each from where nothing of its own point is in its way; None where too little is left."""
+        """Extension lines, each beginning clear of its own point's symbols; None where too little is left."""
         lengths = [abs(line.end - line.start) for line in lines]
         ways = [(line.end - line.start) / length for line, length in zip(lines, lengths, strict=True)]
         near = _segments([(line.start, line.start + AROUND_POINT * way) for line, way in zip(lines, ways, strict=True)])
@@ -261,7 +260,7 @@ class DimensionClearance:
 
 
 def _course(arc: Arc) -> list[complex]:
-    """Points of an arc, no more than a dozen degrees apart, but for a little of its ends, which lie on lines."""
+    """Points of an arc, at most a dozen degrees apart, without short pieces at its ends, which lie on lines."""
     turn = arc.end - arc.start
     left_out = min(0.06, ARC_END / (abs(turn) * arc.radius))
     count = max(8, math.ceil(abs(turn) / ARC_STEP))
@@ -273,19 +272,19 @@ _Thing = TypeVar("_Thing")
 
 
 def _owned(each: Sequence[Sequence[_Thing]], arrays: Callable[[Sequence[_Thing]], Points]) -> tuple[Indices, Points]:
-    """Things of several owners as arrays, with whose each is."""
+    """Items of several owners as arrays, with the owner of each."""
     return np.repeat(np.arange(len(each)), [len(some) for some in each]), arrays([one for some in each for one in some])
 
 
 def _stand_on(boxes: Points, taken: Points) -> Indices:
-    """Which of some boxes stand on boxes that are taken."""
+    """Whether boxes stand on taken boxes, shape (boxes,)."""
     off, reach = boxes[0][:, None] - taken[0], boxes[1][:, None] + SPACE + taken[1]
     found: Indices = ((np.abs(off.real) < reach.real) & (np.abs(off.imag) < reach.imag)).nonzero()[0]
     return found
 
 
 def _run_over(lines: Points, boxes: Points, space: float) -> Indices:
-    """Which of some lines come nearer to a box than a space (mm)."""
+    """Whether lines come nearer to a box than a space (mm), shape (lines,)."""
     return meets(lines, boxes[0], boxes[1] + space * (1 + 1j))[0]
 
 
@@ -303,12 +302,12 @@ def _boxes(boxes: Sequence[Box]) -> Points:
 
 
 def _either_side(one: Floats, other: Floats) -> Flags:
-    """Whether points lie on different sides of a line, or on it but for rounding; their areas with it tell."""
+    """Whether points lie on different sides of a line, or on it within rounding, by their areas with it."""
     return (np.minimum(one, other) < ON_LINE) & (np.maximum(one, other) > -ON_LINE)
 
 
 def _crossings(own: Points, others: Points) -> tuple[Indices, Floats]:
-    """Which of some segments cross others, and at which share of their length."""
+    """Whether segments cross others, and the share of their length at the crossing."""
     p, d = own[:, 0], own[:, 1] - own[:, 0]
     q, e = others[:, 0], others[:, 1] - others[:, 0]
     # of the few whose ends lie on different sides the others are asked

@@ -1,5 +1,5 @@
-"""Putting a figure together: pieces with what they draw by layer and the labels they ask for; pieces joined, moved,
-measured and cut; and what is drawn as obstacles.
+"""The composition of a figure: pieces with their strokes by layer and their labels; pieces joined, moved, measured and
+cut; and strokes as obstacles.
 """
 
 from __future__ import annotations
@@ -37,7 +37,8 @@ LAYERS = (
 
 @dataclass(frozen=True)
 class Piece:
-    """Part of a page: primitives by layer, labels that want a place, and further marks a label could be taken for."""
+    """A part of a page: primitives by layer, labels that need a place, and further marks for which a label could be
+    mistaken."""
 
     layers: Mapping[str, tuple[Primitive, ...]] = field(default_factory=dict)
     labels: tuple[Label, ...] = ()
@@ -62,7 +63,7 @@ def joined(pieces: Iterable[Piece]) -> Piece:
 
 
 def dated(piece: Piece, since: int | None) -> Piece:
-    """The piece with the number of the step from which on it is there on its parts and names that have none."""
+    """The piece with the number of the step from which it is shown, on its parts and names without one."""
 
     def known(thing: Primitive) -> Primitive:
         return replace(thing, since=since) if isinstance(thing, Group | Text) and thing.since is None else thing
@@ -79,7 +80,7 @@ def layer_groups(piece: Piece) -> tuple[Group, ...]:
 
 
 def cut_to(children: Iterable[Primitive], box: Box) -> tuple[Primitive, ...]:
-    """What of some primitives lies in a box: lines are cut at its edge, other things left out where they cross it."""
+    """The part of primitives in a box: lines are cut at its edge, other primitives left out if they cross it."""
 
     def cut(thing: Primitive) -> Primitive | None:
         if isinstance(thing, Group):
@@ -94,21 +95,20 @@ def cut_to(children: Iterable[Primitive], box: Box) -> tuple[Primitive, ...]:
 
 
 def kept_in(piece: Piece, box: Box) -> int:
-    """How many names of a piece stand in a box, and how many of the things that are left out where they cross its
-    edge."""
+    """The number of names of a piece in a box, and of primitives that are left out because they cross its edge."""
     things = walk(cut_to(piece.drawn, box))
     names = sum(box.distance(middle_of(name.mark)) == 0.0 for name in piece.labels)
     return names + sum(not isinstance(one, Line | Group) for one in things)
 
 
 def ink_box(children: Iterable[Primitive]) -> Box | None:
-    """The box around everything drawn, line widths left out; None where nothing is."""
+    """The box around all primitives, without line widths; None without primitives."""
     held = [z for thing in walk(tuple(children)) for z in _outermost(thing)]
     return Box.around(held) if held else None
 
 
 def _outermost(thing: Primitive) -> Sequence[complex]:
-    """Points that a primitive does not reach beyond; none of a group."""
+    """The extreme points of a primitive; none of a group."""
     if isinstance(thing, Line):
         return thing.start, thing.end
     if isinstance(thing, Text):
@@ -128,14 +128,14 @@ def _outermost(thing: Primitive) -> Sequence[complex]:
 
 
 def moved_piece(piece: Piece, by: complex) -> Piece:
-    """The same piece elsewhere on the page."""
+    """The piece moved on the page."""
     labels = tuple(replace(label, mark=_moved_mark(label.mark, by)) for label in piece.labels)
     layers = {layer: moved(things, by) for layer, things in piece.layers.items()}
     return Piece(layers, labels, tuple(_moved_mark(mark, by) for mark in piece.marks))
 
 
 def renamed(piece: Piece, suffix: str) -> Piece:
-    """The piece with other ids, where it stands beside others of its kind."""
+    """The piece with other ids, for a page with others of its kind."""
 
     def renamed(thing: Primitive) -> Primitive:
         return replace(thing, id=thing.id + suffix) if isinstance(thing, Group | Text) and thing.id else thing
@@ -160,7 +160,7 @@ _ARC_STEP = math.radians(12)
 
 
 def obstacles_of(children: tuple[Primitive, ...]) -> Obstacles:
-    """Everything drawn as obstacles: strokes and the outlines of blocks as segments; circles, arrowheads and texts as
+    """All primitives as obstacles: strokes and the outlines of blocks as segments; circles, arrowheads and texts as
     areas."""
     solid: list[Segment] = []
     dashed: list[Segment] = []

@@ -16,7 +16,7 @@ TEXTS = ("glyphs", "outlines")
 
 
 class Kept:
-    """What can be kept: in a file, or shown in a notebook.  A drawing or a chart, which say how it is written."""
+    """A drawing or a chart: it can be saved in a file, or shown in a notebook."""
 
     def content(self, format: str, dpi: float = 200.0, text: str = "glyphs") -> bytes:
         """The page as a file of a format, "svg", "pdf", "png" (at ``dpi``) or "dxf"; the letters of an SVG as text with
@@ -24,11 +24,11 @@ class Kept:
 
         Raises
         ------
-        CallError : another format, or one that this cannot be written in
+        CallError : another format, or one in which this page cannot be written
 
         Warns
         -----
-        MissingFont : of PDF and PNG, where it holds Chinese and the machine has no face for it
+        MissingFont : of PDF and PNG, if it has Chinese text and the machine has no face for it
         """
         if not isinstance(format, str) or format not in FORMATS:
             raise CallError.of("format", f'"{format!s:.60}"', "known here", names=', '.join(FORMATS))
@@ -60,10 +60,10 @@ class Kept:
 
 @dataclass(frozen=True)
 class Drawing(Page, Kept):
-    """A page of primitives that can be kept; ``further`` are the pages on which it goes on: they follow it in a PDF,
-    and are files of their own in other formats.
+    """A page of primitives that can be saved; ``further`` are its continuation pages: they follow it in a PDF, and are
+    files of their own in other formats.
 
-    Two types, because the writers, which a drawing calls, know nothing but what is on a page.
+    It is a type beside `Page`, because the writers, which a drawing calls, know only the content of a page.
     """
 
     def __hash__(self) -> int:
@@ -93,7 +93,7 @@ class Drawing(Page, Kept):
 def save(drawing: Kept, path: str | os.PathLike[str], dpi: float = 200.0) -> Path:
     """Write a drawing or a chart to a file, as SVG, PDF or PNG by the ending of its name, and return the path.
 
-    The file appears whole or not at all; one of the same name is replaced.
+    The file appears whole or not at all; a file of the same name is replaced.
 
     Raises
     ------

@@ -1,10 +1,10 @@
 """Drawings as DXF for CAD: one unit is one millimetre on paper, layers as in the SVG, the same bytes every time.
 
-ezdxf (extra ``cad``) stays behind this module.  What has a name in the SVG is a group of that name.  White fills, which
-hide lines on paper, are left out: what is drawn is geometry.
+ezdxf (extra ``cad``) stays behind this module.  A named group of the SVG is a group of that name.  White fills, which
+hide lines on paper, are left out: a DXF holds geometry.
 
-The profile of a cam stands true to size for a milling machine, as a closed curve of arcs that keeps within a millionth
-of a millimetre of the computed one.
+The profile of a cam is true to size for a milling machine, as a closed curve of arcs within a millionth of a millimetre
+of the computed one.
 """
 
 from __future__ import annotations
@@ -174,7 +174,7 @@ class _Board:
         return look
 
     def _text(self, text: Text, layer: str) -> list[DXFGraphic]:
-        """A text of each run, fitted into the length that its glyphs have in the other formats."""
+        """A text of each run, fitted into the length of its glyphs in the other formats."""
         from ezdxf.enums import TextEntityAlignment
 
         made: list[DXFGraphic] = []
@@ -217,7 +217,7 @@ def outline_dxf(centre: complex, radius: float) -> bytes:
 
 
 def arcs_of_profile(cam: LawCam) -> list[Vertex]:
-    """The profile as arcs that touch each other, two between each two of its points (biarcs), finer where it bends."""
+    """The profile as tangent arcs, two between each two of its points (biarcs), finer where it bends."""
     found: list[Vertex] = []
     for part in cam.law.parts:
         count = max(2, math.ceil(COUNT * (part.end - part.start) / math.tau))
@@ -254,7 +254,7 @@ def _between(cam: LawCam, part: LiftPiece, start: float, end: float, rounds: int
 def _probes(
     cam: LawCam, part: LiftPiece, start: float, end: float, joint: complex, middle: complex, p: complex, q: complex
 ) -> list[tuple[complex, bool]]:
-    """Points of the profile in between, and whether they lie on the first arc."""
+    """Points of the profile between the ends, and whether they lie on the first arc."""
     found = []
     for share in (0.2, 0.5, 0.8):
         z = middle if share == 0.5 else _point(cam, part, start + share * (end - start))[0]
@@ -263,8 +263,8 @@ def _probes(
 
 
 def _biarc(p: complex, t: complex, q: complex, u: complex) -> tuple[complex, float, float] | None:
-    """Two arcs that leave p along t, touch each other, and come to q along u: their joint and both bulges; None where
-    the two points are one (Bolton, Biarc curves, Computer-Aided Design 7, 1975)."""
+    """Two arcs that leave p along t, touch each other, and come to q along u: their joint and both bulges; None for
+    coincident points (Bolton, Biarc curves, Computer-Aided Design 7, 1975)."""
     v = q - p
     if abs(v) < 1e-9:
         return None
@@ -281,7 +281,7 @@ def _bulge(p: complex, t: complex, q: complex) -> float:
 
 
 def _off(p: complex, q: complex, bulge: float, z: complex) -> float:
-    """How far a place lies off an arc."""
+    """The distance of a place from an arc."""
     chord = q - p
     if abs(bulge) < 1e-12:
         return abs(cross(chord, z - p)) / abs(chord)

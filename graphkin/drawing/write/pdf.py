@@ -64,12 +64,12 @@ class MissingFont(UserWarning):
 
 @contextmanager
 def own_settings(**further: object) -> Iterator[None]:
-    """matplotlib with settings of ours, whatever the user's are, in this thread alone: the user's stay as they are,
-    also for his other threads meanwhile, and what those change is kept.
+    """A context with our settings of matplotlib in this thread alone: the user's settings stay, also for the user's
+    other threads meanwhile, whose changes are kept.
 
-    matplotlib's settings are one dict for the whole process.  While somebody draws here, that dict answers the drawing
-    thread out of ours; all that is written goes to the user's.  One thread draws at a time, for matplotlib's reader of
-    formulas cannot serve two.
+    matplotlib's settings are one dict for the whole process.  During a drawing that dict answers the drawing thread
+    with our settings; all writes go to the user's.  One thread draws at a time, since matplotlib's reader of formulas
+    cannot serve two.
     """
     import matplotlib
 
@@ -87,8 +87,8 @@ def own_settings(**further: object) -> Iterator[None]:
 
 
 def leave_undocumented() -> None:
-    """Spare matplotlib the documentation of its classes, which it writes as it is imported: a third of the time that
-    this takes.  For a process of ours alone, where nobody reads it."""
+    """Keep matplotlib from writing the documentation of its classes during its import: a third of the import's time.
+    Only for processes of our own, where nobody reads it."""
     from matplotlib import artist
 
     artist.kwdoc = lambda artist: ""
@@ -103,7 +103,7 @@ _OF_THREAD = _OfThread()
 
 
 def _settings(further: tuple[tuple[str, object], ...]) -> dict[str, object]:
-    """matplotlib's own, and then ours, in the form in which it keeps them."""
+    """matplotlib's default settings with ours over them, in its own form."""
     import matplotlib
 
     ours = matplotlib.RcParams({**_SETTINGS, **dict(further)})
@@ -122,7 +122,7 @@ def _answering() -> type:
             return ours[key] if ours is not None and key in ours else super().__getitem__(key)
 
         def copy(self) -> RcParams:
-            """Of the user's, as one of his threads may make it meanwhile."""
+            """A copy of the user's settings, as one of the user's threads may make it meanwhile."""
             made = RcParams()
             dict.update(made, dict.copy(self))
             return made
@@ -135,7 +135,7 @@ def pdf_bytes(drawing: Page, *further: Page) -> bytes:
 
     Warns
     -----
-    MissingFont : once, where one holds Chinese and the machine has no face for it
+    MissingFont : once, if a drawing has Chinese text and the machine has no face for it
     """
     pages = drawing, *further
     more = any(map(_needs_more, pages))
@@ -164,7 +164,7 @@ def png_bytes(drawing: Page, dpi: float = 200.0) -> bytes:
 
 
 def whole_pixels(mm: float, dpi: float) -> float:
-    """A length (mm) rounded up to whole pixels, or the canvas cuts the last one off and all heights shift."""
+    """A length (mm) rounded up to whole pixels; otherwise the canvas cuts off the last pixel and all heights shift."""
     return math.ceil(mm * dpi / MM_PER_INCH - 1e-6) / dpi * MM_PER_INCH
 
 
@@ -288,12 +288,12 @@ def _add_text(figure: Figure, text: Text, page: Transform, order: int, family: l
 
 
 def _needs_more(drawing: Page) -> bool:
-    """Whether a drawing holds Chinese that the family lacks."""
+    """Whether a drawing has Chinese characters that the family lacks."""
     return not all(holds(thing.string) for thing in walk(drawing.children) if isinstance(thing, Text))
 
 
 def faces(more: bool, warn: bool = True) -> list[str]:
-    """Faces in the order in which a glyph is looked for; ``more`` where Chinese is wanted that the family lacks.  Warns
+    """Faces in the order of the search for a glyph; ``more`` for Chinese characters that the family lacks.  Warns
     MissingFont."""
     _register()
     if not more:

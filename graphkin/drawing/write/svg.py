@@ -56,7 +56,7 @@ _NAMESPACES = {
 def number(value: float) -> str:
     """A number as it stands in the file: at most 3 decimals, no trailing zeros, no minus zero.
 
-    Raises ValueError for what is no finite number: a figure never holds one.
+    Raises ValueError for a number that is not finite: no figure has one.
 
     >>> number(12.5), number(-0.0001), number(3.0)
     ('12.5', '0', '3')
@@ -74,9 +74,9 @@ def svg_bytes(drawing: Page, debug: bool = False, embed: bool = True, outlines: 
     ----------
     drawing : sizes and places in mm
     debug : have svgwrite check every element and attribute against the SVG standard (slow; for tests)
-    embed : whether the used glyphs come with it; not where a page holds them for all its figures
-    outlines : letters as paths, for programs without fonts; the text lies over them without colour, for search and for
-        readers of screens
+    embed : whether it contains the used glyphs; not if a page has them for all its figures
+    outlines : letters as paths, for programs without fonts; the text lies over them without colour, for search and
+        screen readers
 
     Raises
     ------
@@ -99,17 +99,16 @@ def svg_bytes(drawing: Page, debug: bool = False, embed: bool = True, outlines: 
 
 
 def svg_element(drawing: Page, named: bool = False) -> str:
-    """The drawing as an element of a page, which brings the letters; its title and description are read aloud.
+    """The drawing as an element of a page, which has the letters; screen readers read its title and description.
 
-    It is as short as can be, for a page may hold hundreds: no layers, no lengths of texts, nothing that goes without
-    saying.  Lines end under their arrowheads by a dash and not by a clip, whose name would have to be unique in the
-    page.
+    It is as short as possible, since a page may have hundreds: no layers, no lengths of texts, no default values.  Lines
+    end under their arrowheads by a dash and not by a clip, whose name would have to be unique in the page.
 
     Parameters
     ----------
     drawing : sizes and places in mm
-    named : whether vectors, points and links keep their names, which stand once in a page, and vectors have a band of a
-        finger's breadth that is not seen but felt by the pointer
+    named : whether vectors, points and links keep their names, which are unique in a page, and vectors have an
+        invisible band of a finger's breadth for the pointer
 
     Raises
     ------
@@ -121,7 +120,7 @@ def svg_element(drawing: Page, named: bool = False) -> str:
 
 
 def _head(drawing: Page) -> dict[str, str]:
-    """What the outermost element says of a page."""
+    """The attributes of a page's outermost element."""
     width, height = number(drawing.width), number(drawing.height)
     return {
         "width": f"{width}mm", "height": f"{height}mm", "viewBox": f"0 0 {width} {height}", "role": "img",
@@ -130,7 +129,7 @@ def _head(drawing: Page) -> dict[str, str]:
 
 
 class _Ink:
-    """Writes primitives as elements of one page; knows the clips, names and characters that it has already written."""
+    """Writes primitives as elements of a page; it keeps the clips, names and characters that it has written."""
 
     closing = " />"  # of an element that holds nothing
 
@@ -141,11 +140,11 @@ class _Ink:
         self.used: dict[Style, set[str]] = {"regular": set(), "italic": set(), "bold": set()}
 
     def element(self, tag: str, attributes: dict[str, str], inner: str = "") -> str:
-        """An element around what is written already."""
+        """An element around written ones."""
         return f"{_opening(tag, attributes)}>{inner}</{tag}>" if inner else _opening(tag, attributes) + self.closing
 
     def page(self, drawing: Page) -> str:
-        """Everything on the page."""
+        """The content of the page."""
         # white paper, so that black lines show on a dark screen too
         whole = {"x": "0", "y": "0", "width": "100%", "height": "100%"}
         paper = self.element("rect", {**whole, **self.filled("#ffffff"), "class": "paper"})
@@ -185,7 +184,7 @@ class _Ink:
         return {"stroke": self.colour(stroke.colour), "stroke-width": number(stroke.width), **dashes}
 
     def _line(self, line: Line, look: dict[str, str]) -> str:
-        """A line, cut by a clip where its end lies under an arrowhead."""
+        """A line, cut by a clip if its end lies under an arrowhead."""
         (x1, y1), (x2, y2) = _pair(line.start), _pair(line.end)
         look = {"x1": x1, "y1": y1, "x2": x2, "y2": y2, **look}
         if not line.covered:
@@ -212,11 +211,11 @@ class _Ink:
         return {**self._named(group.id, class_names(group)), **layer}
 
     def _last_of(self, group: Group) -> str:
-        """What stands in a group behind its children: its title."""
+        """The end of a group after its children: its title."""
         return self.element("title", {}, _escaped(_clean(group.title))) if group.title else ""
 
     def _moving(self, motion: Travel, inner: str) -> str:
-        """The inside of a group that moves, with what turns in it in a group of its own."""
+        """The inside of a moving group, with its turning part in a group of its own."""
         always = {"dur": f"{number(motion.seconds)}s", "repeatCount": "indefinite"}
         transform = {"attributeName": "transform", "attributeType": "XML", **always}
         moves, last = [], next((m for m in motion.moves if m is not None), 0j)
@@ -236,7 +235,7 @@ class _Ink:
         return "".join((*parts, inner))
 
     def _scan(self, scan: Scan) -> str:
-        """A picture with its file in it, cut by a clip that stands beside it."""
+        """A picture with its file in it, cut by a clip beside it."""
         shape = "M" + "L".join(" ".join(_pair(corner)) for corner in scan.panel) + "Z"
         name = f"clip-{crc32(shape.encode()):08x}"
         clip = self.element("clipPath", {"id": name}, self.element("path", {"d": shape}))
@@ -283,7 +282,7 @@ class _Ink:
     def _outlined(
         self, colour: str, runs: tuple[Run, ...], named: dict[str, str], look: dict[str, str], spans: str
     ) -> str:
-        """A text as paths, with itself unseen over them; where no face has its letters, itself alone."""
+        """A text as paths, with the invisible text over them; only the text if no face has its letters."""
         letters = "".join(
             outline(_clean(run.text), complex(run.x, run.y), run.size, style_of(run.italic, run.bold)) for run in runs
         )
@@ -293,7 +292,7 @@ class _Ink:
         return self.element("g", named, path + self.element("text", look, spans))
 
     def _named(self, id: str, classes: tuple[str, ...]) -> dict[str, str]:
-        """Id and classes; an id that is taken (B1 of link 2 and B12 are written alike) is told apart by a number."""
+        """Id and classes; an id that is taken (B1 of link 2 and B12 are written alike) gets a number."""
         named = {"class": " ".join(classes)} if classes else {}
         if id:
             free = id if id not in self.ids else next(n for k in count(2) if (n := f"{id}-{k}") not in self.ids)
@@ -373,7 +372,7 @@ def _shaft(line: Line) -> str:
 
 
 def _opening(tag: str, attributes: dict[str, str]) -> str:
-    """How an element begins, up to its bracket."""
+    """The beginning of an element, up to its bracket."""
     if "" in attributes.values():
         attributes = {key: value for key, value in attributes.items() if value}
     if _MARKUP.search("".join(attributes.values())):
@@ -383,7 +382,7 @@ def _opening(tag: str, attributes: dict[str, str]) -> str:
 
 @cache
 def _form(tag: str, names: tuple[str, ...]) -> str:
-    """How an element with these attributes begins, in the order of their names, a gap for each value."""
+    """The beginning of an element with these attributes, in the order of their names, a gap for each value."""
     return f"<{tag}" + "".join(f' {name}="%({name})s"' for name in sorted(names))
 
 
@@ -392,8 +391,8 @@ def _escaped(text: str) -> str:
 
 
 def _check(text: str) -> None:
-    """Have svgwrite hold all elements of a page against SVG 1.1, which it is taught the attributes for readers and
-    editors that later standards have.  Raises ValueError or TypeError for one that is wrong."""
+    """Check all elements of a page against SVG 1.1 by svgwrite, with the attributes of later standards for readers and
+    editors added.  Raises ValueError or TypeError for a wrong element."""
     import svgwrite
     from svgwrite.data.types import SVGAttribute
     from svgwrite.extensions import Inkscape
