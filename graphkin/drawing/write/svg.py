@@ -101,8 +101,8 @@ def svg_bytes(drawing: Page, debug: bool = False, embed: bool = True, outlines: 
 def svg_element(drawing: Page, named: bool = False) -> str:
     """The drawing as an element of a page, which has the letters; screen readers read its title and description.
 
-    It is as short as possible, since a page may have hundreds: no layers, no lengths of texts, no default values.  Lines
-    end under their arrowheads by a dash and not by a clip, whose name would have to be unique in the page.
+    It is as short as possible, since a page may have hundreds: no layers, no lengths of texts, no default values.
+    Lines end under their arrowheads by a dash and not by a clip, whose name would have to be unique in the page.
 
     Parameters
     ----------
