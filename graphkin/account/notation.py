@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Literal
 
@@ -46,6 +46,7 @@ _ROLES = {"normal": 0, "tangential": 1, "coriolis": 2, "sliding": 3}
 _PLACES: Mapping[str, tuple[str, str]] = {
     "x": ("x", ""), "y": ("y", ""), "theta": ("θ", ""), "d": ("l", ""), "s": ("s", ""), "gamma": ("γ", ""),
     "pressure": ("α", "p"), "stroke": ("H", ""), "swing": ("ψ", ""), "K": ("K", ""), "theta_lag": ("θ", "K"),
+    "transmission": ("γ", ""),
 }  # fmt: skip
 _NAME = re.compile(r"([A-Za-z]+)(.*)")
 
@@ -72,15 +73,15 @@ def as_vector(convention: Convention, magnitude: str) -> str:
 
 @dataclass(frozen=True)
 class Letters:
-    """Names of quantities on a sheet in a convention.
+    """Names of quantities in a convention, on a sheet or on a diagram.
 
     ``blocks`` gives for a pin that runs in a guide the link of its index where coincident points are distinguished (the
     pin B of block 2 is written B2 beside B3); ``holders`` the links of each point.
     """
 
     convention: Convention
-    blocks: Mapping[str, str]
-    holders: Mapping[str, tuple[str, ...]]
+    blocks: Mapping[str, str] = field(default_factory=dict)
+    holders: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def point(self, name: str) -> str:
         """A point of the mechanism: capital letter, digits as an index."""
@@ -100,21 +101,23 @@ class Letters:
 
     def vector(self, symbol: Symbol) -> str:
         """The magnitude of a vector, or a rate: ``v_{B3B2}``, ``a^{n}_{CB}``, ``ω_{3}``; seen from link 2 held still,
-        ``a^{n(2)}_{CB}``."""
+        ``a^{n(2)}_{CB}``; the rate of a sliding pair ``v_{61}``, a component along an axis ``v_{Cx}``."""
         if symbol.at:
             return f"{self.vector(symbol.here)}({symbol.at})"
         if symbol.scope == "force":
             return force_letters(self.convention, symbol)
         if symbol.kind in _PLACES:
             letter, mark = _PLACES[symbol.kind]
-            names = "".join(self.ref(ref) for ref in (symbol.of, symbol.to) if ref) + symbol.link + symbol.other
-            return f"{letter}{f'^{{{mark}}}' if mark else ''}_{{{names}}}"
-        if symbol.of is None:
-            return f"{'ω' if symbol.kind == 'omega' else 'α'}_{{{symbol.link}}}"
+            names = "".join(self.ref(ref) for ref in (symbol.of, symbol.to) if ref) + _pair(symbol)
+            return f"{letter}{f'^{{{mark}}}' if mark else ''}_{{{names + symbol.name.replace('-', '')}}}"
         us = self.convention == "us"
+        if symbol.of is None:
+            letter = {"omega": "ω", "alpha": "α"}.get(symbol.kind) or (symbol.kind.upper() if us else symbol.kind)
+            return f"{letter}_{{{_pair(symbol)}}}"
         index = self.ref(symbol.of)
         if symbol.to is not None:
             index += ("/" if us else "") + self.ref(symbol.to)
+        index += symbol.axis
         letter = symbol.kind[0].upper() if us else symbol.kind[0]
         marks = _PARTS[self.convention][_ORDER.index(symbol.kind)] if symbol.kind in _ORDER else ""
         marks += f"({symbol.seen})" if symbol.seen else ""
@@ -269,9 +272,14 @@ def force_letters(convention: Convention, symbol: Symbol, part: str = "") -> str
     return letter + (f"^{{{above}}}" if above else "") + (f"_{{{index}}}" if index else "")
 
 
-def _named(convention: Convention, symbol: Symbol) -> tuple[str, str]:
+def _pair(symbol: Symbol) -> str:
+    """A link, or a pair of links, parted where a name has several signs: ``61``, ``10,1``."""
     comma = "," if max(len(symbol.link), len(symbol.other)) > 1 else ""
-    links = symbol.link + (comma + symbol.other if symbol.other else "")
+    return symbol.link + (comma + symbol.other if symbol.other else "")
+
+
+def _named(convention: Convention, symbol: Symbol) -> tuple[str, str]:
+    links = _pair(symbol)
     at = f",{symbol.of.point}" if symbol.of else ""
     letter, mark = _INERTIA[convention]
     match symbol.kind:

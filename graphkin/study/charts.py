@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.account.notation import force_letters
+from graphkin.account.notation import Letters
 from graphkin.construction.scales import next_of_series
 from graphkin.drawing import Box, Primitive, Text, chart
 from graphkin.drawing.ink.primitives import Stroke
@@ -308,24 +308,14 @@ def motion_panel(
     return replace(panel, unbounded=traced is not None and traced.unbounded)
 
 
-LETTERS = {"theta": "θ", "omega": "ω", "alpha": "α", "gamma": "γ", "pressure": "α^{p}", "d": "l"}
-"""Of kinds of quantities that bear other letters on diagrams than in names."""
+def lettered(scene: Mechanism, symbol: Symbol) -> str:
+    """A quantity in the letters of the scene's convention, as markup without dollar signs."""
+    return Letters(scene.question.sheet.convention).vector(symbol)
 
 
 def quantity_title(scene: Mechanism, quantity: Quantity) -> str:
     """Symbol and unit of a quantity as markup."""
-    kind, symbol = quantity.kind, quantity.symbol
-    if symbol.is_load:
-        shown = force_letters(scene.question.sheet.convention, symbol)
-    else:
-        name = str(symbol).removeprefix(f"{kind}_") if quantity.order is None else symbol.link
-        shown = f"{LETTERS.get(kind, kind)}_{{{name.replace('@', '')}}}"
-    return f"${shown}$ ({quantity.unit(scene).written})"
-
-
-def force_symbol(scene: Mechanism, force: Symbol) -> str:
-    """A force or a moment in the letters of the scene's convention, as markup."""
-    return f"${force_letters(scene.question.sheet.convention, force)}$"
+    return f"${lettered(scene, quantity.symbol)}$ ({quantity.unit(scene).written})"
 
 
 def _allowed(quantity: Quantity, scene: Mechanism) -> tuple[tuple[float, float] | None, float | None]:

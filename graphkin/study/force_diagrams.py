@@ -61,7 +61,7 @@ def force_page(reach: DriverRange, quantity: Quantity, language: str) -> chart.C
     """The diagram of a moment, or of the size of a force, over the driver."""
     axis = charts.driver_axis(reach, language)
     panel = force_panel(axis, quantity, whole_turn(axis))
-    heads = say(Phrase("diagram of", quantity=charts.force_symbol(reach.scene, quantity.symbol)), language), ()
+    heads = say(Phrase("diagram of", quantity=f"${charts.lettered(reach.scene, quantity.symbol)}$"), language), ()
     facts = {"units": quantity.unit(reach.scene).written, "quantity": quantity.name}
     return charts.chart_page(reach.scene, heads, [panel], axis, language, quantity.name, facts)
 
@@ -149,7 +149,7 @@ def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> chart.C
     x, sizes = panel.curve.T
     vector = np.asarray(unit.of(quantity.whole(reach.motion(offsets))), dtype=complex)
     jumps = sorted({j for part in (vector.real, vector.imag) for j in jumps_of(np.stack([x, part], axis=1))})
-    name = charts.force_symbol(scene, quantity.symbol)
+    name = f"${charts.lettered(scene, quantity.symbol)}$"
     title = say(Phrase("polar diagram of", force=name), language)
     mark = "°" if scene.drivers[0].turns else f" {scene.units.length}"
     facts = [f"{name}{word('colon', language)}{word(panel.without_bound, language)}"]

@@ -8,7 +8,6 @@ direction, and the scale is mu_y mu_t H (Artobolevsky, Theory of Mechanisms and 
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
@@ -28,7 +27,7 @@ from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, did_y
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import DriverRange
-from graphkin.study.charts import LETTERS, number, title_of
+from graphkin.study.charts import lettered, number, title_of
 from graphkin.study.quantities import Quantity
 from graphkin.table import Column, Table
 from graphkin.words import Phrase, say, word
@@ -238,18 +237,12 @@ AXIS = Stroke(0.25)
 PARTS = 6  # of an interval, in a curve through its ends
 
 
-def markup_of(symbol: Symbol) -> str:
-    """The letter of a quantity: ``θ_{4}``, ``s_{61}``, ``v_{Cx}``."""
-    names = re.sub("[/.@]", "", str(symbol).removeprefix(f"{symbol.kind}_"))
-    return f"{LETTERS.get(symbol.kind, symbol.kind)}_{{{names}}}"
-
-
 def chords_page(chords: Chords, reach: DriverRange, language: str) -> ChartPage:
     """The page of a diagram with its result.  One mm of the file is one mm on paper, so that a length by ruler times
     the scale is the value."""
     scene = reach.scene
     of_given, of_result = scene.units.of(chords.given.measure), scene.units.of(chords.result.measure)
-    given, result = markup_of(chords.given), markup_of(chords.result)
+    given, result = lettered(scene, chords.given), lettered(scene, chords.result)
     title = say(Phrase(f"graphical {chords.way}", result=f"${result}$", curve=f"${given}$"), language)
     per_y, per_found = of_given.of(chords.per_y), of_result.of(chords.per_found)
     scales = (

@@ -1,0 +1,23 @@
+"""Letters of quantities, the same on sheets, on papers and on diagrams."""
+
+import pytest
+
+from graphkin.account.notation import Letters
+from graphkin.scene.symbol import Symbol
+
+
+@pytest.mark.parametrize(("chinese", "us", "name"), [
+    ("v_{61}", "V_{61}", "v_6/1"),
+    ("a_{10,1}", "A_{10,1}", "a_10/1"),
+    ("s_{61}", "s_{61}", "s_6/1"),
+    ("v_{Cx}", "V_{Cx}", "v_C.x"),
+    ("v_{B3C}", "V_{B3/C}", "v_B@3/C"),
+    ("θ_{32}", "θ_{32}", "theta_3/2"),
+    ("F_{R56}", "F_{56}", "F_5/6"),
+])  # fmt: skip
+def test_a_quantity_is_written_in_the_letters_of_its_school(chinese: str, us: str, name: str):
+    assert (chinese, us) == (Letters("chinese").vector(Symbol.parse(name)), Letters("us").vector(Symbol.parse(name)))
+
+
+def test_the_transmission_angle_of_a_group_has_the_letter_of_an_angle_between_links():
+    assert "γ_{45}" == Letters("chinese").vector(Symbol("transmission", name="4-5"))
