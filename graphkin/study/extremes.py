@@ -269,10 +269,10 @@ def _traced(way: CurveParameter, curves: Sequence[Curve]) -> list[Traced]:
     moving = [c for c in curves if c.quantity not in constant]
     for curve, extremes, zeros in zip(moving, _extremes(way, moving), _zeros(way, moving), strict=True):
         quantity = curve.quantity
-        if quantity.is_size:
+        if quantity.is_unsigned:
             most = max((e.value for e in extremes), default=0.0)
             extremes = tuple(replace(e, value=0.0) if e.value <= 1e-11 * most else e for e in extremes)
-            zeros = np.array([e.offset for e in extremes if e.value == 0.0])
+            zeros = np.array([e.offset for e in extremes if e.value == 0.0 and e.kind != "end"])
         elif quantity.is_angle:
             zeros = np.zeros(0)
         found.append(Traced(quantity, extremes, tuple(driver_value(reach, float(z)) for z in zeros)))

@@ -90,6 +90,12 @@ class Quantity:
         return self.symbol.is_vector and not self.along
 
     @property
+    def is_unsigned(self) -> bool:
+        """Whether it is never less than 0, and zero only where it is least: a size, a distance, an angle of 90 degrees
+        at most."""
+        return self.is_size or self._apart or self._folded
+
+    @property
     def is_vector(self) -> bool:
         """Whether tables show two components of it."""
         return self.kind == "place" or self.is_size

@@ -526,3 +526,10 @@ def test_no_extreme_is_told_where_a_rate_only_grows_towards_an_end() -> None:
     rate = Quantity(Symbol.parse("v_P8/1"))
     course = next(t for t in study_turn(reach, [rate]).curves if t.quantity == rate)
     assert ["min", "max", "min", "max"] == [e.kind for e in course.extremes]
+
+
+@pytest.mark.parametrize(("name", "zeros"), [("gamma_2-3", 0), ("pressure_3", 2)])
+def test_an_angle_of_90_degrees_at_most_is_zero_only_where_it_is_least(name: str, zeros: int) -> None:
+    angle = Quantity(Symbol.parse(name))
+    turn = study_turn(driver_range(mechanism_of("four-bar-coupler-point")), [angle])
+    assert zeros == len(next(t for t in turn.curves if t.quantity == angle).zeros)
