@@ -19,7 +19,7 @@ from tempfile import TemporaryDirectory
 import graphkin
 from graphkin.scene import mechanism_of_text
 from graphkin.solver import prepare
-from graphkin.study.sweeps import MANY
+from graphkin.solver.kernel import pays
 
 from . import peers
 from .compare import best, header
@@ -36,7 +36,7 @@ def arrays() -> None:
         for n in COUNTS:
             ready = prepare(scene, case.asked)
             calls: dict[str, Callable[[], object]] = {
-                "engine": lambda r=ready, n=n: r.sweep(n, fast=n >= MANY and peers.have("numba")),
+                "engine": lambda r=ready, n=n: r.sweep(n, fast=pays(n)),
                 "sweep": lambda s=scene, c=case, n=n: graphkin.sweep(s, positions=n, find=c.asked),
             }
             peer = peers.pylinkage(case, n) if peers.have("pylinkage") else None
