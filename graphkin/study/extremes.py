@@ -31,6 +31,8 @@ EQUAL = 1e-11
 """Of a value: extremes that differ by less are equal."""
 NEAR_END = 1e-4
 """Of the range: an extreme this near to an end of the motion is the end itself."""
+LEAST_REACHED = 6
+"""Positions, each twice as far from an end at which links go away as the one before: fewer give no value there."""
 STEPS_TO_END = 2e-2
 """Of the angle that runs over the range: steps to an end that the solver does not come near enough to."""
 ASIDE = 1e-3
@@ -134,26 +136,31 @@ class CurveParameter:
         value = np.nan if self._away[which] else float(curve.pieces.at(self.range[which], curve.k))
         if np.isfinite(value):
             return curve.quantity.of_smooth(value)
-        low, high = self.range
-        steps: Array = STEPS_TO_END * np.arange(1, 9, dtype=np.float64)
-        near = self.offset(high - steps if which else low + steps)
+        (low, high), steps = self.range, np.arange(1.0, 9.0)
         if self._away[which]:
-            low, high = self.reach.ends
-            steps = np.asarray(HAIR * 2.0 ** np.arange(2, 18), dtype=np.float64)
-            near = high - steps * (high - low) if which else low + steps * (high - low)
-        values = curve.quantity.values(self.reach, self.reach.motion(near))
-        if self._away[which]:  # the six nearest positions that the solver reaches
-            nearest = np.flatnonzero(np.isfinite(values))[:6]
-            if len(nearest) < 6:
+            parts = HAIR * 2.0 ** np.arange(2, 18)
+            values = self._beside_end(curve.quantity, which, parts)
+            reached = np.flatnonzero(np.isfinite(values))
+            if len(reached) < LEAST_REACHED:
                 return np.nan
-            steps, values = steps[nearest], values[nearest]
-        if self._away[which] and abs(values[0]) > 1.5 * abs(values[1]) > 2.25 * abs(values[2]):
-            return float(np.copysign(np.inf, values[0]))
+            nearest, next_, third = np.abs(values[reached[:3]])
+            if nearest > 1.5 * next_ > 2.25 * third:
+                return float(np.copysign(np.inf, values[reached[0]]))
+            values = self._beside_end(curve.quantity, which, parts[reached[0]] * steps)
+        else:
+            near = self.offset(high - STEPS_TO_END * steps if which else low + STEPS_TO_END * steps)
+            values = curve.quantity.values(self.reach, self.reach.motion(near))
         # Neville's scheme: the value at 0 of the polynomial through values at steps
         found = values.tolist()
         for k in range(1, len(found)):
             found = [b - (c - b) * x / (y - x) for b, c, x, y in zip(found, found[1:], steps, steps[k:], strict=False)]
         return curve.quantity.of_extrapolated(float(found[0]))
+
+    def _beside_end(self, quantity: Quantity, which: int, parts: Array) -> Array:
+        """A quantity at parts of the range beside its lower or upper end."""
+        low, high = self.reach.ends
+        near = high - parts * (high - low) if which else low + parts * (high - low)
+        return quantity.values(self.reach, self.reach.motion(near))
 
     def offset(self, parameter: Array) -> Array:
         low, high = self.reach.ends

@@ -533,3 +533,11 @@ def test_an_angle_of_90_degrees_at_most_is_zero_only_where_it_is_least(name: str
     angle = Quantity(Symbol.parse(name))
     turn = study_turn(driver_range(mechanism_of("four-bar-coupler-point")), [angle])
     assert zeros == len(next(t for t in turn.curves if t.quantity == angle).zeros)
+
+
+def test_an_angle_at_an_end_where_other_links_go_away_has_eleven_digits() -> None:
+    # at both ends, half a turn apart, link 7 stands the same way
+    turn = study_turn(driver_range(as_scene(redriven(7014))))
+    swing = next(output for output in turn.outputs if output.quantity.of == "7").position
+    low, *_, high = (e.value for e in swing.extremes if e.kind == "end")
+    assert low == pytest.approx(high, abs=1e-11)
