@@ -171,8 +171,11 @@ def _bodies(scene: Mechanism) -> Bodies:
     made.lost += [f"load {load.name}" for load in scene.loading.loads]
     made.lost += [f"spring {spring.name}" for spring in scene.loading.springs]
     for driver in scene.drivers:
+        if driver.law is not None:
+            made.lost.append(f"law of driver {driver.key}")
         if driver.turns_about(scene.frame.name):
             made.drives.append(BodyDrive(driver.link, driver.rate))
+            made.left += [f"acceleration of {driver.link}"] if driver.second and driver.law is None else []
         else:
             made.lost.append(f"driver {driver.key}")
     return made

@@ -304,5 +304,8 @@ def write_pyslvs(bodies: Bodies) -> str:
         for slide in kept:
             joint("P", place, [slide.on, slide.body], slide.angle)
     bodies.left += [f"unit of length {bodies.unit}"] if bodies.unit != "mm" else []
+    text = "M[" + ", ".join(joints) + "]\n"
+    driven = {drive.body for drive in read_pyslvs(text, bodies.title).drives}  # it names no input
+    bodies.lost += [f"driver of {drive.body}" for drive in bodies.drives if f"link{drive.body}" not in driven]
     bodies.left += [f"speed of {drive.body}" for drive in bodies.drives]
-    return "M[" + ", ".join(joints) + "]\n"
+    return text

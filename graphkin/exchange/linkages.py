@@ -136,7 +136,8 @@ def write_linkage2(bodies: Bodies) -> str:
     motors: dict[str, float] = {}
     for drive in bodies.drives:
         pivot = next((p for p in bodies.bodies.get(drive.body, ()) if p in fixed), "")
-        if drive.point or not pivot:
+        turning = [name for name, points in bodies.bodies.items() if pivot in points and name != FRAME]
+        if drive.point or turning != [drive.body]:  # a motor stands at a pivot, and turns what there is about it
             bodies.lost.append(f"driver of {drive.body}")
         else:
             motors[pivot] = drive.rate * 60 / math.tau

@@ -296,11 +296,25 @@ LOADED = WHITWORTH | {
     "masses": {"1": {"at": [0, 0], "mass": 2}},
     "loads": {"P": {"on": "3", "at": "D", "force": 9, "angle": 0}},
 }
+FOUR_BAR = {
+    "frame": {"points": {"A": [0, 0], "D": [100, 0]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 30},
+        "2": {"points": ["B", "C"], "length": 80},
+        "3": {"points": ["D", "C"], "length": 70},
+        "4": {"points": ["D", "E"], "length": 20},
+    },
+    "driver": [{"link": "1", "angle": 60, "omega": 2}, {"link": "4", "angle": 10, "omega": 1}],
+}
+BY_LAW = WHITWORTH | {"driver": {"link": "1", "time": 0.1, "law": {"from": 0, "to": 90, "duration": 1, "by": "345"}}}
 
 
 @pytest.mark.parametrize(
     ("scene", "ending", "lost"),
     [
+        (FOUR_BAR, ".pyslvs", ["driver of 4"]),
+        (FOUR_BAR, ".linkage2", ["driver of 4"]),
+        (BY_LAW, ".linkage2", ["law of driver 1"]),
         (WHITWORTH, ".json", ["slide of 1 on 3 (its line moves)"]),
         (LOADED, ".pyslvs", ["mass of 1", "load P"]),
         ("cam-eccentric-flat-rocker", ".linkage2", ["contact K of 1 and 2"]),
@@ -312,6 +326,11 @@ def test_what_moves_or_loads_is_only_lost_where_that_is_asked_for(scene, ending:
     assert lost == [problem.where for problem in stop.value.problems]
     assert [] == list(tmp_path.iterdir())
     assert set(lost) <= set(convert(scene, out=tmp_path / f"a{ending}", lossy=True).left)
+
+
+def test_an_angular_acceleration_is_named_where_it_is_left_out(tmp_path: Path):
+    faster = WHITWORTH | {"driver": {"link": "1", "angle": 30, "omega": 2, "alpha": 5}}
+    assert ("acceleration of 1",) == convert(faster, out=tmp_path / "a.linkage2").left
 
 
 def test_the_command_says_what_would_be_lost_and_leaves_it_out_where_it_may(tmp_path: Path):
