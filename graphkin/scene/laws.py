@@ -20,7 +20,9 @@ ROUNDING = 1e-12
 HALVINGS = 200
 NOTHING = 1e-14
 """Of the way by the time, and by its square: a smaller rate is nothing but rounding."""
-
+DOUBT = 256 * 2.0**-53, 64 * 2.0**-53, 320 * 2.0**-53
+"""How far rounding may move a value, a rate and a second rate, of the way by the time and by its square: the greatest
+sums of terms that cancel in the laws, and the next derivative times the rounding of the share of the time."""
 
 TURN = 2 * math.pi
 SEAM = 1e-12
@@ -244,6 +246,18 @@ class MotionLaw:
             rates = (x if abs(x) > NOTHING * largest / wide**k else 0.0 for k, x in enumerate(lift[1:], 1))
             return Lift(lift.lift, *rates)
         return Lift(part.low if time < part.start else part.high, 0.0, 0.0, 0.0)
+
+    @cached_property
+    def doubts(self) -> tuple[float, float, float]:
+        """How far rounding may move value, rate and second rate at any moment (rad or m, by s and by s2)."""
+        found = [0.0, 0.0, 0.0]
+        for part in self.parts:
+            wide = part.end - part.start
+            way = abs(part.high - part.low) + 4 * wide * max(map(abs, part.rates or (0.0,)))
+            later = part.end / wide  # the share of the time is rounded by so much more
+            sizes = max(abs(part.low), abs(part.high)) + way * later, way * later / wide, way * later / wide**2
+            found = [max(most, doubt * size) for most, doubt, size in zip(found, DOUBT, sizes, strict=True)]
+        return found[0], found[1], found[2]
 
     @cached_property
     def _runs(self) -> tuple[tuple[LiftPiece, float, float], ...]:

@@ -18,7 +18,7 @@ import numpy as np
 from graphkin.scene.pairs import LawCam
 from graphkin.solver.cams import follower_inputs, greatest_jerk
 from graphkin.solver.constraints import Constraints, Layout, Parts, led_relation, product, solve_all
-from graphkin.solver.drivers import conversion_error, meant, meant_angle
+from graphkin.solver.drivers import conversion_error, law_doubts, meant, meant_angle
 from graphkin.solver.pose import GIVEN, UNIT, Array, Drive, ErrorBound, Pose
 from graphkin.structure import Structure
 
@@ -322,15 +322,18 @@ def _driver_errors(structure: Structure, drive: Drive, refined: Array, value_err
     value = np.abs(drive.value)
     found = [np.where(turns, GIVEN / 2 * value + UNIT, GIVEN * value) if value_error is None else value_error.copy()]
     found += [GIVEN * np.abs(drive.rate), GIVEN * np.abs(drive.second)]
+    by_laws = law_doubts(structure.drivers)
     for k in np.flatnonzero(refined):
         for j, driver in enumerate(structure.drivers):
+            if by_laws[0, j]:
+                continue
             own = float(drive.value[k, j])
             dead = driver.dead_point and driver.dead_point.exact and own == driver.values[0]
             known = dead or (meant_angle if driver.turns else meant)(own)[1]
             found[0][k, j] = 0.0 if known else GIVEN * abs(own)
             for error, rate in ((found[1], drive.rate[k, j]), (found[2], drive.second[k, j])):
                 error[k, j] = 0.0 if meant(float(rate))[1] else GIVEN * abs(rate)
-    return found
+    return [error + doubt for error, doubt in zip(found, by_laws, strict=True)]
 
 
 def _written(structure: Structure, layout: Layout) -> Sequence[Array]:

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from decimal import ROUND_HALF_EVEN, Context, Decimal, DivisionByZero, InvalidOperation, Overflow, localcontext
@@ -186,6 +186,18 @@ def meant_direction(z: complex) -> tuple[tuple[Decimal, Decimal], bool]:
         if max(abs(float(u[0]) - z.real), abs(float(u[1]) - z.imag)) < 4.5e-16:
             return u, True
     return (Decimal(z.real), Decimal(z.imag)), False
+
+
+def law_doubts(drivers: Sequence[Driver]) -> Array:
+    """How far rounding may move value, rate and second rate of drivers that move by laws, and of what follows them:
+    shape (3, drivers) (rad or m, by s and by s2); 0 for others."""
+    doubts = np.zeros((len(drivers), 3))
+    for driver, own in zip(drivers, doubts, strict=True):
+        if driver.law is not None:
+            own[:] = driver.law.doubts
+        elif driver.ratios:
+            own[:] = np.abs(driver.ratios) @ doubts[: len(driver.ratios)]
+    return doubts.T
 
 
 def conversion_error(z: complex, direction: bool) -> tuple[float, float]:

@@ -18,7 +18,7 @@ from graphkin.scene.model import Driver
 from graphkin.scene.pairs import LawCam
 from graphkin.solver.bounds import LOOKED_UP, error_bounds, most_of, roughness
 from graphkin.solver.cams import follower_inputs
-from graphkin.solver.drivers import cos_sin, meant, meant_angle, working
+from graphkin.solver.drivers import cos_sin, law_doubts, meant, meant_angle, working
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.expressions import DECIMALS, Code, Name, Real, Vec
 from graphkin.solver.larger_groups import GroupSolved, solve_group
@@ -111,23 +111,24 @@ class ExtendedPrecision:
     def _drivers(self, k: int, at: Sequence[Decimal]) -> dict[Name, tuple[Decimal, Decimal]]:
         """What the formulas take that changes from position to position, and how far it may be off."""
         given = {name: (Decimal(float(column[k])), Decimal(0)) for name, column in self.signs.items()}
-        for j, driver in enumerate(self.drivers):
+        by_laws = law_doubts(self.drivers).T.tolist()
+        for j, (driver, doubts) in enumerate(zip(self.drivers, by_laws, strict=True)):
             value, first, second = (float(x[k, j]) for x in (self.drive.value, self.drive.rate, self.drive.second))
             number, exact = meant_angle(value) if driver.turns else meant(value)
             dead = driver.dead_point
             if dead and dead.exact and value == driver.values[0]:
                 number, exact = Decimal(dead.exact), True
             if j < len(at):
-                number, exact = at[j], True
-            error = Decimal(0 if exact else GIVEN * abs(value))
+                number, exact, doubts[0] = at[j], True, 0.0
+            error = Decimal(doubts[0] + (0 if exact else GIVEN * abs(value)))
             if driver.turns:
                 cosine, sine = cos_sin(number)
                 given["cos", j], given["sin", j] = (cosine, error), (sine, error)
             else:
                 given["travel", j] = number, error
-            for name, rate in (("rate", first), ("second", second)):
+            for name, rate, doubt in (("rate", first, doubts[1]), ("second", second, doubts[2])):
                 number, exact = meant(rate)
-                given[name, j] = number, Decimal(0 if exact else GIVEN * abs(rate))
+                given[name, j] = number, Decimal(doubt + (0 if exact else GIVEN * abs(rate)))
         return given
 
 

@@ -2,6 +2,7 @@
 
 import math
 
+import mpmath
 import numpy as np
 import pytest
 
@@ -181,3 +182,17 @@ def test_mechanisms_of_every_kind_move_by_a_law_and_are_drawn_so(name):
         rates, own = turn[f"alpha_{link.name}"], alone[f"alpha_{link.name}"][0]
         assert own == pytest.approx(rates[3], abs=1e-9 * np.abs(rates).max() + 1e-12)
     assert graphkin.check(scene, at={"time": 0.2}).ok
+
+
+@pytest.mark.parametrize("time", [0.05, 0.55, 0.65])
+def test_the_bounds_hold_what_rounding_does_to_a_law(time):
+    law = {"from": 20, "to": 110, "duration": 0.7, "by": "4567"}
+    links, frame = {"1": {"points": ["A", "B"], "length": 24}}, {"points": {"A": [0, 0]}}
+    here = graphkin.solve({"frame": frame, "links": links, "driver": {"link": "1", "time": time, "law": law}}).data
+    moved, bound = (here["positions"][0][key] for key in ("links", "error_bound"))
+    with mpmath.workdps(40):
+        x, way = mpmath.mpf(str(time)) / mpmath.mpf("0.7"), mpmath.pi / 2
+        rate = 140 * (x - x * x) ** 3 * way / mpmath.mpf("0.7")
+        second = 420 * (x - x * x) ** 2 * (1 - 2 * x) * way / mpmath.mpf("0.7") ** 2
+        off = {"omega": float(abs(moved["1"]["omega"] - rate)), "alpha": float(abs(moved["1"]["alpha"] - second))}
+    assert [] == [name for name, error in off.items() if not error <= bound[name]]
