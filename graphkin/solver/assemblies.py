@@ -57,19 +57,19 @@ def choose_modes(structure: Structure, turned: Collection[int] = (), upto: int |
 
     Parameters
     ----------
-    turned : dyads that lie the other way, by their places among the elements
+    turned : dyads in the opposite assembly, by their indices among the elements
     upto : only the elements before this one
 
     Returns
     -------
     dict from the element's place to the sign of a dyad (0-d array) or the places (members, 3) of a larger group, see
-    ``graphkin.solver.larger_groups.mode_of``; of what rolls for each thing that it rolls on its angle or travel there
-    and now, whole turns included, shape (2 factors,)
+    ``graphkin.solver.larger_groups.mode_of``; of a rolling link the angle or travel of each link on which it rolls,
+    there and now, whole turns included, shape (2 factors,)
 
     Raises
     ------
     SceneError
-        nothing tells the assemblies of a larger group apart, or drawn points lie in none
+        no data choose between the assemblies of a larger group, or drawn points lie in none
     Unsolvable
         the mechanism cannot be assembled here ("not assembled"), or stands in a dead point ("dead point")
     """
@@ -100,7 +100,7 @@ def choose_modes(structure: Structure, turned: Collection[int] = (), upto: int |
 
 
 def _started(structure: Structure) -> Mapping[str, Pose]:
-    """All links at the scene's own position, where drivers tell how what rolls and moves each other stands."""
+    """All links at the scene's own position, with drivers in place of the rolling of links that move each other."""
     from graphkin.solver.larger_groups import GroupSolved
 
     there = started(structure)
@@ -120,7 +120,8 @@ def _choose_sign(
     structure: Structure, i: int, dyad: Dyad, drive: Drive, modes: Mapping[int, Array], known: Mapping[int, float],
     turned: bool,
 ) -> tuple[Array, dict[int, float]]:  # fmt: skip
-    """The sign of a dyad, and the numbers of all formulas up to it with that sign, from those up to the one before."""
+    """The sign of a dyad, and the numbers of all formulas up to it with that sign, from the numbers up to the element
+    before."""
     scene = structure.scene
     states: list[State] = []
     both = dict(known), dict(known)
@@ -152,7 +153,8 @@ def _choose_sign(
 
 
 def _other_way(structure: Structure, i: int, drive: Drive, modes: Mapping[int, Array]) -> Wording:
-    """How an earlier dyad must lie for everything up to group ``i`` to be assembled; "" where none tells it alone."""
+    """The assembly of an earlier dyad with which all elements up to group ``i`` can be assembled, in words; "" where no
+    single dyad is enough."""
     for k in reversed(range(i)):
         dyad = structure.elements[k]
         if isinstance(dyad, LargerGroup):
@@ -174,7 +176,7 @@ def _other_way(structure: Structure, i: int, drive: Drive, modes: Mapping[int, A
 
 
 def _nearest(structure: Structure, i: int, drive: Drive, modes: Mapping[int, Array]) -> Wording:
-    """The nearest value of the first driver at which everything up to group ``i`` can be assembled."""
+    """The nearest value of the first driver at which all elements up to group ``i`` can be assembled."""
     if not all(e.explicit for e in structure.elements[:i]):
         return ""
     first, value = structure.scene.drivers[0], float(drive.value[0, 0])
@@ -189,7 +191,7 @@ def _nearest(structure: Structure, i: int, drive: Drive, modes: Mapping[int, Arr
 
 
 def new_places(structure: Structure, i: int, links: Sequence[str], poses: Mapping[str, Pose]) -> dict[str, complex]:
-    """Where the points lie that only this group has placed."""
+    """The places of the points that only this group has placed."""
     before = {structure.scene.frame.name}
     for element in structure.elements[:i]:
         before.update(element.members)
@@ -204,7 +206,7 @@ def new_places(structure: Structure, i: int, links: Sequence[str], poses: Mappin
 
 
 def _choose_place(structure: Structure, i: int, group: LargerGroup, drive: Drive, known: Mapping[str, Pose]) -> Array:
-    """All assemblies of a larger group by Newton's method from many starts, and the one that is meant."""
+    """All assemblies of a larger group by Newton's method from many starts, and the scene's own one."""
     drive = drive.followed(structure)
     found = _assemblies(structure, group, drive, known)
     if not len(found):
@@ -230,7 +232,7 @@ def _assemblies(structure: Structure, group: LargerGroup, drive: Drive, known: M
 
 
 def _descended(system: Constraints, place: Array) -> Array:
-    """Move places down to where the constraints are least open, each until it is there; how far the most is open then.
+    """Move places to a minimum of the constraints' residuals; the places, and the largest residual of each.
 
     Levenberg and Marquardt's method: singular starts need no care (Nocedal and Wright, Numerical Optimization, 10.3).
     """
@@ -270,8 +272,8 @@ def _descended(system: Constraints, place: Array) -> Array:
 
 
 def _apart(place: Array, rows: Array, size: float, least: float) -> Array:
-    """Of these rows the first at each place, in the order of the rows: links of others lie ``least`` apart at least (of
-    the size, rad)."""
+    """The first row of each place, in the order of the rows: places are distinct if links differ by at least ``least``
+    (of the size, rad)."""
     turned = np.exp(1j * place[..., 2])
     found: list[int] = []
     while len(rows):
@@ -316,8 +318,8 @@ def _starts(structure: Structure, group: LargerGroup, known: Mapping[str, Pose])
 
 
 def _distinct(structure: Structure, group: LargerGroup, solved: GroupSolved) -> Array:
-    """The different assemblies; of those that differ only in the sense of a bar without length the one where what
-    slides lies on the positive side."""
+    """The different assemblies; of those that differ only in the sense of a bar without length the one with the sliding
+    link on the positive side."""
     from graphkin.solver.larger_groups import as_place
 
     names, size, place = group.members, structure.scene.size, as_place(solved.poses, group.members)

@@ -1,10 +1,11 @@
-"""How far rounding and the numbers of the file may have moved each link: by the constraints of all links together.
+"""Bounds of the errors of each link by rounding and by the numbers of the file, from the constraints of all links
+together.
 
-With J the derivative of the constraints by places and turns, an error of place is J^-1 times what the constraints may
-be off, term by term: what is left of them at the place found, the rounding in telling that, and the errors of the
-numbers that are given (Higham, Accuracy and Stability of Numerical Algorithms, ch. 1: forward error is condition times
-backward error).  Errors of the rates are those products derived by the time, with the rates of J along the motion.
-They are made when they are asked for: a motion is found without them.
+With J the derivative of the constraints by places and turns, an error of place is J^-1 times the errors of the
+constraints, term by term: their residuals at the computed place, the rounding of these, and the errors of the given
+numbers (Higham, Accuracy and Stability of Numerical Algorithms, ch. 1: forward error is condition times backward
+error).  Errors of the rates are the derivatives of those products by time, with the rates of J along the motion.  They
+are computed when they are asked for: a motion does not need them.
 """
 
 from __future__ import annotations
@@ -47,18 +48,17 @@ def error_bounds(
     structure: Structure, poses: Mapping[str, Pose], drive: Drive, slack: Array, refined: Array,
     value_error: Array | None = None,
 ) -> dict[str, Errors]:  # fmt: skip
-    """Bounds of the errors of each moving link: the most of any point of it, coincident points under what slides on it
-    too, and of its turning; fields of shape (n,), infinite where nothing is known.
+    """Bounds of the errors of each moving link: the largest of any point of it, coincident points under sliding links
+    too, and of its turning; fields of shape (n,), infinite where they are unknown.
 
     Parameters
     ----------
-    poses : of all links, with their rates, as they were found
+    poses : of all links, with their rates, as computed
     drive : of the drivers, shape (n, drivers)
-    slack : how far the value of each cam's lift and of each relation of what rolls may be off, in the order of the
-        elements, shape (n, relations) (rad, m; of larger groups no unit)
+    slack : the error of each cam's lift and of each rolling relation, in the order of the elements, shape (n,
+        relations) (rad, m; of larger groups no unit)
     refined : positions that were computed in 50 digits, shape (n,)
-    value_error : how far the values of the drivers may be off, shape (n, drivers); None for what conversion and
-        rounding leave
+    value_error : the errors of the drivers' values, shape (n, drivers); None for the errors of conversion and rounding
     """
     drive = drive.followed(structure)
     system, n = Constraints.whole(structure, drive), len(drive)
@@ -93,11 +93,11 @@ def error_bounds(
 
 @dataclass(frozen=True)
 class Accuracy:
-    """What was found at n positions, from which its errors are told when they are asked for.
+    """The solution at n positions, from which its errors are computed when they are asked for.
 
     structure, poses, drive, slack, refined : as for ``error_bounds``
-    clear : positions at which it is known beforehand that all errors are slight, shape (n,)
-    ok : positions that stand, shape (n,); bounds elsewhere are NaN
+    clear : positions at which all errors are known to be slight, shape (n,)
+    ok : solved positions, shape (n,); bounds elsewhere are NaN
     """
 
     structure: Structure
@@ -109,23 +109,23 @@ class Accuracy:
     ok: Array
 
     def rows(self, rows: slice | Array) -> Accuracy:
-        """Of some of the positions."""
+        """The accuracy at some of the positions."""
         poses = {name: self.poses[name].rows(rows) for name in self.structure.links}
         columns = (x[rows] for x in (self.slack, self.refined, self.clear, self.ok))
         return Accuracy(self.structure, poses, self.drive[rows], *columns)
 
     @cached_property
     def links(self) -> Mapping[str, Errors]:
-        """Of each moving link that is not redundant."""
+        """The bounds of each moving link that is not redundant."""
         return self._of_links(self.refined)
 
     @cached_property
     def drawn(self) -> Mapping[str, Errors]:
-        """The same if all were computed in 16 digits throughout, as a drawing is."""
+        """The accuracy of a computation in 16 digits throughout, as of a drawing."""
         return self._of_links(np.zeros_like(self.refined)) if self.refined.any() else self.links
 
     def of(self, links: Iterable[str], drawn: bool = False) -> Errors:
-        """The most of some links, of all if there are none but the frame."""
+        """The largest bounds of some links; of all if only the frame is given."""
         known = self.drawn if drawn else self.links
         held = [known[name] for name in links if name in known] or [*known.values()]
         return most_of(held) if held else ErrorBound(*(np.where(self.ok, 0.0, np.nan),) * 6)
@@ -143,13 +143,13 @@ class Accuracy:
 
 
 def most_of(bounds: Iterable[Errors]) -> Errors:
-    """The most of several links."""
+    """The largest bounds of several links."""
     return ErrorBound(*(np.maximum.reduce(np.broadcast_arrays(*column)) for column in zip(*bounds, strict=True)))
 
 
 def roughness(structure: Structure, poses: Mapping[str, Pose], bound: Errors) -> Array:
-    """A bound of velocities and accelerations beside the greatest there are, for points as far off as the mechanism is
-    large, shape (n,)."""
+    """A bound of velocities and accelerations over the greatest ones, for points as far off as the mechanism is large,
+    shape (n,)."""
     size, n = structure.scene.size, len(bound.velocity)
     fields = [p.spread(n) for name, p in poses.items() if name != structure.scene.frame.name]
     speed = np.max([np.abs(p.v) + size * np.abs(p.omega) for p in fields], axis=0)
@@ -161,8 +161,8 @@ def roughness(structure: Structure, poses: Mapping[str, Pose], bound: Errors) ->
 
 
 def _largest(all_: Pose, count: int, size: float) -> tuple[Array | float, ...]:
-    """Of the links: place, velocity and acceleration, for points as far off as the mechanism is large; of a direction
-    1, and its rates."""
+    """The largest place, velocity and acceleration of the links, for points as far off as the mechanism is large; of a
+    direction 1, and its rates."""
     z, v, a, omega, alpha = (np.abs(x[:, :count]) for x in (all_.z, all_.v, all_.a, all_.omega, all_.alpha))
     points = z + size, v + size * omega, a + size * (alpha + omega**2)
     place, speed, push, spin, turning = (x.max(axis=1, keepdims=True) for x in (*points, omega, alpha))
@@ -172,14 +172,14 @@ def _largest(all_: Pose, count: int, size: float) -> tuple[Array | float, ...]:
 def _follow(
     system: Constraints, all_: Pose, slack: Array, matrices: Sequence[Array], residuals: Array, errors: Array
 ) -> None:
-    """Put what cams and rolling move among the constraints of all links: the row of a cam's follower has in the matrix
-    the slope of the lift at the turning of its cam.
+    """Add the relations of cams and rolling to the constraints of all links: the row of a cam's follower has in the
+    matrix the slope of the lift in the column of its cam.
 
     Parameters
     ----------
     slack : see ``error_bounds``
-    matrices, residuals, errors : the matrix, the constraints and how far these may be off, each with its first and
-        second rate; they are changed
+    matrices, residuals, errors : the matrix, the constraints and their errors, each with its first and second rate;
+        they are changed
     """
     layout, relations = system.layout, system.group.rolling
     scales = np.ones(len(relations))
@@ -224,8 +224,8 @@ def _sizes(matrices: Sequence[Array], reached: Array) -> Array:
 
 
 def _before(structure: Structure) -> Mapping[str, frozenset[str]]:
-    """For each link those that it hangs on, with itself, those of its group and the frame: beside a dead point of one
-    group the links before it are as certain as ever.  What rolls may pass by links that come later."""
+    """For each link the links on which it depends, with itself, its group and the frame: near a dead point of a group
+    the links before it stay certain.  A rolling link may depend on later links."""
     if "before" not in structure.kept:
         frame = structure.scene.frame.name
         found = {frame: frozenset((frame,))}
@@ -238,8 +238,8 @@ def _before(structure: Structure) -> Mapping[str, frozenset[str]]:
 
 
 def _reached(structure: Structure, layout: Layout) -> Array:
-    """Which entries of the inverse are not zero by what hangs on what: a link is moved by the constraints between those
-    that it hangs on alone, shape (columns, rows)."""
+    """The entries of the inverse that may differ from zero: only constraints between links on which a link depends move
+    it, shape (columns, rows)."""
     if "reached" not in structure.kept:
         before, names = _before(structure), layout.names[: layout.members]
         taking = layout.constant != 0
@@ -252,14 +252,14 @@ def _reached(structure: Structure, layout: Layout) -> Array:
 
 
 def _hanging(structure: Structure, names: Sequence[str]) -> Array:
-    """Which coordinates of links may pass on an error to which, 1 or 0, shape (columns, columns)."""
+    """1 where a coordinate may pass an error on to another, else 0, shape (columns, columns)."""
     before = _before(structure)
     links = np.array([[float(other in before[name]) for other in names] for name in names])
     return np.repeat(np.repeat(links, 3, axis=0), 3, axis=1)
 
 
 def _changes(system: Constraints, parts: Parts, error: Array) -> Array:
-    """By how much each entry of the matrix may change within the error of place, shape (n, rows, columns)."""
+    """The greatest change of each entry of the matrix within the error of place, shape (n, rows, columns)."""
     layout, n = system.layout, len(error)
     spread = np.zeros((n, len(layout.names), 3))
     spread[:, : layout.members] = error.reshape(n, -1, 3)
@@ -278,9 +278,9 @@ def _changes(system: Constraints, parts: Parts, error: Array) -> Array:
 
 
 def _growth(inverse: Array, changes: Array, error: Array, hanging: Array) -> tuple[Array, Array]:
-    """Positions at which changes of the matrix may matter, shape (n,), and for these by how much they make each error
-    greater: with C the product of both sizes it is (1 - C)^-1, and nothing is known where that is not positive (Varga,
-    Matrix Iterative Analysis, theorem 3.8).
+    """Positions at which changes of the matrix may matter, shape (n,), and for these the factor by which they enlarge
+    each error: with C the product of both sizes it is (1 - C)^-1, unknown where that is not positive (Varga, Matrix
+    Iterative Analysis, theorem 3.8).
 
     It is solved in parts of the errors of place: along a chain they grow by many powers of ten, and rounding in the
     large ones would reach the small.
@@ -300,7 +300,7 @@ def _growth(inverse: Array, changes: Array, error: Array, hanging: Array) -> tup
 
 
 def _of_points(system: Constraints, all_: Pose, error: Errors) -> Errors:
-    """The most of any point of each link, and of its turning, fields of shape (n, links)."""
+    """The largest error of any point of each link, and of its turning, fields of shape (n, links)."""
     structure, layout = system.structure, system.layout
     names, count = layout.names[: layout.members], layout.members
     reach = [max(map(abs, structure.links[name].points.values()), default=0.0) for name in names]
@@ -317,7 +317,7 @@ def _of_points(system: Constraints, all_: Pose, error: Errors) -> Errors:
 
 
 def _driver_errors(structure: Structure, drive: Drive, refined: Array, value_error: Array | None) -> list[Array]:
-    """How far values, rates and second rates of the drivers may be off, shape (n, drivers) each (rad, m)."""
+    """The errors of values, rates and second rates of the drivers, shape (n, drivers) each (rad, m)."""
     turns = np.array([d.turns for d in structure.drivers], dtype=bool)
     value = np.abs(drive.value)
     found = [np.where(turns, GIVEN / 2 * value + UNIT, GIVEN * value) if value_error is None else value_error.copy()]
@@ -337,8 +337,8 @@ def _driver_errors(structure: Structure, drive: Drive, refined: Array, value_err
 
 
 def _written(structure: Structure, layout: Layout) -> Sequence[Array]:
-    """How far the numbers of the file may be off in 16 digits and in 50: of the places of each joint, shape (2, 2,
-    joints), of the direction of each line and of each turn, shape (2, numbers)."""
+    """The errors of the file's numbers in 16 digits and in 50: of the places of each joint, shape (2, 2, joints), of
+    the direction of each line and of each turn, shape (2, numbers)."""
     def errors(numbers: Iterable[tuple[complex, bool]]) -> Array:
         numbers = [*numbers]
         known = {number: conversion_error(*number) for number in {*numbers}}
@@ -357,9 +357,9 @@ def _written(structure: Structure, layout: Layout) -> Sequence[Array]:
 def _row_errors(
     system: Constraints, all_: Pose, parts: Parts, refined: Array, given: Sequence[Array]
 ) -> Array:
-    """How far constraints and their rates may be off with the links just where they were found: (3, n, rows).
+    """The errors of constraints and their rates with the links exactly at their computed places: (3, n, rows).
 
-    Of each product of the lines it is the size of one factor times the error of the other, with all rates.
+    For each product of the lines the size of one factor times the error of the other, with all rates.
     """
     layout, which = system.layout, refined.astype(int)
     unit = np.where(refined, 0.0, UNIT)[:, None]

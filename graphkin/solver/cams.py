@@ -1,11 +1,11 @@
-"""Cams and what they move: the law at many angles of the cam, what it gives the formulas of a mechanism, and the
-profile in closed form: pitch curve, contact, normal, curvature and pressure angle.
+"""Cams and their followers: the law at many angles of the cam, the inputs of a mechanism's formulas, and the profile in
+closed form: pitch curve, contact, normal, curvature and pressure angle.
 
 With P the follower's point from the cam's axis, and derivatives by the cam's own angle, w = P' - iP is the tangent of
 the pitch curve and i w points out of the cam; a flat face touches where the normal passes the instant centre (Norton,
 Cam Design and Manufacturing Handbook, ch. 7; Sun Huan, Mechanical Principles, ch. 9).
 
-What is to be said of a cam: pressure angles and their extremes, curvature and undercutting, rates, jumps.
+The study of a cam: pressure angles and their extremes, curvature and undercutting, rates, jumps.
 
 Extremes are found where a derivative in closed form goes through zero, and at both sides of every seam.
 """
@@ -33,12 +33,12 @@ from graphkin.structure import Structure
 class CamAt:
     """A cam and its follower at angles of the law; every field of shape (n,), places from the cam's axis (m).
 
-    Complex numbers stand in the axes of the frame, and turned back by ``turn``, the direction of the cam's own axis, in
-    those of the cam.
+    Complex numbers are in the axes of the frame; turned back by ``turn``, the direction of the cam's own axis, in those
+    of the cam.
 
     point : the roller's centre or edge, of a flat face its foot
     normal : unit, out of the cam
-    contact : where cam and follower touch
+    contact : the point of contact of cam and follower
     way : the direction in which the follower's point moves, unit
     radius : of curvature of the profile, positive where the cam is convex; infinite where it is straight
     leaning : the angle from way to normal (rad), with sign
@@ -80,7 +80,7 @@ def cam_at(cam: LawCam, degree: Array) -> CamAt:
 
 
 def cam_with(cam: LawCam, degree: Array, lift: Lift) -> CamAt:
-    """The cam at angles of its law, with the lift there: at seams that of either side."""
+    """The cam at angles of its law, with the lift there: at seams the lift of either side."""
     sense, motion = cam.sense, cam.motion
     u = np.exp(1j * sense * np.asarray(degree, dtype=float))
     s0, s1, s2 = np.asarray(lift.lift), sense * np.asarray(lift.slope), np.asarray(lift.bend)
@@ -108,8 +108,8 @@ def cam_with(cam: LawCam, degree: Array, lift: Lift) -> CamAt:
 
 
 def slip_of(cam: LawCam, at: CamAt, omega: Array) -> Array:
-    """Velocity of the cam's point at the contact minus that of the follower's (m/s), of a cam that turns at a rate
-    (rad/s), shape (n,)."""
+    """Velocity of the cam's point at the contact minus the follower's (m/s), of a cam that turns at a rate (rad/s),
+    shape (n,)."""
     motion, rate = cam.motion, cam.sense * at.slope * omega
     if isinstance(motion, SlidingFollower):
         follower = motion.along * rate
@@ -163,7 +163,7 @@ def meeting_followers(structure: Structure) -> Structure:
 
 
 def follower_inputs(cam: LawCam, turn: Array) -> Mapping[str, Array]:
-    """What the formulas of a follower take at each position, by the direction of the cam's own axis.
+    """The inputs of a follower's formulas at each position, by the direction of the cam's own axis.
 
     travel (m), or cos and sin of the angle of the follower's own axis, and the two derivatives of either by the angle
     of the cam's own axis, slope and bend
@@ -198,8 +198,8 @@ class AtDegree:
 
 @dataclass(frozen=True)
 class Jump:
-    """A jump of the follower's velocity (``order`` 1: an impact) or acceleration (2: a soft one) at a seam (rad), by
-    that much (m or rad, per rad or rad2)."""
+    """A jump of the follower's velocity (``order`` 1: an impact) or acceleration (2: a soft one) at a seam (rad), with
+    its size (m or rad, per rad or rad2)."""
 
     order: int
     degree: float
@@ -208,14 +208,14 @@ class Jump:
 
 @dataclass(frozen=True)
 class CamStudy:
-    """A cam looked over; rates are by the cam's angle (m or rad, per rad and rad2), angles in rad, lengths in m.
+    """The study of a cam; rates are by the cam's angle (m or rad, per rad and rad2), angles in rad, lengths in m.
 
-    rise, fall : the greatest pressure angle while the follower rises and while it falls; None where it never does
+    rise, fall : the greatest pressure angle during rise and fall; None without a rise or fall
     velocity, acceleration : the greatest in size, with sign
-    radius : the least radius of curvature of the profile where it is convex; None where it nowhere is
-    undercut : from where to where the profile cannot be cut: the roller is larger than the pitch curve is round there,
-        or the flat face does not touch the whole of it
-    jumps : where velocity or acceleration jump
+    radius : the least radius of curvature of the convex profile; None if it is nowhere convex
+    undercut : the stretches in which the profile cannot be cut: the roller is larger than the radius of the pitch
+        curve, or the flat face does not touch the whole of it
+    jumps : the jumps of velocity or acceleration
     """
 
     cam: LawCam
@@ -229,7 +229,7 @@ class CamStudy:
 
     @property
     def judged(self) -> tuple[bool | None, bool | None]:
-        """Whether the pressure angles of rise and fall are within what is allowed; None where nothing is said."""
+        """Whether the pressure angles of rise and fall are within their limits; None without limits."""
         return _judged(self.cam, self.rise, self.fall)
 
     @property
@@ -239,7 +239,7 @@ class CamStudy:
 
 
 def study_cam(cam: LawCam) -> CamStudy:
-    """Look a cam over.  Raises Unsolvable where the follower does not come to the base circle."""
+    """Study a cam.  Raises Unsolvable where the follower does not reach the base circle."""
     most_rise, most_fall = _pressures(cam)
     round_ = [a for p in cam.law.parts for a in _extremes(cam, p, "radius", "radius_rate")]
     convex = [a for a in round_ if a.value + cam.roller > 0.0 or cam.flat]
@@ -274,7 +274,7 @@ LARGEST = 50.0
 
 def least_base(cam: LawCam) -> float | None:
     """The nearest larger base radius of the profile (m) with which a cam keeps the allowed pressure angles and can be
-    cut; None where none does."""
+    cut; None if there is none."""
 
     def good(radius: float) -> bool:
         larger = replace(cam, base=radius + cam.roller)
@@ -295,14 +295,14 @@ def least_base(cam: LawCam) -> float | None:
 
 
 def _greatest(law: FollowerLaw, order: int) -> AtDegree:
-    """The first or second derivative where it is greatest in size: the first place of several as great."""
+    """The first or second derivative of greatest size: the first place of several equal ones."""
     extremes = [AtDegree(*extreme) for part in law.parts for extreme in part.extremes(order)]
     most = max(abs(at.value) for at in extremes)
     return next(at for at in extremes if abs(at.value) >= most * (1 - SAME))
 
 
 def _extremes(cam: LawCam, part: LiftPiece, of: str, rate: str) -> Iterator[AtDegree]:
-    """A field of the cam at the ends of a part and where its rate, another field, goes through zero."""
+    """A field of the cam at the ends of a part and at the zeros of its rate, another field."""
     def at(field: str, degree: Array) -> Array:
         values = getattr(cam_with(cam, degree, part.at(degree, np)), field)
         return np.asarray(np.broadcast_to(values, degree.shape))
@@ -329,8 +329,8 @@ def _undercut(cam: LawCam) -> Iterator[tuple[float, float]]:
 
 
 def _too_sharp(cam: LawCam, part: LiftPiece, degree: Array) -> Array:
-    """Where the profile turns back on itself: a flat face on a radius that is not positive, a roller larger than the
-    convex pitch curve is round."""
+    """Whether the profile turns back on itself: a flat face on a radius that is not positive, a roller larger than the
+    radius of the convex pitch curve."""
     at = cam_with(cam, degree, part.at(degree, np))
     if cam.flat:
         return np.asarray(at.radius < 0.0)
@@ -338,7 +338,7 @@ def _too_sharp(cam: LawCam, part: LiftPiece, degree: Array) -> Array:
 
 
 def _jumps(cam: LawCam) -> Iterator[Jump]:
-    """Where a velocity jumps the acceleration is infinite, and its own jump is not told."""
+    """The jumps of a law.  At a jump of velocity the acceleration is infinite, and its own jump is left out."""
     law, hard = cam.law, set[int]()
     ends = [(part.at(part.start), part.at(part.end)) for part in law.parts]
     for order in (1, 2):

@@ -1,14 +1,14 @@
-"""The constraints of links at many positions at once: what is left open of them, their derivative, and their rates.
+"""The constraints of links at many positions at once: their residuals, their derivative, and their rates.
 
 Unknown are place and angle of each link, with lengths counted in the size of the mechanism, so that columns weigh alike
 (Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems, ch. 3).  There are two kinds of rows:
 
-- a line: the way from a place of one link to that of another, seen along an axis that turns with a third.  A turning
+- a line: the vector from a place of one link to a place of another, along an axis that turns with a third.  A turning
   pair has two in the axes of the frame, a sliding pair one across its guide, a driven slide one along it;
 - a turn: a sum of the angles of links with weights, of a sliding pair and an angle driver of two links.
 
-What rolls adds both up.  Every part of a row is a product of complex numbers, so that one rule for products gives all
-rates, those of the derivative too.
+Rolling adds both kinds.  Every part of a row is a product of complex numbers, so that one rule for products gives all
+rates, also of the derivative.
 """
 
 from __future__ import annotations
@@ -58,9 +58,9 @@ def product(f: Jet, g: Jet) -> Jet:
 
 
 class Parts(NamedTuple):
-    """Of what the lines are made, each with its rates: for both links of each joint the ``arm`` from the link's origin
-    and the ``place`` where it ends, shape (n, 2, joints); the ``gap`` from the second place to the first, shape (n,
-    joints); the ``axis`` of each line, conjugate, shape (n, lines)."""
+    """The parts of the lines, each with its rates: for both links of each joint the ``arm`` from the link's origin and
+    the ``place`` of its end, shape (n, 2, joints); the ``gap`` from the second place to the first, shape (n, joints);
+    the ``axis`` of each line, conjugate, shape (n, lines)."""
 
     arm: Jet
     place: Jet
@@ -69,9 +69,9 @@ class Parts(NamedTuple):
 
 
 class Sums:
-    """Which of many numbers add up to which entry.
+    """The assignment of many numbers to the entries to which they add up.
 
-    entry : for each number the entry it belongs to, below 0 where to none
+    entry : for each number its entry, below 0 for none
     """
 
     def __init__(self, entry: Sequence[int] | Array) -> None:
@@ -89,15 +89,16 @@ class Sums:
 
 
 class Layout:
-    """What stands where among the constraints of a group: the rows of its pairs, of its drivers, of what rolls.
+    """The layout of a group's constraints: the rows of its pairs, of its drivers, of its rolling relations.
 
-    names, members : the links, those of the group first, then those that it hangs on; how many are of the group
-    joints : of each the columns of its two links, shape (2, joints), and ``places`` in their axes (m)
-    joint, axis, along : of each line its joint, the link with which its axis turns, and the part of the way along that
-        axis that counts, conjugate
+    names, members : the links, those of the group first, then those on which it depends; the number of the group's
+        links
+    joints : the columns of the two links of each, shape (2, joints), and ``places`` in their axes (m)
+    joint, axis, along : of each line its joint, the link with which its axis turns, and the direction of the axis in
+        that link, conjugate
     one, two, aim : of each turn its two links and the direction that the first has in the axes of the second, conjugate
-    rolled : how much the turning of each link counts in each relation of what rolls, shape (relations, links)
-    driven, drivers, scales : rows that drivers give, the drivers, and by what their value, rate and second rate count
+    rolled : the weight of the turning of each link in each rolling relation, shape (relations, links)
+    driven, drivers, scales : the rows of drivers, the drivers, and the factors of their value, rate and second rate
     """
 
     def __init__(self, structure: Structure, group: LargerGroup) -> None:
@@ -183,7 +184,7 @@ class Layout:
 
 
 def led_relation(element: Driven) -> RollingRelation:
-    """How a link goes as those that it rolls on; of the follower of a cam what it goes by itself."""
+    """The relation of a link to the links on which it rolls; of a cam's follower its own part."""
     pair, rolled = element.pair, element.rolled
     own: Coordinate = ("angle", element.link) if pair.turns else ("travel", pair.key)
     factors = rolled.factors if rolled else ()
@@ -193,11 +194,11 @@ def led_relation(element: Driven) -> RollingRelation:
 
 @dataclass(frozen=True)
 class Constraints:
-    """The constraints of a group at n positions of what it hangs on.
+    """The constraints of a group at n positions of the links on which it depends.
 
-    The links together are one ``Pose``, its fields of shape (n, links): the group's own first, then those it hangs on.
+    The links together are one ``Pose``, its fields of shape (n, links): the group's own first, then the others.
 
-    near : angles of all links to half a turn, whole turns included, shape (n, links) (rad); None where nothing rolls
+    near : angles of all links to half a turn, whole turns included, shape (n, links) (rad); None without rolling
     kept : the sums that rolling keeps, no unit, shape (n, relations)
     """
 
@@ -210,7 +211,7 @@ class Constraints:
 
     @cached_property
     def layout(self) -> Layout:
-        """What stands where; made once, it goes with the structure."""
+        """The layout; it is made once and kept with the structure."""
         group, drivers = self.group, self.structure.drivers
         pairs, rolling = tuple(pair.key for pair in group.pairs), tuple(relation.name for relation in group.rolling)
         key = "layout", group.members, pairs, tuple(map(drivers.index, group.drivers)), rolling
@@ -221,13 +222,13 @@ class Constraints:
 
     @cached_property
     def _outside(self) -> Pose:
-        """The links that the group hangs on."""
+        """The links on which the group depends."""
         names = self.layout.names[self.layout.members :]
         return together([self.known[name] for name in names], len(self.drive))
 
     @classmethod
     def whole(cls, structure: Structure, drive: Drive) -> Constraints:
-        """The constraints of all links together; of a follower of a cam its own part alone."""
+        """The constraints of all links together; for a cam's follower its own part alone."""
         frame = structure.scene.frame.name
         if "whole" not in structure.kept:
             pairs: list[Pair] = []
@@ -299,7 +300,7 @@ class Constraints:
     # the rows
 
     def parts(self, all_: Pose, order: int) -> Parts:
-        """Of what the lines are made, with rates up to the order."""
+        """The parts of the lines, with rates up to the order."""
         layout, u = self.layout, [all_.u]
         if order:
             u.append(1j * all_.omega * all_.u)
@@ -319,7 +320,7 @@ class Constraints:
 
         Parameters
         ----------
-        parts : as `parts` gives them, where they are known
+        parts : as `parts` gives them, if they are known
         """
         layout, drive = self.layout, self.drive
         *_, gap, axis = parts or self.parts(all_, order)
@@ -349,7 +350,7 @@ class Constraints:
         return self.matrices(self.parts(all_, 0))[0]
 
     def matrices(self, parts: Parts) -> list[Array]:
-        """The same with as many rates as the parts have."""
+        """The matrix with as many rates as the parts have."""
         layout = self.layout
         found: list[Array] = []
         # what turns with the first link, with the second, with the axis

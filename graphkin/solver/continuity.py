@@ -1,7 +1,7 @@
 """The assembly of every group along a straight path of driver values, by continuity, without jumping.
 
-Dyads are followed by their discriminants; larger groups are walked from position to position.  Both go through change
-points, and to the end of the motion.
+Dyads are followed by their discriminants; larger groups are walked from position to position.  Both pass change points,
+and stop at the end of the motion.
 """
 
 from __future__ import annotations
@@ -36,10 +36,10 @@ At = Callable[[float, Array], tuple[GroupSolved, Array]]
 
 @dataclass(frozen=True)
 class _Walk:
-    """Where a group was found along the path parameter.
+    """The places of a group along the path parameter.
 
     nodes, places : parameters, shape (n,), and places there, shape (n, members, 3)
-    end : where its motion ends, None if it does not
+    end : the parameter at which its motion ends, None if it does not end
     flips : change points that it passed
     """
 
@@ -49,25 +49,25 @@ class _Walk:
     flips: tuple[float, ...]
 
     def start(self, t: Array) -> Array:
-        """Places from which Newton's method starts, shape (n, members, 3)."""
+        """Starting places of Newton's method, shape (n, members, 3)."""
         flat = self.places.reshape(len(self.nodes), -1)
         columns = [np.interp(t, self.nodes, flat[:, k]) for k in range(flat.shape[1])]
         return np.stack(columns, axis=1).reshape(len(t), -1, 3)
 
 
 def _walk_group(at: At, place: Array, size: float, end: float, most: float) -> _Walk:
-    """_Walk with a tangent predictor; a step is taken only if Newton's method confirms what was predicted, or if the
-    group hardly moves: then it may stop, dwell, turn back or start with a jolt, as the link that moves it does.
+    """_Walk with a tangent predictor; a step is taken only if Newton's method confirms the prediction, or if the group
+    hardly moves: then it may stop, dwell, turn back or start with a jolt, as its driving link does.
 
-    Towards a dead point rates grow as one over the root of what is left to it (Seydel, Practical Bifurcation and
-    Stability Analysis, ch. 2): two of them tell how much that is, and what to expect of the next step.
+    Towards a dead point rates grow as one over the root of the distance to it (Seydel, Practical Bifurcation and
+    Stability Analysis, ch. 2): two of them give that distance, and the prediction for the next step.
 
-    The sign of the determinant tells the assembly.  Where it changes and the motion goes on in the same direction the
-    group has passed a change point; where nothing is found any more the motion ends.
+    The sign of the determinant tells the assembly.  Where it changes and the motion continues in the same direction the
+    group has passed a change point; where Newton's method fails the motion ends.
 
     Parameters
     ----------
-    at : function of a parameter and a starting place to what is found there and its rate by the parameter
+    at : function of a parameter and a starting place to the solution there and its rate by the parameter
     most : largest step
     """
     weight = np.array([size, size, 1.0])
@@ -124,10 +124,10 @@ def _walk_group(at: At, place: Array, size: float, end: float, most: float) -> _
 
 
 def _singular_ahead(nodes: Sequence[float], determinants: Sequence[float]) -> float:
-    """Where the determinant goes to zero beyond the last node; the last node where nothing tells it.
+    """The parameter beyond the last node at which the determinant goes to zero; the last node if it cannot be told.
 
-    It goes as the root of what is left, where links turn back, as that itself, where they go away without bound, or as
-    a product of these: the parameter is smooth in a root of it, by which it is extrapolated (Neville's scheme).
+    It goes as the root of the distance where links turn back, as the distance where they go away without bound, or as a
+    product of these: the parameter is smooth in a root of it, by which it is extrapolated (Neville's scheme).
     """
     last, chosen = float(nodes[-1]), list[tuple[float, float]]()
     for t, determinant in zip(nodes[::-1], np.abs(determinants[::-1]).tolist(), strict=True):
@@ -146,8 +146,8 @@ def _singular_ahead(nodes: Sequence[float], determinants: Sequence[float]) -> fl
 
 
 def _extrapolated(chosen: Sequence[tuple[float, float]], root: int) -> tuple[float, float]:
-    """The parameter at a determinant of zero from pairs of both, by a root of the determinant, and before it by how
-    much the last of them changes it."""
+    """The change that the last pair makes, and the parameter at a determinant of zero, from pairs of both by a root of
+    the determinant."""
     found, by = [t for t, _ in chosen], [determinant ** (1 / root) for _, determinant in chosen]
     before = found[0]
     for k in range(1, len(by)):
@@ -157,7 +157,7 @@ def _extrapolated(chosen: Sequence[tuple[float, float]], root: int) -> tuple[flo
 
 
 def _bend(slope: Array, new_slope: Array, weight: Array) -> float:
-    """How much the direction of the motion changes over a step, relatively.
+    """The relative change of the motion's direction over a step.
 
     At a change point the other branch leaves in another direction, however small the step.
     """
@@ -254,7 +254,7 @@ def _steps(structure: Structure, span: Array) -> int:
 
 
 def _follow_dyad(path: Path, i: int, dyad: Dyad, sign: float) -> Path:
-    """A path with the assembly mode of a dyad, that goes over to the other at change points; to where it ends."""
+    """A path with the assembly mode of a dyad, which changes at change points, up to the dyad's end."""
     found = [s for s in stretches(path.with_sign(i, sign), i, 0.0, path.reach) if s.low <= START]
     first = found[0] if found else Stretch(0.0, 0.0, (False, True))
     limit, flips = first.high if first.ends[1] else None, np.array(first.touches)
@@ -268,7 +268,7 @@ def _follow_dyad(path: Path, i: int, dyad: Dyad, sign: float) -> Path:
 
 
 def _passed_by(path: Path, i: int, mode: Callable[[Array], Array], flips: Array, limit: float | None) -> Path:
-    """A path with a further group: its mode, the change points that it passes, and where it ends the path."""
+    """A path with a further group: its mode, its change points, and its end of the path."""
     end, by = (path.limit, path.by) if limit is None else (limit, i)
     passed = (*path.passed, *((i, t) for t in flips.tolist()))
     flips = np.sort(np.append(path.flips, flips))
@@ -276,7 +276,7 @@ def _passed_by(path: Path, i: int, mode: Callable[[Array], Array], flips: Array,
 
 
 def _refined(path: Path, i: int, grid: Array) -> Array:
-    """More nodes where the links found so far turn fast."""
+    """The nodes, more of them where the placed links turn fast."""
     for _ in range(20):
         t = path.off_flips(grid)
         poses = positions(path.structure, path.drive(t), path.mode(t), i + 1, rates=False).poses
@@ -302,7 +302,7 @@ def _follow_group(path: Path, i: int, place: Array) -> Path:
 
 
 def _follow_rolled(path: Path, i: int, rolled: Rolled, mode: Array, grid: Array) -> Path:
-    """Count the turns of what a link rolls on."""
+    """Count the turns of the links on which a link rolls."""
     t = path.off_flips(grid)
     poses = positions(path.structure, path.drive(t), path.mode(t), i, rates=False).poses
     columns = []

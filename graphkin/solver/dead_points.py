@@ -33,7 +33,7 @@ class DeadPoint:
 
     element : the group, by its place among the elements
     signs : the assembly of the groups before it
-    sides : on which sides of it the mechanism assembles: -1 below, +1 above
+    sides : the sides on which the mechanism assembles: -1 below, +1 above
     """
 
     value: Decimal
@@ -84,8 +84,8 @@ def nearest_dead_point(structure: Structure, i: int, signs: Mapping[int, float],
 def _of_group(
     path: Path, before: Sequence[int], i: int, low: float, high: float, signs: Mapping[int, float]
 ) -> Iterator[DeadPoint]:
-    """The dead points of a dyad between two values of the driver, behind some others of which the assemblies are given
-    or both are tried."""
+    """The dead points of a dyad between two values of the driver, after some others whose assemblies are given or both
+    tried."""
     group = path.structure.elements[i]
     assert isinstance(group, Dyad)
     for known, part in assembled(path, before, low, high, signs):
@@ -117,7 +117,7 @@ HAIR, FAR_OFF = 1e-7, 1e2
 
 
 def singular(structure: Structure, state: State, n: int) -> Iterator[tuple[int, Array]]:
-    """For each group where it stands in a dead point, shape (n,); near one, where no bound is known, too."""
+    """The positions in which each group is at a dead point, shape (n,), or near one where no bound is known."""
     dyads = [i for i, solved in state.groups.items() if isinstance(solved, DyadSolution)]
     if dyads:
         sines = [np.broadcast_to(np.abs(state.groups[i].sine), (n,)) for i in dyads]  # type: ignore[union-attr]
@@ -140,12 +140,12 @@ def singular(structure: Structure, state: State, n: int) -> Iterator[tuple[int, 
 def without_singular(
     structure: Structure, state: State, values: Array, modes: Mapping[int, Array], status: Array, why: Sequence[Wording]
 ) -> tuple[Array, list[Wording]]:
-    """Status and reasons of positions, those told apart that are ok but for a group in a singular position.
+    """Status and reasons of positions, also of those that are solved except for a group in a singular position.
 
     Parameters
     ----------
     values, modes : of the drivers and assemblies that were solved, shapes (n, drivers) and (n, ...)
-    status, why : as far as known
+    status, why : as known so far
     """
     status, reasons = status.copy(), list(why)
     _beyond_limits(structure, state, values, modes, status, reasons)
@@ -161,8 +161,8 @@ def without_singular(
 def _beyond_limits(
     structure: Structure, state: State, values: Array, modes: Mapping[int, Array], status: Array, reasons: list[Wording]
 ) -> None:
-    """Positions so near to a limit of the motion that sixteen digits do not tell on which side: refused where fifty
-    digits say that the links do not reach each other, put on the limit where the file leaves it open.
+    """Decide positions so near to a limit of the motion that sixteen digits do not give the side: refused where fifty
+    digits show that the links do not reach each other, put on the limit where the file's digits leave it open.
 
     ``status`` and ``reasons`` are changed.
     """
@@ -194,8 +194,8 @@ def _beyond_limits(
 
 
 def _apart(structure: Structure, i: int, values: Array, modes: Mapping[int, Array]) -> Wording:
-    """What to say of a dyad whose guides are parallel and not one line, so that they meet nowhere; "" of any other:
-    a hair further on it would lie far away."""
+    """The sentence on a dyad whose guides are parallel and not collinear, so that they meet nowhere and the dyad is far
+    away just beyond; "" for another dyad."""
     group = structure.elements[i]
     if not (isinstance(group, Dyad) and group.is_two_lines):
         return ""
@@ -213,7 +213,7 @@ def _apart(structure: Structure, i: int, values: Array, modes: Mapping[int, Arra
 
 
 def _dead_why(structure: Structure, i: int, values: Array, modes: Mapping[int, Array]) -> Phrase:
-    """Why group ``i`` stands in a dead point: an infinite rate, or a velocity that is not unique."""
+    """The reason for a dead point of group ``i``: an infinite rate, or a velocity that is not unique."""
     from graphkin.solver.larger_groups import GroupSolved
 
     scene = structure.scene
@@ -250,9 +250,9 @@ def _dead_why(structure: Structure, i: int, values: Array, modes: Mapping[int, A
 
 
 def _fold_where(structure: Structure, solved: GroupSolved, values: Array) -> Wording:
-    """Where the dead point of a larger group lies by the bend of its constraints, as they are beside it: along the
-    motion that would be free there they open as sigma s + a s2, against the b t of the driver (Seydel, Practical
-    Bifurcation and Stability Analysis, ch. 2).  Nothing of several drivers, and where rounding has moved it as far."""
+    """The place of a larger group's dead point by the second derivative of its constraints near it: along the motion
+    that is free there their residual is sigma s + a s2, against b t of the driver (Seydel, Practical Bifurcation and
+    Stability Analysis, ch. 2).  None for several drivers, and where the rounding error is as large."""
     if len(structure.scene.drivers) != 1 or solved.condition[0] * HIDDEN > 1:
         return ""
     u, sigma, free = np.linalg.svd(solved.matrix[0])
@@ -265,7 +265,7 @@ def _fold_where(structure: Structure, solved: GroupSolved, values: Array) -> Wor
 
 
 def _where(structure: Structure, i: int, values: Array, modes: Mapping[int, Array]) -> Wording:
-    """Where the dead point lies, and how far away."""
+    """The place of the dead point, and its distance."""
 
     signs = {j: float(np.ravel(f)[0]) for j, f in modes.items() if j in structure.dyads and j < i}
     value = float(values[0])

@@ -1,7 +1,8 @@
-"""A prepared mechanism in many designs: its dimensions changed in the formulas, nothing read or analysed again.
+"""A prepared mechanism in many designs: its dimensions are changed in the formulas, without reading or analysing it
+again.
 
-Where every group of a design stays far from its dead points over the whole turn, its assembly is that of the mechanism
-it was made from, and all such designs are computed together.  The others are followed one by one, as any mechanism is.
+If every group of a design stays far from its dead points over the whole turn, its assembly is that of the original
+mechanism, and all such designs are computed together.  The others are followed one by one, as any mechanism.
 """
 
 from __future__ import annotations
@@ -41,7 +42,7 @@ def _nodes() -> tuple[Array, Array]:
 class PreparedMechanisms:
     """Designs of a prepared mechanism.
 
-    given : what each of them changes, shape (designs,) each, SI
+    given : the changed numbers of each, shape (designs,) each, SI
     """
 
     ready: PreparedMechanism
@@ -87,14 +88,14 @@ class PreparedMechanisms:
 
     @cached_property
     def _formulas(self) -> PreparedMechanism:
-        """The mechanism with what the designs change left open."""
+        """The mechanism with the designs' numbers left open."""
         drivers = self.ready.structure.scene.drivers
         moving = tuple(d.values[2] != 0 or ("second", k) in self.given for k, d in enumerate(drivers))
         return self.ready.opened(frozenset(self._open), moving)
 
     @cached_property
     def _start(self) -> Array:
-        """Where each begins its turn, shape (designs,) or (1,)."""
+        """The beginning of each design's turn, shape (designs,) or (1,)."""
         return self.given.get(("value", 0), self.ready.range.start[:1]).real
 
     @cached_property
@@ -133,7 +134,7 @@ class PreparedMechanisms:
         return np.asarray(((seen > CLEAR) & (steps < seen / 2)).all(axis=(0, 2)))
 
     def _alone(self) -> Iterator[tuple[int, PreparedMechanism]]:
-        """The other designs by their numbers, each followed by itself; without those that cannot be assembled."""
+        """The designs that are followed one by one, by their numbers; without those that cannot be assembled."""
         ready = self.ready
         for k in np.flatnonzero(~self.together).tolist():
             changed = {name: complex(numbers[k]) for name, numbers in self.given.items()}
@@ -151,7 +152,7 @@ class PreparedMechanisms:
             yield k, prepare(structure, ready.wanted, ready.units, ready.bounded, along)
 
     def sweep(self, n: int, fast: bool = False) -> tuple[Array, Array, Array]:
-        """As for one mechanism.
+        """The columns of all designs over the whole range, as for one mechanism.
 
         Returns
         -------

@@ -1,5 +1,5 @@
-"""What happens where outlines touch: place, normal, slip, pressure angles; where the pitch circles of gears touch; and
-a disc that turns about a point beside its centre, measured as a cam: base circles, rise, offset, pressure angles."""
+"""An eccentric disc, which turns about a point beside its centre, measured as a cam: base circles, rise, offset,
+pressure angles."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ from graphkin.structure import Structure
 
 @dataclass(frozen=True)
 class DiscCam:
-    """What is measured of a disc as a cam (m, rad).
+    """The measures of a disc as a cam (m, rad).
 
-    contact : its name; ``link`` is the cam, ``follower`` what it moves
+    contact : its name; ``link`` is the cam, ``follower`` the driven link
     profile : least distance of the disc's outline from the axis; pitch : of the centre of a round follower, None else
     rise : stroke of the follower, or its swing where it ``swings``
     offset : distance of a sliding follower's line from the axis, positive where the axis lies to its left; None else
     most : the greatest pressure angle of a turn, and the driver's angle there
-    here : pressure angle at the scene's own position; None where the follower stands
-    lowest : travel or angle of the follower where it is nearest to the axis; outline : centre of the disc in the cam's
+    here : pressure angle at the scene's own position; None where the follower rests
+    lowest : travel or angle of the follower nearest to the axis; outline : centre of the disc in the cam's
         own axes, from the axis, and its radius
     """
 
@@ -74,7 +74,8 @@ def disc_cams(structure: Structure) -> tuple[DiscCam, ...]:
 
 
 def _sides(scene: Mechanism, contact: PlacedContact) -> tuple[int, str] | None:
-    """Which side of a contact is the cam (0 or 1), and what tells the follower's motion: its sliding pair or link."""
+    """The side of a contact that is the cam (0 or 1), and the name of the follower's motion: its sliding pair or
+    link."""
     driver = scene.drivers[0] if scene.drivers else None
     if driver is None or not driver.turns_about(scene.frame.name) or contact.rolling:
         return None
@@ -119,7 +120,7 @@ def _measured(reach: DriverRange, contact: PlacedContact, side: int, of: str) ->
 
 
 def disc_course(structure: Structure, disc: DiscCam, angle: Array) -> DiscCourse:
-    """What a measured disc does at angles of the driver (rad), shape (n,)."""
+    """The course of a measured disc at angles of the driver (rad), shape (n,)."""
     scene, reach = structure.scene, range_of(structure)
     contact = next(c for c in scene.contacts if c.name == disc.contact)
     sides = _sides(scene, contact)
@@ -143,7 +144,7 @@ def disc_course(structure: Structure, disc: DiscCam, angle: Array) -> DiscCourse
 
 
 def _pressures(reach: DriverRange, contact: PlacedContact, follower: str, offset: Array) -> Array:
-    """Pressure angles of the follower; NaN where it stands."""
+    """Pressure angles of the follower; NaN where it rests."""
     return np.asarray(contact_motion(reach.motion(offset, unit=True), contact).pressure[follower])
 
 

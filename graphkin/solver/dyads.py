@@ -1,10 +1,10 @@
 """The dyads in closed form: formulas of position, velocity and acceleration.
 
 A dyad is two bodies; each has an outer joint to a known frame and an inner joint to the other body.  Every joint
-is a frame of axes: of a turning pair only the origin counts; at a sliding pair the two frames have one direction, that
-of the guide, and lie apart along it by the travel.  With that the five kinds need no angle and no special case for
-offsets, angles between block and rod, or which side carries the guide.  A body whose own shape changes in a given way
-(a driven cylinder) has moving joint frames.
+is a frame of axes: of a turning pair only the origin counts; at a sliding pair the two frames have the direction of the
+guide, and their distance along it is the travel.  So the five kinds need no angle and no special case for offsets,
+angles between block and rod, or the link with the guide.  A body whose own shape changes in a given way (a driven
+cylinder) has moving joint frames.
 
 Sources: circle with circle, circle with line, right triangle, line with line as in Waldron and Kinzel,
 Kinematics, Dynamics and Design of Machinery, ch. 5; velocity and acceleration by one 2 x 2 system each, its determinant
@@ -30,8 +30,8 @@ class Joints(Generic[V, R]):
     """The joint frames of a dyad.
 
     ``known1``, ``known2`` in the world; ``outer1``, ``inner1`` in the axes of the first body, ``outer2``, ``inner2``
-    in those of the second.  ``sense`` is +1 where, at the sliding pair whose travel is unknown, the body slides
-    (RRP, PRP, RPP: the outer one of ``second``), -1 where it carries the guide.  ``size`` (m) makes lengths small.
+    in those of the second.  ``sense`` is +1 where the body slides at the sliding pair of unknown travel (RRP, PRP, RPP:
+    the outer pair of ``second``), -1 where it has the guide.  Lengths are divided by ``size`` (m).
     """
 
     known1: Pose[V, R]
@@ -45,11 +45,11 @@ class Joints(Generic[V, R]):
 
 
 class DyadSolution(NamedTuple, Generic[V, R]):
-    """What a dyad gives.
+    """The solution of a dyad.
 
     first, second : the axes of the two bodies
     discriminant : positive where the dyad can be assembled, zero where its two assemblies meet; no unit
-    sine : of the angle at which the two loci cross, signed by assembly; small near a dead point
+    sine : of the crossing angle of the two loci, signed by assembly; small near a dead point
     e1, e2 : the two directions of the rate equations
     right_side : right side of the velocity equation
     """
@@ -69,8 +69,8 @@ def solve_dyad(kind: DyadKind, joints: Joints[V, R], sign: R) -> DyadSolution[V,
     Parameters
     ----------
     sign : +1 or -1, the assembly.  RRR: the inner point left or right of the line from the first known point to the
-        second; RRP: the greater or smaller travel; RPR: the travel positive or negative (but for offsets).  PRP and
-        RPP have one assembly; there it is the sign of the sine that is watched.
+        second; RRP: the greater or smaller travel; RPR: the travel positive or negative (without offsets).  PRP and RPP
+        have one assembly; there it is the sign of the sine.
     """
     return _SOLVERS[kind](joints, sign)
 

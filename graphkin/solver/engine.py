@@ -1,9 +1,10 @@
-"""All elements of a structure in their order, at many driver values at once; positions that 16 digits leave too rough,
-near dead points, are computed again in 50; and in 50 digits whether a group of two links closes, where 16 cannot tell.
+"""All elements of a structure in their order, at many driver values at once; positions near dead points, for which 16
+digits are too few, are computed again in 50; and the decision in 50 digits whether a group of two links closes, where
+16 are not enough.
 
 The discriminant of a dyad is positive where it closes, zero where its two assemblies meet, negative where its links do
-not reach each other.  Beside it stands how far the digits that the file leaves open may move it: a number that is
-written as a short decimal is taken to be that decimal.
+not reach each other.  With it goes the error from the digits that the file leaves open: a number written as a short
+decimal is taken for that decimal.
 """
 
 from __future__ import annotations
@@ -56,7 +57,8 @@ class ExtendedPrecision:
     signs: Mapping[Name, Array]
 
     def place(self, rows: Array, asked: Sequence[Real | Vec], columns: Sequence[Array]) -> Array:
-        """Compute some positions in 50 digits, in ``columns`` of ``asked``; those that can be, bool, shape (n,)."""
+        """Compute some positions in 50 digits, in ``columns`` of ``asked``; whether each could be computed, bool, shape
+        (n,)."""
         done = np.zeros(len(self.drive), dtype=bool)
         with working():
             for k in np.flatnonzero(rows).tolist():
@@ -75,7 +77,7 @@ class ExtendedPrecision:
         return self._row({name: number for name, (number, _) in self._numbers(k, at).items()})
 
     def __call__(self, *values: Decimal) -> Decimal:
-        """The first of them at values of the drivers."""
+        """The first formula at values of the drivers."""
         return self.row(0, values)[0]
 
     def with_doubt(self, k: int, at: Sequence[Decimal] = ()) -> tuple[Decimal, Decimal]:
@@ -96,7 +98,7 @@ class ExtendedPrecision:
         return value, len(moved) * sum(moved, Decimal(0))
 
     def signed(self, k: int, at: Sequence[Decimal] = ()) -> tuple[Decimal, int]:
-        """The first of them, and its sign: 0 where it is zero as far as can be told."""
+        """The first formula, and its sign: 0 where it cannot be told from zero."""
         value, doubt = self.with_doubt(k, at)
         return value, _sign(value, doubt)
 
@@ -104,12 +106,12 @@ class ExtendedPrecision:
         return self.code.values(numbers.__getitem__, {}, DECIMALS)
 
     def _numbers(self, k: int, at: Sequence[Decimal]) -> dict[Name, tuple[Decimal, Decimal]]:
-        """What the formulas take at position ``k``, and how far each number may be off."""
+        """The inputs of the formulas at position ``k``, and the error of each number."""
         given = self._drivers(k, at)
         return {name: given.get(name) or self.dimensioned.decimal(name) for name in self.code.leaves}
 
     def _drivers(self, k: int, at: Sequence[Decimal]) -> dict[Name, tuple[Decimal, Decimal]]:
-        """What the formulas take that changes from position to position, and how far it may be off."""
+        """The inputs of the formulas that change from position to position, and their errors."""
         given = {name: (Decimal(float(column[k])), Decimal(0)) for name, column in self.signs.items()}
         by_laws = law_doubts(self.drivers).T.tolist()
         for j, (driver, doubts) in enumerate(zip(self.drivers, by_laws, strict=True)):
@@ -144,13 +146,13 @@ class State:
     """The mechanism at n positions.
 
     poses : each link by its name, fields of shape (n,) or broadcasting to it
-    drive : of the drivers and what follows them, shape (n, drivers)
-    groups : what each group gave, by its place among the elements
+    drive : of the drivers and their followers, shape (n, drivers)
+    groups : the solution of each group, by its index among the elements
     refined : positions that were computed in 50 digits, shape (n,)
     clear : positions far from every dead point of a dyad, without larger groups, shape (n,)
-    slack : how far lifts and what rolls may be off, as for ``error_bounds``
-    singular : the sine below which a group is at a dead point, smaller where the driver is given from a dead point
-    given : what the formulas take of followers of cams, of what rolls and of larger groups, by name, shape (n,)
+    slack : errors of lifts and of rolling links, as for ``error_bounds``
+    singular : the sine below which a group is at a dead point, smaller if the driver is given from a dead point
+    given : the formulas' inputs from followers of cams, rolling links and larger groups, by name, shape (n,)
     """
 
     poses: Mapping[str, Pose]
@@ -163,7 +165,7 @@ class State:
     given: Mapping[Name, Array] = field(default_factory=dict)
 
     def bounds(self, structure: Structure, rows: Array) -> dict[str, ErrorBound[Array]]:
-        """How far each link may be off at some of the positions, bool, shape (n,)."""
+        """The error bounds of each link at some of the positions, bool, shape (n,)."""
         poses = {name: pose.spread(len(self.drive)).rows(rows) for name, pose in self.poses.items()}
         return error_bounds(structure, poses, self.drive[rows], self.slack[rows], self.refined[rows])
 
@@ -177,7 +179,7 @@ def positions(
     extended: bool = True,
     known: dict[int, float] | None = None,
 ) -> State:
-    """Solve every element at all positions of the drivers, each position afresh.
+    """Solve every element at all positions of the drivers, each position by itself.
 
     Parameters
     ----------
@@ -185,14 +187,14 @@ def positions(
         group the poses from which Newton's method starts, shape (n, members, 3)
     upto : solve only the elements before this one
     rates : False leaves out velocity and acceleration
-    extended : False leaves 16 digits where they are rough: for curves, and on the way
-    known : at one position, numbers of the formulas that are the same as in an earlier call, by the places of their
-        lines; filled, so that what comes after needs no formulas from the start again.  The state then has the last
-        of the elements alone
+    extended : False keeps 16 digits everywhere: for curves, and along a path
+    known : at one position, numbers of the formulas that are the same as in an earlier call, by the indices of their
+        lines; new ones are added, so that later elements need no earlier formulas again.  The state then has only the
+        last of the elements
 
     Returns
     -------
-    State; at a position that cannot be assembled the discriminant of a group is negative and the poses mean nothing
+    State; at a position that cannot be assembled the discriminant of a group is negative and the poses have no meaning
     """
     with np.errstate(all="ignore"):
         run = _Run(structure, drive, modes, rates, extended, known)
@@ -200,7 +202,7 @@ def positions(
 
 
 def group_at(structure: Structure, drive: Drive, modes: Mapping[int, Array], which: int) -> GroupSolved:
-    """A larger group alone, by its place among the elements, with its rates; see ``positions``."""
+    """A larger group alone, by its index among the elements, with its rates; see ``positions``."""
     with np.errstate(all="ignore"):
         run = _Run(structure, drive, modes, True)
         run.follow(which + 1)
@@ -208,7 +210,7 @@ def group_at(structure: Structure, drive: Drive, modes: Mapping[int, Array], whi
 
 
 class _Run:
-    """One evaluation: larger groups one after the other, each from what it hangs on, then all formulas together."""
+    """An evaluation: larger groups in order, each from the links on which it depends, then all formulas together."""
 
     def __init__(
         self,
@@ -255,7 +257,7 @@ class _Run:
         return given
 
     def follow(self, upto: int) -> None:
-        """Solve what the formulas do not: larger groups, cams by their law, what rolls."""
+        """Solve the elements without formulas: larger groups, cams by their law, rolling links."""
         for i, element in enumerate(self.structure.elements[:upto]):
             if isinstance(element, LargerGroup):
                 self._together(i, element)
@@ -306,14 +308,14 @@ class _Run:
         return replace(state, refined=extended.place(again, asked, columns))  # the columns are those of the poses
 
     def _found(self) -> dict[Name, Array]:
-        """What formulas take of followers of cams, of what rolls and of larger groups."""
+        """The inputs of the formulas from followers of cams, rolling links and larger groups."""
         count = len(self.structure.scene.drivers)
         rolled = ((part, k) for k in range(count, len(self.structure.drivers)) for part in ("cos", "sin", "travel"))
         names = [*rolled, *(name for name in self.given if name[0] in ("lift", "rolled", "pose"))]
         return {name: self.given[name] for name in names if name in self.given}
 
     def _rough(self, state: State) -> Array:
-        """Positions whose rates sixteen digits leave rough."""
+        """Positions for whose rates sixteen digits are too few."""
         rough = ~state.clear
         if rough.any():
             bound = most_of(state.bounds(self.structure, rough).values())
@@ -322,7 +324,7 @@ class _Run:
         return np.asarray(rough)
 
     def _lift(self, i: int, cam: LawCam) -> None:
-        """Look up where a cam holds its follower, by the cam's own turning."""
+        """Find the place of a cam's follower, by the cam's own turning."""
         (turn,) = self._values(("cam", i), [self.dimensioned.program.poses[cam.link].u])
         inputs = follower_inputs(cam, np.broadcast_to(turn, (self.n,)))
         for part, column in inputs.items():
@@ -356,7 +358,7 @@ class _Run:
         self.slack.append(LOOKED_UP * wide[:, None])
 
     def _together(self, i: int, group: LargerGroup) -> None:
-        """Solve a larger group, and give its poses to the formulas of what follows."""
+        """Solve a larger group, and give its poses to the formulas of later elements."""
         program = self.dimensioned.program
         known = [n for n in self.structure.links if n in group.outside and n != self.structure.scene.frame.name]
         values = iter(self._values(("known", i), [getattr(program.poses[n], f) for n in known for f in FIELDS]))
@@ -423,13 +425,13 @@ ROUNDING = Decimal(10) ** -36
 def discriminant_of(
     structure: Structure, i: int, modes: Mapping[int, Array], drive: Drive | None = None
 ) -> ExtendedPrecision:
-    """The discriminant of a dyad in fifty digits, behind dyads only.
+    """The discriminant of a dyad after dyads only, in fifty digits.
 
     Parameters
     ----------
     i : the dyad, by its place among the elements
     modes : the assembly of the groups before it
-    drive : positions whose driver values are taken as they are written; the scene's own if None
+    drive : positions whose driver values are taken as decimals; the scene's own if None
     """
     known = {**{j: mode for j, mode in modes.items() if j < i}, i: np.ones(1)}
     own = np.array([[d.values[0] for d in structure.scene.drivers]])
@@ -439,8 +441,8 @@ def discriminant_of(
 
 
 def closes(structure: Structure, i: int, modes: Mapping[int, Array], drive: Drive) -> tuple[Array, Array]:
-    """Whether a dyad closes at values of the drivers as they are written: 1, -1, or 0 where it stands at its limit as
-    far as can be told; and whether it is the file that leaves it open.  Shapes (n,)."""
+    """Whether a dyad closes at values of the drivers taken as decimals: 1, -1, or 0 where it is at its limit or
+    undecided; and whether the file's digits leave it open.  Shapes (n,)."""
     discriminant = discriminant_of(structure, i, modes, drive)
     with working():
         told = [discriminant.with_doubt(k) for k in range(len(drive))]
@@ -454,13 +456,13 @@ def _sign(value: Decimal, doubt: Decimal) -> int:
 
 
 def touch(function: Callable[[Decimal], Decimal], about: float) -> Decimal | None:
-    """Where a function is least: its derivative is zero."""
+    """The place of a function's least value, by the zero of its derivative."""
     step = SMALL.sqrt()
     return newton(lambda x: (function(x + step) - function(x - step)) / (2 * step), about)
 
 
 def newton(function: Callable[[Decimal], Decimal], about: float | Decimal) -> Decimal | None:
-    """A zero of a function in fifty digits, its derivative by differences; None where there is none near."""
+    """A zero of a function in fifty digits, its derivative by differences; None without a zero nearby."""
     with working():
         x = Decimal(about)
         try:

@@ -1,7 +1,7 @@
 """Formulas as data: every operation once, in order; and the code that computes them.
 
-A formula is built by computing with ``Real`` and ``Vec`` in place of floats and complex numbers.  What is known to be 0
-or 1 is folded away, what is computed twice is computed once, and what leads to nothing asked is never written out.
+A formula is built by computing with ``Real`` and ``Vec`` in place of floats and complex numbers.  Factors 0 and 1 are
+folded away, equal operations are computed once, and operations that no asked formula needs are never written.
 
 Code for one position in plain floats, or decimals, and code for many as arrays come from the same lines in the same
 order; with equal sines and cosines of the driver floats and arrays are equal to the last bit.
@@ -29,8 +29,8 @@ LEAVES = ("const", "param", "input")
 
 
 class ExpressionGraph:
-    """The lines of all formulas built on it; equal lines are one line.  Of a sum whose rounding is looked at ("sum" in
-    place of "add") nothing is folded away."""
+    """The lines of all formulas built on it; equal lines are one line.  In a sum whose rounding is needed ("sum" in
+    place of "add") no term is folded away."""
 
     def __init__(self) -> None:
         self.lines: list[Line] = []
@@ -57,7 +57,7 @@ class ExpressionGraph:
         return self.line("input", name)
 
     def needed(self, asked: Iterable[int], known: Iterable[int] = ()) -> list[int]:
-        """The lines that lead to those asked from those known, each after those it needs, near to where it is used."""
+        """The lines from the known to the asked ones, each after its operands, near its use."""
         done = set(known)
         order: list[int] = []
         for line in asked:
@@ -78,7 +78,7 @@ def _fmin(a: float, b: float) -> float:
 
 
 def _fmax(a: float, b: float) -> float:
-    """Unlike ``max`` it hands on nan: what one term does not know, the greatest does not."""
+    """The greater of two numbers, nan if either is nan, unlike ``max``."""
     return a if a != a or a > b else b
 
 
@@ -106,7 +106,7 @@ DECIMALS: Mapping[str, Callable[..., Any]] = {
 
 
 def operands(line: Line) -> tuple[int, ...]:
-    """The lines that a line takes its numbers from."""
+    """The lines from which a line takes its numbers."""
     return () if line[0] in LEAVES else line[1:]
 
 
@@ -247,7 +247,7 @@ class Real:
 
 
 class Vec:
-    """A plane vector given by the formulas of its components: computes as a complex number does."""
+    """A plane vector given by the formulas of its components; it computes like a complex number."""
 
     __array_ufunc__ = None
     __slots__ = ("imag", "real")
@@ -312,7 +312,7 @@ Number = TypeVar("Number", Real, Array)
 
 
 def root(x: Number) -> Number:
-    """Square root of the size of a number: where rounding has put a zero below zero it stays near zero."""
+    """Square root of the size of a number, so that a zero that rounding made negative stays near zero."""
     if not isinstance(x, Real):
         return np.sqrt(np.abs(x))
     if x.value is not None:
@@ -323,7 +323,7 @@ def root(x: Number) -> Number:
 
 
 def fmin(x: Number, y: Number) -> Number:
-    """The smaller of two numbers; the other one where one is not a number."""
+    """The smaller of two numbers; if one is nan, the other."""
     if not isinstance(x, Real):
         smaller: Array = np.fmin(x, y)
         return smaller
@@ -341,9 +341,9 @@ def fmax(x: Number, y: Number) -> Number:
 
 
 def two_sum(a: Number, b: Number) -> tuple[Number, Number]:
-    """A sum as it is rounded, and what rounding has taken from it (Knuth, The Art of Computer Programming, vol. 2).
+    """A rounded sum, and its rounding error (Knuth, The Art of Computer Programming, vol. 2).
 
-    Of formulas the two are meant to be used together: as a pair they have no rounding.
+    Of formulas the two belong together: their exact sum has no rounding.
     """
     if not isinstance(a, Real) or (a.value is not None and b.value is not None):
         s = a + b
@@ -391,9 +391,9 @@ class Code:
 
     Parameters
     ----------
-    asked : what to compute
-    fixed : inputs that are the same at all positions too, and are given among the params
-    varied : params that change too, as dimensions do from design to design, and are given among the inputs
+    asked : the formulas to compute
+    fixed : inputs that are also the same at all positions, and are given among the params
+    varied : params that change, as dimensions from design to design, and are given among the inputs
     """
 
     def __init__(
@@ -405,7 +405,7 @@ class Code:
 
     @cached_property
     def order(self) -> list[int]:
-        """All lines that it computes, each after those it needs."""
+        """All lines that it computes, each after its operands."""
         return self.graph.needed(self.asked)
 
     @cached_property
@@ -425,7 +425,7 @@ class Code:
 
     @cached_property
     def inputs(self) -> tuple[Any, ...]:
-        """The same of those that change."""
+        """Names of the numbers that change, in the order in which they are to be given."""
         return tuple(name for name in self.leaves if name in self._changing)
 
     @cached_property
@@ -452,12 +452,13 @@ class Code:
         self, given: Callable[[Name], Any], known: dict[int, Any],
         operations: Mapping[str, Callable[..., Any]] = OPERATIONS,
     ) -> list[Any]:  # fmt: skip
-        """What is asked at one position without code of its own: plain floats, or what the operations compute with.
+        """The asked formulas at one position, without written code: in plain floats, or in the numbers of the
+        operations.
 
         Parameters
         ----------
         given : params and inputs by their names
-        known : the numbers of lines by their places; those that are computed are added
+        known : the numbers of lines by their indices; computed ones are added
 
         Raises
         ------
@@ -478,7 +479,7 @@ class Code:
 
     @cached_property
     def floats(self) -> Callable[[Sequence[float], Sequence[float]], tuple[float, ...]]:
-        """Function of params and inputs to what is asked.  Raises ZeroDivisionError, OverflowError in a singular
+        """Function of params and inputs to the asked numbers.  Raises ZeroDivisionError, OverflowError in a singular
         position."""
         inputs = {name: f"i[{k}]" for name, k in self._input.items()}
         body, names = self._straight(self.order, inputs)
@@ -493,8 +494,8 @@ class Code:
         kept: Container[int] = (),
         before: Mapping[int, str] | None = None,
     ) -> tuple[list[str], dict[int, str]]:
-        """Assignments, one for each line that is used more than once or is to be kept, and what to write for each line;
-        ``before`` are lines that are written already."""
+        """Assignments, one for each line that is used more than once or kept, and the text of each line; ``before`` are
+        written lines."""
         uses: dict[int, int] = {}
         for at in order:
             for k in operands(self.graph.lines[at]):
@@ -523,14 +524,15 @@ class Code:
         return body, names
 
     def straight_same(self) -> tuple[list[str], dict[int, str]]:
-        """Assignments for what is the same at all positions, and what to write for each of its lines."""
+        """Assignments for numbers that are the same at all positions, and the text of each of their lines."""
         order = [at for at in self.order if at not in self.varying]
         return self._straight(order, {}, set(self._invariants[1]))
 
     def straight_varying(
         self, asked: Sequence[int], inputs: Mapping[Name, str], before: Mapping[int, str]
     ) -> tuple[list[str], dict[int, str]]:
-        """The same for what changes, as far as some of the asked lines need it, after ``straight_same``."""
+        """Assignments for changing numbers that some of the asked lines need, and their texts, after
+        ``straight_same``."""
         order = [at for at in self.graph.needed(asked) if at in self.varying]
         return self._straight(order, inputs, set(), before)
 
@@ -538,7 +540,7 @@ class Code:
 
     @cached_property
     def _invariants(self) -> tuple[Callable[..., tuple[float, ...]], dict[int, int]]:
-        """What is the same at all positions, in plain floats, as far as the rest needs it."""
+        """Function to the numbers that are the same at all positions and that the others need, in plain floats."""
         wanted: dict[int, int] = {}
         for at in self.order:
             if at in self.varying:
@@ -555,7 +557,7 @@ class Code:
 
     @cached_property
     def _blocks(self) -> tuple[Callable[..., None], int]:
-        """Function that computes one block, and how many columns it needs to work in."""
+        """Function that computes a block, and the number of columns that it needs for work."""
         graph = self.graph
         wanted = self._invariants[1]
         place = {at: f"u{k}" for at, k in wanted.items()}
@@ -612,7 +614,7 @@ class Code:
         return defined(text, {f.__name__: f for f in _UFUNCS.values()}), count
 
     def invariants(self, params: Sequence[float], dtype: DTypeLike = np.float64) -> list[Array] | None:
-        """What is the same at all positions; None where it cannot be computed."""
+        """The numbers that are the same at all positions; None where they cannot be computed."""
         try:
             return [np.array(x, dtype=dtype) for x in self._invariants[0](params)]
         except (ZeroDivisionError, OverflowError):
@@ -627,7 +629,7 @@ class Code:
         ----------
         invariants : as ``Code.invariants`` gives them
         inputs : real arrays of shape (n,)
-        out : real arrays of shape (n,), filled; where a position is singular with inf or nan
+        out : real arrays of shape (n,) to fill; inf or nan at a singular position
         """
         if invariants is None:
             for column in out:
@@ -657,7 +659,7 @@ def _tuple(texts: Iterable[str]) -> str:
 
 
 def defined(text: str, called: Mapping[str, object]) -> Any:
-    """The function ``made`` that a text defines; ``called`` is what it calls."""
+    """The function ``made`` that a text defines; ``called`` are the functions that it calls."""
     space: dict[str, Any] = dict(called)
     exec(compile(text, "<formulas>", "exec"), space)
     return space["made"]

@@ -1,12 +1,11 @@
-"""Kinetostatics: the forces in all pairs, and what balances the mechanism in its motion, by Newton and Euler.
+"""Kinetostatics: the forces in all pairs, and the balancing loads of the mechanism in its motion, by Newton and Euler.
 
-Each moving link is cut free: what acts on it from outside, its inertia force -m a and inertia couple -J alpha
+Each moving link is cut free: the loads on it, its inertia force -m a and inertia couple -J alpha
 (d'Alembert) and the forces of its pairs are in equilibrium.  All links together are one linear system, whose unknowns
 are the pair forces and as many balances as the mechanism has drivers (Sun Huan, Mechanical Principles, ch. 4; Norton,
 Design of Machinery, ch. 11).
 
-What acts on the links of a motion from outside: inertia forces, weights, loads, each where and while it acts; and
-where over the range of the driver the forces jump, as loads begin and end, and turn with the sense of a slide.
+The known actions on the links of a motion: inertia forces, weights, loads, each at its place while it acts.
 """
 
 from __future__ import annotations
@@ -34,8 +33,8 @@ class PairForce:
     """A force of one direction, or a couple, of ``first`` on ``second``, of unknown size; its opposite acts on
     ``first``.
 
-    along : unit direction of a force: a number where it is the same everywhere, or shape (n,); None for a couple
-    at : where the force acts, shape (n,) (m)
+    along : unit direction of a force: a number if it is constant, or shape (n,); None for a couple
+    at : the place of the force, shape (n,) (m)
     """
 
     symbol: Symbol
@@ -60,8 +59,8 @@ def pair_forces(motion: Motion) -> list[PairForce]:
 
 
 def _lines(motion: Motion, joint: ForceJoint) -> tuple[Sequence[complex | Array], Array]:
-    """Along which directions the forces of a joint act, and where: the normal of what slides, the tangent of pitch
-    circles, whose centres another link holds apart, both components of what turns or rolls otherwise."""
+    """The directions and the place of a joint's forces: the normal of a sliding contact, the tangent of pitch circles
+    whose centres another link holds apart, both components for a turning pair or other rolling."""
     scene, both = motion.scene, (1 + 0j, 1j)
     if joint.kind == "turning":
         return both, motion.position(joint.point)
@@ -88,8 +87,8 @@ def _lines(motion: Motion, joint: ForceJoint) -> tuple[Sequence[complex | Array]
 
 
 def balances(motion: Motion) -> list[PairForce]:
-    """What drives: for each driver a moment or a force between the two links that it moves relatively, or what the
-    scene says instead."""
+    """The balancing loads: for each driver a moment or a force between the two links that it moves relatively, or the
+    scene's own balance."""
     scene, found = motion.scene, []
     said = scene.loading.balance
     if said is not None:
@@ -111,7 +110,7 @@ def balances(motion: Motion) -> list[PairForce]:
 
 
 def _foot(motion: Motion, slide: Pair) -> Array:
-    """Where the force of a sliding pair acts: the first point of what slides, or its origin."""
+    """The place of a sliding pair's force: the first point of the sliding link, or its origin."""
     at = motion.structure.links[slide.a].points[slide.pin] if slide.pin else 0j
     return np.asarray(motion.poses[slide.a].fixed(at).z)
 
@@ -138,9 +137,9 @@ class Forces:
     values : by their symbols.  Complex, shape (n,), N: pair forces ``F_5/6`` (of link 5 on link 6), inertia forces
         ``Fi_6``, weights ``G_6``, loads ``P_name``, balancing forces ``F_2``; real, shape (n,), N m: couples of sliding
         pairs ``M_5/6``, inertia couples ``Mi_6``, loads, balancing moments ``M_2``
-    beside : the same with the loads that begin or end exactly at a position; NaN elsewhere, and where it changes
-        nothing
-    ok : bool, shape (n,): where there is an answer; numbers elsewhere are NaN
+    beside : the values with the loads that begin or end exactly at a position; NaN elsewhere, and where they do not
+        change
+    ok : bool, shape (n,): whether the forces are found; numbers elsewhere are NaN
     """
 
     motion: Motion
@@ -151,7 +150,7 @@ class Forces:
 
     @cached_property
     def known_motion(self) -> Motion:
-        """The motion, which counts as a dead point where there is no answer, with the reason."""
+        """The motion, with a dead point and its reason where the forces are not found."""
         motion, unknown = self.motion, self.motion.ok & ~self.ok
         if not unknown.any():
             return motion
@@ -164,13 +163,13 @@ class Forces:
 
     @cached_property
     def bound(self) -> tuple[Array, Array]:
-        """How far rounding may have moved any force (N) and moment (N m), shape (n,) each."""
+        """Bounds of the rounding errors of any force (N) and moment (N m), shape (n,) each."""
         return _cut_free(self.motion).bounds(self)
 
     @cached_property
     def floors(self) -> tuple[Array, Array]:
-        """What is not above it is nothing but rounding, of a force (N) and a moment (N m), shape (n,) each: the bounds,
-        as far as they are slight beside the largest of all."""
+        """The sizes up to which a force (N) and a moment (N m) are rounding alone, shape (n,) each: the bounds, where
+        they are slight beside the largest of all."""
         force, moment = (
             np.max([np.abs(v) for symbol, v in self.values.items() if symbol.is_vector is vectors], axis=0, initial=0.0)
             for vectors in (True, False)
@@ -182,15 +181,15 @@ class Forces:
 
     @cached_property
     def power(self) -> tuple[Array, Array]:
-        """The sum of the powers of all that acts from outside and of the balances, which is 0 but for rounding, and the
-        greatest of them (W), shape (n,) each."""
+        """The sum of the powers of all outer actions and of the balances, which is 0 within rounding, and the greatest
+        of them (W), shape (n,) each."""
         both = (*actions(self.motion), *self.balancing)
         own = [one.power(self.motion) for one in both]
         return np.sum(own, axis=0), np.max(np.abs(own), axis=0)
 
     @property
     def balancing(self) -> list[Action]:
-        """What balances, as it acts on both links of each balance."""
+        """The balancing loads as actions on both links of each balance."""
         found = []
         for one in balances(self.motion):
             value, place = self.values[one.symbol], None if one.along is None else one.at
@@ -199,7 +198,7 @@ class Forces:
 
     def value(self, symbol: Symbol) -> Array | None:
         """A force or a moment, ``F_6/5`` being the opposite of ``F_5/6``, ``F_5/6+`` with the loads that begin or end
-        exactly at a position; None for one that there is not."""
+        exactly at a position; None for an unknown one."""
         plain = replace(symbol, at="", plus=False)
         for known, sign in ((plain, 1.0), (plain.opposite, -1.0)):
             own = self.values.get(known)
@@ -228,7 +227,7 @@ def _cut_free(motion: Motion) -> _Statics:
 
 @dataclass(frozen=True)
 class _Statics:
-    """The links of a motion cut free: what acts on them, and what is unknown."""
+    """The links of a motion cut free: the known actions on them, and the unknowns."""
 
     motion: Motion
     acting: tuple[Action, ...]
@@ -245,7 +244,7 @@ class _Statics:
         return self.motion.scene.size
 
     def arm(self, link: str, at: Array) -> Array:
-        """Way from a link's origin to a place, over the size."""
+        """The vector from a link's origin to a place, over the size."""
         return np.asarray((at - self.motion.poses[link].z) / self.size)
 
     @cached_property
@@ -267,7 +266,7 @@ class _Statics:
 
     @cached_property
     def inverse(self) -> tuple[Array, Array]:
-        """The inverse of the matrix, and where there is one, shape (n,); nothing elsewhere."""
+        """The inverse of the matrix, and whether it exists, shape (n,)."""
         matrix, good = self.matrix, self.motion.ok
         rows, columns = matrix.shape[1:]
         if rows != columns:
@@ -278,8 +277,8 @@ class _Statics:
         return np.where(good[:, None, None], found, 0.0), good
 
     def answer(self, right: Array) -> tuple[Array, Array]:
-        """The unknowns, shape (columns, n), NaN where there are none, and where there are, by right sides of shape
-        (rows, n)."""
+        """The unknowns, shape (columns, n), NaN where they are not found, and whether they are found, by right sides of
+        shape (rows, n)."""
         inverse, good = self.inverse
         good = good & np.isfinite(right).all(axis=0)
         column = np.where(good, right, 0.0).T[..., None]
@@ -289,7 +288,7 @@ class _Statics:
         return np.where(good, found[..., 0].T, np.nan), good
 
     def right(self, values: Iterable[tuple[Action, Array]]) -> Array:
-        """What acts, brought to the other side."""
+        """The known actions on the other side of the equations."""
         made = np.zeros((3 * len(self.row), len(self.motion)))
         for one, value in values:
             i = self.row.get(one.link)
@@ -313,7 +312,7 @@ class _Statics:
         return Forces(self.motion, values, self._beside(values, ok), ok)
 
     def _beside(self, here: Mapping[Symbol, Array], ok: Array) -> dict[Symbol, Array]:
-        """The values with the loads that begin or end exactly at a position, where that changes them."""
+        """The values with the loads that begin or end exactly at a position, where these change them."""
         jumping = [one for one in self.acting if one.beside is not None]
         if not jumping:
             return {}
@@ -336,7 +335,7 @@ class _Statics:
         return made
 
     def bounds(self, forces: Forces) -> tuple[Array, Array]:
-        """First-order bound of what rounding and the bounds of the motion do to the answer (N, N m)."""
+        """First-order bound of the forces' errors by rounding and by the bounds of the motion (N, N m)."""
         motion, size, loading = self.motion, self.size, self.motion.scene.loading
         place, _, push = motion.bound.of_point
         turn = motion.bound.of_turning
@@ -375,10 +374,10 @@ class _Statics:
 class Action:
     """A force or a couple on a link.
 
-    symbol : ``Fi_6``, ``G_6``, ``P_name``; None where another tells it
-    at : where a force acts, complex, shape (n,) (m); None for a couple
+    symbol : ``Fi_6``, ``G_6``, ``P_name``; None for the second force of a spring
+    at : the place of a force, complex, shape (n,) (m); None for a couple
     value : force, complex, shape (n,) (N), or couple, real (N m)
-    beside : the same with the loads that begin or end exactly at a position; None where that changes nothing
+    beside : the value with the loads that begin or end exactly at a position; None where it does not change
     """
 
     symbol: Symbol | None
@@ -388,7 +387,7 @@ class Action:
     beside: Array | None = None
 
     def power(self, motion: Motion) -> Array:
-        """What it does (W), shape (n,)."""
+        """Its power (W), shape (n,)."""
         pose = motion.poses[self.link]
         if self.at is None:
             return np.asarray(self.value * pose.omega)
@@ -396,7 +395,7 @@ class Action:
 
 
 def actions(motion: Motion) -> Iterator[Action]:
-    """All that is known of what acts on the links: inertia force -m a and inertia couple -J alpha (d'Alembert)
+    """All known actions on the links: inertia force -m a and inertia couple -J alpha (d'Alembert)
     and weight of each mass, then loads and springs, of the two forces of a spring one may act on the frame.
 
     Raises
@@ -428,7 +427,7 @@ def _spring(motion: Motion, spring: SpringOn) -> Iterator[Action]:
 
 
 def spring_ends(motion: Motion, spring: SpringOn) -> tuple[Array, Array]:
-    """Where the two points of a spring lie, complex, shape (n,) each (m)."""
+    """The places of a spring's two points, complex, shape (n,) each (m)."""
     one, two = (np.broadcast_to(motion.poses[n].z + motion.poses[n].u * at, len(motion)) for n, at in spring.ends)
     return np.asarray(one), np.asarray(two)
 
@@ -471,7 +470,7 @@ def _force(motion: Motion, load: LoadOn) -> Array:
 
 
 def _acting(motion: Motion, load: LoadOn) -> tuple[Array, Array]:
-    """Where a load acts, and where it begins or ends exactly; shape (n,) each.  Raises Unsolvable as `actions`."""
+    """Whether a load acts, and whether it begins or ends exactly; shape (n,) each.  Raises Unsolvable as `actions`."""
     phase = load.phase
     if phase is None:
         return np.ones(len(motion), dtype=bool), np.zeros(len(motion), dtype=bool)

@@ -1,7 +1,7 @@
-"""Formulas compiled for the processor, where numba is installed (the extra ``fast``).
+"""Formulas compiled for the processor, if numba is installed (the extra ``fast``).
 
 Names in the text are made from numbers only.  Positions come in blocks whose columns stay in the first cache, several
-at once in the vector registers: the loops are free of branches, and what a block reads lies apart from what it writes.
+at once in the vector registers: the loops are free of branches, and a block's inputs lie apart from its outputs.
 """
 
 from __future__ import annotations
@@ -41,9 +41,9 @@ class Kernel:
     Parameters
     ----------
     turning : whether the first driver is an angle
-    even : whether its values are at even steps, or come as an array
-    columns : how many of the formulas are asked for; those after them are the sines of groups: where one is smaller
-        than ``singular`` the position is marked
+    even : whether its values are at even steps, or given as an array
+    columns : the number of asked formulas; those after them are the sines of groups: a position with one below
+        ``singular`` is marked
 
     Raises
     ------
@@ -57,7 +57,7 @@ class Kernel:
         self.run = _compiled(self.text)
 
     def __call__(self, count: int, *given: object) -> None:
-        """Fill so many columns.
+        """Fill the columns at ``count`` positions.
 
         Parameters
         ----------
@@ -80,7 +80,7 @@ class Kernel:
 
 
 def pays(count: int) -> bool:
-    """Whether so many positions are worth compiling for, where that can be done."""
+    """Whether compiling pays for a number of positions, and is possible."""
     return count >= MANY and find_spec("numba") is not None
 
 
@@ -127,14 +127,14 @@ def kernel_text(code: Code, turning: bool, even: bool, columns: int, singular: f
 
 
 def _together(reads: int) -> int:
-    """How many columns are filled in one loop that reads so many: each pair of columns, of which one is written, takes
-    a check that they lie apart, and with more than 128 checks the loop would be compiled for one position at a time.
-    What several loops need is computed in each: that takes less time than the memory does."""
+    """The number of columns filled in one loop that reads ``reads`` columns: each pair of columns of which one is
+    written takes a check that they lie apart, and with more than 128 checks the loop would be compiled for one position
+    at a time.  Numbers that several loops need are computed in each, which takes less time than memory."""
     return max(w for w in range(1, 17) if w * (w - 1) // 2 + w * reads <= CHECKS or w == 1)
 
 
 def _with_shared_divisions(code: Code) -> Code:
-    """The same formulas, where x / x^2 for a root x (or one with a sign) is 1 / x: divisions take longest."""
+    """The formulas with 1 / x in place of x / x^2 for a root x (or a signed one): divisions take longest."""
     graph = ExpressionGraph()
     made: dict[int, Real] = {}
     for at in code.order:
@@ -172,7 +172,7 @@ def _compiled(text: str) -> Callable[..., None]:
 
 @cache
 def _library() -> dict[str, Any]:
-    """What the texts call."""
+    """The functions that the texts call."""
     try:
         import numba  # type: ignore[import-not-found, import-untyped, unused-ignore]
     except ImportError:
@@ -221,8 +221,8 @@ def _library() -> dict[str, Any]:
 def _turn(angle: float) -> tuple[float, float]:
     """Cosine and sine in plain operations, so that several can be computed at once.
 
-    The polynomials are those of fdlibm (Sun Microsystems, 1993: k_sin.c, k_cos.c), right to the last place but one;
-    what is a quarter turn within the rounding of the angle gives an exact zero.
+    The polynomials are those of fdlibm (Sun Microsystems, 1993: k_sin.c, k_cos.c), right to the last digit but one; a
+    quarter turn within the rounding of the angle gives an exact zero.
     """
     q = np.rint(angle * 0.6366197723675814)
     r = ((angle - q * 1.5707963267341256) - q * 6.077100506303966e-11) - q * 2.0222662487959506e-21

@@ -26,12 +26,12 @@ ROUGH = 1e-13
 
 @dataclass(frozen=True)
 class GroupSolved:
-    """What a larger group gives.
+    """The solution of a larger group.
 
     poses : its links
-    place : the same as an array (n, members, 3) of x, y (m) and angle (rad, not reduced); where something rolls with
-        more rows, see ``mode_of``
-    residual : of the constraint that is most open, no unit; infinite where nothing is known
+    place : the poses as an array (n, members, 3) of x, y (m) and angle (rad, not reduced); with rolling with more rows,
+        see ``mode_of``
+    residual : the largest of the constraints, no unit; infinite where it is unknown
     matrix : derivative of the constraints by the scaled unknowns, shape (n, rows, columns)
     right_side : rate of the constraints with the group held still, shape (n, rows)
     """
@@ -49,27 +49,27 @@ class GroupSolved:
 
     @cached_property
     def determinant(self) -> Array:
-        """Of the scaled constraints; its sign tells the branch."""
+        """The determinant of the scaled constraints; its sign tells the branch."""
         return np.asarray(np.linalg.det(self.matrix))
 
     @cached_property
     def condition(self) -> Array:
-        """Of the scaled constraints, one over the least singular value: how much an error grows."""
+        """The condition of the scaled constraints, one over the least singular value: the growth of an error."""
         with np.errstate(all="ignore"):
             finite = np.asarray(np.where(self._whole[:, None, None], self.matrix, 0.0), dtype=float)
             least = np.linalg.svd(finite, compute_uv=False)[:, -1]
             return np.asarray(np.where(self._whole, 1 / np.maximum(least, 1e-300), np.inf))
 
     def same_assembly(self, place: Array) -> bool:
-        """Whether a place nearby (rows, 3) is of the same assembly for certain, whatever the rates there: by the
-        bound on its matrix, which stays regular all around (of the first position)."""
+        """Whether a place nearby (rows, 3) certainly belongs to the same assembly, whatever the rates there: by the
+        bound on its matrix, which stays regular around it (of the first position)."""
         off = (self.place[0] - place)[: len(self.system.group.members)]
         moved = float(np.linalg.norm(off / np.array([self.system.structure.scene.size] * 2 + [1.0])))
         return bool(self.condition[0] * _bending(self.system, self.poses)[0] * moved < 0.5)
 
     @cached_property
     def rolling_residuals(self) -> Array:
-        """How far what rolls may be off: what is still open, and the rounding of its turns; shape (n, relations)."""
+        """Errors of the rolling relations: their residuals, and the rounding of turns; shape (n, relations)."""
         system, layout = self.system, self.system.layout
         if not len(layout.rolling_rows):
             return np.zeros((len(self.residual), 0))
@@ -89,7 +89,7 @@ class GroupSolved:
 
     @cached_property
     def certificate(self) -> Array:
-        """Less than 1/2 where Newton's method has converged quadratically to a position."""
+        """Kantorovich's number: below 1/2 Newton's method has converged quadratically to a position."""
         with np.errstate(all="ignore"):
             return certificate(self.system, self.poses, self.condition, self.residual)
 
@@ -102,8 +102,8 @@ def solve_group(
     start: Array,
     rates: bool = True,
 ) -> GroupSolved:
-    """Solve a group by Newton's method from given places, shape (n, members, 3); where something rolls with more rows,
-    see ``mode_of``."""
+    """Solve a group by Newton's method from given places, shape (n, members, 3); with rolling with more rows, see
+    ``mode_of``."""
     n = len(drive)
     system, start = Constraints(structure, group, known, drive), np.asarray(start)
     start = np.broadcast_to(start, (n, *start.shape[-2:]))
@@ -144,7 +144,7 @@ def solve_group(
 
 
 def _rolling_from(system: Constraints, start: Array) -> Constraints:
-    """With the turns and the sums that starting places tell, see ``mode_of``."""
+    """The constraints with the turns and the sums of starting places, see ``mode_of``."""
     layout = system.layout
     if not len(layout.rolling_rows):
         return system
@@ -167,9 +167,9 @@ def _with_turns(system: Constraints, place: Array) -> Array:
 
 
 def mode_of(structure: Structure, group: LargerGroup, poses: Mapping[str, Pose]) -> Array:
-    """From where Newton's method goes on from the scene's own position, shape (rows, 3): the places of the links; where
-    something rolls also a row for each sum that it keeps, and one for each link outside the group that rolls with it,
-    for the sake of its turns."""
+    """The start of Newton's method from the scene's own position, shape (rows, 3): the places of the links; with
+    rolling also a row for each sum that it keeps, and a row for each link outside the group that rolls with it, for its
+    turns."""
     drive = Drive(*(np.zeros((1, len(structure.drivers))),) * 3)
     system = Constraints(structure, group, poses, drive)
     place = as_place(poses, group.members)[:1]
@@ -182,9 +182,9 @@ def mode_of(structure: Structure, group: LargerGroup, poses: Mapping[str, Pose])
 
 
 def certificate(system: Constraints, members: Mapping[str, Pose], condition: Array, residual: Array) -> Array:
-    """Kantorovich's number: |J^-1| |step| times how fast the matrix J changes, with step <= |J^-1| |open|.
+    """Kantorovich's number: |J^-1| |step| times the rate of change of the matrix J, with step <= |J^-1| |residual|.
 
-    Below 1/2 there is a position, the only one within twice the step, and Newton's method converges to it quadratically
+    Below 1/2 there is a single position within twice the step, and Newton's method converges to it quadratically
     (Ortega and Rheinboldt, Iterative Solution of Nonlinear Equations in Several Variables, 12.6).
     """
     step = condition * np.maximum(residual, ROUNDINGS) * (3 * len(system.group.members)) ** 0.5
@@ -192,7 +192,7 @@ def certificate(system: Constraints, members: Mapping[str, Pose], condition: Arr
 
 
 def _bending(system: Constraints, members: Mapping[str, Pose]) -> Array:
-    """The most by which the matrix changes with the scaled unknowns, both as roots of squares."""
+    """The greatest change of the matrix with the scaled unknowns, both as roots of squares."""
     size, rows = system.structure.scene.size, 3 * len(system.group.members)
     poses = [*members.values(), *system.known.values()]
     reach = 1 + np.max(np.broadcast_arrays(*(np.abs(p.z) / size for p in poses)), axis=0)

@@ -1,9 +1,9 @@
-"""The structure of a scene as the solver takes it: what the scene leaves open is decided by its own position, the sense
-of guides, the rate of a driver by a point's speed; and why its mobility is wrong (redundant but mobile,
+"""The structure of a scene for the solver: data that the scene leaves open are decided by its own position: the sense
+of guides, the rate of a driver by a point's speed; and the reason for a wrong mobility (redundant but mobile,
 over-constrained, not to be closed, wrongly counted).
 
-What slides on a swinging or turning guide lies on its positive side where nobody says which way it points, but where
-links that hang on it reach each other only the other way round, and in one way alone, that is meant.
+A link on a swinging or turning guide of unknown sense lies on the guide's positive side, unless the links that hang on
+it reach each other only with the opposite sense.
 """
 
 from __future__ import annotations
@@ -35,13 +35,14 @@ NEARBY = 0.01
 
 
 def structure_of(scene: Mechanism | Structure) -> Structure:
-    """The structure of a scene, a driver's value that is given from a dead point found; a structure as it is.
+    """The structure of a scene, with a driver's value given from a dead point computed; a structure is returned as it
+    is.
 
     Raises
     ------
     Unsolvable
-        status "mobility", with the diagnosis: where the count fails, each link is left out in turn, the rest is solved,
-        and the link is laid back into it, in position, velocity and acceleration, here and at a position nearby
+        status "mobility", with the diagnosis: if the count fails, each link is left out in turn, the rest is solved,
+        and the link is fitted back into it, in position, velocity and acceleration, here and at a position nearby
     """
     scene = scene.whole
     if isinstance(scene, Structure):
@@ -120,10 +121,10 @@ MOST = 4
 
 
 def with_sensible_slots(structure: Structure) -> Structure:
-    """The structure with points sketched so that guides point the only way in which all that hangs on them reaches;
-    itself where the rule does, or where several ways or none would do.
+    """The structure with points sketched so that guides have the only senses in which all links that hang on them
+    reach; itself where the rule is enough, or where several senses or none are possible.
 
-    Only dyads are looked at, up to the first larger group.
+    Only dyads up to the first larger group are examined.
     """
     free = _free_guides(structure)
     if not free:
@@ -148,7 +149,7 @@ def with_sensible_slots(structure: Structure) -> Structure:
 
 
 def _elements(structure: Structure) -> Iterator[tuple[int, Dyad]]:
-    """The dyads before the first larger group, and before anything that rolls."""
+    """The dyads before the first larger group, and before rolling links."""
     for i, element in enumerate(structure.elements):
         if isinstance(element, LargerGroup) or (isinstance(element, Driven) and element.rolled):
             return
@@ -157,7 +158,7 @@ def _elements(structure: Structure) -> Iterator[tuple[int, Dyad]]:
 
 
 def _free_guides(structure: Structure) -> list[int]:
-    """Dyads of a slider on a bar, which nothing tells how to lie, and on which something hangs that may not reach."""
+    """Dyads of a slider on a bar without data for their sense, on which links hang that may not reach."""
     scene, told = structure.scene, {*structure.scene.sketch, *structure.scene.drawn}
     dyads = [*_elements(structure)]
     found = []
@@ -171,7 +172,7 @@ def _free_guides(structure: Structure) -> list[int]:
 
 
 def _reached(structure: Structure, turned: Collection[int]) -> State | None:
-    """Everything up to the last dyad, some of the guides turned round; None where something does not reach."""
+    """All elements up to the last dyad, with some of the guides reversed; None where links do not reach."""
     last = max(i for i, _ in _elements(structure)) + 1
     try:
         modes = choose_modes(structure, turned, last)
@@ -192,8 +193,8 @@ def at_given_speed(structure: Structure) -> Structure:
 
     Raises
     ------
-    Unsolvable : "dead point": the point stands still here however fast the driver turns, or a group is at a dead point
-    SceneError : a group has several assemblies and no sketch tells which
+    Unsolvable : "dead point": the point rests here at any rate of the driver, or a group is at a dead point
+    SceneError : a group has several assemblies and no sketch chooses
     """
     scene = structure.scene
     driver = scene.drivers[0]
@@ -220,7 +221,7 @@ def from_dead_point(structure: Structure) -> Structure:
 
     Raises
     ------
-    Unsolvable : "dead point": there is none of that kind, or there are several and none is named
+    Unsolvable : "dead point": there is none of that kind, or several and none is named
     """
     scene = structure.scene
     driver = scene.drivers[0]
@@ -271,7 +272,7 @@ def from_dead_point(structure: Structure) -> Structure:
 
 
 def _listed(scene: Mechanism, known: Sequence[tuple[DeadPoint, int]]) -> list[Phrase]:
-    """The dead points of a scene in words, and what the motion does there."""
+    """The dead points of a scene in words, with the motion on their sides."""
     ends: dict[Wording, list[int]] = {}
     for point, way in known:
         ends.setdefault(driver_text(scene, scene.drivers[0], float(point.value)), []).append(way)

@@ -1,7 +1,5 @@
-"""The motion found: position, velocity and acceleration of every link, point and sliding pair, by name and by symbol;
-and how it is found at given values of the drivers: what stands there, and where and why nothing does.
-
-Centrodes: the paths of a link's instant centre in the frame and in the link itself.
+"""The solved motion: position, velocity and acceleration of every link, point and sliding pair, by name and by symbol;
+with the status of each position and its reason; the motion at contacts and pitch points.
 """
 
 from __future__ import annotations
@@ -42,10 +40,10 @@ class Sliding(NamedTuple):
 
 
 class Reach(Protocol):
-    """The range of the driver that a motion is a part of, as far as its forces ask for it."""
+    """The range of the driver to which a motion belongs, with the functions that its forces need."""
 
     def offsets(self, value: Array) -> Array:
-        """Where the first driver has these values (rad, m)."""
+        """The offsets at which the first driver has these values (rad, m)."""
 
     def motion(self, offset: Array, unit: bool = False) -> Motion:
         """The motion there, with the rates of the scene or by the first driver's own value."""
@@ -61,14 +59,14 @@ class Motion:
     structure : the order of solution
     values : real, shape (n, drivers), SI
     status : str, shape (n,): "ok", "dead point" or "not assembled"
-    reasons : for each position why it is not "ok", empty where it is; `why` is the same in English
+    reasons : for each position the reason why it is not "ok", else empty; `why` is in English
     poses : each moving link, the frame, and the blocks of pins, by name; NaN where the status is not ok
-    assembled : tells which assembly was taken, for each group
-    accuracy : from what the bounds of its errors are made
-    reach : finds the range of the first driver; raises Unsolvable where there is none
-    passed : the change points on the way here from the scene's own position
-    turned : over a sweep how far each link has turned since its start, to a few degrees (rad): tells whole turns
-    onward : in a later block of a sweep, for each link the angle from which it goes on (rad), less what is ``turned``
+    assembled : gives the assembly of each group in words
+    accuracy : the source of the bounds of its errors
+    reach : function to the range of the first driver; raises Unsolvable without one
+    passed : the change points on the path from the scene's own position
+    turned : over a sweep the angle of each link from its start, to a few degrees (rad): it gives whole turns
+    onward : in a later block of a sweep, for each link the angle from which it continues (rad), less ``turned``
     """
 
     structure: Structure
@@ -85,7 +83,7 @@ class Motion:
 
     @cached_property
     def kept(self) -> dict[str, Any]:
-        """What was found of it and is asked for again: the forces."""
+        """Results kept for further use: the forces."""
         return {}
 
     @property
@@ -99,12 +97,12 @@ class Motion:
 
     @cached_property
     def assembly(self) -> tuple[Phrase, ...]:
-        """For each group, in the order of ``structure.groups``, which assembly was taken."""
+        """The assembly of each group in words, in the order of ``structure.groups``."""
         return self.assembled()
 
     @cached_property
     def growing(self) -> Motion:
-        """The same positions in motion: at rest, with the value of the first driver growing at a unit rate."""
+        """The positions in motion: of a mechanism at rest with the first driver's value growing at a unit rate."""
         if any(driver.values[1] for driver in self.scene.drivers):
             return self
         reach = self.reach()
@@ -132,7 +130,7 @@ class Motion:
         )
 
     def after(self, before: Motion) -> Motion:
-        """The same as the next block of a sweep: angles of links go on from those of the block before."""
+        """The motion as the next block of a sweep: angles of links continue from those of the block before."""
         good = np.flatnonzero(before.ok)
         if not len(good):
             return replace(self, onward=before.onward)
@@ -143,11 +141,11 @@ class Motion:
 
     @property
     def why(self) -> tuple[str, ...]:
-        """Why a position is not "ok", in English, for each position; "" where it is."""
+        """For each position the reason in English why it is not "ok"; "" where it is."""
         return tuple(map(str, self.reasons))
 
     def said(self, position: int) -> Phrase:
-        """The status of a position, and why it is not "ok"."""
+        """The status of a position, and its reason."""
         return Phrase("status and why", status=Phrase(f"status {self.status[position]}"), why=self.reasons[position])
 
     def require(self) -> Motion:
@@ -158,7 +156,7 @@ class Motion:
 
     @cached_property
     def posed(self) -> Posed:
-        """The links where they are."""
+        """The links in their poses."""
         return Posed(self.structure, self.poses, self.slides)
 
     def link(self, name: str) -> PlacedLink:
@@ -166,7 +164,7 @@ class Motion:
         return self.posed.link(name)
 
     def point(self, point: str, link: str = "") -> Pose:
-        """Axes that move with a point of a link, or with its place that lies at that pin now (see ``Posed.point``)."""
+        """Axes that move with a point of a link, or with the link's place at that pin now (see ``Posed.point``)."""
         return self.posed.point(PointRef(point, link))
 
     def position(self, point: str, link: str = "") -> Array:
@@ -218,8 +216,8 @@ class Motion:
 
     @cached_property
     def driven(self) -> tuple[Array, Array]:
-        """How fast the drivers move, and how their rates change with the square of that, of slides over the size; shape
-        (n,) (rad/s, rad/s2)."""
+        """The rate of the drivers, and their second rate with the square of it, of slides over the size; shape (n,)
+        (rad/s, rad/s2)."""
         size = self.scene.size
         rate, second = np.zeros(len(self)), np.zeros(len(self))
         for driver in self.scene.drivers:
@@ -233,7 +231,7 @@ class Motion:
 
     @cached_property
     def _scales(self) -> Mapping[Measure, tuple[Array | float, Array | float]]:
-        """By measure what the drivers alone make, and what adding a point to its link may round away at the least."""
+        """By measure the size of the drivers' motion, and the least rounding in adding a point to its link."""
         size, (rate, second) = self.scene.size, self.driven
         poses = self.accuracy.poses.values()
         place, fast, pushed = (FEW * UNIT * np.max([np.abs(getattr(p, f)) for p in poses], axis=0) for f in "zva")
@@ -243,14 +241,14 @@ class Motion:
         }  # fmt: skip
 
     def settled(self, value: Array, measure: Measure, ends: float = 1.0) -> Array:
-        """Values of a measure (SI), shape (n,), 0 where they are nothing but rounding; complex ones by their parts.
+        """Values of a measure (SI), shape (n,), 0 where they are rounding alone; complex ones by their parts.
 
-        That is not above the bound of the error, where the bound is slight beside the motion of the drivers.  Where it
-        is more, beside a dead point, nothing is called 0.
+        A value is rounding alone if it is not above the bound of its error, and the bound is slight beside the motion
+        of the drivers.  Near a dead point, where the bound is larger, no value becomes 0.
 
         Parameters
         ----------
-        ends : how many places err in it
+        ends : the number of places whose errors it has
         """
         if np.iscomplexobj(value):
             return self.settled(value.real, measure, ends) + 1j * self.settled(value.imag, measure, ends)
@@ -274,17 +272,17 @@ class Motion:
 
     @cached_property
     def bound(self) -> ErrorBound[Array]:
-        """How far rounding may have moved any point, and the angles of links and their rates; NaN where not ok."""
+        """Bounds of the rounding errors of any point, and of the angles of links and their rates; NaN where not ok."""
         return self.accuracy.of(())
 
     @cached_property
     def rough(self) -> tuple[Array, Array]:
-        """What the bounds of velocity and acceleration would be if all were computed in 16 digits, as a drawing is, for
-        points as far off as the mechanism is large."""
+        """The bounds of velocity and acceleration of a computation in 16 digits, as of a drawing, for points as far off
+        as the mechanism is large."""
         return self.rough_of(())[1:]
 
     def rough_of(self, links: Iterable[str]) -> tuple[Array, Array, Array]:
-        """The same of some links, and of their places."""
+        """The bounds of some links in 16 digits: of place, velocity and acceleration."""
         size, off = self.accuracy.structure.scene.size, self.accuracy.of(links, drawn=True)
         return (
             off.position, np.maximum(off.velocity, size * off.omega), np.maximum(off.acceleration, size * off.alpha)
@@ -311,7 +309,7 @@ class ContactMotion:
     normal : unit complex, out of the first body
     slip : complex, velocity of the first body's point minus that of the second's (m/s)
     pressure : for each moving body the angle between normal and velocity of its point at the contact, 0 .. pi/2 (rad),
-        NaN where it stands
+        NaN where it rests
     """
 
     place: Array
@@ -344,15 +342,15 @@ def contact_motion(motion: Motion, contact: PlacedContact) -> ContactMotion:
 
 
 def _between(normal: Array, way: Array) -> Array:
-    """The angle from the line of a normal to that of a way (rad), 0 .. pi/2; one that is nothing but rounding is 0."""
+    """The angle between the lines of a normal and of a direction (rad), 0 .. pi/2; 0 where it is rounding alone."""
     across = np.conj(normal) * way
     angle = np.arctan2(np.abs(across.imag), np.abs(across.real))
     return np.where(angle > ROUNDED, angle, 0.0)
 
 
 def pitch_point(motion: Motion, gear: PlacedGear) -> tuple[Array, tuple[float, float | None]]:
-    """Where the pitch circles of a gear touch, complex, shape (n,) (m), and their radii with the signs of the teeth (m;
-    None for a rack)."""
+    """The pitch point of a gear, complex, shape (n,) (m), and the radii of the pitch circles with the signs of the
+    teeth (m; None for a rack)."""
     axis = motion.position(gear.axes[0], gear.carrier)
     if gear.is_rack:
         rack = motion.link(gear.wheels[1])
@@ -384,7 +382,7 @@ def listed_points(scene: Mechanism, slides: Sequence[Pair]) -> tuple[tuple[str, 
 
 
 def own_slides(scene: Mechanism, slides: Sequence[Pair]) -> tuple[Pair, ...]:
-    """The sliding pairs and pins in slots of the scene, and of a contact with a face its disc's centre along it; not
-    that of what rolls."""
+    """The sliding pairs and pins in slots of the scene, and for a sliding contact with a face the slide of the disc's
+    centre along it."""
     blocks = {c.block for c in scene.contacts if c.rolling}
     return tuple(s for s in slides if s.key not in blocks)

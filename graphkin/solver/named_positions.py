@@ -25,7 +25,7 @@ SAME = 1e-9
 
 @dataclass(frozen=True)
 class PlacesByName:
-    """The positions that a scene names, and where they lie on the way of its first driver."""
+    """The positions that a scene names, and their values of the first driver."""
 
     names: Positions
     reach: DriverRange
@@ -47,7 +47,7 @@ class PlacesByName:
 
     @cached_property
     def first(self) -> float:
-        """The value at position 1: the driver's own where nothing else is said."""
+        """The value at position 1: by default the driver's own."""
         first = self.names.first
         return self.reach.scene.drivers[0].values[0] if first is None else self._value(first)
 
@@ -56,7 +56,7 @@ class PlacesByName:
         return self._on_stroke(place) if isinstance(place, StrokeStart) else place
 
     def _on_stroke(self, place: StrokeStart) -> float:
-        """The driver's value where so much of a stroke is done."""
+        """The driver's value at a place of a stroke."""
         sliding, guiding = place.stroke.split("/")
         symbol = Symbol("stroke", link=sliding, other=guiding)
         found = self.reach.extremes(symbol)
@@ -73,7 +73,7 @@ class PlacesByName:
         return float(self.reach.value(np.array((begin + part) % math.tau)))
 
     def name_of(self, value: float) -> str:
-        """The name of the position at a driver's value (rad, m), whole turns aside; "" where it has none."""
+        """The name of the position at a driver's value (rad, m), without whole turns; "" if it has none."""
         turning = self.reach.driver.turns
         for name, own in self.values.items():
             off = math.remainder(value - own, math.tau) if turning else (value - own) / self.reach.scene.size
@@ -90,10 +90,10 @@ def named_positions(scene: Mechanism) -> PlacesByName | None:
 
 
 def standing(scene: Mechanism) -> Mechanism:
-    """A scene whose driver stands at a named position, its value found.
+    """A scene with its driver at a named position, its value computed.
 
-    The assembly is that of the position itself: the value is looked for from positions round the turn, and taken where
-    it leads to itself.
+    The assembly is that of the position itself: the value is searched from positions around the turn, and taken where
+    it reproduces itself.
 
     Raises
     ------

@@ -1,6 +1,6 @@
-"""Where a link is and how it moves: place, direction, and their first and second rates, as arrays over positions.
+"""The pose of a link and its motion: place, direction, and their first and second rates, as arrays over positions.
 
-The drawing board has a pose of its own (``construction.sheet.Pose``, on paper, without rates): it never sees this one.
+The drawing board has a pose of its own (``graphkin.plane.Pose``, on paper, without rates): it never sees this one.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ Array = NDArray[Any]
 
 
 class Number(Protocol):
-    """What poses are made of and computed with: arrays, or formulas."""
+    """The numbers of poses: arrays, or formulas."""
 
     @property
     def real(self) -> Values: ...
@@ -84,14 +84,14 @@ class Pose(Generic[V, R]):
         )
 
     def carrying(self, place: V) -> Pose[V, R]:
-        """The axes fixed to this frame whose origin lies at ``place`` of the outer axes now."""
+        """The axes fixed to this frame with their origin at ``place`` of the outer axes now."""
         arm, spin = place - self.z, 1j * self.omega
         return Pose(
             place, self.u, self.v + spin * arm, self.omega, self.a + (1j * self.alpha + spin * spin) * arm, self.alpha
         )
 
     def of(self, inner: Pose[V, R]) -> Pose[V, R]:
-        """The frame ``inner``, given in these axes, in the axes that these are given in.
+        """The frame ``inner``, given in these axes, in the outer axes.
 
         The acceleration has the guiding, the Coriolis (2 i omega v_rel) and the relative part.
         """
@@ -132,7 +132,7 @@ class Pose(Generic[V, R]):
         )
 
     def pinned(self, joint: Pose[V, R], u: V, omega: R, alpha: R) -> Pose[V, R]:
-        """The link whose direction is known and whose ``joint`` (in its axes) lies at the origin of this frame."""
+        """The link of known direction with its ``joint`` (in its axes) at the origin of this frame."""
         spin = 1j * omega
         return Pose(
             self.z - u * joint.z,
@@ -144,20 +144,20 @@ class Pose(Generic[V, R]):
         )
 
     def still(self: Pose, n: int) -> Pose:
-        """The same at n positions, in the memory of one."""
+        """The frame at n positions, in the memory of one."""
         fields = (self.z, self.u, self.v, self.omega, self.a, self.alpha)
         return Pose(*(np.broadcast_to(np.ravel(x)[0], (n,)) for x in fields))
 
     def rows(self: Pose, rows: slice | Array) -> Pose:
-        """The same at some positions; of a slice in the same memory."""
+        """The frame at some positions; for a slice in the same memory."""
         return Pose(*(x[rows] for x in (self.z, self.u, self.v, self.omega, self.a, self.alpha)))
 
     def where(self: Pose, ok: Array) -> Pose:
-        """The same where ok, NaN elsewhere."""
+        """The frame where ok, NaN elsewhere."""
         return Pose(*(known_where(ok, x) for x in (self.z, self.u, self.v, self.omega, self.a, self.alpha)))
 
     def spread(self: Pose, n: int) -> Pose:
-        """The same with every field of shape (n,)."""
+        """The frame with every field of shape (n,)."""
         if all(np.shape(x) == (n,) for x in (self.z, self.u, self.v, self.omega, self.a, self.alpha)):
             return self
         z, u, v, a = (np.array(np.broadcast_to(x, (n,)), dtype=np.complex128) for x in (self.z, self.u, self.v, self.a))
@@ -166,12 +166,12 @@ class Pose(Generic[V, R]):
 
 
 def known_where(ok: Array, values: Array) -> Array:
-    """Values where ok, NaN elsewhere: of complex ones both parts, so that neither of them passes for 0."""
+    """Values where ok, NaN elsewhere: in both parts of complex ones, so that neither passes for 0."""
     return np.where(ok, values, complex(np.nan, np.nan) if np.iscomplexobj(values) else np.nan)
 
 
 def aimed(one: Pose, two: Pose) -> Pose:
-    """Axes at the origin of one frame that point to that of another."""
+    """Axes at the origin of a frame that point to the origin of another."""
     line, slip, bend = two.z - one.z, two.v - one.v, two.a - one.a
     square = np.abs(line) ** 2
     omega = cross(line, slip) / square
@@ -218,8 +218,8 @@ GIVEN = 3 * UNIT
 
 @dataclass(frozen=True)
 class ErrorBound(Generic[R]):
-    """Bounds of the errors of a frame of axes: of its origin, or the most of any point that moves with it, and of its
-    direction.  Arrays of shape (n,), or formulas; infinite where nothing is known.
+    """Bounds of the errors of a frame of axes: of its origin, or the largest of any point that moves with it, and of
+    its direction.  Arrays of shape (n,), or formulas; infinite where they are unknown.
 
     position, velocity, acceleration : of the origin, or of any point (m, m/s, m/s2)
     angle, omega, alpha : of the direction and of its rates (rad, rad/s, rad/s2)
@@ -240,16 +240,16 @@ class ErrorBound(Generic[R]):
 
     @property
     def of_point(self) -> tuple[R, R, R]:
-        """Of position, velocity, acceleration."""
+        """The bounds of position, velocity, acceleration."""
         return self.position, self.velocity, self.acceleration
 
     @property
     def of_turning(self) -> tuple[R, R, R]:
-        """Of the angle and its first and second rate."""
+        """The bounds of the angle and its first and second rate."""
         return self.angle, self.omega, self.alpha
 
     def within(self, r: R, origin: tuple[R, R, R], spin: R, bend: R, rounding: R | float) -> ErrorBound[R]:
-        """The most of any point within a radius of the origin.
+        """The largest bounds of any point within a radius of the origin.
 
         Parameters
         ----------
@@ -289,7 +289,7 @@ class Drive:
         return len(self.value)
 
     def followed(self, structure: Structure) -> Drive:
-        """With the columns of what follows the drivers by rolling."""
+        """The drive with the columns of links that follow the drivers by rolling."""
         if self.value.shape[1] == len(structure.drivers):
             return self
         ratios = np.array([f.ratios for f in structure.followers]).T

@@ -1,4 +1,5 @@
-"""Links that only repeat what others hold: placed from their joints, and checked to fit in every rate."""
+"""Redundant links, which only repeat the constraints of others: placed from their joints, and checked to fit in every
+rate."""
 
 from __future__ import annotations
 
@@ -23,8 +24,8 @@ _EXACTLY = ErrorBound(*(np.zeros(1),) * 6)
 
 
 class Fit(NamedTuple):
-    """How a link fits between the others: its pose, and how far it misses, relative to the size and the largest speed
-    and acceleration there (``scale``), each of shape (n,)."""
+    """The fit of a link between the others: its pose, and its misfits, relative to the size and the largest speed and
+    acceleration there (``scale``), each of shape (n,)."""
 
     pose: Pose
     position: Array
@@ -37,7 +38,7 @@ class Fit(NamedTuple):
         return self.fits_within(_EXACTLY)
 
     def fits_within(self, bound: ErrorBound[Array]) -> Array:
-        """Whether it misses by no more than rounding may have moved the ends of both links."""
+        """Whether its misfits are within the rounding errors of the ends of both links."""
         residuals = (self.position, self.velocity, self.acceleration)
         allowed = (FITS + MOVED * _part(b, whole) for b, whole in zip(bound.of_point, self.scale, strict=True))
         return np.asarray(np.logical_and.reduce([m < a for m, a in zip(residuals, allowed, strict=True)]))
@@ -51,12 +52,12 @@ def redundant_poses(
     Parameters
     ----------
     others : poses of all other links, each field of shape (n,)
-    ok : positions that stand, shape (n,)
-    bound : how far rounding may have moved the links
+    ok : solved positions, shape (n,)
+    bound : bounds of the links' rounding errors
 
     Raises
     ------
-    Unsolvable : "mobility": a link does not repeat what the others hold, or nothing holds it
+    Unsolvable : "mobility": a link does not fit between the others, or no joint holds it
     """
     poses, placed = dict(others), dict[str, Pose]()
     scene = structure.scene
@@ -87,7 +88,7 @@ def redundant_poses(
 
 
 def fit(scene: Mechanism, link: PlacedLink, poses: Mapping[str, Pose]) -> Fit | None:
-    """Place a link from what it is joined to; None if the links it is joined to do not place it."""
+    """Place a link from its joints; None if they do not place it."""
     with np.errstate(all="ignore"):
         return _fit(scene, link, poses)
 

@@ -1,4 +1,4 @@
-"""What the solver has to say in words: values of drivers, where the motion ends, which assembly was taken."""
+"""The sentences of the solver: values of drivers, ends of the motion, assemblies."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ def limit_why(
     structure: Structure, by: int, moved: Sequence[int], values: Sequence[float],
     between: tuple[float, float] | None = None,
 ) -> Phrase:  # fmt: skip
-    """Why a way of the drivers ends.
+    """The reason why a path of the drivers ends.
 
     Parameters
     ----------
-    by : the group that ends it, by its place among the elements
-    moved, values : which drivers move, and the values of all where it ends (rad, m)
+    by : the group that ends it, by its index among the elements
+    moved, values : the drivers that move, and the values of all at its end (rad, m)
     between : values between which the motion runs; None where more than one driver moves
     """
     scene, group = structure.scene, structure.elements[by]
@@ -41,7 +41,7 @@ def limit_why(
 
 
 def group_words(structure: Structure, group: Dyad | LargerGroup) -> Phrase:
-    """The links of a group by name, of a dyad with the contact that it stands for."""
+    """The links of a group by name, of a dyad with the contact that it replaces."""
     return named_with_contact(structure, group) if isinstance(group, Dyad) else links_words(group.links)
 
 
@@ -57,7 +57,7 @@ def _ending(group: Dyad | LargerGroup) -> Phrase:
 
 
 def lies_at(structure: Structure, value: float, away: float, about: bool = False) -> Phrase:
-    """Where a dead point lies: the value of the driver, and how far away it is (rad, m)."""
+    """The place of a dead point: the value of the driver, and the distance to it (rad, m)."""
     scene, driver = structure.scene, structure.scene.drivers[0]
     key, figures = ("it lies at about", 2) if about else ("it lies at", 3)
     distance: Wording = f"{away / scene.units.metres:.{figures}g} {scene.units.length}"
@@ -67,7 +67,7 @@ def lies_at(structure: Structure, value: float, away: float, about: bool = False
 
 
 def assembly_words(structure: Structure, modes: Mapping[int, Array]) -> tuple[Phrase, ...]:
-    """For each group which assembly was taken, in the order of ``structure.groups``."""
+    """The assembly of each group, in the order of ``structure.groups``."""
     words: list[Phrase] = []
     for i, element in enumerate(structure.elements):
         if isinstance(element, Dyad):
@@ -79,8 +79,8 @@ def assembly_words(structure: Structure, modes: Mapping[int, Array]) -> tuple[Ph
 
 
 def _place_words(structure: Structure, group: LargerGroup, place: Array) -> Phrase:
-    """Sides of the inner joints of a larger group, each seen from the next joint on its one link to that on the other,
-    and where the first of them lies: two assemblies may have all sides in common."""
+    """The sides of a larger group's inner joints, each seen from the next joint on its first link to that on the
+    second, and the place of the first: two assemblies may have all sides in common."""
     row = (place if place.ndim == 2 else place[0])[: len(group.members)]
     at = {name: (complex(x, y), np.exp(1j * angle)) for name, (x, y, angle) in zip(group.members, row, strict=True)}
 
@@ -122,7 +122,7 @@ def _beside(left: bool, inner: str, first: str, second: str) -> Phrase:
 
 
 def dyad_words(dyad: Dyad) -> tuple[Phrase, Phrase, Phrase]:
-    """What a dyad is said to be in its positive and in its negative assembly, and at a dead point."""
+    """The words for a dyad in its positive and in its negative assembly, and at a dead point."""
     first, inner, second = (p.point for p in dyad.pairs)
     guide = next((_guide(p) for p in (dyad.outer_second, dyad.inner) if not p.turns), "")
     if dyad.kind == "RRR":
@@ -145,7 +145,7 @@ def _guide(pair: Pair) -> str:
 
 
 def driver_text(scene: Mechanism, driver: Driver, value: float) -> Wording:
-    """A driver value in its own unit, 0 where it is nothing but rounding."""
+    """A driver value in its own unit, 0 where it is rounding alone."""
     value = value if abs(value) > ROUNDING else 0.0
     if driver.turns:
         return Phrase("so many degrees", value=f"{np.degrees(value):.10g}")

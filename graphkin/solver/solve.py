@@ -1,5 +1,5 @@
 """The analytic solution of a scene: at its own position, at given driver values, or over a turn; and a motion with cams
-as that of what is drawn in its place: the same links, bars to centres of curvature, blocks on curves.
+as the motion of the mechanism drawn in its place: the same links, bars to centres of curvature, blocks on curves.
 
 The motion at moments in time, where drivers move by laws: their rates change from one moment to the next.
 """
@@ -45,18 +45,18 @@ def solve(
     sweep : this many positions: over a full turn of the first driver, in the sense of its omega (counter-clockwise if
         it is 0), from the scene's own value (or that of ``at``) on; for a slide driver, in the same sense, spread
         evenly inside the range of travel that the motion reaches
-    extended : False leaves 16 digits where they are rough, with the bounds of each link alone, as a drawing has them;
-        of one position only
+    extended : False keeps 16 digits everywhere, with the bounds of each link alone, as a drawing has them; of one
+        position only
 
     Returns
     -------
-    Motion; a position that cannot be reached or stands in a dead point has its status and the reason, and no numbers
+    Motion; a position that is not reached or at a dead point has its status and the reason, and no numbers
     (``Motion.require`` raises if no position is ok)
 
     Raises
     ------
     Unsolvable
-        "mobility": the number of drivers does not fit, the mechanism is held too much, a redundant link does not fit
+        "mobility": the number of drivers does not fit, the mechanism is overconstrained, a redundant link does not fit
     SceneError
         a larger group has several assemblies and no sketch
     CallError
@@ -82,9 +82,9 @@ def solve(
 def solved_here(
     of: Mechanism | Structure, values: Mapping[str, float] | None, asked: Sequence[Symbol] = ()
 ) -> Motion:
-    """The exact motion at one position, of what leads to the asked.
+    """The exact motion at one position, of the part that leads to the asked quantities.
 
-    It comes before the drawing, because it tells best why a position cannot be had.
+    It comes before the drawing, because it gives the best reason for a position that is not reached.
     """
     structure = structure_of(of)
     scene = part_of(structure, asked)
@@ -118,8 +118,8 @@ def sweep_in_blocks(scene: Mechanism | Structure, at: Mapping[str, float] | None
 def _start(
     structure: Structure, goal: Array, sweep: int | None
 ) -> tuple[Mapping[int, Array], tuple[ChangePoint, ...]] | Motion:
-    """The assembly mode of each group at driver values, and the change points on the way there; where they are not
-    reached the motion that says why."""
+    """The assembly mode of each group at driver values, and the change points on the path to them; where they are not
+    reached a motion with the reason."""
     try:
         modes = choose_modes(structure)
     except Unsolvable as stop:
@@ -134,8 +134,8 @@ def _start(
 
 
 def _nowhere(structure: Structure, goal: Array, sweep: int | None, status: str, why: Wording) -> Motion:
-    """No position at all; the driver values are those that were asked for, but of a slide driver, whose range is not
-    known, all alike."""
+    """A motion without a solved position; its driver values are the asked ones, for a slide driver, whose range is
+    unknown, all equal."""
     n = sweep or 1
     values = np.repeat(goal[None], n, axis=0)
     first = structure.scene.drivers[0]
@@ -154,8 +154,8 @@ def _nowhere(structure: Structure, goal: Array, sweep: int | None, status: str, 
 
 
 def as_drawn(motion: Motion, structure: Structure) -> Motion:
-    """A motion at one position, with the blocks and points that a replacing mechanism has there; itself of a mechanism
-    that nothing replaces."""
+    """A motion at one position, with the blocks and points of the replacing mechanism; itself where no mechanism
+    replaces it."""
     if len(motion.scene.drivers) < len(structure.scene.drivers):  # solved for what leads to the asked alone
         structure = structure_of(part_of(structure, motion.scene.question.find))
     if structure.scene.instead_of is None and structure.links.keys() == motion.structure.links.keys():
@@ -216,7 +216,8 @@ def _one_driver(structure: Structure, drive: Drive, extended: bool) -> Motion:
 
 
 def _several_drivers(structure: Structure, drive: Drive, extended: bool) -> Motion:
-    """Along the way from moment to moment; what is not reached is left out, and the way goes on from before it."""
+    """The motion along the path from moment to moment; moments that are not reached are left out, and the path
+    continues from before them."""
     from graphkin.solver.continuity import follow_path
 
     modes = choose_modes(structure)

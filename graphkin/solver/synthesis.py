@@ -1,4 +1,4 @@
-"""Lengths of a mechanism that does what is wished, in closed form, and the wish refused where none can.
+"""Lengths of a mechanism that meets a wish, in closed form, and the refusal of a wish that none can meet.
 
 Slider-crank and crank-rocker by K after Sun Huan, Mechanical Principles, ch. 8; three angle pairs after Freudenstein,
 Approximate synthesis of four-bar linkages, Trans. ASME 77 (1955).
@@ -33,13 +33,13 @@ IN_LINE = 1e-12  # of the size: three points whose circle is larger than this al
 
 @dataclass(frozen=True)
 class Synthesis:
-    """What was found, in the unit of the file.
+    """The found mechanism, in the unit of the file.
 
     lengths : of each bar by its two points ("ram": distance of the ram's line from C)
     pivots : the fixed pivots
-    places : all points in the position in which the scene stands
-    turned : bars that stand opposite to the angles asked
-    least : the least transmission angle (degrees); None where nothing transmits by an angle that changes
+    places : all points in the scene's position
+    turned : bars opposite to the asked angles
+    least : the least transmission angle (degrees); None without a changing one
     """
 
     task: DesignTask
@@ -52,7 +52,7 @@ class Synthesis:
 
 @dataclass(frozen=True)
 class FreeDatum:
-    """A datum that may be chosen freely: from ``low`` to ``high`` it meets the rest of the wish; ``best`` gives the
+    """A free datum: from ``low`` to ``high`` it meets the rest of the wish; ``best`` gives the
     greatest ``least`` transmission angle (degrees)."""
 
     key: str
@@ -95,7 +95,7 @@ def synthesise(task: DesignTask) -> Synthesis:
 
     Raises
     ------
-    Unsolvable : no mechanism of this kind does what is wished, with the nearest that one can
+    Unsolvable : no mechanism of this kind meets the wish, with the nearest value that one can meet
     """
     raise TypeError(task)
 
@@ -173,7 +173,7 @@ def _(task: LimitsTask) -> Synthesis:
 def _crank_rocker(
     task: CrankRockerTask | LimitsTask, A: complex, D: complex, first: complex, second: complex, standing: bool
 ) -> Synthesis:
-    """The four-bar of which these are the limit positions, on its place or with A and D on the x axis."""
+    """The four-bar with these limit positions, in its place or with A and D on the x axis."""
     far, near = max(abs(first - A), abs(second - A)), min(abs(first - A), abs(second - A))
     AB, BC, CD, AD = (far - near) / 2, (far + near) / 2, abs(first - D), abs(A - D)
     sides = cross(D - A, first - A), cross(D - A, second - A)
@@ -202,7 +202,7 @@ def _third(p: complex, r: float, q: complex, s: float, side: float) -> complex:
 
 
 def _least_transmission(AB: float, BC: float, CD: float, AD: float) -> float:
-    """Least angle between coupler and rocker: where crank and frame lie in one line (degrees)."""
+    """The least angle between coupler and rocker, with crank and frame collinear (degrees)."""
     angles = []
     for across in (AD + AB, abs(AD - AB)):
         cosine = (BC**2 + CD**2 - across**2) / (2.0 * BC * CD)
@@ -300,8 +300,8 @@ _SAMPLES, _NEAR = 400, 1e-9
 
 
 def choice(task: DesignTask) -> FreeDatum | None:
-    """The datum that could be chosen otherwise while the rest of the wish stays, and the best for the transmission;
-    None where there is none, or no best."""
+    """The free datum of a wish, with its best value for the transmission; None without a free datum, or without a best
+    value."""
     key = _FREE.get(type(task))
     if key is None:
         return None

@@ -1,9 +1,9 @@
 """Exact values by symbol: of the motion, of the whole turn, of forces and moments, and of the flywheel that keeps a
 machine even; and a motion as plain data for programs, in the scene's length unit.
 
-The driving moment on a flywheel is constant and does in a cycle the work that the balance does: where it is less than
-the balance needs, kinetic energy falls, where it is more, it rises.  The greatest difference of it is the excess work
-W, and a flywheel of J_F = W / (delta omega^2) keeps the coefficient of speed fluctuation (Sun Huan, Mechanical
+The driving moment on a flywheel is constant and does in a cycle the work of the balance: where it is less than the
+balance needs, kinetic energy falls, where it is more, it rises.  The greatest difference of the energy is the excess
+work W, and a flywheel of J_F = W / (delta omega^2) keeps the coefficient of speed fluctuation (Sun Huan, Mechanical
 Principles, ch. 7; Norton, Design of Machinery, ch. 11).
 """
 
@@ -64,8 +64,8 @@ def value_of(motion: Motion, symbol: Symbol) -> Array:
 
 def senses_along(motion: Motion, symbol: Symbol) -> Array | None:
     """Unit vectors of the positive sense of a velocity or acceleration that lies along the straight guide of a sliding
-    pair, shape (n,): of a point of what slides in the frame, and of coincident points relative to each other; None for
-    any other symbol."""
+    pair, shape (n,): of a point of the sliding link in the frame, and of coincident points relative to each other; None
+    for another symbol."""
     of, to, frame = symbol.of, symbol.to, motion.scene.frame.name
     if of is None or symbol.seen or symbol.kind not in ("v", "a", "ar"):
         return None
@@ -83,8 +83,8 @@ def senses_along(motion: Motion, symbol: Symbol) -> Array | None:
 
 
 def exact_values(motion: Motion, asked: Sequence[Symbol] = ()) -> Callable[[Symbol], Value]:
-    """What gives the exact value of a symbol at the one position of a motion (SI), those of the whole turn among the
-    asked too.  Raises Unsolvable where there is no whole turn."""
+    """The function to a symbol's exact value at the single position of a motion (SI), also for asked quantities of the
+    whole turn.  Raises Unsolvable without a whole turn."""
     of_turn = {symbol: _of_turn(_range_here(motion), symbol) for symbol in asked if symbol.scope == "turn"}
 
     def value(symbol: Symbol) -> Value:
@@ -106,18 +106,18 @@ def _of_turn(reach: DriverRange, symbol: Symbol) -> float:
 
 
 def _range_here(motion: Motion) -> DriverRange:
-    """The range of the first driver, the others at the one position of a motion."""
+    """The range of the first driver, the others at the single position of a motion."""
     values = {d.key: float(v) for d, v in zip(motion.scene.drivers, motion.values[0], strict=True)}
     return range_of(structure_of(motion.structure), values)
 
 
 def _growing(motion: Motion) -> Motion:
-    """The same one position with the first driver's value growing at a unit rate, the others held."""
+    """The position with the first driver's value growing at a unit rate, the others held."""
     return _range_here(motion).motion(np.zeros(1), unit=True)
 
 
 def forces_here(motion: Motion) -> Forces:
-    """The forces at the one position of a motion.
+    """The forces at the single position of a motion.
 
     Raises
     ------
@@ -142,7 +142,8 @@ def forces_here(motion: Motion) -> Forces:
 
 def _of_forces_here(motion: Motion, symbol: Symbol) -> Value:
     """A force (N), moment (N m), shift of an inertia force (m) or arm on Zhukovsky's lever (m/s: the power of a force
-    over its size) at the one position of a motion; at rest an arm is that of the driver's value growing at a unit rate.
+    over its size) at the single position of a motion; of a mechanism at rest an arm belongs to a unit rate of the
+    driver.
 
     Raises
     ------
@@ -160,7 +161,7 @@ def _of_forces_here(motion: Motion, symbol: Symbol) -> Value:
 
 
 def _of_cams(motion: Motion) -> Motion:
-    """The motion of a mechanism with cams itself, where another stands in its place; the links move alike."""
+    """The motion of the mechanism with cams itself, where another replaces it; the links move alike."""
     whole = motion.scene.instead_of
     if whole is None:
         return motion
@@ -169,7 +170,7 @@ def _of_cams(motion: Motion) -> Motion:
 
 
 def _arm(moving: Motion, forces: Forces, of: Symbol) -> float:
-    """Of a force the part of its point's velocity along it; of a balancing force along its line, positive in the line's
+    """The component of a point's velocity along its force; for a balancing force along its line, positive in the line's
     own sense."""
     for one in balances(moving):
         if one.symbol == of:
@@ -188,8 +189,8 @@ NODES, WEIGHTS = np.polynomial.legendre.leggauss(12)
 
 @dataclass(frozen=True)
 class MomentArea:
-    """An area between the two moments over the driver, from one crossing to the next, offsets growing; ``work`` is that
-    of the driving moment beyond the needed one (J), below zero where it is less."""
+    """An area between the two moments over the driver, from one crossing to the next, offsets growing; ``work`` is the
+    work of the driving moment less that of the needed one (J)."""
 
     first: float
     last: float
@@ -202,9 +203,9 @@ class FlywheelStudy:
 
     driving : constant driving moment on the driver (N m), in its sense positive
     work : of a cycle (J)
-    areas : between driving and needed moment, over one cycle from the start on
+    areas : between driving and needed moment, over a cycle from the start on
     excess : the greatest difference of kinetic energy (J)
-    slowest, fastest : offsets of the driver where the speed is least and greatest
+    slowest, fastest : offsets of the driver at the least and the greatest speed
     speed : mean angular velocity of the link (rad/s)
     inertia : of the flywheel (kg m2)
     """
@@ -222,7 +223,7 @@ class FlywheelStudy:
 
 
 def needed_moment(reach: DriverRange, offset: Array) -> Array:
-    """What the balance comes to as a moment on the driver, in its sense positive (N m), shape (n,)."""
+    """The balance as a moment on the driver, positive in its sense (N m), shape (n,)."""
     motion, moved = reach.motion(offset), reach.motion(offset, unit=True, extended=False)
     forces = forces_of(motion)
     return np.asarray(np.sum([one.power(moved) for one in forces.balancing], axis=0))
@@ -233,7 +234,7 @@ def flywheel_of(reach: DriverRange) -> FlywheelStudy:
 
     Raises
     ------
-    Unsolvable : the driver makes no whole turn, the link does not turn on and on, or nothing moves
+    Unsolvable : the driver makes no whole turn, the link does not turn on and on, or the mechanism is at rest
     """
     if "flywheel" not in reach.kept:
         reach.kept["flywheel"] = _found(reach)
@@ -293,7 +294,7 @@ def _panels(reach: DriverRange) -> Array:
 
 
 def _work(reach: DriverRange, first: Array, last: Array) -> Array:
-    """Work that the balance does over panels (J)."""
+    """The work of the balance over panels (J)."""
     half = (last - first) / 2
     nodes = (first + last)[:, None] / 2 + half[:, None] * NODES
     needed = needed_moment(reach, nodes.ravel()).reshape(nodes.shape)
@@ -301,7 +302,7 @@ def _work(reach: DriverRange, first: Array, last: Array) -> Array:
 
 
 def _balanced(reach: DriverRange, edges: Array, driving: float) -> list[float]:
-    """Where the needed moment crosses the driving one; where it jumps across it, too."""
+    """The offsets at which the needed moment crosses the driving one, jumps across it included."""
     inside = (edges[:-1, None] + np.diff(edges)[:, None] * np.linspace(1e-6, 1 - 1e-6, 24)).ravel()
     crossed = changes(lambda offset: needed_moment(reach, offset) > driving, inside, within=1e-9)
     nearest = [float(edges[np.argmin(np.abs(edges - offset))]) for offset in crossed]
@@ -319,7 +320,7 @@ SAMPLES = 720
 
 
 def load_edges(reach: DriverRange) -> Array:
-    """The offsets at which a load begins, ends or turns round, growing; those at the ends of the range among them.
+    """The offsets at which a load begins, ends or reverses, in increasing order, the ends of the range included.
 
     Raises
     ------
@@ -367,7 +368,7 @@ def _speed(reach: DriverRange, pair: str) -> Callable[[Array], Array]:
 
 
 def _crossings(reach: DriverRange, value: Callable[[Array], Array]) -> list[float]:
-    """Where something changes its sign over the range."""
+    """The offsets at which a value changes its sign over the range."""
     grid = np.linspace(*reach.ends, SAMPLES + 1)
     return changes(lambda offset: value(offset) >= 0.0, grid)
 
@@ -378,7 +379,7 @@ BLOCK = 1024
 
 def json_text(first: Mapping[str, Json], positions: Iterable[Mapping[str, Json]]) -> Iterator[str]:
     """A head and the entries of positions as one object in the text of JSON, with a line feed at its end, piece by
-    piece: of a long sweep only some entries are in memory.  What would command a terminal is escaped."""
+    piece: of a long sweep only some entries are in memory.  Control characters are escaped."""
     yield one_line(first)[:-1] + ', "positions": ['
     between, rest = "", iter(positions)
     while block := list(islice(rest, BLOCK)):
@@ -388,7 +389,7 @@ def json_text(first: Mapping[str, Json], positions: Iterable[Mapping[str, Json]]
 
 
 def head(motion: Motion) -> dict[str, Json]:
-    """What is said of a motion before its positions: title, units, mobility, change points passed, groups."""
+    """The entries of a motion before its positions: title, units, mobility, passed change points, groups."""
     scene = motion.scene
     force = {"force": scene.units.force} if scene.loading else {}
     speed = {"speed": scene.units.speed} if scene.units.speed else {}
@@ -409,9 +410,8 @@ def _change_point(scene: Mechanism, one: ChangePoint) -> dict[str, Json]:
 
 
 def entries(motion: Motion, forces: Forces | None = None) -> Iterator[dict[str, Json]]:
-    """What ``solve --json`` says of each position, one after the other: numbers in the scene's length unit, seconds,
-    radians; forces, where there are any, in its force unit, moments in that times metre.  Some thousand are made at a
-    time."""
+    """The entry of ``solve --json`` for each position in turn: numbers in the scene's length unit, seconds, radians;
+    forces in its force unit, moments in that times metre.  Some thousand are made at a time."""
     scene, flywheel = motion.scene, _flywheel(motion)
     angles = {link.name: motion.angle(link.name) for link in scene.links}
     driven = [(d.key, scene.unit_of(d, radians=True).of(motion.values[:, i])) for i, d in enumerate(scene.drivers)]
@@ -435,7 +435,7 @@ ABSENT = object()
 
 
 def _at(columns: Columns, k: int) -> dict[str, Json]:
-    """What columns say of one position."""
+    """The values of columns at a position."""
     cells = ((key, _at(part, k) if isinstance(part, dict) else part[k]) for key, part in columns.items())
     return {key: cell for key, cell in cells if cell is not ABSENT}
 
@@ -495,7 +495,7 @@ def _of_forces(scene: Mechanism, forces: Forces, some: slice) -> Columns:
 
 
 def _flywheel(motion: Motion) -> dict[str, Json]:
-    """Excess work and inertia of the flywheel that the scene asks for, where it has one."""
+    """Excess work and inertia of the flywheel, if the scene asks for one."""
     units = motion.scene.units
     if motion.scene.loading.flywheel is None or not motion.ok.any():
         return {}
@@ -507,14 +507,14 @@ def _flywheel(motion: Motion) -> dict[str, Json]:
 
 
 def _plain(values: Array, present: Array | None = None) -> list[Any]:
-    """Numbers, or pairs of numbers for complex ones, no minus before nought; only where they are ``present``."""
+    """Numbers, or pairs of numbers for complex ones, without a minus before zero; only where they are ``present``."""
     parts = np.stack([values.real, values.imag], axis=1) if np.iscomplexobj(values) else values
     found: list[Any] = (parts + 0.0).tolist()
     return found if present is None else [x if there else ABSENT for x, there in zip(found, present, strict=True)]
 
 
 def _of_bounds(motion: Motion, some: slice) -> Columns:
-    """How far rounding may have moved what is said; None, and why, where nothing is known."""
+    """Bounds of the values' rounding errors; None, with the reason, where they are unknown."""
     metres, fast = motion.scene.units.metres, motion.scene.units.rates.metres
     names = "position", "velocity", "acceleration", "angle", "omega", "alpha"
     found: Columns = {}
