@@ -103,13 +103,14 @@ class Centred(OfScene, Result):
 
     ``errors`` holds for each centre its distance from the exact one, as an angle seen from the middle of the mechanism
     at half its size (so that far centres are judged by their direction), None where the two links do not move relative
-    to each other.
+    to each other.  ``moving`` is the motion that has the same centres where the mechanism rests.
     """
 
     centres: Centres
     motion: Motion
     language: str | None = None
     convention: str | None = None
+    moving: Motion | None = None
 
     @property
     def mechanism(self) -> Mechanism:
@@ -132,7 +133,7 @@ class Centred(OfScene, Result):
     @cached_property
     def compared(self) -> dict[LinkPair, tuple[float, float] | None]:
         """For each centre its error and the allowed error."""
-        return centre_errors(self.centres, self.motion)
+        return centre_errors(self.centres, self.moving or self.motion)
 
     @cached_property
     def velocities(self) -> tuple[SpeedByCentres, ...]:
@@ -312,11 +313,14 @@ def centres(
     given = as_scene(scene)
     given, values = placed(given, at)
     from graphkin.solver import as_drawn
+    from graphkin.solver.values import growing
 
     motion = solved_here(given, values)
     found = found_centres(motion.structure, values)
+    rests = not any(pose.omega[0] or pose.v[0] for pose in motion.poses.values())
+    moving = as_drawn(growing(motion), found.sheet.structure) if rests else None
     drawn = as_drawn(motion, found.sheet.structure)
-    centred = Centred(found, drawn, language, convention)
+    centred = Centred(found, drawn, language, convention, moving)
     if out is not None:
         centred.write(out, formats)
     return centred

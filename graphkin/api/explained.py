@@ -113,10 +113,11 @@ def explain(scene: SceneLike, *, language: str | None = None) -> Explained:
     except Unsolvable as error:
         why, exit_code = error.reason, error.exit_code
     find = ", ".join(map(str, given.question.find))
+    all_asked = Phrase("explained asked all with forces" if given.loading else "explained asked all")
     told: dict[str, Iterable[Phrase]] = {
         "units": _units(given), "links": _links(given), "joints": _joints(given), "mobility": [_mobility(given)],
         "drivers": [_driver(given, driver) for driver in given.drivers], "groups": groups, "loads": _loads(given),
-        "asked": [Phrase("explained asked for", quantities=find) if find else Phrase("explained asked all")],
+        "asked": [Phrase("explained asked for", quantities=find) if find else all_asked],
     }  # fmt: skip
     sentences = tuple((f"explained {about}", phrase) for about, phrases in told.items() for phrase in phrases)
     return Explained(given, sentences, why, language or given.question.sheet.language, exit_code)

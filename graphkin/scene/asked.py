@@ -29,8 +29,9 @@ Stated = float | str | Sequence[float]
 
 def _symbol(where: str, text: str, reading: Reading) -> Symbol | Problem:
     """A symbol whose points, links and position exist, or its first problem."""
-    symbol = known_symbol(where, text[:120], reading.no_link, reading.no_point, reading.points, reading.positions,
-                          pins={pair.key: pair.point for pair in reading.slides})
+    lost = [text[:120].partition(" at ")[2]] if reading.lost_under("positions") else []  # any name may be there
+    symbol = known_symbol(where, text[:120], reading.no_link, reading.no_point, reading.points,
+                          [*reading.positions, *lost], pins={pair.key: pair.point for pair in reading.slides})
     return symbol if isinstance(symbol, Symbol) else symbol[0]
 
 
@@ -150,7 +151,7 @@ def positions_named(table: Positions, reading: Reading) -> Positions:
     def place(where: str, value: float | StrokeStart) -> float | StrokeStart:
         if not isinstance(value, StrokeStart):
             return value * reading.metres if slides else math.radians(value)
-        if value.stroke not in reading.pairs:
+        if value.stroke not in reading.pairs and not reading.is_unread(value.stroke):
             reading.say(f"{where}.stroke", "there is no sliding pair of stroke",
                         did_you_mean(value.stroke, reading.pairs), stroke=value.stroke)
         if slides:

@@ -20,7 +20,7 @@ from graphkin.plane import direction
 from graphkin.scene.pairs import CircularSlot, SlidingPair
 from graphkin.scene.scene_tables import Compass, DrivenSlide, Driver, Frame, Guide, Link, Pin, Polar, SceneTables
 from graphkin.scene.tables import KeyPath, Units
-from graphkin.words import Phrase, Wording
+from graphkin.words import Phrase, Wording, alternatives
 
 AnyBody = TypeVar("AnyBody", Frame, Link)
 
@@ -154,6 +154,21 @@ class Reading:
         self.problems.extend(there)
         return bool(there)
 
+    def no_pair(self, where: str, ref: str) -> Problem | None:
+        """The problem of a sliding pair, or of a link with one pair, that does not exist or may be several."""
+        known = [pair for pair in self.pairs if ref in (pair, pair.split("/")[0])]
+        if len(known) == 1 or self.is_unread(ref):
+            return None
+        if not known:
+            return Problem(where, "is no sliding pair", did_you_mean(ref, self.pairs), ref=ref)
+        return Problem(where, "may be", did_you_mean(ref, self.pairs), ref=ref, name=alternatives(known))
+
+    def is_unread(self, ref: str) -> bool:
+        """Whether the link of a sliding pair slides on what is not there, so that the pair is no second problem."""
+        name = ref.partition("/")[0]
+        slides = name in self.links and (self.links[name].on or self.lost_under("links", name, "on"))
+        return name in self.unsure or (bool(slides) and not any(pair.split("/")[0] == name for pair in self.pairs))
+
     def no_link(self, where: str, name: str, moving: bool = False) -> Problem | None:
         """The problem of a link that does not exist, None if it does; ``moving`` where the frame is not allowed."""
         if name in self.points or ("" in self.unsure and self.frame.name in self.unsure):
@@ -181,6 +196,8 @@ class Reading:
         missing = self.no_link(where, link)
         if missing or not guide or link in self.unsure or guide in self.guides.get(link, ()):
             return missing
+        if link not in self.points or (link == self.frame.name and guide in self.frame.guides):
+            return None  # it may be the frame's, whose name is wrong
         guides = self.guides.get(link, frozenset())
         hint = did_you_mean(guide, guides) if guides else Phrase("its own axis is the guide", link=link)
         return Problem(where, "link has no guide", hint, link=link, guide=guide)

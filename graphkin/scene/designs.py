@@ -205,6 +205,8 @@ def design_of(source: DesignLike) -> Design:
     elif isinstance(source, str | os.PathLike):
         text = os.fspath(source)
         if "/" not in text and not text.endswith(".toml") and not os.path.isfile(text):
+            if text in library():
+                raise SceneError.of(text, "is a scene no design", "a design file has a table design with")
             raise SceneError.of(text[:200], "there is no such file and no design", did_you_mean(text[:60], designs()))
         raw, name = parsed(file_text(text)), Path(text).stem
     else:

@@ -9,13 +9,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from graphkin.errors import did_you_mean
 from graphkin.plane import direction
 from graphkin.scene.bodies import Reading
 from graphkin.scene.model import LinkMass, Loading, LoadOn, SpringOn
 from graphkin.scene.scene_tables import STANDARD_GRAVITY, Balance, Load, LoadPhase, Mass, Spring
 from graphkin.scene.tables import in_si
-from graphkin.words import Phrase, alternatives
+from graphkin.words import Phrase
 
 TURN = math.tau * (1 + 1e-12)
 
@@ -35,7 +34,8 @@ def loading_of(reading: Reading) -> Loading:
         evening = file.flywheel
         if evening.delta >= 2.0:
             reading.say("flywheel.delta", "found value", "a part of the mean speed below 2", value=f"{evening.delta:g}")
-    if (balancing or evening) and not (file.masses or file.loads or file.springs):
+    acting = any(getattr(file, table) or reading.lost_under(table) for table in ("masses", "loads", "springs"))
+    if (balancing or evening) and not acting:
         where = "balance" if balancing else "flywheel"
         reading.say(where, "there is nothing to balance", "give masses.link loads.name or springs.name")
     return Loading(down, tuple(filter(None, weighing)), tuple(filter(None, carried)), balancing, evening,
@@ -65,12 +65,9 @@ def _place(reading: Reading, where: str, link: str, at: str | Sequence[float]) -
 
 def _pair(reading: Reading, where: str, ref: str) -> str:
     """The key of a sliding pair, "6" standing for the one pair of link 6."""
-    near = [pair for pair in reading.pairs if ref in (pair, pair.split("/")[0])]
-    if len(near) == 1:
-        return near[0]
-    unclear = Phrase("may be", ref=ref, name=alternatives(near)) if near else Phrase("is no sliding pair", ref=ref)
-    reading.say(where, unclear, did_you_mean(ref, reading.pairs))
-    return ""
+    if reading.wrong(reading.no_pair(where, ref)):
+        return ""
+    return next((pair for pair in reading.pairs if ref in (pair, pair.split("/")[0])), "")
 
 
 def _mass(reading: Reading, link: str, table: Mass, g: float) -> LinkMass | None:
@@ -78,13 +75,16 @@ def _mass(reading: Reading, link: str, table: Mass, g: float) -> LinkMass | None
     where = f"masses.{link}"
     if _not_moving(reading, where, link):
         return None
+    at = _place(reading, f"{where}.at", link, in_si(table, reading.units).at)
+    if reading.lost_under("masses", link):
+        return None
     if (table.mass is None) == (table.weight is None):
         found = Phrase("has neither mass nor weight") if table.mass is None else Phrase("has both mass and weight")
         reading.say(where, found, "give one of them")
         return None
     si = in_si(table, reading.units)
     heavy = si.weight / g if si.weight is not None else si.mass or 0.0
-    return LinkMass(link, _place(reading, f"{where}.at", link, si.at), heavy, si.inertia)
+    return LinkMass(link, at, heavy, si.inertia)
 
 
 def _load(reading: Reading, name: str, load: Load) -> LoadOn | None:
@@ -92,7 +92,8 @@ def _load(reading: Reading, name: str, load: Load) -> LoadOn | None:
     where, say, si = f"loads.{name}", reading.say, in_si(load, reading.units)
     if _not_moving(reading, f"{where}.on", load.on):
         return None
-    if (load.force is None) == (load.moment is None):
+    lost = reading.lost_under("loads", name)
+    if (load.force is None) == (load.moment is None) and not lost:
         neither, both = Phrase("has neither force nor moment"), Phrase("has both force and moment")
         say(where, neither if load.force is None else both, "give one of them")
         return None
@@ -103,10 +104,10 @@ def _load(reading: Reading, name: str, load: Load) -> LoadOn | None:
                 say(f"{where}.{beside}", "stands beside moment", "a moment has neither place nor direction")
         return LoadOn(name, load.on, si.moment, False, phase=phase)
     at = 0j
-    if si.at is None:
-        say(f"{where}.at", "is missing", "a point of the link or x y")
-    else:
+    if si.at is not None:
         at = _place(reading, f"{where}.at", load.on, si.at)
+    elif not lost:
+        say(f"{where}.at", "is missing", "a point of the link or x y")
     turn = direction(load.angle) if load.angle is not None else 1 + 0j
     follows, against = "", ""
     if load.against is not None:
@@ -116,7 +117,7 @@ def _load(reading: Reading, name: str, load: Load) -> LoadOn | None:
     elif load.follows is not None:
         reading.wrong(reading.no_link(f"{where}.follows", load.follows))
         follows = load.follows
-    elif load.angle is None:
+    elif load.angle is None and not lost:
         say(f"{where}.angle", "is missing", "write angle follows or against a force has")
     return LoadOn(name, load.on, si.force or 0.0, True, at, turn, follows, against, phase)
 

@@ -484,6 +484,16 @@ def check_starts(position: DrawnPosition) -> None:
                              "one of the two is wrong leave start", start=f"{link.start:.10g}", value=seen)
 
 
+def check_rolling(reading: Reading) -> None:
+    """Note starts of rolling in a file in which nothing rolls."""
+    file = reading.file
+    rolls = file.gears or any(contact.rolling for contact in file.contacts.values())
+    if not rolls and not reading.lost_under("gears") and not reading.lost_under("contacts"):
+        for name, link in reading.links.items():
+            if link.start is not None:
+                reading.say(f"links.{name}.start", "nothing rolls here", "leave start out the driver")
+
+
 def starts_of(position: DrawnPosition, contacts: Iterable[PlacedContact]) -> dict[str, float]:
     """The start of rolling motions: angles of links (rad), travels of sliding pairs and of contacts with a face (m),
     from the file or its drawn points."""

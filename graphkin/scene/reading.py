@@ -73,6 +73,7 @@ def mechanism_said(file: SceneTables, name: str, problems: list[Problem], lost: 
     for table in ("sketch", "drawn"):
         reading.wrong(*(reading.no_point(f"{table}.{point}", point) for point in getattr(file, table)))
     check_references(reading)
+    places.check_rolling(reading)
     find = asked(reading) if file.find else ()
     stated = stated_values(reading) if file.printed or file.printed_rows or file.printed_table else ()
     positions = positions_named(file.positions, reading) if file.positions else None

@@ -131,6 +131,8 @@ def _no_scene(name: str, shown: str = "") -> Problem:
     shown = shown or name
     if name.endswith(".toml") or "/" in name or os.sep in name:
         return Problem(shown, "there is no such file", "name a scene file or a scene that")
+    if name in files_named(shelf() / "designs"):
+        return Problem(shown, "is no scene", "this is a design file", name=name)
     return Problem(shown or Phrase("the scene"), "there is no such file and no scene",
                    did_you_mean(name[:60], library()))
 

@@ -472,6 +472,8 @@ class Form(Generic[AnyTable]):
     def _about_key(self, loc: KeyPath) -> Wording:
         """The known keys that an unknown key may mean."""
         key = str(loc[-1])[:60]
+        if loc == ("design",):
+            return Phrase("this is a design file", name="FILE")
         if key in self.keys_at(()) and len(loc) > 1:
             at_top = key in ("title", "title_zh", "source", "source_zh", "find")
             own = Phrase("is a table of its own", key=key)
@@ -539,6 +541,8 @@ def _cut(path: KeyPath) -> KeyPath:
         return path[:1]
     if head == "driver":
         return path[: 3 if isinstance(path[1:2] and path[1], int) else 2]
+    if head in ("masses", "loads") and inside in ("mass", "weight", "inertia", "force", "moment"):
+        return path[:3]
     return path[: 3 if head == "cams" else 2]
 
 

@@ -94,7 +94,7 @@ def exact_values(motion: Motion, asked: Sequence[Symbol] = ()) -> Callable[[Symb
             return _of_forces_here(motion, symbol)
         exact = value_of(motion, symbol)[0]
         if symbol.kind == "d" and math.isnan(exact):  # the centre of links at rest: that of any motion
-            exact = _growing(motion).value(symbol)[0]
+            exact = growing(motion).value(symbol)[0]
         return complex(exact) if np.iscomplexobj(exact) else float(exact)
 
     return value
@@ -111,7 +111,7 @@ def _range_here(motion: Motion) -> DriverRange:
     return range_of(structure_of(motion.structure), values)
 
 
-def _growing(motion: Motion) -> Motion:
+def growing(motion: Motion) -> Motion:
     """The position with the first driver's value growing at a unit rate, the others held."""
     return _range_here(motion).motion(np.zeros(1), unit=True)
 
@@ -155,7 +155,7 @@ def _of_forces_here(motion: Motion, symbol: Symbol) -> Value:
         return float(moment / abs(force)) if force else 0.0
     if symbol.kind == "arm":
         moves = any(driver.values[1] for driver in motion.scene.drivers)
-        return _arm(forces.motion if moves else _growing(forces.motion), forces, Symbol.parse(symbol.name))
+        return _arm(forces.motion if moves else growing(forces.motion), forces, Symbol.parse(symbol.name))
     known = forces.value(symbol)
     return math.nan if known is None else complex(known[0]) if symbol.is_vector else float(known[0])
 

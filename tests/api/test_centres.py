@@ -127,3 +127,13 @@ def test_a_rate_that_no_centre_gives_is_none_with_the_reason() -> None:
     found.centres.turning.clear()
     row = found.data["velocities"]["omega_2"]
     assert (None, None, True) == (row["by_centres"], row["ok"], "why" in row)
+
+
+@pytest.mark.parametrize("name", ["sixbar-guide-40deg", "cam-flat-face", "disc-on-disc", "hydraulic-cylinder"])
+def test_centres_of_a_mechanism_at_rest_are_compared_with_those_of_any_motion(name: str) -> None:
+    source = graphkin.read(name).to_dict()
+    rate = "velocity" if "slide" in source["driver"] else "omega"
+    source["driver"] = {k: v for k, v in source["driver"].items() if k not in ("rpm", "alpha")} | {rate: 0}
+    rests = graphkin.centres({k: v for k, v in source.items() if k not in ("printed", "find")})
+    assert rests.ok
+    assert None not in [error for pair, error in rests.errors.items() if rests.centres.table[pair].place is not None]

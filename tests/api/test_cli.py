@@ -420,3 +420,18 @@ def test_a_printed_value_that_is_none_is_told_in_chinese(tmp_path):
     (tmp_path / "s.toml").write_text(scene, encoding="utf-8")
     told = run("audit", "s.toml", "--lang", "zh", cwd=tmp_path).stderr
     assert "printed.v_C：“fast”不是数" in told
+
+
+@pytest.mark.parametrize(
+    ("call", "told"),
+    [
+        (["solve", "slider-crank-stroke-50"], "it is a design file: write graphkin design slider-crank-stroke-50"),
+        (["design", SIXBAR], f"{SIXBAR}: is a scene, no design file"),
+        (["check", "task.toml"], "design: unknown table; it is a design file"),
+    ],
+)
+def test_a_design_and_a_scene_are_told_apart(call, told, tmp_path):
+    (tmp_path / "task.toml").write_text('[design]\nkind = "slider-crank"\nstroke = 50\nK = 1.2\n')
+    done = run(*call, cwd=tmp_path)
+    assert (2, "") == (done.returncode, done.stdout)
+    assert told in done.stderr

@@ -83,3 +83,9 @@ def test_a_cam_and_a_wheel_are_told_as_what_they_are(name: str, what: str) -> No
     lines = graphkin.explain(name).text.splitlines()
     assert f"link 1 is a {what} about A" in [line.strip() for line in lines]
     assert not any("no fixed length" in line for line in lines)
+
+
+def test_forces_are_asked_too_where_something_loads_the_mechanism():
+    loaded = graphkin.read("four-bar-coupler-point").to_dict() | {"loads": {"P": {"on": "3", "moment": 2}}}
+    assert "all velocities, accelerations and forces" in graphkin.explain(loaded).text
+    assert "all velocities and accelerations" in graphkin.explain("four-bar-coupler-point").text

@@ -327,3 +327,39 @@ def test_a_name_that_a_wrong_entry_may_have_held_is_no_second_problem() -> None:
     with pytest.raises(SceneError) as told:
         graphkin.read(four_bar)
     assert ["links.2.at"] == [str(problem.where) for problem in told.value.problems]
+
+
+LOADED = changed(SIX_BAR, ("[driver]", """[masses.2]
+at = "B"
+mass = 2
+[loads.P]
+on = "5"
+at = "D"
+force = 100
+against = "5/6"
+[balance]
+on = "1"
+[positions]
+count = 12
+first = 3
+[driver]"""))
+
+
+@pytest.mark.parametrize(
+    ("wrong", "told"),
+    [
+        ([("[frame]\nname   = \"6\"", "[frame]\nname   = \"6 a\"")], {"frame.name"}),
+        ([('on     = "6.h"', 'on     = "6.k"')], {"links.5.on"}),
+        ([("mass = 2", "mass = -2"), ("force = 100", 'force = "x"')], {"masses.2.mass", "loads.P.force"}),
+        ([("mass = 2", "mass = -2"), ('at = "B"', 'at = "Q"')], {"masses.2.mass", "masses.2.at"}),
+        ([("force = 100", 'force = "x"'), ('"5/6"', '"5/9"')], {"loads.P.force", "loads.P.against"}),
+        ([("count = 12", "count = 0"), ("[frame]", 'find = ["v_D at 3"]\n[frame]')], {"positions.count"}),
+    ],
+)
+def test_each_problem_is_told_with_no_other_that_follows_from_it(wrong: list[tuple[str, str]], told: set[str]) -> None:
+    assert told == {sentence.split(": ")[0] for sentence in messages(changed(LOADED, *wrong))}
+
+
+def test_a_start_where_nothing_rolls_is_refused() -> None:
+    [sentence] = messages(changed(FOUR_BAR, (LINK2, f"{LINK2}\nstart = 30")))
+    assert sentence.startswith("links.2.start: nothing rolls here; leave start out")
