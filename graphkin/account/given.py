@@ -24,6 +24,7 @@ from graphkin.scene.model import Driver, LoadOn, Mechanism, PlacedLink, SpringOn
 from graphkin.scene.pairs import PlacedGuide, SlidingPair
 from graphkin.scene.scene_tables import LoadPhase
 from graphkin.scene.symbol import Symbol
+from graphkin.structure import Driven, Rolled
 from graphkin.words import Neutral, Phrase, languages, say
 from graphkin.words.written import as_given
 
@@ -69,6 +70,28 @@ def rolling_starts(sheet: Sheet) -> list[str]:
                 driver = replace(driver, relative_to=scene.frame.name)
             parts.append(f"{_stands(sheet, driver, value)} ({', '.join(own)})")
     return parts
+
+
+def rolled_starts(sheet: Sheet) -> list[str]:
+    """The starts of links that only follow by rolling, as in `rolling_starts`: of a wheel that has but its axis none
+    counts."""
+    scene = sheet.scene
+    own = ", ".join(_stands(sheet, driver, driver.values[0]) for driver in scene.drivers)
+    told = []
+    for element in sheet.structure.elements:
+        if not isinstance(element, Driven):
+            continue
+        driver = element.driver
+        if isinstance(driver, Rolled):
+            slide = "" if driver.turns else driver.key
+            driver = Driver(element.link, scene.frame.name, driver.start, 0.0, 0.0, slide=slide)
+        elif not isinstance(driver, Driver) or not driver.ratios:
+            continue
+        if not driver.turns or len(sheet.structure.links[element.link].points) > 1 or _axis_counts(
+            scene.whole, scene.by_name[element.link]
+        ):
+            told.append(f"{_stands(sheet, driver, driver.value)} ({own})")
+    return told
 
 
 def _stands(sheet: Sheet, driver: Driver, value: float) -> str:

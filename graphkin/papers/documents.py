@@ -21,6 +21,7 @@ from graphkin.account.given import (
     given_loads,
     given_shapes,
     given_teeth,
+    rolled_starts,
     rolling_starts,
 )
 from graphkin.account.headings import FIGURE_WORDS, number, titles, written
@@ -219,7 +220,8 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     yield from _formulas(lesson, "driver", [*given_drivers(lesson.sheet, letters), *_speeds(scene)])
     for sense in _senses(scene):
         yield Paragraph(lesson.sentence(sense))
-    yield from _formulas(lesson, "rolling starts", rolling_starts(lesson.sheet))
+    starts = [*rolling_starts(lesson.sheet), *rolled_starts(lesson.sheet)]
+    yield from _formulas(lesson, "rolling starts", starts)
     for load in given_loads(lesson.sheet, letters) if scene.loading else ():
         yield Paragraph(tuple((each, whole_sentence(say(load, each), each)) for each in languages(language)))
     yield from _formulas(lesson, "find", [f"${letters.vector(s)}$" for s in lesson.questions], "symbol comma")

@@ -3,7 +3,7 @@
 import pytest
 
 from graphkin import draw, handout
-from graphkin.account.given import given_drivers, given_shapes
+from graphkin.account.given import given_drivers, given_shapes, rolled_starts
 from graphkin.account.notation import letters_of
 from graphkin.construction import draft
 from graphkin.drawing.ink.primitives import Text, walk
@@ -133,3 +133,30 @@ def test_a_point_beside_its_guide_is_dimensioned_along_it_and_not_by_its_distanc
 def test_a_driver_is_told_with_its_rate_even_at_rest(told, scene):
     sheet = draft(mechanism_of(scene))
     assert told == given_drivers(sheet, letters_of(sheet, "chinese"))
+
+
+@pytest.mark.parametrize(
+    ("name", "starts"),
+    [
+        ("geared-five-bar", ["$φ_{4}$ = 60° ($φ_{1}$ = 40°)"]),
+        ("gears-epicyclic", ["$φ_{2}$ = 0° ($φ_{1}$ = 0°)", "$φ_{3}$ = 30° ($φ_{1}$ = 0°)"]),
+        ("wheel-on-rail", ["$s_{C}$ = 0 mm ($φ_{1}$ = 90°)"]),
+        ("disc-on-disc", []),
+    ],
+)
+def test_a_problem_tells_how_wheels_stand_that_carry_further_points(name, starts):
+    scene = mechanism_of(name)
+    assert starts == rolled_starts(draft(scene))
+    if starts:
+        problem = handout(name, formats=("html",), positions=1).files["problem.html"].decode()
+        assert "Rolling starts at" in problem
+
+
+def test_a_wheel_that_has_but_its_axis_is_told_without_its_angle():
+    train = {
+        "frame": {"points": {"A": [0, 0], "B": [60, 0]}},
+        "links": {"1": {"points": ["A"]}, "2": {"points": ["B"]}},
+        "gears": {"g": {"between": ["1", "2"], "teeth": [20, 40]}},
+        "driver": {"link": "1", "angle": 10, "omega": 5},
+    }
+    assert [] == rolled_starts(draft(mechanism_of(train)))
