@@ -32,7 +32,8 @@ from graphkin.scene.asked import spelling_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Printed, Symbol, Value
-from graphkin.solver import Motion, driver_range, exact_values, solved_here, structure_of
+from graphkin.solver import Motion, driver_range, solved_here, structure_of
+from graphkin.solver.values import exact_values, value_of
 from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
@@ -463,7 +464,7 @@ def _elsewhere(scene: Mechanism, values: dict[str, float] | None) -> ValuesElsew
         if symbol.scope in ("turn", "cycle") or symbol.kind == "arm":  # the lever has its arms at one position
             return rows
         for motion in motions():
-            for i, value in enumerate(solver.value_of(motion, symbol)):
+            for i, value in enumerate(value_of(motion, symbol)):
                 if motion.ok[i]:
                     driver, at = scene.drivers[0], float(motion.values[i, 0])
                     name = f"{driver.key} = {scene.unit_of(driver).said(at)}"

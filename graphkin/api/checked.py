@@ -226,7 +226,7 @@ def check(
 def checked(what: Plan, motion: Motion, hand: Instrument, at_contacts: bool = True) -> Checked:
     """Draw a plan and compare all its readings with the solver at the same position; sliding contacts also at the
     contact itself, by the same hands on another sheet."""
-    from graphkin.solver.solve import as_drawn
+    from graphkin.solver import as_drawn
     from graphkin.solver.values import exact_values, forces_here
 
     other, again = what.at_contacts() if at_contacts else None, hand if hand is EXACT else deepcopy(hand)

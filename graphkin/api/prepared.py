@@ -25,9 +25,9 @@ from graphkin.table import Column, Table, Values
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
-    from graphkin import solver
-    from graphkin.solver.designs import PreparedMechanisms
+    from graphkin.solver.prepared import PreparedMechanism
     from graphkin.study.designs import DesignKeys
+    from graphkin.study.prepared_designs import PreparedMechanisms
 
 Reals = NDArray[np.float64]
 
@@ -57,7 +57,7 @@ class Prepared(Tabled, OfScene):
     source: SceneLike
     asked: tuple[str, ...]
     fast: bool | None
-    ready: solver.PreparedMechanism
+    ready: PreparedMechanism
 
     @property
     def mechanism(self) -> Mechanism:
@@ -181,8 +181,8 @@ class Prepared(Tabled, OfScene):
         CallError : a key that the scene does not have or that changes no dimension; values that are no finite numbers,
             lengths that are not positive, or values of different shapes
         """
-        from graphkin.solver.designs import PreparedMechanisms
         from graphkin.study.designs import design_keys
+        from graphkin.study.prepared_designs import PreparedMechanisms
 
         if self.ready.loads:
             raise CallError.of("over", "forces are not given over designs", "prepare each design or sweep over designs",
@@ -455,7 +455,7 @@ def prepare(
     >>> [f"{fastest:.0f}" for fastest in abs(cranks["v_C"]).max(axis=1)]
     ['1152', '1346', '1555']
     """
-    from graphkin import solver
+    from graphkin.solver.prepared import prepare as prepared
 
     given = as_scene(scene)
     wanted = Phrase("name quantities for example v_c omega_3")
@@ -466,4 +466,4 @@ def prepare(
     if not asked:
         raise CallError.of("find", "asks for nothing", "name quantities for example v_c omega_3")
     columns_shown(given, [name for name in asked if " at " in name])
-    return Prepared(scene, asked, fast, solver.prepare(given, asked, given.units.per_si, bounds))
+    return Prepared(scene, asked, fast, prepared(given, asked, given.units.per_si, bounds))

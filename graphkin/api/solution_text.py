@@ -11,7 +11,8 @@ import numpy as np
 
 from graphkin.errors import Unsolvable
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.solver import Forces, listed_points, own_slides
+from graphkin.solver import listed_points, own_slides
+from graphkin.solver.forces import Forces
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
 from graphkin.table import Array
 from graphkin.words import Phrase, Wording, say, word

@@ -34,7 +34,8 @@ from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin.account.loops import LoopText
-    from graphkin.solver import Forces, Motion
+    from graphkin.solver import Motion
+    from graphkin.solver.forces import Forces
     from graphkin.structure import Structure
     from graphkin.study.quantities import Quantity
     from graphkin.table import Array, Column, Table
@@ -119,9 +120,9 @@ class Solved(OfScene, Result):
     @property
     def forces(self) -> Forces | None:
         """All forces; None for a scene without masses and loads."""
-        from graphkin import solver
+        from graphkin.solver.forces import forces_of
 
-        return solver.forces_of(self._moved) if self._moved.scene.loading else None
+        return forces_of(self._moved) if self._moved.scene.loading else None
 
     @property
     def said(self) -> Phrase:
@@ -181,7 +182,7 @@ class Solved(OfScene, Result):
     @cached_property
     def head(self) -> dict[str, Json]:
         """The entries of ``data`` before its positions."""
-        from graphkin.solver import head
+        from graphkin.solver.values import head
 
         return head(self.first.motion)
 
@@ -191,8 +192,8 @@ class Solved(OfScene, Result):
             yield from block._entries()
 
     def _entries(self) -> Iterator[dict[str, Json]]:
-        from graphkin.solver import entries
         from graphkin.solver.named_positions import named_positions
+        from graphkin.solver.values import entries
 
         places = named_positions(self.mechanism) if self.motion.ok.any() else None
         asked = {name: self._plain(name) for name in self.find}
@@ -242,7 +243,7 @@ class Solved(OfScene, Result):
 
     def json(self) -> Iterator[bytes]:
         """``data`` as the text of JSON, piece by piece."""
-        from graphkin.solver import json_text
+        from graphkin.solver.values import json_text
 
         return (piece.encode() for piece in json_text(self.head, self.entries()))
 

@@ -413,7 +413,8 @@ def _elsewhere(scene: Mechanism, measured: AnswersLike) -> dict[Quantity, list[t
     """Values measured elsewhere, each with the first driver's value (rad, m): SI, of a vector its size, or, where the
     column has signs, its place along the guide on which it lies."""
     from graphkin.api.answers import as_answers
-    from graphkin.solver import senses_along, solve
+    from graphkin.solver import solve
+    from graphkin.solver.values import senses_along
     from graphkin.study.quantities import Quantity
 
     rows, _ = as_answers(scene, measured)

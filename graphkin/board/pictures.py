@@ -30,9 +30,8 @@ from graphkin.files import Json, OwnTables
 from graphkin.papers.html import words_html
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import parsed, resolved
-from graphkin.solver import Motion, solved_here
+from graphkin.solver import Motion, driver_range, solved_here
 from graphkin.solver.driver_range import DriverRange
-from graphkin.solver.solve import driver_range
 from graphkin.structure import Structure, mobility_of
 from graphkin.words import Phrase, languages, say
 from graphkin.words.written import in_markup

@@ -31,7 +31,8 @@ from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import put_at, value_at
-from graphkin.solver import Motion, exact_values, solve
+from graphkin.solver import Motion, solve
+from graphkin.solver.values import exact_values
 from graphkin.structure import Dyad, LargerGroup, Pair, analyse
 from graphkin.words import Phrase, Wording, as_data, from_data
 

@@ -19,9 +19,9 @@ from graphkin.construction import EXACT, Instrument, Plan, Scales, cad, execute,
 from graphkin.construction.centres import find_centres
 from graphkin.races.work import Entry, Work, best_time, point_rates
 from graphkin.scene.symbol import Symbol
-from graphkin.solver import PreparedMechanism
 from graphkin.solver.expressions import Code
 from graphkin.solver.pose import Array
+from graphkin.solver.prepared import PreparedMechanism, prepare
 from graphkin.study.equations import Equations, Solution
 
 ITERATIONS = range(1, 7)
@@ -68,7 +68,7 @@ def _closed(work: Work, key: str, tag: str, columns: Array, costs: Sequence[floa
 
 def _prepared(work: Work) -> tuple[PreparedMechanism, PreparedMechanism]:
     """The prepared mechanism for velocities alone, and with accelerations."""
-    slow, both = (solver.prepare(work.structure, columns_of(work, kinds)) for kinds in ("v", "va"))
+    slow, both = (prepare(work.structure, columns_of(work, kinds)) for kinds in ("v", "va"))
     return slow, both
 
 
@@ -121,7 +121,7 @@ def one_by_one(work: Work, repeats: int, tag: str) -> Entry:
 
 def single_precision(work: Work, kinds: str) -> Callable[[Array], Array]:
     """The same formulas in numbers of 7 digits: a function of the values of the first driver."""
-    ready = solver.prepare(work.structure, columns_of(work, kinds))
+    ready = prepare(work.structure, columns_of(work, kinds))
     code = Code(ready.dimensioned.program.graph, ready.asked, ready.fixed)
     invariants = code.invariants(ready.given(code), np.float32)
 
@@ -229,7 +229,7 @@ def differences(work: Work, repeats: int) -> Iterator[Entry]:
         return
     # a point under a pin is another one of its link at every moment: its places are no path
     work = work.only([o for o in work.outputs if o.own])
-    closed = solver.prepare(work.structure, columns_of(work, "z"))
+    closed = prepare(work.structure, columns_of(work, "z"))
     _, first, second = work.scene.drivers[0].values
     many = closed.range.grid(work.count).values
 

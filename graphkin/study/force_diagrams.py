@@ -15,7 +15,8 @@ from graphkin.drawing import Box, chart
 from graphkin.drawing.ink.primitives import Stroke
 from graphkin.scene.force_names import forces_named
 from graphkin.scene.symbol import Symbol
-from graphkin.solver import DriverRange, forces_of
+from graphkin.solver import DriverRange
+from graphkin.solver.forces import forces_of
 from graphkin.solver.values import FlywheelStudy, MomentArea, load_edges, needed_moment
 from graphkin.study import charts
 from graphkin.study.extremes import Extreme

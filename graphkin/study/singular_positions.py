@@ -36,6 +36,7 @@ from graphkin.solver import Motion
 from graphkin.solver.dead_points import dead_points
 from graphkin.solver.drivers import working
 from graphkin.solver.pose import Array
+from graphkin.solver.prepared import prepare
 from graphkin.study.equations import Equations, context, reference, refined
 from graphkin.study.error_laws import LOST, Answer, ErrorLaw, Singularity, grid, in_powers, measured
 from graphkin.words import Phrase
@@ -333,7 +334,7 @@ def differences(mp: MPContext, samples: int = 4) -> Singularity:
     structure = reach.structure
     (_, rate, second), equations = scene.drivers[0].values, Equations(structure)
     angles = 2 * math.pi * (np.arange(places) + 0.3) / places
-    k, slider = equations.column[link], solver.prepare(structure, (next(iter(scene.links[-1].points)),))
+    k, slider = equations.column[link], prepare(structure, (next(iter(scene.links[-1].points)),))
 
     def place(values: Array) -> Array:
         x, y = slider.columns(values)[0]
@@ -508,7 +509,7 @@ def _exact_bar(mp: MPContext, a: mpf, d: mpf, rate: float, angle: mpf) -> Turnin
 
 def _in_doubles(scene: Mechanism, angle: float) -> Turning:
     """The closed form in doubles only, without more digits where these do not suffice; nan where it refuses."""
-    values = solver.prepare(_turned(scene, angle), ("theta_3", "omega_3", "alpha_3", "v_B@2/B@3")).at(angle)
+    values = prepare(_turned(scene, angle), ("theta_3", "omega_3", "alpha_3", "v_B@2/B@3")).at(angle)
     theta, omega, alpha, x, y = values or (math.nan,) * 5
     u = complex(math.cos(theta), math.sin(theta))
     return Turning(u, (2 * omega * (x * u.real + y * u.imag), alpha))

@@ -21,14 +21,15 @@ from graphkin.jobs import Checkpoints, Progress, Workers, key_of
 from graphkin.scene import mechanism_of
 from graphkin.scene.drivers import moments, moves_by_law
 from graphkin.scene.model import Dimension, Mechanism, dimensions, same_but_for_dimensions
-from graphkin.solver import DriverRange, driver_range, forces_of, over_time, prepare, structure_of
-from graphkin.solver.designs import PreparedMechanisms
+from graphkin.solver import DriverRange, driver_range, over_time, structure_of
+from graphkin.solver.forces import forces_of
 from graphkin.solver.kernel import pays
 from graphkin.solver.named_positions import named_positions
 from graphkin.solver.pose import Array
-from graphkin.solver.prepared import PreparedMechanism
+from graphkin.solver.prepared import PreparedMechanism, prepare
 from graphkin.structure import Structure
 from graphkin.study.designs import Designs, Value, applied
+from graphkin.study.prepared_designs import PreparedMechanisms
 from graphkin.study.quantities import Parts, Quantity, Words, all_that_moves, motion_table, settled, word_column
 from graphkin.table import Column, Table, parquet_of_csv
 from graphkin.words import from_others

@@ -10,9 +10,9 @@ import pytest
 
 import graphkin
 from graphkin.scene import library_text, mechanism_of
-from graphkin.solver.designs import PreparedMechanisms
 from graphkin.solver.prepared import prepare
 from graphkin.study.designs import applied
+from graphkin.study.prepared_designs import PreparedMechanisms
 from tests import scenes
 
 SHAPER = tomllib.loads(library_text("shaper-scheme-2"))

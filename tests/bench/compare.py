@@ -21,7 +21,7 @@ import numpy as np
 
 import graphkin
 from graphkin.scene import mechanism_of_text
-from graphkin.solver import prepare
+from graphkin.solver.prepared import prepare
 
 from . import by_hand, peers
 from .mechanisms import MECHANISMS, Case

@@ -18,8 +18,8 @@ from tempfile import TemporaryDirectory
 
 import graphkin
 from graphkin.scene import mechanism_of_text
-from graphkin.solver import prepare
 from graphkin.solver.kernel import pays
+from graphkin.solver.prepared import prepare
 
 from . import peers
 from .compare import best, header

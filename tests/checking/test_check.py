@@ -16,7 +16,7 @@ from graphkin.construction import equations, plan
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol
-from graphkin.solver.solve import driver_range
+from graphkin.solver import driver_range
 from graphkin.structure import LargerGroup
 from tests import EVERYTHING
 from tests.mechanisms import KINDS, random_scene

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from graphkin.scene.model import Mechanism
-from graphkin.solver import Motion, entries, head, solve
+from graphkin.solver import Motion, solve
+from graphkin.solver.values import entries, head
 
 
 def to_json(motion: Motion) -> dict[str, Any]:

@@ -10,9 +10,10 @@ import pytest
 from graphkin.errors import CallError, Unsolvable
 from graphkin.scene import library_text, mechanism_of_text
 from graphkin.scene.model import Mechanism
-from graphkin.solver import DriverRange, driver_range, prepare, solve, structure_of
+from graphkin.solver import DriverRange, driver_range, solve, structure_of
 from graphkin.solver.driver_range import each_once
 from graphkin.solver.engine import group_at
+from graphkin.solver.prepared import prepare
 from graphkin.structure.assembly import ways
 from tests import scenes
 

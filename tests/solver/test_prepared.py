@@ -9,8 +9,9 @@ import pytest
 
 from graphkin.errors import CallError
 from graphkin.scene import mechanism_of, mechanism_of_text
-from graphkin.solver import PreparedMechanism, prepare, solve
+from graphkin.solver import solve
 from graphkin.solver.kernel import kernel_text
+from graphkin.solver.prepared import PreparedMechanism, prepare
 from tests import scenes
 
 ASKED = ("C", "v_C", "a_C", "omega_3", "alpha_3")

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from graphkin.scene import library, mechanism_of, mechanism_of_text
-from graphkin.solver import entries, head, json_text, solve, values
+from graphkin.solver import solve, values
+from graphkin.solver.values import entries, head, json_text
 from tests import scenes
 from tests.construction.test_contours import ON_A_GUIDE, THROUGH_A_BLOCK
 from tests.solver.checks import to_json
