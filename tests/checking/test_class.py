@@ -319,7 +319,7 @@ TRAIN = {
         ("omega_3", "-17.50", "relative to link 2"),
         ("omega_1", "31.25", "teeth exchanged (gear sun)"),  # 5 + 17.5 * 36/24
         ("omega_1", "-6.667", "sense of turning (gear sun)"),  # 5 - 17.5 * 24/36
-        ("omega_1", "8.333", "carrier taken as standing (gear sun)"),  # 12.5 * 24/36
+        ("omega_1", "8.333", "carrier taken as fixed (gear sun)"),  # 12.5 * 24/36
     ],
 )
 def test_the_usual_slips_with_wheels_have_names(name, value, slip):
