@@ -21,7 +21,7 @@ from graphkin.errors import CallError
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene_tables import Convention
-from graphkin.structure.loops import Arrow, Loop, LoopBlock, Root, loops_in_numbers
+from graphkin.structure.loops import Loop, LoopArrow, LoopBlock, Root, loops_in_numbers
 from graphkin.structure.model import Coordinate
 from graphkin.words import Phrase, say, word
 from graphkin.words.symbols import Atom, parsed, plain, plain_words, symbol
@@ -35,7 +35,7 @@ ROUNDED = 1e-11  # of the longest arrow: a sum of arrows that is less is nothing
 MORE = 9  # figures of what a root of 7 is worked out from
 
 
-def size_name(arrow: Arrow) -> str:
+def size_name(arrow: LoopArrow) -> str:
     """The size of an arrow: ``l_{AB}``, or ``s_{34}`` of a travel."""
     if arrow.slide:
         return f"s_{{{arrow.slide.replace('/', '')}}}"
@@ -77,7 +77,7 @@ def _projection(loop: Loop, block: LoopBlock, scene: Mechanism, function: str) -
     return ("" if text.startswith("+") else "−") + text[2:] + " = 0"
 
 
-def _angle(arrow: Arrow) -> tuple[str, str]:
+def _angle(arrow: LoopArrow) -> tuple[str, str]:
     """The angle of an arrow by that of its link, and the sign of its size."""
     offset, name = cmath.phase(arrow.coefficient), f"$θ_{{{arrow.link}}}$"
     if abs(math.remainder(offset, math.tau)) < STRAIGHT:

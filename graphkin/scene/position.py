@@ -199,7 +199,7 @@ def _fixed(reading: Reading) -> dict[str, complex]:
 
 
 @dataclass
-class DrawnPosition:
+class StatedPosition:
     """The known part of the scene's own position while it is collected.
 
     ``drawn`` are the places of points that the file draws in the world, ``given`` these and the fixed ones, ``places``
@@ -290,7 +290,7 @@ class DrawnPosition:
         return math.nan
 
 
-def drawn_position(reading: Reading, drivers: Collection[Driver]) -> DrawnPosition:
+def stated_position(reading: Reading, drivers: Collection[Driver]) -> StatedPosition:
     """The places that can be found, in the links' own axes and in the world; problems are noted.  Drivers of unknown
     value have none.
     """
@@ -301,7 +301,7 @@ def drawn_position(reading: Reading, drivers: Collection[Driver]) -> DrawnPositi
     referred |= {name for d in drivers if d.turns for name in d.links}
     for other in sorted(referred):  # links that were taken out for something wrong are placed nowhere
         bodies.setdefault(other, Placement(other, f"links.{other}", (), {}, {}, guides={}))
-    position = DrawnPosition(
+    position = StatedPosition(
         reading, bodies, drawn, tuple((*d.links, cmath.rect(1.0, d.value)) for d in given if d.turns),
         {d.key: d.value for d in given if not d.turns},
     )  # fmt: skip
@@ -309,7 +309,7 @@ def drawn_position(reading: Reading, drivers: Collection[Driver]) -> DrawnPositi
     return position
 
 
-def _find(position: DrawnPosition) -> None:
+def _find(position: StatedPosition) -> None:
     """Place all points and links that follow from placed ones."""
     while True:
         position.news = False
@@ -324,7 +324,7 @@ def _find(position: DrawnPosition) -> None:
             return
 
 
-def _place_points(position: DrawnPosition, body: Placement) -> None:
+def _place_points(position: StatedPosition, body: Placement) -> None:
     for point, entry in body.at.items():
         if point in body.local or point in body.failed:
             continue
@@ -339,7 +339,7 @@ def _place_points(position: DrawnPosition, body: Placement) -> None:
             position.news = True
 
 
-def _place_guides(position: DrawnPosition, body: Placement) -> None:
+def _place_guides(position: StatedPosition, body: Placement) -> None:
     for name, entry in body.rails.items():
         if name in body.guides or f".{name}" in body.failed:
             continue
@@ -353,7 +353,7 @@ def _place_guides(position: DrawnPosition, body: Placement) -> None:
             position.news = True
 
 
-def _turn_by_points(position: DrawnPosition, body: Placement) -> None:
+def _turn_by_points(position: StatedPosition, body: Placement) -> None:
     if body.turn is not None:
         return
     ends = body.own
@@ -373,7 +373,7 @@ def _turn_by_points(position: DrawnPosition, body: Placement) -> None:
             position.set_turn(body, turn / abs(turn), abs(arm))
 
 
-def _move_by_points(position: DrawnPosition, body: Placement) -> None:
+def _move_by_points(position: StatedPosition, body: Placement) -> None:
     if body.turn is None:
         return
     for point, local in body.local.items():
@@ -387,7 +387,7 @@ def _move_by_points(position: DrawnPosition, body: Placement) -> None:
             position.news = True
 
 
-def _turn_by_angles(position: DrawnPosition) -> None:
+def _turn_by_angles(position: StatedPosition) -> None:
     for _, body, base, zero, turn in position.relations():
         if base.turn is not None:
             position.set_turn(body, base.turn * zero * turn, base.arm)
@@ -395,7 +395,7 @@ def _turn_by_angles(position: DrawnPosition) -> None:
             position.set_turn(base, body.turn / (zero * turn), body.arm)
 
 
-def _move_by_travels(position: DrawnPosition) -> None:
+def _move_by_travels(position: StatedPosition) -> None:
     for pair in position.reading.slides:
         rail = position.bodies[pair.on]
         guide = rail.guides.get(pair.guide)
@@ -409,7 +409,7 @@ def _move_by_travels(position: DrawnPosition) -> None:
             position.set_origin(rail, slider.origin - rail.turn * along)
 
 
-def _turn_to_positive_side(position: DrawnPosition) -> bool:
+def _turn_to_positive_side(position: StatedPosition) -> bool:
     """Turn a guide about its link's origin until it passes through the point that runs in it; whether there was such a
     guide.
 
@@ -434,7 +434,7 @@ def _turn_to_positive_side(position: DrawnPosition) -> bool:
     return False
 
 
-def _turn_to_drawn_point(position: DrawnPosition) -> bool:
+def _turn_to_drawn_point(position: StatedPosition) -> bool:
     """Choose the x axis of a link that has one own point and nothing measured from its axis; whether there was such a
     link."""
     slides = position.reading.slides
@@ -464,7 +464,7 @@ def _along(rail: Placement, guide_name: str, place: complex | None) -> float | N
 # -- where rolling starts ----------------------------------------------------------------------------------------------
 
 
-def check_starts(position: DrawnPosition) -> None:
+def check_starts(position: StatedPosition) -> None:
     """Note starts of rolling that contradict the given places of a link.  A driven link starts at the driver's
     value."""
     driven = {*position.travels, *(link for link, _, _ in position.angles)}
@@ -494,7 +494,7 @@ def check_rolling(reading: Reading) -> None:
                 reading.say(f"links.{name}.start", "nothing rolls here", "leave start out the driver")
 
 
-def starts_of(position: DrawnPosition, contacts: Iterable[PlacedContact]) -> dict[str, float]:
+def starts_of(position: StatedPosition, contacts: Iterable[PlacedContact]) -> dict[str, float]:
     """The start of rolling motions: angles of links (rad), travels of sliding pairs and of contacts with a face (m),
     from the file or its drawn points."""
     slides, bodies = [pair for pair in position.reading.slides if not pair.of], position.bodies
@@ -516,7 +516,7 @@ def starts_of(position: DrawnPosition, contacts: Iterable[PlacedContact]) -> dic
 # -- whether what is given agrees --------------------------------------------------------------------------------------
 
 
-def check_placed_twice(position: DrawnPosition) -> None:
+def check_placed_twice(position: StatedPosition) -> None:
     """Note points that the file places twice in one link, or fixes and draws, at different places."""
     for body in position.bodies.values():
         for point in body.own:
@@ -535,7 +535,7 @@ def check_placed_twice(position: DrawnPosition) -> None:
                 position.reading.say(f"drawn.{point}", found, "leave it out or correct it")
 
 
-def check_all_found(position: DrawnPosition) -> None:
+def check_all_found(position: StatedPosition) -> None:
     """Note points and guides that need the position of their link, where it does not follow from what is drawn."""
     for body in position.bodies.values():
         missing = [f"at.{point}" for point in body.at if point not in body.local]
@@ -545,7 +545,7 @@ def check_all_found(position: DrawnPosition) -> None:
                                  "draw two points of link or give it", body=body.name)
 
 
-def check_distances(position: DrawnPosition) -> None:
+def check_distances(position: StatedPosition) -> None:
     """Note places so far away that the digits of a coordinate lose the length of a bar."""
     bars = [(b.length, b) for b in position.bodies.values() if b.length]
     if not bars:
@@ -565,7 +565,7 @@ def check_distances(position: DrawnPosition) -> None:
                              farthest=f"{FARTHEST:.0e}")
 
 
-def check_agreement(position: DrawnPosition) -> None:
+def check_agreement(position: StatedPosition) -> None:
     """Note data given twice that differ by more than 1e-6 of the size, with both values."""
     metres = position.reading.metres
     for body in position.bodies.values():
@@ -601,7 +601,7 @@ def _reach(body: Placement, local: complex) -> float:
     return max(1.0, abs(local) / body.arm)
 
 
-def _check_points(position: DrawnPosition, body: Placement) -> None:
+def _check_points(position: StatedPosition, body: Placement) -> None:
     """Note points of one link whose places in the link and in the world differ."""
     ends, given = body.own, position.given
     if len(ends) == 2 and body.length is not None and all(p in given for p in ends):
@@ -621,7 +621,7 @@ def _check_points(position: DrawnPosition, body: Placement) -> None:
                                  other=position.pair(given[point]))
 
 
-def check_contacts(contacts: Iterable[PlacedContact], position: DrawnPosition) -> None:
+def check_contacts(contacts: Iterable[PlacedContact], position: StatedPosition) -> None:
     """Note outlines that do not touch where given places put them: centres too far apart, or not a radius off the face,
     on its side."""
     for c in contacts:

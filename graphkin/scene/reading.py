@@ -84,7 +84,7 @@ def mechanism_said(file: SceneTables, name: str, problems: list[Problem], lost: 
         reading.wrong(*(not_held(group, reading.frame.name) for group in apart))
 
     driven = drives(reading)
-    position = places.drawn_position(reading, driven.values())
+    position = places.stated_position(reading, driven.values())
     places.check_placed_twice(position)
     if not problems:
         places.check_starts(position)
@@ -158,7 +158,7 @@ def _check_forces(made: Mechanism) -> None:
         raise SceneError(*dict.fromkeys(problems))
 
 
-def _cams(reading: Reading, position: places.DrawnPosition) -> tuple[LawCam, ...]:
+def _cams(reading: Reading, position: places.StatedPosition) -> tuple[LawCam, ...]:
     """The cams, with the lines of the frame on which followers slide."""
     frame, file = position.bodies[reading.frame.name], reading.file
     rails = {s.link: (s.key, frame.guides.get(s.guide)) for s in reading.slides if s.on == frame.name}

@@ -28,7 +28,7 @@ from graphkin.structure.model import Coordinate, Driven, Dyad, Element, Pair, St
 
 
 @dataclass(frozen=True)
-class Arrow:
+class LoopArrow:
     """One arrow of a loop, fixed in ``link``.
 
     Parameters
@@ -77,7 +77,7 @@ class Loop:
     whose angle it shares.  At a position it has a ``root``, unless it is solved together with others."""
 
     name: str
-    arrows: tuple[Arrow, ...]
+    arrows: tuple[LoopArrow, ...]
     links: tuple[str, ...] = ()
     unknowns: tuple[Coordinate, ...] = ()
     block: int = 0
@@ -261,25 +261,25 @@ def _place(structure: Structure, link: str, pair: Pair) -> tuple[complex, str]:
     return at, next((p for p, z in points.items() if abs(z - at) < 1e-12 * structure.scene.size), "")
 
 
-def _arrows(structure: Structure, cycle: Sequence[Edge]) -> tuple[Arrow, ...]:
-    arrows: list[Arrow] = []
+def _arrows(structure: Structure, cycle: Sequence[Edge]) -> tuple[LoopArrow, ...]:
+    arrows: list[LoopArrow] = []
     for (_, into, link), (_, out, _) in zip(cycle, (*cycle[1:], cycle[0]), strict=True):
         if not into.turns and link == into.b:  # from what slides back to the guide's origin
             arrows.append(_travel(structure, into, -1.0))
         (start, tail), (end, tip) = _place(structure, link, into), _place(structure, link, out)
         if abs(end - start) > 1e-12 * structure.scene.size:
-            arrows.append(Arrow(link, end - start, (tail, tip)))
+            arrows.append(LoopArrow(link, end - start, (tail, tip)))
         if not out.turns and link == out.b:
             arrows.append(_travel(structure, out, 1.0))
     return _named(arrows)
 
 
-def _travel(structure: Structure, slide: Pair, sign: float) -> Arrow:
+def _travel(structure: Structure, slide: Pair, sign: float) -> LoopArrow:
     names = _place(structure, slide.b, slide)[1], slide.pin or ""
-    return Arrow(slide.b, sign * slide.guide.direction, names if sign > 0 else names[::-1], slide.key)
+    return LoopArrow(slide.b, sign * slide.guide.direction, names if sign > 0 else names[::-1], slide.key)
 
 
-def _named(arrows: Sequence[Arrow]) -> tuple[Arrow, ...]:
+def _named(arrows: Sequence[LoopArrow]) -> tuple[LoopArrow, ...]:
     """Arrows tip to tail, with a name for each end: an end without a name takes it from the next arrow's beginning."""
     around = zip((arrows[-1], *arrows), arrows, (*arrows[1:], arrows[0]), strict=False)
     return tuple(
@@ -300,11 +300,11 @@ def _chosen(structure: Structure) -> list[Loop]:
     return loops
 
 
-def _between(structure: Structure, name: str, tail: str, tip: str) -> list[Arrow]:
+def _between(structure: Structure, name: str, tail: str, tip: str) -> list[LoopArrow]:
     """The arrows from a point to the next of a chosen loop."""
     for link, body in structure.links.items():
         if tail in body.points and tip in body.points:
-            return [Arrow(link, body.points[tip] - body.points[tail], (tail, tip))]
+            return [LoopArrow(link, body.points[tip] - body.points[tail], (tail, tip))]
     for start, end, sign in ((tail, tip, 1.0), (tip, tail, -1.0)):
         for slide in structure.slides:
             points = structure.links[slide.b].points
@@ -312,7 +312,7 @@ def _between(structure: Structure, name: str, tail: str, tip: str) -> list[Arrow
                 offset = slide.guide.through - points[start]
                 legs = [(sign * offset, start, "", "")] if abs(offset) > 1e-12 * structure.scene.size else []
                 legs.append((sign * slide.guide.direction, "" if legs else start, end, slide.key))
-                made = [Arrow(slide.b, z, (a, b) if sign > 0 else (b, a), key) for z, a, b, key in legs]
+                made = [LoopArrow(slide.b, z, (a, b) if sign > 0 else (b, a), key) for z, a, b, key in legs]
                 return made if sign > 0 else made[::-1]
     raise CallError.of(f"loops.{name}", "no link and no guide joins and", "name the points in the order in which",
                        name=tail, other=tip)
