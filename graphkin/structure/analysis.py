@@ -336,6 +336,8 @@ def _bodies(
 
 
 def _dyad(structure: Structure, bodies: list[Body], pairs: list[Pair], links: tuple[str, ...]) -> Dyad | None:
+    """Two bodies as a dyad, turned as `Dyad` says; None where they do not hang by one pair each on known links and by
+    one on each other, or have three sliding pairs."""
     if len(bodies) != 2:
         return None
     one, two = bodies
@@ -520,6 +522,7 @@ def regrouped(scene: Mechanism, known: Iterable[str], members: Iterable[str]) ->
 
 
 def _wrong_count(structure: Structure) -> Problem:
+    """What is said where a mechanism has more or fewer drivers than its mobility: the count, and what is right."""
     scene, mobility = structure.scene, structure.mobility
     given, names = len(scene.drivers), ", ".join(d.key for d in scene.drivers)
     higher = f" - {mobility.higher}" if mobility.higher else ""

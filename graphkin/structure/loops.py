@@ -176,6 +176,7 @@ Edge = tuple[str, Pair, str]
 
 
 def _found(structure: Structure) -> list[Loop]:
+    """The loops of all groups in the order of solution, those that the pairs of each close with what comes before."""
     known: list[Edge] = []
     loops: list[Loop] = []
     for element in structure.elements:
@@ -262,6 +263,8 @@ def _place(structure: Structure, link: str, pair: Pair) -> tuple[complex, str]:
 
 
 def _arrows(structure: Structure, cycle: Sequence[Edge]) -> tuple[LoopArrow, ...]:
+    """The arrows of a loop of pairs: on each link from the pair that leads to it to the next, along guides the travels.
+    """
     arrows: list[LoopArrow] = []
     for (_, into, link), (_, out, _) in zip(cycle, (*cycle[1:], cycle[0]), strict=True):
         if not into.turns and link == into.b:  # from what slides back to the guide's origin
@@ -381,6 +384,19 @@ def loops_in_numbers(
 def _solved(
     loops: Sequence[Loop], axes: Mapping[str, complex], travels: Mapping[str, float], turning: Turning, known: Rates
 ) -> LoopBlock | None:
+    """Loops solved together for the rates of their unknowns: an angle turns each arrow z that it leads by i z, a travel
+    lengthens the one along its guide by the unit vector u; what the known rates give stands on the right side.
+
+    Parameters
+    ----------
+    loops : at the position, with the axis and the travel of each arrow
+    axes, travels : of links, and of sliding pairs (m), from which the values of the unknowns come
+    known : first and second rates of what was found before
+
+    Returns
+    -------
+    None where there are not two unknowns a loop, or the position is singular
+    """
     unknowns = loops[0].unknowns
     if len(unknowns) != 2 * len(loops):
         return None

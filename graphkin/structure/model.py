@@ -499,6 +499,7 @@ def links_for(structure: Structure, symbol: Symbol) -> frozenset[str]:
 
 
 def _links_for(structure: Structure, symbol: Symbol) -> set[str]:
+    """The links that a quantity names, and those that place its points: as `links_for`, each time anew."""
     if symbol.link:
         # of a pin in a slot the block that stands for it
         return {name for name in (symbol.link, symbol.other, symbol.pair) if name in structure.links} or {symbol.link}
