@@ -274,9 +274,9 @@ def _draw_vector(plot: Polygons, order: Order, group: LargerGroup, equation: Vec
         begun = [(0j, _parts(side), _open(side)[0]) for side in sides]
     else:
         (side,) = sides
-        own = Unknown("turning", same_turn(plot, group).get(equation.link, equation.link))
+        rate = Unknown("turning", same_turn(plot, group).get(equation.link, equation.link))
         open_ends = [(edge, part) for edge, parts in side for part in parts if part.span is None]
-        bar, turning = next((e, p) for e, p in open_ends if e.link == equation.link and e.unknown == own)
+        bar, turning = next((e, p) for e, p in open_ends if e.link == equation.link and e.unknown == rate)
         free = [part for edge, part in open_ends if edge is not bar][-1]  # both legs leave that free
         symbol, end = turning.symbol, plot.end(order, equation.end)
         written = (Term(plot.symbol(letter(order), equation.end), True, True),), _from_pole(plot, order, side)
@@ -285,13 +285,13 @@ def _draw_vector(plot: Polygons, order: Order, group: LargerGroup, equation: Vec
     lines = [(_carry(plot, order, (part for part in parts if part.span), at, number), unknown)
              for at, parts, unknown in begun]  # fmt: skip
     tail = 0j if equation.base else lines[0][0]
-    found = ConstructionVector(symbol, tail, _lines_meet(plot, order, symbol, tail, lines, number), plot.trial)
-    mm = plot.found_mm(symbol, found.span)
-    plot.do(Step("read", "vector", order, (found,), number, symbol=symbol, mm=mm))
+    vector = ConstructionVector(symbol, tail, _lines_meet(plot, order, symbol, tail, lines, number), plot.trial)
+    mm = plot.found_mm(symbol, vector.span)
+    plot.do(Step("read", "vector", order, (vector,), number, symbol=symbol, mm=mm))
     if equation.base:
-        plot.ties[order, equation.end.point] = found.span
+        plot.ties[order, equation.end.point] = vector.span
     else:
-        _rate(plot, order, bar, found, group)
+        _rate(plot, order, bar, vector, group)
 
 
 def _lay_off(plot: Polygons, order: Order, part: Term, at: complex, equation: int | None) -> complex:
