@@ -1,7 +1,7 @@
 """The drawing board: position, velocity and acceleration polygons constructed step by step.
 
-It starts from the scene and takes every later length and angle from what is already drawn; it never sees the
-analytic solver.
+It starts from the scene and takes every later length and angle from the drawing itself; it never sees the analytic
+solver.
 """
 
 from graphkin.construction.instruments import EXACT, Instrument, cad, erring, nudged, pencil

@@ -1,6 +1,6 @@
 """A cam drawn on the board by inversion: the displacement diagram divided into parts, the follower's line turned back
 by each, the lifts carried on to it, the profile, the normals and the pressure angles measured.  Every division is drawn
-by hands: each line laid off, each point pricked, what they do wrong carried on.
+by hands: each line laid off, each point pricked, with their errors carried on.
 
 After Sun Huan, Mechanical Principles, ch. 9; Norton, Design of Machinery, ch. 8.
 """
@@ -30,8 +30,8 @@ class CamSheet:
 
     scale : m for one mm of paper
     divisions : of the displacement diagram, the follower turned back about the cam at each (mm)
-    profile, pitch : closed curves (mm); the pitch curve is empty of a flat face
-    base, offset, roller : radii of circles on paper (mm); offset 0 where there is none, or the follower swings
+    profile, pitch : closed curves (mm); the pitch curve is empty for a flat face
+    base, offset, roller : radii of circles on paper (mm); offset 0 without one, or if the follower swings
     """
 
     cam: LawCam
@@ -45,7 +45,7 @@ class CamSheet:
 
     @property
     def steps(self) -> tuple[Phrase, ...]:
-        """What is done, one after the other."""
+        """The steps in order."""
         cam, motion = self.cam, self.cam.motion
         radius, shifted = amount(self.base, 4), self.offset > 1e-9
         steps = [Phrase("cam step diagram", divisions=str(len(self.divisions)))]
@@ -106,8 +106,8 @@ def division(cam: LawCam, degree: float, mm: float, hand: Instrument = EXACT) ->
 
     Returns
     -------
-    the follower as it stands on paper (mm), with its lift as read (m, rad) and its normal as the protractor reads it;
-    None where the hands err so far that its line misses the base circle
+    the follower on paper (mm), with its lift as read (m, rad) and its normal as read by the protractor; None where the
+    hands' errors let its line miss the base circle
     """
     given, base = station(cam, degree).scaled(mm), hand.compass(cam.base * mm)
     drawn = (_on_line if isinstance(cam.motion, SlidingFollower) else _on_arc)(cam, given, mm, base, hand)

@@ -1,12 +1,13 @@
-"""All instant centres of a scene as a student finds them: those that joints give, Kennedy's theorem with its circle
-diagram, and what remains by the motion of the links, which is measured on the velocity polygon.
+"""All instant centres of a scene as a student finds them: permanent centres of the joints, Kennedy's theorem with its
+circle diagram, and the other centres by the motion of the links, measured on the velocity polygon.
 
 Velocities by centres: from the driver to every link by the shortest chain of centres, measured on the figure.
 
 The point P_ij belongs to both links and has one velocity: omega_i * P_ij P_i0 = omega_j * P_ij P_j0, the same sense of
 turning where P_i0 and P_j0 lie on one side of P_ij, the opposite where it lies between them; a point X of link j then
 moves with omega_j * P_j0 X square to P_j0 X (Norton, Design of Machinery, 6.5).  The distances are measured as products
-of homogeneous coordinates, so that a centre at infinity needs no rule of its own: links that turn alike, sliders.
+of homogeneous coordinates, so that a centre at infinity needs no rule of its own, as of links that turn alike, or
+sliders.
 """
 
 from __future__ import annotations
@@ -48,10 +49,10 @@ TOGETHER = 1e-9  # two centres nearer to each other (on the unit sphere) give no
 
 @dataclass(frozen=True)
 class CentreRelation:
-    """A line on which a centre lies: through two centres with a third link, or the common normal of a pin in a slot or
-    of what slides on each other.
+    """A line through a centre: through two centres with a third link, or the common normal of a pin in a slot or of a
+    sliding contact.
 
-    ``through`` names the two centres, or the pin in slot; ``error`` is how far the line may be off on the unit sphere.
+    ``through`` names the two centres, or the pin in slot; ``error`` bounds the line's error on the unit sphere.
     """
 
     pair: LinkPair
@@ -62,13 +63,13 @@ class CentreRelation:
 
 @dataclass(frozen=True)
 class Centre:
-    """One instant centre.
+    """An instant centre.
 
     ``place`` is homogeneous in the chart (None where undetermined); ``point`` in mm on paper, None at infinity, where
-    ``direction`` is the way to it; ``error`` is how far the place may be off on the unit sphere.  ``number`` counts the
-    found ones in their order.  ``joint`` names the joint of a permanent one, ``lines`` are the two that cross in a
-    found one; ``way`` names the construction of one that Kennedy's theorem does not give, ``why`` says why it does not,
-    or why there is none.
+    ``direction`` points to it; ``error`` bounds the place's error on the unit sphere.  ``number`` counts the found
+    centres in order.  ``joint`` names the joint of a permanent centre, ``lines`` are the two that cross in a found one;
+    ``way`` names the construction of a centre that Kennedy's theorem does not give, ``why`` is the reason for that, or
+    for a missing centre.
     """
 
     pair: LinkPair
@@ -90,8 +91,8 @@ class Turning:
     """The motion of a link by centres.
 
     ``strength`` (1/s) belongs to the centre's homogeneous coordinates (`ProjectiveChart.velocity`), ``omega`` is the
-    angular velocity (rad/s).  ``chain`` names the links from the driver to this one, each measured from the one before;
-    ``error`` (1/s) is how far the strength may be off, since centres near each other measure badly.
+    angular velocity (rad/s).  ``chain`` names the links from the driver to this one, each measured from its
+    predecessor; ``error`` (1/s) bounds the strength's error, since centres near each other measure badly.
     """
 
     link: str
@@ -103,14 +104,14 @@ class Turning:
 
 @dataclass(frozen=True)
 class Centres:
-    """The links of a scene where they lie on paper, and the centres of every two of them.
+    """The links of a scene on paper, and the centres of every two of them.
 
     Parameters
     ----------
-    scene : whose links these are; the sheet may show it at another speed of its driver
+    scene : the scene of the links; the sheet may show it at another speed of its driver
     sheet : the position drawn
-    poses : where every link lies; blocks that only stand for a pin in a slot are no links, a redundant link is one if
-        turning pairs hold two of its points
+    poses : the pose of every link; blocks that replace a pin in a slot are no links, a redundant link is one if turning
+        pairs hold two of its points
     table : the centres by pair of links
     """
 
@@ -120,11 +121,11 @@ class Centres:
     table: Mapping[LinkPair, Centre] = field(default_factory=dict)
 
     def of(self, a: str, b: str) -> Centre:
-        """The centre of two links, in any order.  Raises KeyError for a pair that is none."""
+        """The centre of two links, in any order.  Raises KeyError for an unknown pair."""
         return self.table[self.pair(a, b)]
 
     def at(self, scales: Scales) -> Centres:
-        """The same centres at other scales."""
+        """The centres at other scales."""
         k = self.sheet.scales.length / scales.length
         table = {pair: replace(c, point=None if c.point is None else c.point * k) for pair, c in self.table.items()}
         poses = {name: pose.scaled(k) for name, pose in self.poses.items()}
@@ -132,24 +133,24 @@ class Centres:
 
     @property
     def found(self) -> tuple[Centre, ...]:
-        """The centres in the order in which they are found, the permanent ones first."""
+        """The centres in the order of construction, the permanent ones first."""
         return tuple(sorted(self.table.values(), key=lambda c: c.number))
 
     @property
     def indeterminate(self) -> tuple[Centre, ...]:
-        """Those that Kennedy's theorem does not give."""
+        """The centres that Kennedy's theorem does not give."""
         return tuple(c for c in self.found if c.way or c.kind == "undetermined")
 
     @cached_property
     def kept(self) -> tuple[str, ...]:
-        """What two superposed motions let fit, where the motion was found by trial: the bars or sliding pairs that the
-        trial polygons leave open."""
+        """The constraints that superposed trial motions fulfil, if the motion was found by trial: the bars or sliding
+        pairs that the trial polygons leave open."""
         divided = (step.data for step in self.sheet.steps if isinstance(step.data, Superposed))
         return tuple(dict.fromkeys(name for data in divided for name in data.closing))
 
     @property
     def mm(self) -> float:
-        """Of paper for one m."""
+        """The mm of paper for one m."""
         return 1.0 / self.sheet.scales.length
 
     @cached_property
@@ -160,12 +161,12 @@ class Centres:
 
     @cached_property
     def pairs(self) -> tuple[LinkPair, ...]:
-        """All pairs, each written in the order of the file, the frame last."""
+        """All pairs of links, each written in the order of the file, the frame last."""
         return tuple(self.pair(a, b) for a, b in combinations(self.names, 2))
 
     @cached_property
     def places(self) -> dict[LinkPair, int]:
-        """The place of each pair in their order."""
+        """The index of each pair in their order."""
         return {pair: place for place, pair in enumerate(self.pairs)}
 
     def pair(self, a: str, b: str) -> LinkPair:
@@ -175,7 +176,7 @@ class Centres:
 
     @cached_property
     def touching(self) -> Touching:
-        """What touches among the links."""
+        """The higher pairs of the links."""
         return Touching(self.scene, self.mm, self.poses)
 
     def point(self, name: str) -> complex:
@@ -213,13 +214,13 @@ class Centres:
         return tuple(Symbol("v", PointRef(p)) for p in pins)
 
     def turning_of(self, ref: PointRef) -> Turning | None:
-        """The motion of the link of a point: that of the first link with it that is known."""
+        """The motion of a point's link: of the first known link with the point."""
         holders = [ref.link] if ref.link else self.scene.holders[ref.point]
         return next((self.turning[name] for name in holders if name in self.turning), None)
 
     def velocity(self, symbol: Symbol) -> complex | float | None:
         """A velocity (m/s) or an angular velocity (rad/s) by centres, measured on the figure; None where no chain leads
-        to it, or where it is neither."""
+        to it, and for other quantities."""
         if symbol.kind == "omega":
             return self.turning[symbol.link].omega if symbol.link in self.turning else None
         if symbol.kind != "v" or symbol.of is None:
@@ -235,7 +236,7 @@ class Centres:
         return self.chart.velocity(place, turning.strength, self.point(ref.point)) / self.mm
 
     def velocity_error(self, symbol: Symbol) -> float:
-        """How far a velocity by centres (m/s, rad/s) may be off by the rounding of the centres' places."""
+        """The error bound of a velocity by centres (m/s, rad/s) from the rounding of the centres' places."""
         chart, frame = self.chart, self.scene.frame.name
         refs = [ref for ref in (symbol.of, symbol.to) if ref is not None]
         spots = [chart.middle + chart.unit, *(self.point(ref.point) for ref in refs)]
@@ -258,7 +259,7 @@ def find_centres(
     Parameters
     ----------
     of, at, instrument : a mechanism or its structure, and as for `draft`
-    sheet : the scene drawn at this position already; it is used if every link stands on it
+    sheet : the scene drawn at this position already; it is used if every link is on it
     near : the centres at other driver values, from which a scene with larger groups is followed; without them the
         scene's own position is found first
 
@@ -276,7 +277,8 @@ def find_centres(
 
 
 def centres_on(sheet: Sheet, asked: Sequence[Symbol], instrument: Instrument = EXACT) -> Centres:
-    """The centres of what leads to the asked, on a sheet that shows it; errors as for `find_centres`."""
+    """The centres of the part that leads to the asked quantities, on a sheet that shows it; errors as for
+    `find_centres`."""
     part = part_of(sheet.structure, asked)
     if part is not sheet.scene:
         sheet = replace(sheet, scene=part, structure=analyse(part))
@@ -284,7 +286,7 @@ def centres_on(sheet: Sheet, asked: Sequence[Symbol], instrument: Instrument = E
 
 
 def _moving(scene: Mechanism) -> Mechanism:
-    """The scene itself, or at unit speed where its one driver stands still: centres do not depend on the speed."""
+    """The scene itself, or at unit speed if its single driver is at rest: centres do not depend on the speed."""
     if len(scene.drivers) != 1 or scene.drivers[0].values[1] != 0.0:
         return scene
     driver = scene.drivers[0]
@@ -292,7 +294,7 @@ def _moving(scene: Mechanism) -> Mechanism:
 
 
 def _placed(scene: Mechanism, sheet: Sheet) -> Centres:
-    """Links placed by the drawing, and those redundant ones that two turning pairs place."""
+    """Links placed by the drawing, and redundant links placed by two turning pairs."""
     poses = {name: pose for name, pose in sheet.poses.items() if name in scene.by_name}
     for link in scene.links:
         if link.name in poses:
@@ -342,7 +344,8 @@ def _permanent(links: Centres) -> Iterator[Centre]:
 
 
 def _normals(links: Centres) -> Iterator[CentreRelation]:
-    """The common normals: of a pin in a slot the line through the pin square to the slot, and of sliding contacts."""
+    """The common normals: of a pin in a slot the line through the pin square to the slot, and those of sliding
+    contacts."""
     scene, poses = links.scene, links.poses
     for pin in scene.pins:
         if pin.of in poses and pin.on in poses and pin.of != pin.on:
@@ -363,20 +366,19 @@ def _normals(links: Centres) -> Iterator[CentreRelation]:
 
 @dataclass
 class CircleDiagram:
-    """The circle diagram as it fills.
+    """The circle diagram while it is filled.
 
     Parameters
     ----------
-    links : whose centres are sought
+    links : the links of the centres
     normals : pairs with a common normal
     table : the centres so far, in their order
-    lines : the lines known of each missing centre
-    best : the crossing of two of them that errs least
-    ranked : of those that are sure the error in powers of ten and the pair's place in the order of links, the least
-        first; those that the table has are passed over
-    reached : centres that two closed triangles of the circle diagram can give, one after the other, were no two lines
-        to fall together
-    joined : by link those with whose centres that is so
+    lines : the known lines of each missing centre
+    best : the crossing of two of them with the least error
+    ranked : of sure crossings the error in powers of ten and the pair's index in the order of links, the least first;
+        those in the table are skipped
+    reached : centres that closed triangles of the circle diagram can give in turn, if no two lines coincide
+    joined : by link the links of such centres with it
     placed : by link the centres of known place with others
     """
 
@@ -392,7 +394,7 @@ class CircleDiagram:
 
     @classmethod
     def empty(cls, links: Centres, normals: Sequence[CentreRelation]) -> CircleDiagram:
-        """The diagram in which nothing but the common normals is drawn."""
+        """The diagram with only the common normals drawn."""
         lines: dict[LinkPair, list[CentreRelation]] = {pair: [] for pair in links.pairs}
         joined: dict[str, set[str]] = {name: set() for name in links.names}
         diagram = cls(links, Counter(line.pair for line in normals), {}, lines, {}, [], set(), joined,
@@ -403,7 +405,7 @@ class CircleDiagram:
         return diagram
 
     def take(self, centre: Centre) -> None:
-        """Take in a centre, and with it all lines that it completes."""
+        """Add a centre, and all lines that it completes."""
         self.table[centre.pair] = centre
         if centre.place is None:
             return
@@ -427,7 +429,7 @@ class CircleDiagram:
                     self.draw(CentreRelation(pair, line, error, ends))
 
     def draw(self, relation: CentreRelation) -> None:
-        """A line for a missing centre: it crosses those that are there."""
+        """Add a line for a missing centre: it crosses the drawn ones."""
         pair, lines = relation.pair, self.lines[relation.pair]
         for other in lines:
             error, least = other.error + relation.error + ROUNDING, math.inf
@@ -446,16 +448,16 @@ class CircleDiagram:
         lines.append(relation)
 
     def crossing(self) -> Centre | None:
-        """The missing centre that is found best: the least error to be expected, counted in powers of ten, and among
-        those the first in the order of the links.  None where no two lines cross so well that the place errs by no
-        more than ``SURE`` (on the unit sphere)."""
+        """The missing centre with the best crossing: the least expected error, counted in powers of ten, and among
+        equal ones the first in the order of the links.  None where no two lines cross with an error of at most ``SURE``
+        (on the unit sphere)."""
         while self.ranked and self.ranked[0][2] in self.table:
             heappop(self.ranked)
         return self.best[self.ranked[0][2]] if self.ranked else None
 
     def reached_with(self, fresh: list[LinkPair], joined: dict[str, set[str]]) -> set[LinkPair]:
-        """The pairs ``fresh``, and those that triangles give with them and with all that are ``joined``, which takes
-        them in."""
+        """The pairs ``fresh``, and those that triangles give with them and with all ``joined`` ones, to which they are
+        added."""
         have: set[LinkPair] = set()
         while fresh:
             pair = fresh.pop()
@@ -471,7 +473,7 @@ class CircleDiagram:
         return have
 
     def to_measure(self, motions: Mapping[str, LinkMotion]) -> LinkPair:
-        """The missing centre that gives most others; measured ones before those that are not, then the frame's."""
+        """The missing centre that gives most others; of links with measured motion first, then of the frame."""
         frame = self.links.scene.frame.name
 
         def gain(pair: LinkPair) -> tuple[bool, int, bool]:
@@ -513,11 +515,11 @@ def _with_table(links: Centres, instrument: Instrument) -> Centres:
 
 
 def _otherwise(diagram: CircleDiagram, motions: Mapping[str, LinkMotion], largest: float) -> Centre:
-    """A centre that Kennedy's theorem does not give now: where two links have the same velocity.
+    """A centre that Kennedy's theorem does not give now: the place at which two links have the same velocity.
 
     Parameters
     ----------
-    largest : the strongest motion of a link, beside which two may not move relative to each other
+    largest : the strongest motion of a link, beside which the relative motion of two may vanish
     """
     pair = diagram.to_measure(motions)
     # too few triangles, or lines that fall together
@@ -602,8 +604,8 @@ def _driven(centres: Centres, driver: Driver) -> dict[str, Turning]:
 def _carried(
     turning: Turning, known: Centre, common: Centre, wanted: Centre, chain: tuple[str, ...]
 ) -> Turning | None:
-    """From a motion about ``known`` to that about ``wanted``, three centres on a line, where the motion about
-    ``common`` is the difference; None where a centre is missing, or the last two fall together.
+    """From a motion about ``known`` the motion about ``wanted``, three centres on a line, with the motion about
+    ``common`` as their difference; None where a centre is missing, or the last two coincide.
 
     k * known - m * wanted is a multiple of common: k (known x common) = m (wanted x common).
     """

@@ -1,9 +1,9 @@
-"""What each element adds to the polygons: driven links, dyads, larger groups.
+"""The parts of the elements in the polygons: driven links, dyads, larger groups.
 
-Of a larger group contours of known shape come first, then special points or trial polygons.  Everything is linear in a
-rate that is assumed.  So two trial polygons with two assumed rates give the true one by proportional division of what
-each leaves open; with k rates left open it takes k + 1 polygons (method of superposition: Hain, Applied Kinematics;
-Artobolevsky, Theory of mechanisms).
+Of a larger group contours of known shape come first, then special points or trial polygons.  All vectors are linear in
+an assumed rate.  So two trial polygons with two assumed rates give the true one by proportional division of their gaps;
+with k unknown rates it takes k + 1 polygons (method of superposition: Hain, Applied Kinematics; Artobolevsky, Theory of
+mechanisms).
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ BEYOND = 0.08  # of the size of the true polygon, by which a trial polygon may r
 
 
 def draw_element(plot: Polygons, order: Order, element: Element) -> None:
-    """Draw what a driven link, a dyad or a larger group adds to a polygon."""
+    """Draw a driven link, a dyad or a larger group in a polygon."""
     if isinstance(element, Driven):
         _driven(plot, order, element)
     elif isinstance(element, Dyad):
@@ -86,8 +86,8 @@ def draw_element(plot: Polygons, order: Order, element: Element) -> None:
 
 
 def _driven(plot: Polygons, order: Order, element: Driven) -> None:
-    """Draw what a driven link adds: its rate, as given or read off a train's plan, with the points that turn so about
-    the hinge; or the given motion along its guide."""
+    """Draw a driven link: its rate, given or read from a train's plan, with its points about the hinge; or the given
+    motion along its guide."""
     name, driver, pair = element.link, element.driver, element.pair
     mm = _roll(plot, order, driver) if driver.rolls else 0.0
     rate = plot.given[driver.key][ORDERS.index(order)]
@@ -113,7 +113,7 @@ def _driven(plot: Polygons, order: Order, element: Driven) -> None:
 
 
 def _roll(plot: Polygons, order: Order, driver: Driver | LawCam | Rolled) -> float:
-    """The rate of what rolls, read off a velocity plan, as the driver's; and the length read for it (mm)."""
+    """The rate of a rolling link, read from a velocity plan, as the driver's rate; and the length read for it (mm)."""
     coordinate = "angle" if driver.turns else "travel", driver.key
     which = ORDERS.index(order)
     turns = [(s.a, s.b, 0.0) for s in plot.structure.slides]
@@ -131,8 +131,8 @@ def _roll(plot: Polygons, order: Order, driver: Driver | LawCam | Rolled) -> flo
 
 
 def _travel_rate(plot: Polygons, order: Order, key: str) -> float | None:
-    """How fast a sliding link goes along its guide (m/s, m/s2), where that is known: given, or read off the polygon
-    as the part along it of its motion relative to the coincident point; that of Coriolis is square to it."""
+    """The rate of a sliding link along its guide (m/s, m/s2), if it is known: given, or read from the polygon as the
+    component along the guide of its motion relative to the coincident point; the Coriolis term is square to it."""
     given = next((d for d in plot.structure.scene.drivers if d.key == key and not d.turns), None)
     if given is not None:
         return given.values[1 + ORDERS.index(order)]
@@ -151,7 +151,7 @@ def _travel_rate(plot: Polygons, order: Order, key: str) -> float | None:
 
 
 def _draw_group(plot: Polygons, order: Order, group: LargerGroup) -> None:
-    """Draw what a larger group adds to a polygon."""
+    """Draw a larger group in a polygon."""
     known_turns(plot, order, group)
     _rolling_points(plot, group)
     if group in plot.plans:
@@ -162,7 +162,7 @@ def _draw_group(plot: Polygons, order: Order, group: LargerGroup) -> None:
 
 
 def _draw_first(plot: Polygons, order: Order, group: LargerGroup) -> None:
-    """Find how a group is drawn, and draw it so."""
+    """Find the construction of a group, and draw it."""
     plain = _plans(plot, group)
     first = next(plain, None)
     if first is None or not first.tried:
@@ -178,8 +178,8 @@ def _draw_first(plot: Polygons, order: Order, group: LargerGroup) -> None:
 
 
 def _take(plot: Polygons, order: Order, group: LargerGroup, plans: Iterable[GroupPlan]) -> None:
-    """Draw a group by the first plan without trials, else by that whose trials find the rates best; all have as
-    many."""
+    """Draw a group by the first plan without trials, else by the plan whose trials find the rates best; all have the
+    same number."""
     best: tuple[float, GroupPlan] | None = None
     for found in plans:
         if not found.tried:
@@ -197,7 +197,7 @@ def _take(plot: Polygons, order: Order, group: LargerGroup, plans: Iterable[Grou
 
 
 def _draw_by(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan) -> None:
-    """Draw a group by a plan: its contours, trial polygons for what is assumed, and the moves."""
+    """Draw a group by a plan: its contours, trial polygons for assumed rates, and the moves."""
     _draw_contours(plot, order, group)
     if order == "velocity":
         for _, one, two in plan.parallel:
@@ -237,7 +237,7 @@ def _draw_move(plot: Polygons, order: Order, group: LargerGroup, step: VectorCha
 
 
 def _complete(plot: Polygons, order: Order, group: LargerGroup) -> None:
-    """All points of links that turn at known rates and of which one point is known, by images."""
+    """Draw all points of links of known rates with a known point, by images."""
     ends = plot.ends[order]
     left = [n for n in group.members if n in plot.rates[order]]
     while ready := [n for n in left if any(plot.on(ref, n) for ref in ends)]:
@@ -247,7 +247,7 @@ def _complete(plot: Polygons, order: Order, group: LargerGroup) -> None:
 
 
 def _mark_special(plot: Polygons, move: VectorChain) -> None:
-    """The special point on the mechanism: where the lines of two legs cross."""
+    """Mark the special point on the mechanism: the crossing of the lines of two legs."""
     name, link = move.end.point, move.link
     legs = [[edge for edge in side if name not in edge.bar] for side in move.sides]
     free = (next(e for e in leg if e.unknown) for leg in legs)
@@ -277,7 +277,7 @@ def _free_letters(plot: Polygons) -> Sequence[str]:
 
 
 def _plans(plot: Polygons, group: LargerGroup, wide: bool = False) -> Iterator[GroupPlan]:
-    """The ways in which a group can be drawn, those with the fewest trials first; ``wide`` as in `VectorGraph`."""
+    """The plans for drawing a group, those with the fewest trials first; ``wide`` as in `VectorGraph`."""
     graph = _graph_of(plot, group, wide)
     return plan_group(graph, partial(_direction, plot), _free_letters(plot))
 
@@ -306,8 +306,8 @@ def _graph_of(plot: Polygons, group: Dyad | LargerGroup, wide: bool = False) -> 
 
 
 def _rolling_points(plot: Polygons, group: LargerGroup) -> dict[str, tuple[str, tuple[str, str]]]:
-    """The points where links of a group roll on each other, by the contact or the gear, with the links: contacts by
-    their name, those of wheels by a free letter, marked on the mechanism."""
+    """The points of rolling between links of a group, by the contact or the gear, with the links: contacts by their
+    name, pitch points by a free letter, marked on the mechanism."""
     scene = plot.structure.scene
     between = {c.name: c.links for c in scene.contacts} | {g.name: g.wheels for g in scene.gears}
     found = {}
@@ -329,7 +329,7 @@ def _mark_pitch_point(plot: Polygons, name: str) -> str:
 
 
 def _direction(plot: Polygons, edge: RelativeMotion, places: Mapping[str, complex]) -> complex:
-    """The direction of the velocity of an edge's end relative to its start; its length tells nothing."""
+    """The direction of the velocity of an edge's end relative to its start; its length has no meaning."""
     if edge.rolling:
         return 1j * plot.touch(edge.rolling).normal
     if edge.slide is not None:
@@ -345,10 +345,9 @@ def _direction(plot: Polygons, edge: RelativeMotion, places: Mapping[str, comple
 
 
 def _with_fewer_trials(plot: Polygons, group: LargerGroup, trials: int) -> tuple[list[GroupPlan], FarPoint | None]:
-    """The plans of a group with fewer trials than so many, special points carried over to all links that turn with
-    theirs, its contours drawn first where that spares more; none where neither does, and then the special point
-    met with that is no use.  The links held still are chosen so that what is seen from them is laid off as it was
-    seen."""
+    """The plans of a group with fewer than ``trials`` trials: special points carried over to all links that turn with
+    theirs, its contours drawn first if that saves more; none where neither helps, and then the useless special point.
+    The links held still are chosen so that vectors seen from them are laid off in their own sense."""
     choices = [_rests_on(plot, group, links) for links in _contours_of(plot, group)]
     choices = [some for some in choices if some]
     best: tuple[tuple[int, bool], list[GroupPlan]] | None = None
@@ -370,7 +369,7 @@ def _with_fewer_trials(plot: Polygons, group: LargerGroup, trials: int) -> tuple
 
 
 def _contours_of(plot: Polygons, group: LargerGroup) -> list[tuple[str, ...]]:
-    """The contours of a group as it lies on paper; none where links of it roll or touch."""
+    """The contours of a group on paper; none where its links roll or touch."""
     if group.rolling or (plot.at_contacts and contacts_of(plot.structure, group)):
         return []
     held = [driver_pair(driver, plot.links, plot.structure.slides) for driver in group.drivers]
@@ -389,8 +388,8 @@ def _contours_of(plot: Polygons, group: LargerGroup) -> list[tuple[str, ...]]:
 
 
 def _rests_on(plot: Polygons, group: LargerGroup, contour: Sequence[str]) -> list[tuple[str, LargerGroup]]:
-    """The links of a contour that can be held still so that the rest is drawn on it without trials; those first on
-    which the most hangs besides."""
+    """The links of a contour that can be held still so that the rest is drawn on it without trials; those with most
+    other links on them first."""
     outer = [n for p in group.pairs for n in (p.a, p.b) if not {p.a, p.b} <= set(contour)]
     found = []
     for held in sorted((n for n in contour if "/" not in n), key=lambda n: -outer.count(n)):
@@ -415,7 +414,7 @@ def _turn_driven(plot: Polygons, order: Order, rest: LargerGroup) -> None:
 
 
 def _draw_contours(plot: Polygons, order: Order, group: LargerGroup) -> None:
-    """Draw the contours of a group, each as it moves seen from one of its links."""
+    """Draw the contours of a group, each in its motion seen from one of its links."""
     for held, rest in plot.contours.get(group, ()):
         apart = plot.seen[held] if held in plot.seen else plot.holding(group, held)
         if rest.members[0] in apart.rates[order]:
@@ -439,7 +438,7 @@ def _draw_contours(plot: Polygons, order: Order, group: LargerGroup) -> None:
 
 
 def _on(group: LargerGroup, held: str, contour: Sequence[str]) -> LargerGroup:
-    """The links of a contour besides the held one, as a group of their own."""
+    """The links of a contour besides the held link, as a group of their own."""
     rest = tuple(n for n in contour if n != held)
     within = set(contour)
     drivers = tuple(d for d in group.drivers if within.issuperset(d.links))
@@ -448,7 +447,7 @@ def _on(group: LargerGroup, held: str, contour: Sequence[str]) -> LargerGroup:
 
 
 def _against(plan: GroupPlan) -> bool:
-    """Whether a plan lays off what was seen from a link in the other sense."""
+    """Whether a plan lays off a vector seen from a link in the opposite sense."""
     return any(e.held and not e.forward for move in plan.moves for path in move.sides for e in path)
 
 
@@ -477,7 +476,7 @@ class Trials:
                 plot.tried[self.order, unknown.name] = value
 
     def polygon(self, number: int, rates: Sequence[float]) -> Polygons:
-        """What follows from some rates."""
+        """The polygon that follows from some rates."""
         trial = self.plot.fork(number)
         self.assume(trial, rates)
         _complete(trial, self.order, self.group)
@@ -496,13 +495,13 @@ class Trials:
         return [[0.0] * len(once), *([x if i == j else 0.0 for j, x in enumerate(once)] for i in range(len(once)))]
 
     def along(self, edge: RelativeMotion, across: bool) -> complex:
-        """Direction in which what an edge leaves open is measured: along it, or square to it."""
+        """The direction in which an edge's gap is measured: along it, or square to it."""
         way = _direction(self.plot, edge, self.plot.places)
         way = way if edge.slide is not None or edge.contact else -1j * way
         return 1j * way if across else way
 
     def gap(self, trial: Polygons, edge: RelativeMotion, across: bool) -> float | None:
-        """How far ends that should meet lie apart (mm) after a trial; None where that is not known."""
+        """The gap of ends that should meet (mm) after a trial; None where it is unknown."""
         parts = parts_of(trial, self.order, replace(edge, unknown=None))
         missing = trial.end(self.order, edge.end) - trial.end(self.order, edge.start)
         missing -= added_up((p.span for p in parts if p.span is not None), 0j)
@@ -511,12 +510,12 @@ class Trials:
         return dot(missing, self.along(edge, across))
 
     def gaps(self, trial: Polygons) -> list[float]:
-        """What a trial leaves open at the open ends of the plan (mm, or as read)."""
+        """The gaps of a trial at the open ends of the plan (mm, or as read)."""
         return [self.gap(trial, *end) or 0.0 for end in self.plan.open_ends]
 
     def judged(self) -> tuple[float, GroupPlan]:
-        """How well a group is found by some trials (0: not at all; at most the root of how many rates are assumed), and
-        the plan with the ends by which the true rates are known."""
+        """The quality of a group's trials (0: useless; at most the root of the number of assumed rates), and the plan
+        with the ends that give the true rates."""
         plan, order = self.plan, self.order
         # no point of a sliding pair without a pin is a joint
         edges = [edge for ref in plan.graph.nodes for edge in plan.graph.edges[ref] if edge.forward and (
@@ -575,7 +574,7 @@ class Trials:
         return replace(self, plan=replace(plan, assumed={**plan.assumed, order: tuple(map(tuple, fair))}))
 
     def true_rates(self) -> list[float]:
-        """The true rates by proportional division of what trial polygons leave open."""
+        """The true rates by proportional division of the trial polygons' gaps."""
         plot, order, plan = self.plot, self.order, self.plan
         rates, far = plan.assumed[order], plan.far and replace(plan.far, away=plan.far.away * plot.scales.length)
         apart: list[list[float]] = []
@@ -612,15 +611,15 @@ class Trials:
         return found
 
     def _taken_off(self, trial: Polygons, edge: RelativeMotion, across: bool) -> Iterator[tuple[Term, float]]:
-        """What is known of an edge and has a part in the direction in which it is left open."""
+        """The known terms of an edge with a component in the direction of its gap."""
         way = self.along(edge, across)
         for p in parts_of(trial, self.order, replace(edge, unknown=None)):
             if p.span and abs(dot(p.span, way)) > NAUGHT * abs(p.span):
                 yield p, dot(p.span, way)
 
     def _as_noted(self, rates: Sequence[Sequence[float]], apart: Sequence[Sequence[float]]) -> list[float]:
-        """The divided rates as they are written down: the way from the first that was assumed with the figures of the
-        lengths that are divided, of several parts with as many as such have."""
+        """The divided rates as they are written down: the step from the first assumed rate with the figures of the
+        divided lengths."""
         noted, made = self.plot.board.instrument.noted, []
         for i, (unknown, rate) in enumerate(zip(self.plan.tried, map(float, divide(rates, apart)), strict=True)):
             unit = 1.0 if unknown.kind == "turning" else self.plot.structure.scene.units.rates.metres
@@ -651,8 +650,8 @@ class Trials:
 def _reach(
     drawn: Sequence[Mapping[Symbol, Vector]], rates: Sequence[Sequence[float]]
 ) -> Callable[[Sequence[float]], NDArray[np.float64]]:
-    """How far a polygon reaches right, up, left and down of its pole (mm), whatever is assumed: every vector of it is
-    linear in that."""
+    """The reach of a polygon to the right, up, left and down from its pole (mm) for assumed rates: every vector is
+    linear in them."""
     shared = [symbol for symbol in drawn[0] if all(symbol in one for one in drawn)]
     ends = np.array([[0j, *(z for s in shared for z in (one[s].tail, one[s].tip))] for one in drawn])
     slopes = (ends[1:] - ends[0]) / np.diag(np.array(rates[1:]))[:, None]
@@ -665,7 +664,7 @@ def _reach(
 
 
 def _round(value: float, step: float) -> float:
-    """About a step off a value, with as few figures as that takes: easy to lay off."""
+    """A number about a step from a value, with few figures: easy to lay off."""
     wanted = value + step
     for carried in range(1, 9):
         found = float(f"{wanted:.{carried}g}")

@@ -1,13 +1,13 @@
-"""Vector equations of relative motions: what is known of each term, and how a student knows it; and how they are drawn.
+"""Vector equations of relative motions: the known parts of each term, with their reasons; and their drawing.
 
-The known vectors of each side of an equation are laid off one after the other.  Where no size is unknown, the last one
-ends in the end point sought; where one is, its vector is what is left between two end points that stand; where two are,
-lines along them cross in the end point.  The angular rates follow from the vectors found.
+The known vectors of each side of an equation are laid off in order.  With no unknown size, the last vector ends in the
+wanted end point; with one, its vector joins two drawn end points; with two, lines along them cross in the end point.
+The angular rates follow from the found vectors.
 
 Two points of one link at the distance l differ in velocity by omega l square to the bar, in acceleration by omega^2 l
-along it and alpha l square to it.  Points of two links that coincide on both sides of a sliding pair differ along the
-guide, in acceleration by 2 omega v_r, too, square to it (Sun Huan, Mechanical Principles, ch. 3; Norton, Design of
-Machinery, ch. 6 and 7).
+along it and alpha l square to it.  Coincident points of the two links of a sliding pair differ along the guide, in
+acceleration also by 2 omega v_r square to it (Sun Huan, Mechanical Principles, ch. 3; Norton, Design of Machinery, ch.
+6 and 7).
 """
 
 from __future__ import annotations
@@ -46,8 +46,8 @@ Side = list[tuple[RelativeMotion, list[Term]]]
 
 
 def same_turn(plot: Polygons, group: Dyad | LargerGroup) -> dict[str, str]:
-    """For each link of a group one link with the same rotation but for given ones: a known one if there is any, none of
-    the blocks of contacts that are drawn themselves."""
+    """For each link of a group a link with the same rotation up to given ones: a known link if there is any, no block
+    of a contact that is drawn itself."""
     if plot.part_of is not None and isinstance(group, LargerGroup):
         # links of the group that are not of the contour turn as unknown as its own
         alike = links_alike(group.members, turned(plot, None, group))
@@ -61,8 +61,8 @@ def same_turn(plot: Polygons, group: Dyad | LargerGroup) -> dict[str, str]:
 
 
 def turned(plot: Polygons, order: Order | None, group: Dyad | LargerGroup) -> list[tuple[str, str, float]]:
-    """Links a and b of a group that turn alike but for a given rate: (a, b, that of b from a); without an order only
-    which."""
+    """Links a and b of a group that turn alike up to a given rate: (a, b, the rate of b from a); without an order only
+    the links."""
     whole = plot.part_of or group
     joints = () if isinstance(whole, LargerGroup) else tuple(joint for body in whole.bodies for joint in body.joints)
     drivers = whole.drivers if isinstance(whole, LargerGroup) else tuple(joint.driver for joint in joints)
@@ -77,7 +77,7 @@ def turned(plot: Polygons, order: Order | None, group: Dyad | LargerGroup) -> li
 
 
 def known_turns(plot: Polygons, order: Order, group: Dyad | LargerGroup) -> None:
-    """Links that share their rotation with one already known."""
+    """Links that share their rotation with a known link."""
     for name, other in same_turn(plot, group).items():
         if other in plot.rates[order] and name not in plot.rates[order]:
             spread(plot, order, other, group)
@@ -89,7 +89,7 @@ def share_rate(plot: Polygons, order: Order, known: str, name: str, add: float =
 
 
 def spread(plot: Polygons, order: Order, start: str, group: Dyad | LargerGroup) -> None:
-    """From one known rotation to those of all links that slide on each other or are held by drivers."""
+    """Carry a known rotation to all links that slide on each other or are held by drivers."""
     pairs = turned(plot, order, group)
     queue = [start]
     while queue:
@@ -111,7 +111,7 @@ def spread(plot: Polygons, order: Order, start: str, group: Dyad | LargerGroup) 
 
 
 def first_ends(plot: Polygons, name: str, hinge: str) -> list[PointRef]:
-    """With which points of a driven link a drawing begins: one of its own, else those under what slides on it."""
+    """The first points of a driven link in a drawing: one of its own, else those under sliding links on it."""
     own = [PointRef(p) for p in plot.links[name].points if p != hinge]
     slides = [s for s in plot.structure.slides if s.b == name and "/" not in name]
     under = [node(plot.links, s.pin, name) for s in slides if s.pin in plot.places]
@@ -142,7 +142,7 @@ def _written(side: Side) -> tuple[Term, ...]:
 
 
 def _from_pole(plot: Polygons, order: Order, side: Side) -> tuple[Term, ...]:
-    """A side as it is written, with the vector from the pole to its start."""
+    """A written side, with the vector from the pole to its start."""
     start = side[0][0].start
     first = () if plot.fixed(start) else (Term(plot.symbol(letter(order), start), True, True),)
     return (*first, *_written(side))
@@ -156,9 +156,9 @@ def _write(plot: Polygons, order: Order, element: Element, *sides: tuple[Term, .
 
 
 def draw_equation(plot: Polygons, order: Order, element: Element, equation: VectorChain) -> None:
-    """Write a vector equation with no, one or two unknown sizes, draw it, and measure the rates that follow.
+    """Write a vector equation with no, one or two unknown sizes, draw it, and measure its rates.
 
-    An equation that says no more of a vector than that it is itself is not written.
+    An identity of a single vector is not written.
     """
     if equation.base or (equation.link and not equation.is_special):
         assert isinstance(element, LargerGroup)
@@ -187,7 +187,7 @@ def draw_equation(plot: Polygons, order: Order, element: Element, equation: Vect
 
 
 def _close(plot: Polygons, order: Order, end: PointRef, side: Side, equation: int | None) -> None:
-    """Lay off the known vectors of a way; what is left to an end point that stands is its unknown one."""
+    """Lay off the known vectors of a path; its unknown vector joins their end to a drawn end point."""
     parts = _parts(side)
     at = plot.end(order, side[0][0].start)
     if not _open(side):
@@ -207,7 +207,7 @@ def _close(plot: Polygons, order: Order, end: PointRef, side: Side, equation: in
 def _cross(plot: Polygons, order: Order, end: PointRef, sides: Sequence[Side], equation: int | None) -> None:
     """Draw both sides of an equation up to their unknowns, and let these meet.
 
-    A side may have several unknowns along one direction, as those of a special point have: their sum is found.
+    A side may have several unknowns along one direction, as at a special point: their sum is found.
     """
     lines, carried = [], []
     for side in sides:
@@ -232,7 +232,7 @@ def _cross(plot: Polygons, order: Order, end: PointRef, sides: Sequence[Side], e
 
 
 def _carry(plot: Polygons, order: Order, parts: Iterable[Term], at: complex, equation: int | None) -> complex:
-    """Add known vectors before their turn; returns where they end."""
+    """Add known vectors before their turn; returns their end."""
     for part in parts:
         if part.span is not None:
             bar = Bar(at, at + part.span, "")
@@ -246,8 +246,8 @@ def _lines_meet(
     plot: Polygons, order: Order, symbol: Symbol, tail: complex, lines: Sequence[tuple[complex, Term]],
     equation: int | None,
 ) -> complex:  # fmt: skip
-    """Lines along two vectors of unknown size, each through a point; where they cross the vector ``symbol`` from
-    ``tail`` ends."""
+    """Draw lines along two vectors of unknown size, each through a point; the vector ``symbol`` from ``tail`` ends at
+    their crossing."""
     (p, left), (q, right) = ((at, plot.own_values.line(part.symbol, part.along)) for at, part in lines)
     meeting = plot.own_values.found(symbol, tail, plot.board.cross(order, p, left, q, right, symbol))
     for through, part in lines:
@@ -257,12 +257,12 @@ def _lines_meet(
 
 
 def _draw_vector(plot: Polygons, order: Order, group: LargerGroup, equation: VectorChain) -> None:
-    """Draw an equation of two unknowns that leads to no end point: all known terms of each side one behind the other,
-    then the lines of the unknown ones, which cross at the tip of the vector that is read.
+    """Draw an equation of two unknowns that leads to no end point: all known terms of each side in order, then the
+    lines of the unknown ones, which cross at the tip of the read vector.
 
-    It is that of one moving point relative to another, by two ways from the pole, for neither has a known start.  Or it
-    is that between joints of a link with two parallel legs: from one leg's known end square to the bar between the
-    joints, from the other's along the direction that both leave free; it gives the rate of the link.
+    It is the vector of a moving point relative to another, by two paths from the pole, since neither has a known start.
+    Or it is the vector between joints of a link with two parallel legs: from one leg's known end square to the bar
+    between the joints, from the other's along the direction that both leave free; it gives the rate of the link.
     """
     sides = [_side_of(plot, order, path) for path in equation.sides]
     if equation.base:
@@ -306,7 +306,7 @@ def _lay_off(plot: Polygons, order: Order, part: Term, at: complex, equation: in
 
 
 def _fill(plot: Polygons, order: Order, side: Side, tip: complex, tail: complex, equation: int | None) -> None:
-    """Draw the unknown vector of a side, now found, and the end points along the side."""
+    """Draw the found vector of a side, and the end points along the side."""
     at = plot.end(order, side[0][0].start)
     for edge, parts in side:
         for part in parts:
@@ -327,7 +327,7 @@ def _fill(plot: Polygons, order: Order, side: Side, tip: complex, tail: complex,
 
 
 def _rate(plot: Polygons, order: Order, edge: RelativeMotion, vector: Arrow, group: Element) -> None:
-    """The angular rate of a link, measured from a vector between two points of it and the bar that joins these: the
+    """Measure the angular rate of a link from a vector between two of its points and the bar that joins them: the
     vector over the bar, omega = v / l, alpha = a_t / l (Sun Huan, Mechanical Principles, ch. 3)."""
     symbol, span = vector.symbol, vector.span
     arm = plot.places[edge.end.point] - plot.places[edge.start.point]
@@ -352,12 +352,12 @@ def _rate(plot: Polygons, order: Order, edge: RelativeMotion, vector: Arrow, gro
 
 
 def parts_of(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Term]:
-    """The terms of the motion of an edge's end relative to its start, one behind the other.
+    """The terms of the motion of an edge's end relative to its start, in order.
 
     Parameters
     ----------
-    plot : what stands on paper; in acceleration the velocities too
-    edge : with what is unknown of it; a term of unknown size has no ``span``, those of others are in mm on paper
+    plot : the drawing; in acceleration with the velocities
+    edge : with its unknowns; a term of unknown size has no ``span``, those of others are in mm on paper
 
     Raises
     ------
@@ -381,7 +381,7 @@ def parts_of(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Term]:
 
 
 def symbol_of(plot: Polygons, kind: str, edge: RelativeMotion) -> Symbol:
-    """The motion of an edge's end relative to its start, or a part of it, by its letters."""
+    """The symbol of an edge's motion, of its end relative to its start, or of a part of it."""
     if kind in ("v", "a") and plot.fixed(edge.start):
         return plot.symbol(kind, edge.end)
     return plot.symbol(kind, edge.labels[1], edge.labels[0])
@@ -395,7 +395,7 @@ def _term(
 
     Parameters
     ----------
-    kind : of its symbol: all of a velocity (v) or an acceleration (a), or the part an, at, ak, ar
+    kind : of its symbol: the whole velocity (v) or acceleration (a), or the part an, at, ak, ar
     along : unit vector along it
     mm : its size on paper; None: unknown
     written : its direction as it is written
@@ -412,18 +412,18 @@ def _by_rate(
     plot: Polygons, links: tuple[str, ...], factor: tuple[str, str] | Symbol, rate: Literal["omega", "alpha"] = "omega",
     square: bool = False, twice: bool = False,
 ) -> Size:  # fmt: skip
-    """The size that a rate gives; with a link held still that of one link is meant from it."""
+    """The size that a rate gives; with a link held still a single link's rate is relative to it."""
     links = (*links, plot.held) if plot.held and len(links) == 1 else links
     return Size("rate", links, factor, rate, square, twice)
 
 
 def _coriolis(plot: Polygons, edge: RelativeMotion, link: str, along: complex, mm: float, written: Direction) -> Term:
-    """The term of Coriolis, 2 omega v_r: twice the rate of a link times the relative velocity of the edge, which turned
-    by 90 degrees in the sense of omega is its direction.
+    """The term of Coriolis, 2 omega v_r: twice the rate of a link times the relative velocity of the edge, directed as
+    that velocity turned by 90 degrees in the sense of omega.
 
     Parameters
     ----------
-    link : in which the edge's end moves
+    link : the link in which the edge's end moves
     along, mm, written : as in `_term`
     """
     size = _by_rate(plot, (link,), symbol_of(plot, "v", edge), twice=True)
@@ -475,8 +475,8 @@ def _driven_joint_parts(plot: Polygons, order: Order, edge: RelativeMotion, join
 
 def _contour_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Term]:
     """The point of one link of a contour relative to that of another, as a polygon with one of them held still gave it;
-    with the term of Coriolis, for that one turns: a = a_r + 2 omega v_r.  Seen from another link than the one held
-    still the relative acceleration is a_r + 2 (omega_held - omega) v_r."""
+    with the Coriolis term of the held link's turning: a = a_r + 2 omega v_r.  Seen from another link the relative
+    acceleration is a_r + 2 (omega_held - omega) v_r."""
     seen = plot.seen[edge.held]
     way, moving = (1, edge.end) if edge.forward else (-1, edge.start)
     slip = way * seen.end("velocity", moving)
@@ -495,7 +495,7 @@ def _contour_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[T
 
 
 def _slip_read(plot: Polygons, edge: RelativeMotion, sense: complex) -> tuple[float, float]:
-    """The relative velocity of an edge's ends as read (m/s): its size, and that along a sense."""
+    """The relative velocity of an edge's ends as read (m/s): its size, and its component along a sense."""
     slip = plot.end("velocity", edge.end) - plot.end("velocity", edge.start)
     speed = plot.slip_mm(symbol_of(plot, "v", edge), slip) * plot.scales.velocity
     return speed, speed if dot(slip, sense) >= 0 else -speed
@@ -526,7 +526,7 @@ def _slide_parts(plot: Polygons, order: Order, edge: RelativeMotion, slide: Pair
 
 def _contact_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Term]:
     """The material point of one body at a contact relative to that of the other: the slip v_r along the tangent, and
-    a_r; with 2 omega_1 v_r of Coriolis, and along the normal what the curvatures k of both outlines give.
+    a_r; with 2 omega_1 v_r of Coriolis, and along the normal the term by the curvatures k of both outlines.
 
     With w = omega_2 - omega_1 that is w v_r - (w - k_1 v_r) (w - k_2 v_r) / (k_1 - k_2): the contact runs along the
     outlines at rates that differ by the slip, and their tangents turn by w relative to each other (see `vector_graph`).
@@ -557,9 +557,10 @@ def _contact_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[T
 
 
 def _rolling_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Term]:
-    """The material point of one link where it rolls relative to that of the other: they have one velocity, and their
-    accelerations differ along the normal alone, by w^2 / (k_2 - k_1) with the relative rate w and the curvatures k of
-    both outlines: w times the velocity with which the pole moves (Bottema and Roth, Theoretical Kinematics, ch. VIII).
+    """The material point of one link at the rolling contact relative to that of the other: they have the same velocity,
+    and their accelerations differ along the normal alone, by w^2 / (k_2 - k_1) with the relative rate w and the
+    curvatures k of both outlines: w times the velocity with which the pole moves (Bottema and Roth, Theoretical
+    Kinematics, ch. VIII).
     """
     if order == "velocity":
         return []
@@ -584,7 +585,7 @@ def _rolling_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[T
 
 
 def _given(plot: Polygons, key: str, order: Order) -> float | None:
-    """Rate of a driven slide, or of one that is moved at a trial speed (m/s, m/s2)."""
+    """The rate of a driven slide, or of a slide moved at a trial rate (m/s, m/s2)."""
     if (order, key) in plot.tried:
         return plot.tried[order, key]
     rates = plot.given.get(key)

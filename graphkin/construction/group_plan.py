@@ -1,15 +1,14 @@
-"""In which order a group larger than a dyad is drawn in a polygon, found before it is drawn.
+"""The order of drawing of a group larger than a dyad in a polygon, found before it is drawn.
 
-A vector equation with two unknown sizes is drawn where there is one.  Where there is none, a link held by two legs has
-a special point: each leg leaves its joint on the link free along one direction, and where the lines square to these
-through the joints cross, the point of the link moves along both at once (Assur; Artobolevsky, Theory of mechanisms).
-Where none has one, two links that two legs join may have one relative to each other, as in groups of class IV: each leg
-leaves the one link free along one direction as seen from the other; where the lines square to these cross, the points
-of both links that lie there move alike, the centre of their relative motion.  What their accelerations differ by a
-polygon of its own gives, and then both links are drawn as if hinged there (Assur's points, taken relative to a moving
-link; Artobolevsky).
-Where no special point serves either, a rate is assumed, and trial polygons with two rates are superposed: once for
-every degree of freedom that is left; the fewest that do are looked for.
+A vector equation with two unknown sizes is drawn if there is one.  If not, a link held by two legs has a special point:
+each leg leaves its joint on the link free along one direction, and where the lines square to these through the joints
+cross, the point of the link moves along both at once (Assur; Artobolevsky, Theory of mechanisms). If no link has one,
+two links joined by two legs may have one relative to each other, as in groups of class IV: each leg leaves the one link
+free along one direction as seen from the other; where the lines square to these cross, the points of both links there
+move alike, as the centre of their relative motion.  A polygon of its own gives the difference of their accelerations,
+and then both links are drawn as if hinged there (Assur's points, taken relative to a moving link; Artobolevsky). If no
+special point serves either, a rate is assumed, and trial polygons with two rates are superposed: once for every
+remaining degree of freedom; the fewest are sought.
 """
 
 from __future__ import annotations
@@ -36,11 +35,10 @@ WORST = 0.05  # crossing and distance of a special point of two moving links tha
 class GroupPlan:
     """The order of drawing.
 
-    ``tried`` are the unknowns that are assumed; ``open_ends`` as many edges whose ends do not meet for a
-    wrong assumption, along them or (True) square to them; ``assumed`` the rates of each trial polygon, by the kind
-    of polygon (SI).  ``parallel`` names links and two legs of theirs that are parallel, ``far`` the special point for
-    want of which a rate is assumed, where there is one.  ``contours`` are drawn before: the link held still, and the
-    rest as a group on it.
+    ``tried`` are the assumed unknowns; ``open_ends`` as many edges whose ends do not meet for a wrong assumption, along
+    them or (True) square to them; ``assumed`` the rates of each trial polygon, by the kind of polygon (SI).
+    ``parallel`` names links with two parallel legs, ``far`` the useless special point in place of which a rate is
+    assumed, if there is one.  ``contours`` are drawn first: the link held still, and the rest as a group on it.
     """
 
     moves: tuple[VectorChain, ...]
@@ -55,10 +53,10 @@ class GroupPlan:
 
 @dataclass
 class _Search:
-    """What is known so far, and how it came to be known.
+    """The known part of a group, and the moves that gave it.
 
     along : direction of the relative motion of an edge
-    far : special points of two moving links met with that are no use, of all searches
+    far : useless special points of two moving links, of all searches
     """
 
     graph: VectorGraph
@@ -73,7 +71,7 @@ class _Search:
     # -- what is known -------------------------------------------------------------------------------------------------
 
     def seen(self, edge: RelativeMotion) -> RelativeMotion:
-        """An edge with what is unknown of it now."""
+        """An edge with its present unknowns."""
         return replace(edge, unknown=None) if edge.unknown in self.known else edge
 
     def of(self, link: str) -> list[PointRef]:
@@ -86,11 +84,11 @@ class _Search:
 
     @property
     def size(self) -> float:
-        """How far the farthest point lies from the origin."""
+        """The distance of the farthest point from the origin."""
         return max((abs(z) for z in self.graph.places.values()), default=1.0) or 1.0
 
     def settle(self) -> None:
-        """All points of a link that turns at a known rate about a known point."""
+        """Add all points of links that turn at a known rate about a known point."""
         grown = True
         while grown:
             grown = False
@@ -110,11 +108,11 @@ class _Search:
     # -- ways ----------------------------------------------------------------------------------------------------------
 
     def ways(self, start: PointRef, most: int, stop: Callable[[PointRef], bool]) -> Iterator[Path]:
-        """Ways from a known point through unknown ones to where they stop, with so many unknowns at most."""
+        """Paths from a known point through unknown ones to their ends, with at most ``most`` unknowns."""
         return (tuple(map(self.seen, path)) for path in self.graph.paths(start, most, stop, self.nodes, self.known))
 
     def all_ways(self, most: int, ends: Collection[PointRef]) -> Iterator[Path]:
-        """Ways from every known point to some ends, with so many unknowns at most."""
+        """Paths from every known point to some ends, with at most ``most`` unknowns."""
         return (path for start in self.graph.in_order(self.nodes) for path in self.ways(start, most, ends.__contains__))
 
     # -- moves, each tried in turn -------------------------------------------------------------------------------------
@@ -139,17 +137,17 @@ class _Search:
         return False
 
     def drawn(self, move: VectorChain, path: Path) -> bool:
-        """Take one more move, after which a path is known."""
+        """Add a move, after which a path is known."""
         self.moves.append(move)
         self.learn(path)
         return True
 
     def way(self, edge: RelativeMotion) -> complex:
-        """Direction of the relative motion of an edge."""
+        """The direction of the relative motion of an edge."""
         return self.along(edge, self.graph.places)
 
     def reach(self) -> bool:
-        """A way from a known point with nothing unknown to a link of which no point is known; or one with one unknown
+        """Take a path without unknowns from a known point to a link without a known point; or a path with one unknown
         between two known points."""
         for start in self.graph.in_order(self.nodes):
             for path in self.ways(start, 1, self.nodes.__contains__):
@@ -162,7 +160,7 @@ class _Search:
         return False
 
     def cross(self) -> bool:
-        """The best equation with two unknown sizes."""
+        """Take the best equation with two unknown sizes."""
         best: tuple[tuple[float, ...], Path] | None = None
         for path in self.all_ways(2, self.nodes):
             two = [e for e in path if e.unknown]
@@ -177,7 +175,7 @@ class _Search:
         return self.drawn(VectorChain.crossing(path), path)
 
     def legs(self, link: str) -> list[Path]:
-        """Ways from known points to a link, each with one unknown that is not the link's own rate."""
+        """Paths from known points to a link, each with one unknown that is not the link's own rate."""
         own, mine = self.graph.turning(link), set(self.of(link))
         best: dict[Unknown, Path] = {}
         for path in self.all_ways(1, mine):
@@ -190,7 +188,7 @@ class _Search:
         return list(best.values())
 
     def special(self, left_out: Collection[tuple[str, str]]) -> bool:
-        """The special point that gives the best crossings, of any link that has one, but of these."""
+        """Take the special point with the best crossings, of any link except these."""
         best: tuple[float, str, tuple[Path, Path], complex] | None = None
         flat: tuple[str, Path, Path] | None = None
         for link in self.graph.inside:
@@ -232,20 +230,21 @@ class _Search:
         return True
 
     def on_line(self, leg: Path, joint: PointRef, ref: PointRef, link: str) -> Path:
-        """From the joint of a leg to the special point, written as the leg's own direction, for the two lie along one
-        line; nothing where it is the joint itself."""
+        """The edge from the joint of a leg to the special point, written in the leg's own direction, since both lie
+        along one line; none where the special point is the joint itself."""
         if abs(self.graph.places[joint.point] - self.graph.places[ref.point]) <= self.graph.tiny:
             return ()
         free = next(e for e in leg if e.unknown)
         return (RelativeMotion(joint, ref, (joint, ref), free.direction, link=link, unknown=self.graph.turning(link)),)
 
     def line(self, leg: Path) -> tuple[complex, complex]:
-        """The line of a leg: through its joint on the link, square to the direction in which it leaves that free."""
+        """The line of a leg: through its joint on the link, square to the direction that it leaves free."""
         free = next(e for e in leg if e.unknown)
         return self.graph.places[leg[-1].end.point], 1j * self.way(free)
 
     def crossing(self, one: Path, two: Path) -> tuple[complex | None, float, float]:
-        """Where the lines of two legs cross, the sine of their angle, and how far it is from between their joints."""
+        """The crossing of the lines of two legs, the sine of their angle, and its distance from the middle of their
+        joints."""
         (p, d), (q, e) = self.line(one), self.line(two)
         at = cross_lines(p, d, q, e)
         return at, abs(cross(d, e)), 0.0 if at is None else abs(at - (p + q) / 2)
@@ -257,8 +256,7 @@ class _Search:
     # -- the special point of two links that both move -----------------------------------------------------------------
 
     def tie(self, left_out: Collection[tuple[str, str]]) -> bool:
-        """The special point of two moving links that gives the best crossing: they are drawn as if hinged there from
-        now on."""
+        """Take the special point of two moving links with the best crossing: they are drawn as if hinged there."""
         best: tuple[float, tuple[str, str], tuple[Path, Path], complex] | None = None
         for links, legs in self._legs_between({*left_out, *self.points}).items():
             for one, two in combinations(legs, 2):
@@ -284,7 +282,7 @@ class _Search:
         return True
 
     def _legs_between(self, left_out: Collection[tuple[str, str]]) -> Mapping[tuple[str, str], Sequence[Path]]:
-        """For each two links, but of these, the shortest way by each unknown that joins them."""
+        """For each two links except these the shortest path by each unknown that joins them."""
         owners, names = self.graph.owners, [name for name in self.graph.inside if "/" not in name]
         turning = {name: self.graph.turning(name) for name in names}
         found: dict[tuple[str, str], dict[Unknown, Path]] = {}
@@ -301,7 +299,7 @@ class _Search:
         return {links: list(legs.values()) for links, legs in found.items()}
 
     def _ways_off(self, link: str) -> Iterator[Path]:
-        """Ways that leave a link, with one unknown at most."""
+        """Paths that leave a link, with at most one unknown."""
         stack: list[Path] = [()]
         while stack:
             path = stack.pop()
@@ -315,7 +313,8 @@ class _Search:
                         stack.append((*path, edge))
 
     def _straight(self, leg: Path) -> bool:
-        """Whether a leg's joints on both links lie on its line, so that neither's turning moves it along that."""
+        """Whether a leg's joints on both links lie on its line, so that the turning of neither moves it along the
+        line."""
         end, way = self.line(leg)
         arm = end - self.graph.places[leg[0].start.point]
         return abs(arm) <= self.graph.tiny or abs(cross(unit(arm), way)) < OFF
@@ -323,12 +322,12 @@ class _Search:
     # -- the whole -----------------------------------------------------------------------------------------------------
 
     def run(self, relative: bool, left_out: Collection[tuple[str, str]]) -> bool:
-        """Go on as long as something can be drawn; whether all is drawn then.
+        """Take moves while any is possible; whether the whole group is drawn then.
 
         Parameters
         ----------
-        relative : whether special points of two moving links serve too
-        left_out : special points that do not, by base ("": none) and link
+        relative : whether special points of two moving links are allowed
+        left_out : special points that are not allowed, by base ("": none) and link
         """
         self.settle()
         while not self.done():
@@ -340,14 +339,15 @@ class _Search:
 
     @property
     def points(self) -> list[tuple[str, str]]:
-        """The special points that are used, by base ("": none) and link."""
+        """The used special points, by base ("": none) and link."""
         return [(m.base, m.link) for m in self.moves if m.is_special]
 
     def done(self) -> bool:
         return all(self.turns(link) and self.nodes.intersection(self.of(link)) for link in self.graph.inside)
 
     def unknowns(self) -> list[Unknown]:
-        """What can be assumed: rates of links, those next to known links first; then those of sliding pairs."""
+        """The unknowns that can be assumed: rates of links, those next to known links first; then those of sliding
+        pairs."""
         edges = [e for n in self.graph.nodes for e in self.graph.edges[n] if e.unknown and e.unknown not in self.known]
         near = [e for e in edges if e.link and (e.start in self.nodes or e.end in self.nodes)]
         turning = [e for e in edges if e.link]
@@ -358,7 +358,7 @@ class _Search:
 def plan_group(
     graph: VectorGraph, along: Callable[[RelativeMotion, Mapping[str, complex]], complex], letters: Sequence[str]
 ) -> Iterator[GroupPlan]:
-    """The ways in which a group can be drawn, those with the fewest trials first.
+    """The plans for drawing a group, those with the fewest trials first.
 
     Parameters
     ----------
@@ -380,8 +380,8 @@ def plan_group(
 
 
 def _searched(start: _Search, tried: Sequence[Unknown], letters: Sequence[str], relative: bool) -> _Search | None:
-    """A search that found all; with points of two moving links, of those met with where one point after the other is
-    left out that can be spared, the first with the fewest."""
+    """A complete search; with special points of two moving links the first with the fewest, found by leaving out points
+    one by one."""
 
     def found(left_out: Collection[tuple[str, str]]) -> _Search | None:
         known = {*start.known, *tried}

@@ -1,13 +1,13 @@
 """A group larger than a dyad placed on paper by trial positions.
 
-Something of the group is left out, and a link of it moved in steps; the free end that should fit describes a curve,
-which the arc or the line on which it must lie cuts at the place sought.  Between the two trials next to it what is left
-open is divided proportionally, until what was left out fits.
+A part of the group is left out, and a link of it is moved in steps; its free end describes a curve, which the arc or
+the line of the left-out part cuts at the wanted place.  The gap between the two nearest trials is divided
+proportionally, until the left-out part fits.
 
-Moving one thing, what is missed changes its sense between two neighbouring trials, and is divided between them (regula
-falsi).  Moving several, what is missed in one trial more than there are of them is taken to change evenly; the position
-so found takes the place of the trial that misses most (Hain, Applied Kinematics; Ortega and Rheinboldt, Iterative
-solution of nonlinear equations in several variables: the sequential secant method).
+With one trial value the gap changes its sense between two neighbouring trials, and is divided between them (regula
+falsi).  With several, the gaps of one trial more than there are values are taken as linear; the position so found
+replaces the trial with the largest gap (Hain, Applied Kinematics; Ortega and Rheinboldt, Iterative solution of
+nonlinear equations in several variables: the sequential secant method).
 
 At the scene's own position the gaps of trial drawings are closed over the whole range of a trial driver, or on a grid
 of several.
@@ -52,18 +52,17 @@ LEAST = 1e-3  # of the largest singular value: trials that tell less about one o
 
 
 def place_by_trial(paper: PlacedLinks, reduced: ReducedMechanism, poses: Poses) -> None:
-    """Place a group among the links known already.
+    """Place a group among the known links.
 
-    Where errors of the hand bring a trial drawing to a dead point it is drawn again, and then something else is
-    left out.
+    If errors of the hand bring a trial drawing to a dead point it is drawn again, with another part left out.
 
     Parameters
     ----------
-    poses : where every link lies then, with the mechanism of size 1
+    poses : the final poses of all links, with the mechanism of size 1
 
     Raises
     ------
-    Unsolvable : "not assembled": what was left out fits nowhere near
+    Unsolvable : "not assembled": the left-out part fits nowhere near
     """
     size = paper.mm * reduced.structure.scene.size
     guess = {name: pose.scaled(size) for name, pose in poses.items()}
@@ -73,7 +72,7 @@ def place_by_trial(paper: PlacedLinks, reduced: ReducedMechanism, poses: Poses) 
         return
 
     def others() -> Iterator[ReducedMechanism]:
-        """Other reduced mechanisms, the best first; links that roll stand as they are given in their own only."""
+        """Other reduced mechanisms, the best first; rolling links have their given places in their own only."""
         there = {name: guess.get(name, pose) for name, pose in paper.poses.items()}
         known = replace(exact, poses=there, pricked={})
         if not reduced.starts:
@@ -92,7 +91,8 @@ def place_by_trial(paper: PlacedLinks, reduced: ReducedMechanism, poses: Poses) 
 
 
 def trial_steps(paper: PlacedLinks, so_far: PlacedLinks, reduced: ReducedMechanism) -> Steps:
-    """What is drawn to place a group: the trial curve with what it must meet, then each part of it in its place."""
+    """The steps that place a group: the trial curve with the line or arc that it must meet, then each part of the group
+    in its place."""
     poses = {**so_far.poses, **{n: paper.poses[n] for n in reduced.group.members}}
     values = np.array(reduced.values(poses, paper.mm))
     steps: list[Step] = []
@@ -122,8 +122,7 @@ def trial_steps(paper: PlacedLinks, so_far: PlacedLinks, reduced: ReducedMechani
 
 
 def _fit(known: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> dict[str, Pose]:
-    """The group among links that lie near where they are guessed; these are moved there in steps where at once nothing
-    closes."""
+    """The group among links near their guessed places; these are moved there in steps if it does not close at once."""
     there = replace(known, poses={name: guess.get(name, known.poses[name]) for name in known.poses}, pricked={})
     exact = {p: there.point(n, p) for n in there.poses for p in known.links[n].points if p in known.pricked}
 
@@ -150,7 +149,7 @@ def _between(one: Pose, two: Pose, part: float) -> Pose:
 
 
 def _placed_by_hand(paper: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> None:
-    """The last trial by hands that err, what it leaves open, and the drawing that this asks for."""
+    """The last trial by erring hands, its gap, and the drawing that follows from it."""
     exact = replace(paper, instrument=EXACT, poses=dict(paper.poses), pricked=dict(paper.pricked))
     poses = {**paper.poses, **_fit(exact, reduced, guess)}
     values = np.array(reduced.values(poses, paper.mm))
@@ -168,7 +167,7 @@ def _placed_by_hand(paper: PlacedLinks, reduced: ReducedMechanism, guess: Poses)
 def _by_hand(
     paper: PlacedLinks, reduced: ReducedMechanism, poses: Poses, values: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """What a trial drawing leaves open as hands find and read it, and how that changes with the trial values."""
+    """The gaps of a trial drawing as hands find and read them, and their change with the trial values."""
     drawn = drawn_near(reduced, paper, poses, values)
     if drawn is None:
         raise _refused(reduced, Phrase("a trial drawing does not close"))
@@ -195,7 +194,7 @@ Tried = tuple[np.ndarray, PlacedLinks]
 
 
 def _trial_positions(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, values: np.ndarray) -> Step:
-    """The step of the trial positions of a group, whose links lie so in the end, at these values."""
+    """The step of the trial positions of a group with these final poses and values."""
     tried, alone = _trial_drawings(known, reduced, poses, values), len(values) == 1
     point, strokes = _curve(known, reduced, poses, [drawn for _, drawn in tried]) if alone else ("", ())
     rolling = tuple(r.name for r in reduced.removed if r.rolling is not None)
@@ -236,8 +235,8 @@ def _trial_drawings(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses,
 def _curve(
     known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, tried: Sequence[PlacedLinks]
 ) -> tuple[str, tuple[Stroke, ...]]:
-    """The free end in some trial positions, and the arc or the line that it must meet; nothing where what is left out
-    is an angle or a driver."""
+    """The free end in some trial positions, and the arc or the line that it must meet; none where an angle or a driver
+    is left out."""
     removed = reduced.removed[0]
     if not removed.ends or not tried:
         return "", ()
@@ -250,7 +249,7 @@ def _curve(
         return lying[link].place(known.links[link].points[point] * known.mm)
 
     def seen(lying: Poses) -> complex:
-        """The free end as seen from what it must meet: from the bar's other end, or from the link with the guide."""
+        """The free end seen from its counterpart: from the bar's other end, or from the link with the guide."""
         if base:
             return poses[base].place(lying[base].local(at(lying, point, link)))
         return at(lying, point, link) - at(lying, *ends[1]) + at(poses, *ends[1])
@@ -269,14 +268,14 @@ def _curve(
 def _measured(
     positions: TrialPositions, known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, tried: Sequence[Tried]
 ) -> TrialPositions:
-    """Trial positions with what is missed in each, and the divisions of it, in degrees and mm on paper.
+    """Trial positions with their gaps, and the divisions of these, in degrees and mm on paper.
 
-    Of several trials of one driver the two on either side of the place sought are divided, then that of them goes
-    whose miss has the sense of the new one; of several drivers that goes which misses most.
+    Of the trials of one driver the two on either side of the wanted place are divided, then the trial with a gap of the
+    new one's sense is replaced; with several drivers the trial with the largest gap.
 
     Parameters
     ----------
-    poses : where the links lie in the end, near which the divided trials are drawn
+    poses : the final poses of the links, near which the divided trials are drawn
     """
     size = known.mm * reduced.structure.scene.size
     exact = replace(known, instrument=EXACT)
@@ -335,7 +334,7 @@ def _measured(
 
 
 def _moved(known: PlacedLinks, reduced: ReducedMechanism, driver: Driver) -> tuple[Symbol, float]:
-    """What a trial driver moves, and how far (rad) its angle is ahead where it is taken to the x axis."""
+    """The quantity that a trial driver moves, and the lead of its angle (rad) where it counts from the x axis."""
     base, ground = driver.relative_to, reduced.structure.scene.frame.name
     if not driver.turns:
         return Symbol.parse(f"s_{driver.key}"), 0.0
@@ -348,7 +347,7 @@ def _moved(known: PlacedLinks, reduced: ReducedMechanism, driver: Driver) -> tup
 
 
 def all_fits(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[str, Pose]]:
-    """Every position of the trial drivers and every assembly of the trial dyads at which what was left out fits."""
+    """Every position of the trial drivers and every assembly of the trial dyads at which the left-out part fits."""
     if len(reduced.trial) == 1:
         yield from fits_between(reduced, known, *_span(reduced, 0))
     else:
@@ -356,7 +355,7 @@ def all_fits(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[str
 
 
 def _span(reduced: ReducedMechanism, i: int) -> tuple[float, float]:
-    """Where a trial driver may stand: a turn, or four sizes of the mechanism."""
+    """The range of a trial driver: a turn, or four sizes of the mechanism."""
     return (-math.pi, math.pi) if reduced.trial[i].turns else (-2.0, 2.0)
 
 
@@ -383,7 +382,7 @@ def _on_a_grid(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[s
 def fits_between(
     reduced: ReducedMechanism, known: PlacedLinks, start: float, end: float
 ) -> Iterator[dict[str, Pose]]:
-    """The positions between two values of the one trial driver in which what was left out fits."""
+    """The positions between two values of a single trial driver in which the left-out part fits."""
     low, high = _span(reduced, 0)
     parts = max(1, round(GRID * (end - start) / (high - low)))
     grid = [start + (end - start) * i / parts for i in range(parts + 1)]
@@ -404,8 +403,8 @@ def fits_between(
 def _closed_between(
     gap: Callable[[float], float], one: tuple[float, float], two: tuple[float, float]
 ) -> float | None:
-    """The trial value at which a gap closes between two values with what each leaves open, nan of those that cannot be
-    drawn; None where it does not.  By proportional division, halving where that is slow (regula falsi, Illinois
+    """The trial value at which a gap closes between two values with their gaps, nan for those that cannot be drawn;
+    None where it does not close.  By proportional division, with halving where that is slow (regula falsi, Illinois
     variant)."""
     (a, fa), (b, fb) = (two, one) if math.isnan(one[1]) else (one, two)
     if math.isnan(fb) and not math.isnan(fa):  # up to the last that can be drawn
@@ -434,8 +433,8 @@ def _closed_between(
 
 
 def _gaps(reduced: ReducedMechanism, known: PlacedLinks, values: Sequence[float]) -> dict[Branch, list[float]]:
-    """The gaps in every assembly of the trial dyads at some values, those that cannot be drawn left out; a dyad is
-    drawn once for all assemblies of those after it."""
+    """The gaps in every assembly of the trial dyads at some values, without those that cannot be drawn; a dyad is drawn
+    once for all assemblies of later ones."""
     papers = each_assembly(reduced.opened(known, values), reduced.elements)
     return {branches: reduced.gaps(paper) for branches, paper in papers}
 
@@ -443,8 +442,7 @@ def _gaps(reduced: ReducedMechanism, known: PlacedLinks, values: Sequence[float]
 def each_assembly(
     paper: PlacedLinks, elements: Sequence[Driven | Dyad], branches: Branch = (), only: Branch | None = None
 ) -> Iterator[tuple[Branch, PlacedLinks]]:
-    """Every assembly of some dyads that can be drawn, or one ``only``, with the links as they then lie on the one
-    paper."""
+    """Every assembly of some dyads that can be drawn, or one ``only``, with the links in it on the same paper."""
     if not elements:
         yield branches, paper
         return

@@ -1,7 +1,7 @@
-"""What draws and reads at the board: exact hands, a drafting program, or a pencil with its errors.
+"""The instruments of the board: exact hands, a drafting program, or a pencil with its errors.
 
-Everything laid off, set, pricked or read goes through an instrument, so that what it does wrong is carried into all
-that is drawn after it.
+Every act of laying off, setting, pricking or reading goes through an instrument, so that its errors are carried into
+all later strokes.
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ class Instrument:
     ----------
     faultless : whether the construction itself is exact, drawn in double precision; then only reading may err
     acts : number of errors made so far
-    errs : for the number of an act (from 1) its error, in standard deviations of what its tool can do; None where
-        nothing errs
-    tools : what they can do
-    step : what a screen shows lengths (mm) and angles (degrees) to; 0 shows all figures
-    notes : whether a number is used as it is written down; errors of first order are told by hands that do not, for
-        what rounding jumps by is no measure of them
+    errs : function of the number of an act (from 1) to its error, in standard deviations of its tool; None without
+        errors
+    tools : their accuracy
+    step : the steps to which a screen shows lengths (mm) and angles (degrees); 0 shows all figures
+    notes : whether a number is used as it is written down; errors of first order are found by hands that do not round,
+        since the jumps of rounding are no measure of them
     """
 
     name: str = EXACT_NAME
@@ -57,7 +57,7 @@ class Instrument:
         return mm if self.faultless else mm + self._error(self.reading_error)
 
     def laid_off(self, start: complex, span: complex) -> complex:
-        """Lay off a vector from a place (mm); where it ends."""
+        """Lay off a vector from a place (mm); returns its end."""
         size = abs(span)
         return self.point(start + self.direction(span / size) * self.length(size)) if size > 0.0 else start
 
@@ -93,7 +93,7 @@ class Instrument:
         return float(on_paper(read)) if self._rounds else read
 
     def read_signed(self, mm: float) -> float:
-        """Read a length off the ruler that has a sense."""
+        """Read a length with a sense off the ruler."""
         return self.read(abs(mm)) * (1.0 if mm >= 0.0 else -1.0)
 
     def read_direction(self, along: complex) -> complex:
@@ -105,11 +105,11 @@ class Instrument:
 
     @property
     def _rounds(self) -> bool:
-        """Whether numbers are rounded where they are written down; a ruler without steps has no last figure."""
+        """Whether written numbers are rounded; a ruler without steps has no last figure."""
         return self.notes and self.tools.ruler >= LAST_PLACE
 
     def noted(self, value: float, carried: int) -> float:
-        """A number computed from readings as it is written down, with the figures that they carry."""
+        """A number computed from readings as it is written down, with their figures."""
         return float(computed(value, carried)) if self._rounds else value
 
 
@@ -128,7 +128,7 @@ def pencil(tools: Tools, seed: int) -> Instrument:
 
 
 def nudged(name: str, tools: Tools, errs: Mapping[int, float] | None = None) -> Instrument:
-    """The hands of an instrument that err in some acts only, by so many standard deviations of each."""
+    """The hands of an instrument that err in some acts only, by a number of standard deviations of each."""
     screen, few = name == "cad", errs or {}
     tools = Tools(ruler=ON_SCREEN, protractor=ON_SCREEN) if screen else tools
     return Instrument(name, screen, tools=tools, errs=lambda n: few.get(n, 0.0))

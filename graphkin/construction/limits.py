@@ -1,7 +1,7 @@
 """Limit positions of a slide or a link over a whole turn of the crank, found on the drawing board.
 
-The mechanism is drawn again and again while the crank goes round; where the output stands highest and lowest, a smooth
-curve through the positions near by gives the place to the last digits.
+The mechanism is drawn at many positions of the crank; at the highest and lowest position of the output a smooth curve
+through the positions nearby gives the place to the last digits.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class TurnOfCrank:
     """Positions over a whole turn of the first driver, each followed from the one before, on paper of the mechanism's
     size.
 
-    ``elements`` are what is placed, ``values`` the driver values at the start (rad, m).
+    ``elements`` are the placed elements, ``values`` the driver values at the start (rad, m).
     """
 
     structure: Structure
@@ -59,12 +59,12 @@ class TurnOfCrank:
     @classmethod
     def of(cls, structure: Structure, elements: Sequence[Element], values: Mapping[str, float], poses: Poses,
            why: str) -> TurnOfCrank:  # fmt: skip
-        """Go round once.
+        """Follow a whole turn.
 
         Parameters
         ----------
-        poses : where all links lie at ``values``, on paper of the mechanism's size
-        why : the name of what is asked for, for the message
+        poses : the poses of all links at ``values``, on paper of the mechanism's size
+        why : the name of the asked quantity, for the message
 
         Raises
         ------
@@ -92,7 +92,7 @@ class TurnOfCrank:
         return replace(turn, positions=tuple(positions))
 
     def near(self, value: float, guess: Poses) -> LimitPosition | None:
-        """The position at a crank's value, near to where it is expected; None where nothing fits there."""
+        """The position at a crank's value, near its expected place; None where the links do not fit there."""
         values = {**self.values, self.structure.scene.drivers[0].key: value}
         poses = found_near(self.choices, self.elements, values, guess, self.positions[0].poses)
         return None if poses is None else LimitPosition(value, poses)
@@ -115,8 +115,8 @@ class TurnOfCrank:
         return Limits(low[0], high[0], high[1] - low[1])
 
     def _extreme(self, output: Pair | str, travels: Sequence[float], sign: float) -> tuple[LimitPosition, float]:
-        """The highest position (``sign`` 1), or the lowest (-1), and the travel there; of equal ones the one at the
-        smaller angle of the crank."""
+        """The highest position (``sign`` 1), or the lowest (-1), and the travel there; of equal ones the position at
+        the smaller angle of the crank."""
         height = [sign * value for value in travels]
         before = height[-2], *height
         tops = [k for k in range(len(height) - 1) if height[k] >= max(before[k], height[k + 1])]
@@ -127,7 +127,7 @@ class TurnOfCrank:
         return min(equal, key=lambda extreme: (extreme[0].value + EQUAL) % math.tau)
 
     def _refined(self, output: Pair | str, k: int, roughly: float) -> tuple[LimitPosition, float]:
-        """The place where a curve through the positions about the k-th is at rest."""
+        """The extreme of a curve through the positions about the k-th."""
         here = self.positions[k]
         middle, half = here.value, 2 * STEP
         for _ in range(24):
@@ -156,17 +156,17 @@ def limits_asked(
     structure: Structure, elements: Sequence[Element], asked: Sequence[Symbol], values: Mapping[str, float],
     poses: Poses,
 ) -> dict[str, Limits]:  # fmt: skip
-    """The limit positions of every output that a quantity of the whole turn is asked of, by its name, on paper of the
-    mechanism's size; of none that is not drawn.
+    """The limit positions of every drawn output with an asked quantity of the whole turn, by its name, on paper of the
+    mechanism's size.
 
     Parameters
     ----------
-    values, poses : driver values (rad, m), and where the links lie there, on such paper
+    values, poses : driver values (rad, m), and the links' poses there, on such paper
 
     Raises
     ------
     Unsolvable : no whole turn, or a link that has no limit positions
-    CallError : a sliding pair that there is not
+    CallError : an unknown sliding pair
     """
     if structure.scene.instead_of is not None:
         return _follower_limits(structure.scene.instead_of, asked, values)
@@ -184,11 +184,11 @@ def limits_asked(
 
 
 def _follower_limits(scene: Mechanism, asked: Sequence[Symbol], values: Mapping[str, float]) -> dict[str, Limits]:
-    """The limit positions of followers as the law gives them; of what stands still there for a while, the end of it.
+    """The limit positions of followers by the law; of a dwell its end.
 
     Raises
     ------
-    Unsolvable : of what is no follower of the driven cam
+    Unsolvable : for a link that is no follower of the driven cam
     """
     limits: dict[str, Limits] = {}
     structure, driver = analyse(scene), scene.drivers[0]
@@ -214,7 +214,7 @@ def limits_on_paper(
     found: Mapping[str, Limits], structure: Structure, elements: Sequence[Element], values: Mapping[str, float],
     scales: Scales, hand: Instrument,
 ) -> dict[str, Limits]:  # fmt: skip
-    """Limit positions that exact hands found on paper of the mechanism's size, drawn at a scale by any hands."""
+    """Limit positions, found by exact hands on paper of the mechanism's size, drawn at a scale by any hands."""
     mm, key, found_again = 1.0 / scales.length, structure.scene.drivers[0].key, dict[str, Limits]()
     if hand.faultless or structure.scene.instead_of is not None:
         return {pair: limits.scaled(structure.scene.size * mm) for pair, limits in found.items()}
@@ -235,8 +235,8 @@ def _short(why: str, link: str, value: float) -> Problem:
 
 
 def _along(output: Pair | str, here: LimitPosition, near: float) -> float:
-    """Travel of a slide (mm of paper of the mechanism's size, from anywhere), or a link's angle that lies nearest to a
-    known one."""
+    """Travel of a slide (mm of paper of the mechanism's size, from anywhere), or a link's angle nearest to a known
+    one."""
     if isinstance(output, str):
         angle = cmath.phase(here.poses[output].axis)
         return angle + math.tau * round((near - angle) / math.tau)

@@ -1,8 +1,8 @@
-"""Links on paper: where they lie, how hands prick and place them, how far what rolls has gone, where the links of an
-element lie, and how links are followed from one position to another, lengths in mm.
+"""Links on paper: their poses, their placing by hands, the travel of rolling links, the links of an element, and the
+following of links from one position to another, lengths in mm.
 
 Of a driven link the angle or the travel is laid off.  For each kind of dyad compass arcs and ruler lines meet: a
-`Intersection` tells how well the two loci cross, the possible places of the links, and for each what was drawn.
+`Intersection` has the quality of the crossing, the possible places of the links, and the steps of each.
 """
 
 from __future__ import annotations
@@ -40,13 +40,13 @@ DEAD = 1e-7  # sine of a crossing below which a group is at a dead point
 
 
 def apart(one: Poses, other: Poses) -> float:
-    """How far links lie from where others of the same names do, on paper (mm, and direction by direction)."""
+    """The distance of links from others of the same names, on paper (mm, and of directions)."""
     return added_up(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) for n, p in one.items())
 
 
 @dataclass
 class PlacedLinks:
-    """Links on paper: their shapes at the length scale, the driver values, and where the known ones lie."""
+    """Links on paper: their shapes at the length scale, the driver values, and the poses of the known ones."""
 
     links: Mapping[str, PlacedLink]
     mm: float  # of paper for one m
@@ -65,13 +65,13 @@ class PlacedLinks:
         return self.place(link, self.links[link].points[point])
 
     def fresh(self, poses: Poses) -> dict[str, complex]:
-        """Places (m) of the points of more links, laid so, that none of those here has."""
+        """Places (m) of the points of further links in these poses that no link here has."""
         known = {p for name in self.poses for p in self.links[name].points}
         there = PlacedLinks(self.links, self.mm, self.values, dict(poses))
         return {p: there.point(n, p) / self.mm for n in poses for p in self.links[n].points if p not in known}
 
     def settle(self, names: Sequence[str]) -> None:
-        """Prick the new points of links just placed, and let the links lie as their points came out."""
+        """Prick the new points of links just placed, and put the links where their pricked points are."""
         if self.instrument.faultless:
             return
         for name in names:
@@ -89,7 +89,7 @@ class PlacedLinks:
             self.poses[name] = self._settled(name, pose, known)
 
     def _settled(self, name: str, pose: Pose, known: Sequence[str]) -> Pose:
-        """A link as two of its points on paper hold it, the farthest apart; by one point with the direction drawn."""
+        """The pose of a link by its two farthest points on paper; by a single point with the drawn direction."""
         link = self.links[name]
         if not known:
             return pose
@@ -112,7 +112,7 @@ def start_board(
 
 
 class RigidBody:
-    """A body as one piece: where its links lie in the axes of its base link (mm)."""
+    """A body as one piece: the poses of its links in the axes of its base link (mm)."""
 
     def __init__(self, paper: PlacedLinks, body: Body) -> None:
         self.paper, self.body = paper, body
@@ -130,7 +130,7 @@ class RigidBody:
                 self.rel[joint.b] = across(joint.pair, joint.b, base, value * paper.mm, paper.mm)
 
     def point(self, point: str, link: str = "") -> complex:
-        """A point of a link, or of whichever link of it has the point."""
+        """A point of a link, or of any link of the body with the point."""
         link = link or next(name for name in self.body.links if point in self.paper.links[name].points)
         return self.rel[link].place(self.paper.links[link].points[point] * self.paper.mm)
 
@@ -139,7 +139,8 @@ class RigidBody:
         return self.paper.point(pair.b, pair.point), self.point(pair.point, pair.a)
 
     def rail(self, slide: Pair) -> tuple[Pose, complex]:
-        """On a known guide, or with a guide on a known block: its pose at travel 0 and the way of it per mm."""
+        """The body on a known guide, or with a guide on a known block: its pose at travel 0 and its displacement per
+        mm."""
         paper = self.paper
         mine = slide.a if slide.a in self.rel else slide.b
         known = paper.poses[slide.other(mine)]
@@ -151,7 +152,7 @@ class RigidBody:
         return Pose(at_zero.origin - axis * rel.origin, axis), step
 
     def placed(self, base: Pose) -> dict[str, Pose]:
-        """Its links, its base link lying so."""
+        """Its links, with its base link in a pose."""
         if len(self.rel) == 1:
             return {self.body.links[0]: Pose(base.origin, unit(base.axis))}
         return {n: Pose(base.place(rel.origin), unit(base.axis * rel.axis)) for n, rel in self.rel.items()}
@@ -162,12 +163,12 @@ class RigidBody:
         return self.placed(Pose(world[0] - axis * local[0], axis))
 
     def shifted(self, base: Pose, way: complex) -> dict[str, Pose]:
-        """Its links, its base link lying so far from a place."""
+        """Its links, with its base link displaced."""
         return self.placed(Pose(base.origin + way, base.axis))
 
 
 def travel(slide: Pair, poses: Poses, mm: float) -> float:
-    """How far what slides has gone along its guide, from the guide's origin to its own (mm); ``mm`` of paper for one m.
+    """The travel of a sliding link along its guide, from the guide's origin to its own (mm); ``mm`` of paper for one m.
     """
     guide = poses[slide.b]
     start = guide.place(slide.guide.through * mm)
@@ -175,7 +176,7 @@ def travel(slide: Pair, poses: Poses, mm: float) -> float:
 
 
 def reading(structure: Structure, driver: Driver, poses: Poses, mm: float) -> float:
-    """The value of a driver off the links as they lie (rad, m); ``mm`` of paper for one m."""
+    """The value of a driver read from the links' poses (rad, m); ``mm`` of paper for one m."""
     if driver.turns:
         return cmath.phase(poses[driver.link].axis / poses[driver.relative_to].axis)
     return travel(structure.slide(driver.slide), poses, mm) / mm
@@ -194,7 +195,7 @@ def pushed_by_driver(
     structure: Structure, values: Mapping[str, float], between: Iterable[str]
 ) -> tuple[Driver, float] | None:
     """The driver whose travel gives the distance of two points, and that (m), at values of the drivers: it counts from
-    the point in which its guide begins to what slides; None for any other two."""
+    the origin of its guide to the sliding link; None for another pair of points."""
     ends, least = set(between), 1e-9 * structure.scene.size
     for driver in structure.scene.drivers:
         slide = next((s for s in structure.slides if s.key == driver.key), None)
@@ -212,8 +213,8 @@ TURNS = 3
 
 
 def rolled_near(structure: Structure, paper: PlacedLinks, driver: Rolled, start: Poses, guess: Poses) -> float:
-    """The value of what rolls (rad, m) in a position that is being placed, by how far what it rolls on has gone since
-    a position ``start`` within some turns; nearest to where it is expected."""
+    """The value of a rolling link (rad, m) in a position under construction, by the motion of the links on which it
+    rolls from a position ``start`` within some turns; the value nearest to its expected place."""
     before, near = (replace(paper, poses=dict(poses)) for poses in (start, guess))
     value, turns = coordinate_on_paper(structure, before, driver.coordinate), [0.0]
     for coordinate, factor in driver.factors:
@@ -247,13 +248,12 @@ Steps = tuple[Step, ...]
 
 @dataclass(frozen=True)
 class Intersection:
-    """Two loci that meet.
+    """The intersection of two loci.
 
     ``gap`` is positive where they cross, zero where they touch, negative where they miss each other; for two lines
-    it is the sine of their angle, and they meet once.  ``poses`` are the possible places of the group's links, the one
-    of the default rule first; ``steps`` gives what is drawn for each.  ``sine`` of the crossing angle is 0 where the
-    crossing is lost; a guide between two pivots is lost as they fall together, at whatever angle its lines
-    ``cross``.
+    it is the sine of their angle, and they meet once.  ``poses`` are the possible places of the group's links, that of
+    the default rule first; ``steps`` gives the steps of each.  ``sine`` of the crossing angle is 0 where the crossing
+    is lost; a guide between two pivots is lost when they coincide, at any angle of its lines' ``cross``.
     """
 
     gap: float
@@ -268,7 +268,7 @@ class Intersection:
         return min(1.0, self.sine if self.cross is None else self.cross)
 
     def nearest(self, poses: Poses) -> int | None:
-        """Which of the possible places lies nearest to where the links are expected; None where there is none."""
+        """The index of the possible places nearest to the expected poses of the links; None without places."""
         return min(range(len(self.poses)), key=lambda k: apart(self.poses[k], poses), default=None)
 
 
@@ -300,13 +300,14 @@ def drive(paper: PlacedLinks, element: Driven) -> tuple[Pose, Steps]:
 
 
 def _arcs(gap: float, poses: list[Poses], steps: Callable[[int], Steps], cross: float | None = None) -> Intersection:
-    """Loci of which one is an arc; ``gap`` is the square of the sine at which they cross, negative where they miss."""
+    """The intersection of loci of which one is an arc; ``gap`` is the square of the sine of their crossing angle,
+    negative where they miss."""
     return Intersection(gap, math.sqrt(max(gap, 0.0)), tuple(poses), steps, cross)
 
 
 def _rrr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Intersection:
-    """Arcs about both outer hinges meet in the inner one.  The sine of the angle between the bars is twice the area of
-    the triangle over r1 r2, the area by Heron's formula in the order that loses no figures (Kahan)."""
+    """Arcs about both outer hinges meet in the inner hinge.  The sine of the angle between the bars is twice the area
+    of the triangle over r1 r2, the area by Heron's formula in the order that loses no figures (Kahan)."""
     letter, about = dyad.inner.point, (dyad.outer_first.point, dyad.outer_second.point)
     (p1, local1), (p2, local2) = one.hinge(dyad.outer_first), two.hinge(dyad.outer_second)
     inner1, inner2 = one.point(letter), two.point(letter)
@@ -328,8 +329,8 @@ def _rrr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Inte
 
 
 def _rrp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Intersection:
-    """An arc about the outer hinge meets the path of the inner one, parallel to the outer guide, which passes the outer
-    hinge at the distance h: they cross with the sine sqrt(1 - h^2 / r^2)."""
+    """An arc about the outer hinge meets the path of the inner hinge, parallel to the outer guide, which passes the
+    outer hinge at the distance h: they cross with the sine sqrt(1 - h^2 / r^2)."""
     letter, outer, slide = dyad.inner.point, dyad.outer_first, dyad.outer_second
     (p, local), (start, step) = one.hinge(outer), two.rail(slide)
     inner, q0 = one.point(letter), start.place(two.point(letter))
@@ -402,8 +403,8 @@ def _prp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Inte
 
 
 def _rpp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Intersection:
-    """The second body is pushed along its outer guide until the inner guide goes through the outer hinge, or what
-    slides there stands at it: the way is split along both guides."""
+    """The second body is pushed along its outer guide until the inner guide passes the outer hinge, or the sliding
+    point is at it: the displacement is split along both guides."""
     outer, inner, slide = dyad.outer_first, dyad.inner, dyad.outer_second
     (p, local), (start, step) = one.hinge(outer), two.rail(slide)
     resting = two.placed(start)
@@ -434,12 +435,12 @@ _INTERSECTIONS: Mapping[DyadKind, Callable[[PlacedLinks, Dyad, RigidBody, RigidB
 
 
 def meet(paper: PlacedLinks, dyad: Dyad) -> Intersection:
-    """Draw the loci of a dyad and find where they meet."""
+    """Draw the loci of a dyad and find their intersection."""
     return _INTERSECTIONS[dyad.kind](paper, dyad, RigidBody(paper, dyad.first), RigidBody(paper, dyad.second))
 
 
 def met_near(paper: PlacedLinks, dyad: Dyad, guess: Poses) -> Poses | None:
-    """The assembly of a dyad that lies nearest to a guess."""
+    """The assembly of a dyad nearest to a guess."""
     intersection = meet(paper, dyad)
     branch = intersection.nearest(guess)
     return None if branch is None else intersection.poses[branch]
@@ -461,7 +462,7 @@ def meant(structure: Structure, paper: PlacedLinks, dyad: Dyad) -> Poses:
     Raises
     ------
     Unsolvable : as `refuse`
-    SceneError : a sketch that fits none
+    SceneError : a sketch that fits no assembly
     """
     intersection = meet(paper, dyad)
     refuse(structure, dyad, intersection)
@@ -470,7 +471,7 @@ def meant(structure: Structure, paper: PlacedLinks, dyad: Dyad) -> Poses:
 
 
 def stuck(status: str, links: Iterable[str], said: str) -> Unsolvable:
-    """Why links cannot be placed or drawn, said of them by the key of a phrase."""
+    """The error of links that cannot be placed or drawn, by the key of its phrase."""
     return Unsolvable(status, Problem(Phrase("links", links=", ".join(links)), Phrase(said)))
 
 
@@ -481,12 +482,12 @@ Choose = Callable[[int, Dyad | LargerGroup], Poses | None]
 def assemble(
     paper: PlacedLinks, elements: Sequence[Element], choose: Choose, rolled: Callable[[Rolled], float] | None = None
 ) -> Iterator[Element]:
-    """Place links element by element, each of which is given once it stands; ends where one cannot be placed.
+    """Place links element by element, yielding each placed element; it ends where an element cannot be placed.
 
     Parameters
     ----------
-    choose : which of the possible places the links of a group take
-    rolled : how far what rolls has gone (rad, m), where the values on paper do not tell
+    choose : function that chooses among the possible places of a group's links
+    rolled : the values of rolling links (rad, m), if the values on paper do not give them
     """
     for i, element in enumerate(elements):
         if isinstance(element, Driven):
@@ -509,7 +510,7 @@ def assemble(
 def assembled(
     paper: PlacedLinks, elements: Sequence[Element], choose: Choose, rolled: Callable[[Rolled], float] | None = None
 ) -> bool:
-    """Place the links of all elements, as `assemble`; whether they could be."""
+    """Place the links of all elements, as `assemble`; whether all could be placed."""
     return len(list(assemble(paper, elements, choose, rolled))) == len(elements)
 
 
@@ -518,8 +519,8 @@ def assembled(
 
 @dataclass(frozen=True)
 class Pace:
-    """How a motion is followed: its longest and its first step, so far from where it was expected a link may be found
-    (in the size of the mechanism; and at the first step), and the step below which it is taken to end."""
+    """The pace of following a motion: its longest and its first step, the allowed distance of a link from its expected
+    place (in the size of the mechanism; and at the first step), and the step below which the motion ends."""
 
     longest: float
     first: float
@@ -531,12 +532,13 @@ class Pace:
 def walk(
     near: Callable[[float, Poses, Poses], Poses | None], start: Poses, begin: float, end: float, pace: Pace
 ) -> Iterator[tuple[float, Poses]]:
-    """The positions from one to another, each followed from the one before; they end where the motion does.
+    """The positions from one to another, each followed from its predecessor; they end with the motion.
 
     Parameters
     ----------
-    near : the position at a place of the way near which it is guessed, and the one before; None where nothing fits
-    begin, end : places of the way
+    near : function of a place of the path, a guess and the position before to the position there; None where the links
+        do not fit
+    begin, end : places of the path
     """
     before, at, t = start, start, begin
     step = last = pace.first
@@ -556,7 +558,7 @@ def walk(
 
 
 def _ahead(before: Poses, at: Poses, times: float) -> dict[str, Pose]:
-    """The next position if everything went on as in the last step."""
+    """The next position if all links move on as in the last step."""
     made = {}
     for name, pose in at.items():
         old = before[name]
@@ -566,6 +568,6 @@ def _ahead(before: Poses, at: Poses, times: float) -> dict[str, Pose]:
 
 
 def moved(one: Poses, other: Poses, size: float = 1.0) -> float:
-    """How far the link that moves most does (in the size of the mechanism, and its direction)."""
+    """The greatest displacement of a link (in the size of the mechanism, and of its direction)."""
     apart = (abs(p.origin - other[n].origin) / size + abs(p.axis - other[n].axis) for n, p in one.items())
     return max(apart, default=0.0)

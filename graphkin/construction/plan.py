@@ -1,12 +1,12 @@
-"""From a scene to everything drawn: position, velocity polygon, acceleration polygon, and the scales that show them.
+"""From a scene to its drawing: position, velocity polygon, acceleration polygon, and their scales.
 
-A scene is analysed once, and once carried out by exact hands, at scales of its own; every figure is that construction
-at the scales that suit it: the scene's own, or those of the 1-2-2.5-5 series that fill the paper.  It may be drawn
-again with other errors, or gone on with from values of somebody's own.
+A scene is analysed once, and drawn once by exact hands, at scales of its own; every figure is that construction at the
+scales that suit it: the scene's own, or those of the 1-2-2.5-5 series that fill the paper.  It may be drawn again with
+other errors, or continued from a person's own values.
 
-Driven triangles are drawn with one of their links held still, as if it were the frame.  What is found of the other link
-there, its place and how it moves, is the same whatever the held one does: it is carried over to the mechanism as a
-driver at their common pair, and what is left of the group are dyads.
+Driven triangles are drawn with one of their links held still, as if it were the frame.  The place and motion of the
+other link relative to it do not depend on the held link's motion: they are carried over to the mechanism as a driver at
+their common pair, and the rest of the group are dyads.
 """
 
 from __future__ import annotations
@@ -60,13 +60,12 @@ FITS = 1e-6
 
 @dataclass(frozen=True)
 class Task:
-    """What is to be drawn, at which position, in which assembly, and by which equation for each dyad.
+    """The task of a drawing: its quantities, position, assembly, and the equation for each dyad.
 
     ``opened`` is the structure with groups that driven triangles turn into dyads in their parts, ``triangles`` are
-    these, each in its assembly; ``assembly`` is that of the elements, the values at the triangles' pairs included;
-    ``limits`` are the limit positions of what is asked, on paper of the mechanism's size.  ``acting`` and ``growing``
-    as in `Sheet`.
-    With ``touching`` sliding contacts are drawn themselves, not what replaces them.
+    these, each in its assembly; ``assembly`` is that of the elements, with the values at the triangles' pairs;
+    ``limits`` are the limit positions of asked quantities, on paper of the mechanism's size.  ``acting`` and
+    ``growing`` as in `Sheet`. With ``touching`` sliding contacts are drawn themselves, not their replacements.
     """
 
     structure: Structure
@@ -89,7 +88,8 @@ class Task:
 
     @cached_property
     def drawn(self) -> Mapping[Order, tuple[Element, ...]]:
-        """What each polygon needs for what is asked: accelerations only of what leads to accelerations."""
+        """The elements of each polygon that the asked quantities need: in accelerations only those that lead to
+        accelerations."""
         pushes = [s for s in self.asked if s.measure in ("acceleration", "angular acceleration")]
         wanted = needed(self.opened, pushes) if pushes else []
         every = not self.asked or any(s.scope in ("force", "cycle") for s in self.asked)
@@ -98,7 +98,7 @@ class Task:
 
     @cached_property
     def left_out(self) -> tuple[Phrase, ...]:
-        """What nothing asked for needs."""
+        """The elements that no asked quantity needs."""
         wanted = needed(self.opened, self.asked)
         placed = {n for e in self.elements for n in e.members}
         pushed = {n for e in self.drawn["acceleration"] for n in e.members}
@@ -110,7 +110,7 @@ class Task:
 
     @property
     def in_order(self) -> Iterator[tuple[Order, Element]]:
-        """What is drawn in the polygons, element by element."""
+        """The elements drawn in the polygons, in order."""
         return ((order, element) for order in ORDERS for element in self.drawn[order])
 
 
@@ -121,8 +121,7 @@ def positioned(
     task: Task, scales: Scales, instrument: Instrument = EXACT, own_values: OwnValues = AS_DRAWN,
     with_steps: bool = True,
 ) -> Polygons:
-    """The position on a board, on which no polygon is begun; its steps, of which no reading is taken, only where they
-    are wanted."""
+    """The position on a board without polygons; its steps, which need no readings, only if they are wanted."""
     board = Board(instrument)
     triangles = [(inversion, inversion.drawn(board, scales, task.values)) for inversion in task.triangles]
     values = {**task.values, **{v.key: v.near(task.values[v.key], found[0]) for v, found in triangles}}
@@ -152,7 +151,7 @@ def carried_out(
 
 
 def _stages(task: Task, polygons: Polygons, hand: Instrument) -> Iterator[Polygons]:
-    """Polygons that are begun, and as they stand after each element."""
+    """The polygons at their beginning, and after each element."""
     yield polygons
     for order, element in task.in_order:
         polygons = polygons.again(hand)
@@ -161,7 +160,7 @@ def _stages(task: Task, polygons: Polygons, hand: Instrument) -> Iterator[Polygo
 
 
 def finished(task: Task, polygons: Polygons) -> Sheet:
-    """What stands on the board as a sheet, with the vectors that only a question asks for."""
+    """The board as a sheet, with vectors that only a question needs."""
     draw_asked(polygons, task.asked)
     board, limits = polygons.board, task.limits
     groups: dict[LargerGroup, GroupWay] = {}
@@ -204,9 +203,9 @@ def finished(task: Task, polygons: Polygons) -> Sheet:
 
 
 class Redrawn:
-    """A plan that is drawn again and again by hands that err in some of their acts.
+    """A plan that is drawn repeatedly by hands that err in some of their acts.
 
-    What stands before the first of these is taken from a drawing without errors.
+    The part before the first of these acts is taken from a drawing without errors.
     """
 
     def __init__(self, what: Task, scales: Scales, still: Instrument) -> None:
@@ -234,10 +233,10 @@ Own = Mapping[Symbol, Value]
 
 
 class GoneOn:
-    """A plan gone on with from values of somebody's own, in place of drawn ones: one person's after the other's.
+    """A plan continued from people's own values in place of drawn ones, one person after the other.
 
-    ``own_values`` says what they change.  What stands before the first of them is taken from the drawing without any,
-    and what some of them gave is kept while they are the same.
+    ``own_values`` gives their changes.  The part before the first of them is taken from the drawing without any, and
+    the results of equal values are kept.
     """
 
     KEPT = 256
@@ -246,7 +245,7 @@ class GoneOn:
         self.what, self.own_values = what, own_values
         self.in_order = tuple(what.in_order)
         self.kept = [*_stages(what, positioned(what, scales, with_steps=False), EXACT)]
-        """What stands there after so many elements."""
+        """The polygons after a number of elements."""
         self.found_by: dict[Symbol, int] = {}
         """How many elements lead to each vector and rate; one more than there are, to what only a question asks for."""
         for number, polygons in enumerate(self.kept[1:], 1):
@@ -262,7 +261,7 @@ class GoneOn:
             self.found_by.setdefault(symbol, number)
 
     def to(self, symbol: Symbol, own: Own) -> Polygons | None:
-        """The polygons as far as a vector or rate stands in them; None where nothing leads to it.  Raises as
+        """The polygons up to a vector or rate; None where no element leads to it.  Raises as
         `execute`."""
         number = self.found_by.get(symbol)
         if number is None:
@@ -274,7 +273,7 @@ class GoneOn:
         return polygons
 
     def _after(self, number: int, own: Own) -> Polygons:
-        """What stands there after so many elements."""
+        """The polygons after a number of elements."""
         own = {s: value for s, value in own.items() if self.found_by.get(s, number + 1) <= number}
         if not own:
             return self.kept[number]
@@ -297,7 +296,7 @@ NATURAL = Scales(1e-3, 1e-3, 1e-3)  # 1 mm of paper for 1 mm, 1 mm/s, 1 mm/s2
 
 @dataclass(frozen=True, kw_only=True)
 class Plan(Task):
-    """A task as exact hands carry it out, and the scales of its figures.
+    """A task drawn by exact hands, and the scales of its figures.
 
     ``exact`` is that construction, once for all figures, at scales of its own.
     """
@@ -306,17 +305,17 @@ class Plan(Task):
     exact: Sheet
 
     def scales_for(self, room: Room | None) -> Scales:
-        """The scales that fill a room; without one the scene's own where it gives them."""
+        """The scales that fill a room; without one the scene's own if it gives them."""
         return chosen_scales(self.structure.scene, self.exact.extents, room)
 
     def with_branches(self, branches: Mapping[int, int]) -> Plan:
-        """The same task in another assembly, at the same scales.  Raises Unsolvable where it cannot be drawn."""
+        """The plan in another assembly, at the same scales.  Raises Unsolvable where it cannot be drawn."""
         other = replace(self, assembly=replace(self.assembly, branches=branches), chains={}, plans={})
         return replace(_planned(other, None), scales=self.scales)
 
     def at_contacts(self) -> Plan | None:
-        """The same task with sliding contacts, or rollers, edges and faces of cams, drawn at the contact itself instead
-        of by what replaces them, at scales that suit it; None where there is none, or where one lies in a pivot."""
+        """The plan with sliding contacts, or rollers, edges and faces of cams, drawn at the contact itself instead of
+        by their replacements, at scales that suit it; None without such contacts, or if one lies in a pivot."""
         whole = self.structure.scene.instead_of
         if whole is None:
             scene = self.structure.scene
@@ -333,7 +332,7 @@ class Plan(Task):
         return other._touching() or (other if barred else None)
 
     def _touching(self) -> Plan | None:
-        """The same task with its sliding contacts drawn themselves, as far as it has any."""
+        """The task with its sliding contacts drawn themselves, if it has any."""
         touching = {e for e in self.elements if not isinstance(e, Driven) and contacts_of(self.structure, e)}
         if not touching:
             return None
@@ -355,7 +354,7 @@ def plan(
     room: Room | None = None,
     near: Sheet | None = None,
 ) -> Plan:
-    """Decide what to draw, and carry it out exactly; parameters and errors as for `draft`."""
+    """Plan a drawing, and carry it out exactly; parameters and errors as for `draft`."""
     structure = analyse(scene.whole)
     scene = structure.scene
     asked = tuple(scene.question.find if find is None else find)
@@ -420,7 +419,7 @@ def _planned(task: Task, room: Room | None) -> Plan:
 
 
 def _growing(task: Task, here: Sheet) -> tuple[Sheet, ...]:
-    """The position with each driver's value alone growing at a unit rate, where one driver's motion alone is not drawn
+    """The position with each driver's value alone growing at a unit rate, unless a single driver's motion is drawn
     already."""
     scene = task.structure.scene.whole
     if len(scene.drivers) == 1 and scene.drivers[0].values[1]:
@@ -434,9 +433,9 @@ def _growing(task: Task, here: Sheet) -> tuple[Sheet, ...]:
 
 
 def execute(what: Plan, instrument: Instrument = EXACT, own_values: OwnValues = AS_DRAWN) -> Sheet:
-    """A plan drawn with an instrument; with ``own_values``, what follows from them.
+    """A plan drawn with an instrument; with ``own_values`` the drawing that follows from them.
 
-    What exact hands draw stands in the plan already; finite ones, whose errors depend on the scale, draw it anew.
+    The exact drawing is in the plan already; erring hands, whose errors depend on the scale, draw it anew.
     """
     if instrument is EXACT and own_values is AS_DRAWN:
         return what.exact.at(what.scales)
@@ -456,12 +455,12 @@ def draft(
     Parameters
     ----------
     at : driver values other than the scene's own (rad or m), by the driver's key
-    find : what is asked (the scene's own ``find`` if None; empty: everything)
-    instrument : what draws and reads
-    room : paper to fill, with scales chosen from the 1-2-2.5-5 series; None takes the scene's own scales where it
-        gives them
-    near : the same scene drawn at other driver values already, from where the motion is followed; without it from the
-        scene's own position
+    find : the asked quantities (the scene's own ``find`` if None; empty: all)
+    instrument : the hands that draw and read
+    room : paper to fill, with scales chosen from the 1-2-2.5-5 series; None takes the scene's own scales if it gives
+        them
+    near : the scene drawn at other driver values, from which the motion is followed; without it from the scene's own
+        position
 
     Raises
     ------
@@ -476,9 +475,9 @@ def draft(
 
 @dataclass(frozen=True)
 class Inversion:
-    """A driven triangle with its held link for a frame, in one of its two assemblies (``branch``).
+    """A driven triangle with its held link as the frame, in one of its two assemblies (``branch``).
 
-    What it gives is the value of the stand-in at the common pair of both links (rad, m).
+    Its result is the value of the equivalent driver at the common pair of both links (rad, m).
     """
 
     triangle: DrivenTriangle
@@ -487,7 +486,7 @@ class Inversion:
 
     @property
     def key(self) -> str:
-        """Of the stand-in at the common pair."""
+        """The key of the equivalent driver at the common pair."""
         return self.triangle.equivalent.key
 
     def placed(
@@ -499,34 +498,34 @@ class Inversion:
         return place(self.structure, self.structure.elements, mm, assembly, instrument, board)
 
     def followed(self, own: Mapping[str, float], values: Mapping[str, float]) -> Inversion:
-        """The same in the assembly at some driver values, followed from the scene's own."""
+        """The inversion in the assembly at some driver values, followed from the scene's own."""
         key, elements = self.triangle.driver.key, self.structure.elements
         near = Assembly({key: own[key]}, self.placed(own).poses)
         return replace(self, branch=assembly_at(self.structure, elements, {key: values[key]}, near).branches[0])
 
     def value(self, values: Mapping[str, float]) -> float:
-        """The stand-in's value as exact hands find it.  Raises Unsolvable where the triangle cannot be."""
+        """The equivalent driver's value by exact hands.  Raises Unsolvable where the triangle cannot be assembled."""
         return self.read(self.placed(values))
 
     def near(self, before: float, value: float) -> float:
-        """A value of the stand-in nearest to another: angles but for whole turns."""
+        """A value of the equivalent driver nearest to another: angles without whole turns."""
         turns = self.triangle.equivalent.turns
         return before + math.remainder(value - before, math.tau) if turns else value
 
     def read(self, paper: PlacedLinks) -> float:
-        """The stand-in's value off the links as they lie."""
+        """The equivalent driver's value read from the links' poses."""
         return reading(self.structure, self.triangle.equivalent, paper.poses, paper.mm)
 
     def has_its_travel(self, paper: PlacedLinks) -> bool:
-        """Whether the driven slide itself stands as it is given: drawn last, it may also point the other way."""
+        """Whether the driven slide has its given travel: drawn last, it may also point the opposite way."""
         slide = self.structure.slide(self.triangle.driver.key)
         if slide.a not in paper.poses or slide.b not in paper.poses:
             return True
         return abs(travel(slide, paper.poses, paper.mm) - paper.values[slide.key] * paper.mm) < FITS
 
     def drawn(self, board: Board, scales: Scales, values: Mapping[str, float]) -> tuple[float, float, float]:
-        """The triangle on a board of its own, with its two polygons, which stand on that of the mechanism as drawn with
-        a link held still; what it gives at its common pair: value, rate and second rate (SI)."""
+        """The triangle on a board of its own, with its two polygons, which are recorded on the mechanism's board as
+        drawn with a link held still; its result at the common pair: value, rate and second rate (SI)."""
         apart = Board(board.instrument)
         paper = self.placed(values, 1.0 / scales.length, board.instrument, apart)
         polygons = Polygons(apart, self.structure, paper, scales)
@@ -546,7 +545,7 @@ class Inversion:
         return self.read(paper), rate, second
 
     def carried_over(self, found: Sequence[float]) -> Iterator[Step]:
-        """What is carried over to each diagram: value, rate and second rate (SI) at the common pair."""
+        """The results carried over to each diagram: value, rate and second rate (SI) at the common pair."""
         t = self.triangle
         kinds = ("angle", "omega", "alpha") if t.pair.turns else ("travel", "velocity", "acceleration")
         for diagram, kind, value in zip(DIAGRAMS, kinds, found, strict=True):
@@ -555,7 +554,7 @@ class Inversion:
 
 
 def opened_at_triangles(structure: Structure) -> Structure:
-    """A structure with groups that driven triangles turn into dyads in their parts; itself where there are none."""
+    """A structure with the parts of groups that driven triangles turn into dyads; itself without such groups."""
     parted = [group for group in structure.larger_groups if group.parts]
     if not parted:
         return structure
@@ -569,13 +568,13 @@ def opened_at_triangles(structure: Structure) -> Structure:
 
 
 def inversions_of(structure: Structure) -> tuple[Inversion, ...]:
-    """The driven triangles of a structure, in the order in which their groups are drawn."""
+    """The driven triangles of a structure, in the drawing order of their groups."""
     triangles = (triangle for group in structure.larger_groups if group.parts for triangle in group.triangles)
     return tuple(Inversion(t, analyse(_held(structure.scene, t))) for t in triangles)
 
 
 def _held(scene: Mechanism, triangle: DrivenTriangle) -> Mechanism:
-    """The links of a triangle alone, the held one for a frame."""
+    """The links of a triangle alone, with the held link as the frame."""
     alone = without(scene, {link.name for link in scene.links} - {triangle.held, *triangle.links})
     links = tuple(link for link in alone.links if link.name != triangle.held)
     frame = scene.by_name[triangle.held]
@@ -585,16 +584,16 @@ def _held(scene: Mechanism, triangle: DrivenTriangle) -> Mechanism:
 def own_assembly(
     structure: Structure, elements: Sequence[Element], inversions: Sequence[Inversion]
 ) -> tuple[list[Inversion], Assembly]:
-    """Which assembly a scene with driven triangles means at its own position.
+    """The assembly of a scene with driven triangles at its own position.
 
     Returns
     -------
-    the triangles in it, and where the links lie, at all driver values with those of the stand-ins
+    the triangles in it, and the links' poses, at all driver values with those of the equivalent drivers
 
     Raises
     ------
     Unsolvable : "not assembled"
-    SceneError : a group has several assemblies and no sketch says which is meant
+    SceneError : a group has several assemblies and no sketch chooses
     """
     taken: list[Inversion] = []
 
@@ -615,8 +614,8 @@ def own_assembly(
 def _ways(
     paper: PlacedLinks, elements: Sequence[Driven | Dyad], inversions: Sequence[Inversion]
 ) -> Iterator[tuple[list[Inversion], Mapping[str, float], Poses]]:
-    """Every assembly of the dyads of a group and of its triangles: these, the driver values with the stand-ins', and
-    where the links of the group lie."""
+    """Every assembly of the dyads of a group and of its triangles: these, the driver values with those of the
+    equivalent drivers, and the poses of the group's links."""
     members = [name for element in elements for name in element.members]
     for branches in product((0, 1), repeat=len(inversions)):
         triangles = [replace(v, branch=branch) for v, branch in zip(inversions, branches, strict=True)]

@@ -1,10 +1,10 @@
-"""Velocity and acceleration polygons as they grow: end points, measured rates, names, and points found by image.
+"""Velocity and acceleration polygons under construction: end points, measured rates, names, and points found by image.
 
-The position stands on paper already.  Every size is either given, or measured on what was drawn before: normal
+The position is drawn already.  Every size is either given, or measured on earlier strokes: normal
 components from lengths in the velocity polygon, Coriolis components from a measured angular velocity and a measured
 sliding velocity (Sun Huan, Mechanical Principles, ch. 3; Norton, Design of Machinery, ch. 6 and 7).
 
-Images after Mehmke: the end points of a link's points form a figure similar to the link, turned the same way.
+Images after Mehmke: the end points of a link's points form a figure similar to the link, in the same sense.
 """
 
 from __future__ import annotations
@@ -51,9 +51,10 @@ SHARED = {"chains", "plans", "contours"}  # by all drawings of a task
 
 @dataclass(frozen=True)
 class OwnValues:
-    """Four places where somebody may take another value than the drawn one: a component left out, a value of their own.
+    """Four places at which a person may take another value than the drawn one: a component left out, a value of their
+    own.
 
-    A drawing with own values shows what follows from them; nothing else of the construction changes.  ``term`` gets
+    A drawing with own values shows their consequences; the construction itself does not change.  ``term`` gets
     each term of an equation before it is laid off; ``found`` each vector found (end points by image included) by tail
     and tip, mm on paper, and returns its tip; ``rate`` each angular rate measured (rad/s, rad/s2), and returns None
     where it stays; ``line`` the direction of each line along which a vector of unknown size is drawn.
@@ -69,7 +70,7 @@ AS_DRAWN = OwnValues()
 
 
 class Polygons:
-    """What stands in the velocity and the acceleration polygon of one position."""
+    """The velocity and the acceleration polygon of a position."""
 
     def __init__(
         self, board: Board, structure: Structure, paper: PlacedLinks, scales: Scales, own_values: OwnValues = AS_DRAWN
@@ -101,7 +102,7 @@ class Polygons:
         self.begin(structure.scene.frame.name)
 
     def begin(self, ground: str) -> None:
-        """Begin empty polygons with a link for the ground: its points stand in the poles."""
+        """Begin empty polygons with a link as the ground: its points are in the poles."""
         self.ground = ground
         self.still = self._never_turning()
         self.seen: dict[str, Polygons] = {}  # polygons with a link of a contour held still, by that link
@@ -163,11 +164,11 @@ class Polygons:
         return replace(symbol, seen=self.held) if self.held else symbol
 
     def label(self, ref: PointRef) -> PointRef:
-        """A node as it is written: the block of a pin in a slot bears the name of the pin's link."""
+        """The name of a node: the block of a pin in a slot has the name of the pin's link."""
         return PointRef(ref.point, self.block_of[ref.link]) if ref.link in self.block_of else ref
 
     def guide_names(self, slide: Pair) -> tuple[str, ...]:
-        """How the direction of a guide is written: by two letters on it, else by its name."""
+        """The name of a guide in a direction: two letters on it, else its name."""
         start = self.paper.place(slide.b, slide.guide.through)
         along = self.paper.poses[slide.b].axis * slide.guide.direction
         on = [
@@ -201,16 +202,16 @@ class Polygons:
         return still
 
     def touch(self, name: str) -> Touch:
-        """Where a contact is made, or wheels mesh."""
+        """The place of a contact, or of the mesh of wheels."""
         return Touching(self.structure.scene, self.paper.mm, self.paper.poses).named(name)
 
     def length(self, arm: complex, between: Sequence[str]) -> float:
-        """The length (m) between two points of the mechanism that lie ``arm`` apart on paper: given where one link has
-        both or a driver pushes one from the other, else read off the drawing.
+        """The length (m) between two points of the mechanism that lie ``arm`` apart on paper: given if a link has both
+        or a driver pushes one from the other, else read off the drawing.
 
         Raises
         ------
-        Unsolvable : "not drawn": the two lie so near to each other that the instrument reads nothing
+        Unsolvable : "not drawn": the two are so near to each other that the instrument cannot read their distance
         """
         start, end = between
         for link in self.links.values() if self.special.isdisjoint(between) else ():  # special points are drawn
@@ -226,17 +227,17 @@ class Polygons:
         return read * self.scales.length
 
     def found_mm(self, symbol: Symbol, span: complex) -> float:
-        """How long a vector is that was found (mm), as it is measured; not where the next trial has one of its name."""
+        """The measured length of a found vector (mm); None where the next trial has a vector of its name."""
         return abs(self.board.read(symbol, abs(span))) if span and not self.trial else abs(span)
 
     def slip_mm(self, symbol: Symbol, slip: complex) -> float:
-        """The length (mm) of a relative velocity, as it is read off its polygon when it is first needed."""
+        """The length (mm) of a relative velocity, read off its polygon when it is first needed."""
         if symbol.of is not None and symbol.to is not None and self.fixed(symbol.of):
             symbol = self.symbol(symbol.kind, symbol.to)
         return self.board.read(symbol, abs(slip))
 
     def end(self, order: Order, ref: PointRef) -> complex:
-        """The end point of a node, found by image if it does not stand there yet; the pole for a fixed point."""
+        """The end point of a node, found by image if it is not drawn yet; the pole for a fixed point."""
         if self.fixed(ref):
             return 0j
         if ref not in self.ends[order]:
@@ -250,7 +251,8 @@ class Polygons:
         self.do(replace(step, strokes=(self.shown(vector), *step.strokes)))
 
     def shown(self, vector: Vector) -> Vector | ConstructionVector:
-        """A vector as it is drawn: one of a trial polygon, seen from a held link or to a special point only leads on.
+        """The drawn form of a vector: a vector of a trial polygon, seen from a held link or to a special point is a
+        construction vector.
         """
         of_special = any(ref is not None and ref.point in self.special for ref in (vector.symbol.of, vector.symbol.to))
         if self.trial or self.held or of_special:
@@ -328,7 +330,7 @@ class Polygons:
         self._reach_by(ref, at, step)
 
     def _reach_by(self, ref: PointRef, at: complex, step: Step) -> None:
-        """An end point that follows from others of its link."""
+        """Draw an end point that follows from others of its link."""
         order: Order = "velocity" if step.diagram == "velocity" else "acceleration"
         symbol, label = self.symbol(letter(order), ref), self.label(ref)
         at = self.own_values.found(symbol, 0j, at)
@@ -348,7 +350,7 @@ class Polygons:
         return ref.link == name or (not ref.link and ref.point in self.links[name].points)
 
     def _by_rates(self, order: Order, start: PointRef, end: PointRef, name: str) -> tuple[Term, ...]:
-        """From one end point to another of the same link by its measured rates, one part behind the other."""
+        """Draw from one end point to another of the same link by its measured rates, part by part."""
         names = end.point, start.point
         drawn = self.places[end.point] - self.places[start.point]
         arm = drawn / abs(drawn) * self.length(drawn, names[::-1]) / self.scales.of(order) if drawn else 0j
@@ -370,7 +372,7 @@ _Kept = TypeVar("_Kept")
 
 
 def _copied(kept: _Kept) -> _Kept:
-    """A collection, and collections in it, of their own; anything else as it is."""
+    """A copy of a collection with the collections in it; another value as it is."""
     if isinstance(kept, dict):
         return {key: _copied(value) for key, value in kept.items()}  # type: ignore[return-value]
     return set(kept) if isinstance(kept, set) else kept  # type: ignore[return-value]
@@ -385,7 +387,7 @@ def letter(order: Order) -> str:
 
 
 def draw_asked(plot: Polygons, asked: Sequence[Symbol]) -> None:
-    """Draw the vectors that are asked for and stand in no equation."""
+    """Draw the asked vectors that are in no equation."""
     for symbol in asked:
         order: Order = "velocity" if symbol.kind == "v" else "acceleration"
         if not symbol.is_vector or symbol.of is None or symbol in plot.drawn[order]:
@@ -413,7 +415,7 @@ def draw_asked(plot: Polygons, asked: Sequence[Symbol]) -> None:
 
 
 def _holders(plot: Polygons, ref: PointRef) -> list[str]:
-    """The links that have a point, or on which it is meant."""
+    """The links that have a point, or the link of the point."""
     return [ref.link] if ref.link else [name for name, link in plot.links.items() if ref.point in link.points]
 
 
@@ -422,7 +424,7 @@ def _reachable(plot: Polygons, ref: PointRef) -> bool:
 
 
 def _joining(plot: Polygons, symbol: Symbol, of: PointRef, to: PointRef) -> complex:
-    """The direction of the bar between two points, or of the normal where links roll on each other."""
+    """The direction of the bar between two points, or of the normal at a rolling contact."""
     arm = plot.places[of.point] - plot.places[to.point]
     if any(c.rolling and c.name == of.point == to.point for c in plot.structure.scene.contacts):
         return plot.touch(of.point).normal
@@ -444,7 +446,8 @@ def _pivot(plot: Polygons, of: PointRef) -> PointRef:
 
 
 def _guide_of(plot: Polygons, of: PointRef, to: PointRef, symbol: Symbol) -> str:
-    """The guide of the sliding pair between two coincident points; of links of a group the one it is seen from."""
+    """The guide of the sliding pair between two coincident points; for links of a group the link from which it is
+    seen."""
     for s in plot.structure.slides:
         if {node(plot.links, of.point, s.a), node(plot.links, of.point, s.b)} == {of, to}:
             return s.b
