@@ -19,6 +19,7 @@ from graphkin.construction.scales import Extent, Room, Scales, chosen_scales
 from graphkin.construction.steps import (
     ORDERS,
     Arrow,
+    Bar,
     Cause,
     ConstructionVector,
     DiagramName,
@@ -45,7 +46,7 @@ PARALLEL = 1e-12  # sine below which two lines have no crossing at all
 REACH = 2000.0  # mm to either side: how far a construction line is drawn
 SHARP = math.sin(math.radians(15.0))
 SHORT = 3.0  # mm on paper; a direction drawn through two points nearer than this errs by a pencil's width in ten
-INTO_MARGIN = 1.1  # times as large as its room may trial polygons be: panels have a margin for names
+INTO_MARGIN = 1.1  # times as large as its room may trial polygons and carried vectors be: panels have a margin
 LOST = 1e-13  # of the largest vector, by rounding, where lines cross square
 MOST_LOST = 1e-9  # what is larger is no residue, however lines cross
 MAGNIFIED = 2.0  # times as much as was left open: from there on it is said
@@ -340,10 +341,18 @@ class Sheet:
                     if {stroke.symbol.seen, to.link} & held and not special & {to.point, of.point if of else ""}:
                         yield stroke
 
+    def carried(self, diagram: DiagramName) -> Iterator[complex]:
+        """The ends (mm) of vectors that are laid off before their turn in the chain, but of those of special points."""
+        for step in self.steps:
+            if step.diagram == diagram and step.reason == "before its turn":
+                points = {ref.point for ref in (step.symbol.of, step.symbol.to) if ref is not None}
+                if not points & self.special_points.keys():
+                    yield from (z for bar in step.strokes if isinstance(bar, Bar) for z in (bar.a, bar.b))
+
     @cached_property
     def extents(self) -> dict[Diagram, Extent]:
         """Width and height of the mechanism and of both polygons, poles included, by which scales are chosen: special
-        points left out, but with vectors seen from held links, and trial polygons a little smaller."""
+        points left out, but with vectors seen from held links; trial polygons and carried vectors a little smaller."""
         places = [z for ref, z in self.points.items() if ref.point not in self.serving]
         if self.scene.cams or self.scene.gears or any(link.discs for link in (self.scene.frame, *self.scene.links)):
             per = 1.0 / self.scales.length
@@ -352,9 +361,12 @@ class Sheet:
         extents: dict[Diagram, Extent] = {"mechanism": Extent.around(places, self.scales.length)}
         for order in ORDERS:
             drawn: list[Arrow] = [*self.vectors(order).values(), *self.vectors_seen(order)]
+            ends, further = (
+                [z for v in some for z in (v.tail, v.tip)] for some in (drawn, self.trials(order))
+            )
             true, every = (
-                Extent.around([0j, *(z for v in some for z in (v.tail, v.tip))], self.scales.of(order))
-                for some in (drawn, [*drawn, *self.trials(order)])
+                Extent.around([0j, *points], self.scales.of(order))
+                for points in (ends, [*ends, *further, *self.carried(order)])
             )
             width, height = max(true.width, every.width / INTO_MARGIN), max(true.height, every.height / INTO_MARGIN)
             extents[order] = Extent(width, height)

@@ -19,7 +19,7 @@ from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Text, map_tree
 from graphkin.drawing.place.dimensions import check_bar
 from graphkin.drawing.place.piece import Piece, joined, layer_groups, moved_piece
-from graphkin.drawing.text import fitted, plain, rich, runs_width, wrapped
+from graphkin.drawing.text import SMALLEST, fitted, plain, rich, runs_width, wrapped
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up
 from graphkin.scene.scene_tables import Convention
@@ -34,6 +34,7 @@ SIZE, STEP = 2.8, 3.0  # of the letters of prose; of steps and notes
 LEADING, BASE = 1.55, 0.7  # a line of text by the size of its letters; its base line, of the line
 TITLE, GIVEN, SCALE = 4.0, 3.2, 3.5  # letters of titles, of what stands below them, of the scale
 HEAD_LINE = 5.0  # from line to line of a heading
+CELL_GAP = 0.8  # between cells of a table
 GAP = 2.0  # between heading and body, body and foot
 LEAST = 114.0  # least width of a page between its margins
 INDENT = 8.0  # of a paragraph behind its number
@@ -149,8 +150,10 @@ def table(
     line: float = 0.0, layer: str = "labels",
 ) -> Block:  # fmt: skip
     """A table: lines of heads (one a language) over a rule, rows of cells, a thin rule below; the first column begins
-    at the left, the others end at the right.  Text wider than its column is set smaller."""
+    at the left, the others end at the right.  Text wider than its column is set smaller; a column that does not
+    hold it even so is as much wider as others can do with less."""
     line = line or LEADING * size
+    widths = _wide_enough(rows, widths, size)
     edges = [added_up(widths[:k]) for k in range(len(widths) + 1)]
     drawn: list[Primitive] = []
     y = 0.72 * line
@@ -163,14 +166,30 @@ def table(
     drawn.append(Line(complex(edges[0], rule), complex(edges[-1], rule), strokes.OUTLINE))
     for n, cells in enumerate(rows):
         for k, text in enumerate(cells):
-            runs, limit = rich(text, size), edges[k + 1] - edges[k] - 0.8
-            if runs_width(runs) > limit:
-                runs = _shrunk(runs, limit)
+            runs = fitted(text, size, edges[k + 1] - edges[k] - CELL_GAP)
             if runs:
                 drawn.append(_cell(runs, edges, k, rule + (n + 0.72) * line))
     low = rule + (len(rows) + 0.3) * line
     drawn.append(Line(complex(edges[0], low), complex(edges[-1], low), strokes.DIMENSION))
     return Block(Piece({layer: tuple(drawn)}), low, edges[-1])
+
+
+def _wide_enough(rows: Sequence[Sequence[str]], widths: Sequence[float], size: float) -> Sequence[float]:
+    """Widths of columns (mm) in which no cell is wider in the smallest letters, as far as others can do with less."""
+    least = [CELL_GAP] * len(widths)
+    for cells in rows:
+        for k, text in enumerate(cells):
+            wide = runs_width(rich(text, size)) + CELL_GAP
+            if wide > widths[k]:
+                wide = runs_width(rich(text, SMALLEST)) + CELL_GAP
+            least[k] = max(least[k], wide)
+    short = [max(0.0, need - width) for need, width in zip(least, widths, strict=True)]
+    spare = [max(0.0, width - need) for need, width in zip(least, widths, strict=True)]
+    passed = min(added_up(short), added_up(spare))
+    if not passed:
+        return widths
+    taken, given = passed / added_up(spare), passed / added_up(short)
+    return [width - taken * more + given * less for width, more, less in zip(widths, spare, short, strict=True)]
 
 
 def _fitting(text: str, size: float, width: float) -> float:
@@ -181,11 +200,6 @@ def _fitting(text: str, size: float, width: float) -> float:
 
 def _cell(runs: tuple[Run, ...], edges: Sequence[float], k: int, y: float) -> Text:
     return Text(complex(edges[k], y), runs) if k == 0 else Text(complex(edges[k + 1] - 0.6, y), runs, "end")
-
-
-def _shrunk(runs: tuple[Run, ...], width: float) -> tuple[Run, ...]:
-    share = width / runs_width(runs)
-    return tuple(Run(r.text, r.x * share, r.y, max(2.0, r.size * share), r.italic, r.bold) for r in runs)
 
 
 def heading(names: Iterable[str], below: str, width: float) -> Block:

@@ -72,6 +72,21 @@ def fitted(markup: str, size: float, width: float, bold: bool = False, least: fl
     return rich(markup, max(least, size * width / wide * 0.995), bold)
 
 
+def cut_off(words: str, size: float, width: float, bold: bool = False) -> tuple[Run, ...]:
+    """Words without symbols set as `fitted`; what is too long for a width (mm) even so ends in dots.
+
+    >>> cut_off("a title", 3.0, 40.0)[0].text, cut_off("a long title", 3.0, 10.0)[0].text
+    ('a title', 'a long title')
+    >>> cut_off("a very long title", 3.0, 10.0)[0].text
+    'a very lon…'
+    """
+    runs = fitted(words, size, width, bold)
+    while runs_width(runs) > width and words:
+        words = words.removesuffix("…")[:-1].rstrip() + "…" if words != "…" else ""
+        runs = fitted(words, size, width, bold)
+    return runs
+
+
 def wrapped(markup: str, size: float, width: float, bold: bool = False) -> list[tuple[Run, ...]]:
     """Words with symbols set in lines of a width (mm), broken at spaces, between Chinese characters and after
     their commas."""

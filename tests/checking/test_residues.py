@@ -12,6 +12,7 @@ import pytest
 from graphkin import audit, check, draw, read, solve
 from graphkin.api.report_text import reading_words, report_text
 from graphkin.construction.steps import ConstructionVector
+from graphkin.drawing.ink.primitives import Group, Text, walk
 from graphkin.words.written import amount
 
 DEAD = [("shaper-scheme-2", 90), ("swinging-block", 180), ("whitworth", 270), ("slider-crank-offset", 0)]
@@ -53,10 +54,11 @@ def test_a_tiny_value_that_is_certain_is_no_zero():
     assert abs(row.exact) == pytest.approx(abs(row.measured), rel=1e-9)
 
 
-def test_a_tiny_value_that_is_certain_is_drawn_at_its_own_scale():
-    figure = draw("sixbar-420rpm").figures["acceleration"].content("svg").decode()
-    assert re.search(r'id="detail-acceleration-1"', figure)
-    assert "label-detail-an_F-E" in figure
+def test_a_tiny_value_that_no_pencil_draws_is_written_beside_its_point_and_not_magnified():
+    figure = draw("sixbar-420rpm", language="en", convention="chinese").figures["acceleration"]
+    texts = {text.id: text.string for text in walk(figure.children) if isinstance(text, Text)}
+    assert "aFEn= 0.01012 m/s²" == texts["label-an_F-E"]
+    assert "detail-acceleration-1" not in {group.id for group in walk(figure.children) if isinstance(group, Group)}
 
 
 @pytest.mark.parametrize("name", ["shaper-scheme-2", "sixbar-420rpm", "sixbar-guide-40deg", "oldham-coupling"])

@@ -15,7 +15,7 @@ from graphkin.drawing.boxes import Block, column, foot, framed, heading, page, p
 from graphkin.drawing.figures import figure_kinds
 from graphkin.drawing.ink.primitives import Line, Polygon, Text, walk
 from graphkin.drawing.place.piece import Piece, ink_box
-from graphkin.drawing.text import text_box
+from graphkin.drawing.text import text_box, width
 from graphkin.scene.scene_tables import DIAGRAMS
 from graphkin.words import word
 
@@ -81,6 +81,20 @@ def test_no_cell_of_a_table_reaches_into_the_next(width: float) -> None:
 def test_a_cell_wider_than_its_column_is_set_smaller() -> None:
     made = table([["force", "N"]], [["P", "−737440.25"]], [12.0, 12.0])
     assert 12.0 <= text_box(texts(made)[-1]).left
+
+
+def test_a_column_too_narrow_for_its_cells_takes_room_from_the_others() -> None:
+    made = table([["moment", "measured", "exact"]], [["M", "−0.0000404145", "−0.0000404145"]], [26.0, 9.0, 9.0])
+    boxes = [text_box(text) for text in texts(made)]
+    assert [] == [pair for pair in combinations(boxes, 2) if pair[0].overlaps(pair[1])]
+    assert 44.0 >= max(box.right for box in boxes)
+
+
+def test_the_parts_of_a_cell_that_is_set_smaller_stand_clear_of_each_other() -> None:
+    made = table([["quantity", "mm"]], [["$A^{n}_{Coupling/Drum}$, mm/s²", "3"]], [14.0, 30.0])
+    runs = texts(made)[2].runs
+    index, unit = runs[-2], runs[-1]
+    assert index.x + width(index.text, index.size, index.italic, index.bold) <= unit.x + 0.01
 
 
 def test_a_head_that_both_languages_share_stands_once() -> None:

@@ -220,3 +220,18 @@ def test_special_points_of_the_polygons_stand_on_no_figure_of_centres() -> None:
     drawn = graphkin.draw("single-flier", figures=("mechanism", "centres")).figures
     pages = {k: {one.id for one in walk(page.children) if isinstance(one, Group)} for k, page in drawn.items()}
     assert {"mechanism"} == {k for k, ids in pages.items() if any(one.startswith("point-S") for one in ids)}
+
+
+def test_long_names_of_links_and_points_stand_clear_of_each_other(violations: Callable[[bytes], list[str]]) -> None:
+    scene = {
+        "frame": {"name": "frame", "points": {"Anchor": [0, 0], "Drum": [400, 0]}},
+        "links": {
+            "crank": {"points": ["Anchor", "Bolt"], "length": 150},
+            "connectingrod": {"points": ["Bolt", "Coupling"], "length": 500},
+            "rocker": {"points": ["Drum", "Coupling"], "length": 300},
+        },
+        "driver": {"link": "crank", "angle": 60, "omega": 10},
+    }  # fmt: skip
+    drawing = graphkin.draw(scene, figures=["centres"]).figures["centres"]
+    assert [] == violations(drawing.content("svg"))
+    assert any("AnchorP" in text.string for text in labels(drawing))

@@ -163,6 +163,15 @@ def test_every_link_bears_its_number_on_the_mechanism(name: str) -> None:
     assert {f"label-link-{link.name}" for link in (scene.frame, *scene.links)} == named
 
 
+@pytest.mark.parametrize("number", [1, 2])
+def test_a_ring_and_its_inset_share_a_numeral(number: int) -> None:
+    page = root("geared-five-bar", "sheet")
+    texts = {text.get("id"): "".join(text.itertext()) for text in page.iter(f"{SVG}text")}
+    numeral = "I" * number
+    assert numeral == texts[f"label-ring-acceleration-{number}"]
+    assert texts[f"label-detail-acceleration-{number}"].startswith(f"{numeral}:")
+
+
 def test_layers_have_names_a_person_understands() -> None:
     page = root(GUIDE, "sheet")
     label = "{http://www.inkscape.org/namespaces/inkscape}label"

@@ -7,12 +7,12 @@ from itertools import combinations
 
 import pytest
 
-from graphkin import draw
+from graphkin import draw, read
 from graphkin.account.given import given_lengths
 from graphkin.account.notation import letters_of
 from graphkin.construction import draft, plan
 from graphkin.drawing import Text
-from graphkin.drawing.ink.primitives import Group, walk
+from graphkin.drawing.ink.primitives import Group, Polygon, walk
 from graphkin.drawing.parts.mechanism import mechanism_piece
 from graphkin.drawing.place.piece import ink_box
 from graphkin.drawing.sheet_plan import sheet_plan, sheet_room
@@ -225,3 +225,21 @@ def test_a_sheet_says_of_as_many_readings_that_they_agree_as_its_table_shows(nam
 def test_a_further_page_says_in_its_description_what_it_holds():
     pages = draw("contour-four-bars", figures=["sheet"], language="en").figures
     assert "Vector equations, Readings and check" == pages["sheet-2"].desc
+
+
+@pytest.mark.parametrize(("name", "at"), [("hydraulic-cylinder", None), ("boom-lifted", 300), ("scissor-lift", None)])
+def test_a_vector_laid_off_before_its_turn_is_whole_in_its_panel(name, at):
+    drawn = draw(name, at=at, figures=["sheet"])
+    steps = [s for s in drawn.small.sheet.steps if s.reason == "before its turn" and s.mm > 1.0]
+    groups = [g for g in walk(drawn.figures["sheet"].children) if isinstance(g, Group) and "construction" in g.classes]
+    heads = {g.step for g in groups if any(isinstance(part, Polygon) for part in g.children)}
+    assert {s.number for s in steps} == heads
+
+
+@pytest.mark.parametrize("language", ["en", "zh", "both"])
+def test_a_title_too_long_for_a_sheet_ends_in_dots(language, violations):
+    scene = read("fourbar-150-500-300-400").to_dict()
+    long = {"title": "a linkage with many words in its title " * 7, "title_zh": "一个很长的标题" * 40}
+    sheet = draw(scene | long, figures=["sheet"], language=language).figures["sheet"]
+    assert [] == violations(sheet.content("svg"))
+    assert any(text.endswith("…") for text in words(sheet))

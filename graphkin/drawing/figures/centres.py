@@ -26,6 +26,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import (
     GAP,
     HEAD_LINE,
+    SIZE,
     TOLD,
     Block,
     FigurePage,
@@ -51,7 +52,7 @@ from graphkin.drawing.place.names import with_crowd, without
 from graphkin.drawing.place.obstacles import distances
 from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece, obstacles_of, renamed
 from graphkin.drawing.plate import centred
-from graphkin.drawing.text import SMALLEST, plain, rich, stacked, text_box
+from graphkin.drawing.text import SMALLEST, plain, rich, runs_width, stacked, text_box
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
@@ -104,7 +105,7 @@ def circle_diagram(centres: Centres, middle: complex, radius: float) -> Group:
     for name, spoke in ways.items():
         colour, runs = colour_of_link(centres.scene, name), plain(name, 3.5, bold=True)
         box = text_box(Text(0j, runs, "middle", colour))
-        there = middle + (radius + 2.2 + max(box.width, box.height) / 2) * spoke
+        there = middle + (radius + 2.2 + max(box.width * abs(spoke.real), box.height) / 2) * spoke
         foot = there - 1j * (box.top + box.bottom) / 2
         knots += [Circle(middle + radius * spoke, 1.1, colour),
                   Text(foot, runs, "middle", colour, f"label-circle-{name}", ("label",))]  # fmt: skip
@@ -249,9 +250,8 @@ def _far_names(centres: Centres, group: Sequence[Centre], letters: Letters) -> l
     if first.point is None:
         return _names(group, letters, " → ∞")
     point = next(iter(scene.frame.points), None) or next(iter(scene.holders))
-    letter = point[0] + (f"_{{{point[1:]}}}" if point[1:] else "")
     far = abs(first.point - centres.point(point)) / centres.mm / scene.units.metres
-    return [f"${letter}{letters.centre(first.pair)}$ = {number(far, 4)} {scene.units.length}"]
+    return [f"${letters.point(point)}{letters.centre(first.pair)}$ = {number(far, 4)} {scene.units.length}"]
 
 
 def _lines(centres: Centres, centre: Centre, panel: Box) -> Iterator[Line]:
@@ -326,6 +326,7 @@ MOST = (150.0, 150.0)  # mm that the mechanism with its near centres may fill
 SMALLEST_FIGURE = (70.0, 60.0)
 SMALL = Room(mechanism=(60.0, 50.0))  # mm, of the mechanism where each centre is drawn by itself
 SIDE, BESIDE = 62.0, 2.0  # width of the column beside the mechanism, and between the two
+NAME = 9.0  # least width of the name of a centre in the list
 RADIUS = {3: 15.0, 4: 17.0, 5: 20.0, 6: 22.0}
 LEGEND = ("legend",)
 
@@ -381,11 +382,13 @@ def _side(centres: Centres, letters: Letters, language: str) -> Block:
     circle = panel(SIDE, 2 * radius + 18.0, lambda room: Piece(
         {"centres": (circle_diagram(centres, room.centre, radius),)}))
     title = prose((term("circle diagram", language),), SIDE, 3.2, bold=True, line=HEAD_LINE, classes=LEGEND)
+    numbered = [centre for centre in centres.found if centre.number]
+    names = [f"${letters.centre(centre.pair)}$" for centre in numbered]
+    wide = max([NAME, *(runs_width(rich(name, SIZE)) + 1.5 for name in names)])
     order = (
-        row(numeral(centre.number, 7.0, classes=LEGEND),
-            prose((f"${letters.centre(centre.pair)}$",), 9.0, classes=LEGEND),
-            prose((_how_found(centre, letters, language),), SIDE - 16.0, classes=LEGEND))
-        for centre in centres.found if centre.number
+        row(numeral(centre.number, 7.0, classes=LEGEND), prose((name,), wide, classes=LEGEND),
+            prose((_how_found(centre, letters, language),), SIDE - 7.0 - wide, classes=LEGEND))
+        for centre, name in zip(numbered, names, strict=True)
     )  # fmt: skip
     return column(title, circle, column(*_legend(centres, language), gap=0.8), column(*order), gap=1.5)
 

@@ -47,7 +47,7 @@ from graphkin.drawing.place.dimensions import check_bar
 from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups
 from graphkin.drawing.sheet_plan import BLOCK, GUTTER, SheetPlan, sheet_plan, with_less_mechanism, with_less_polygons
 from graphkin.drawing.tables import TableRow, given_data, given_lines, readings_table, set_lines, table_rows
-from graphkin.drawing.text import fitted, plain, wrapped
+from graphkin.drawing.text import cut_off, fitted, plain, runs_width, wrapped
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import Phrase, about, languages, say, word
 
@@ -307,9 +307,9 @@ def heading(page: FigurePage, frame: Box) -> Piece:
     """Title and driver values at the head of a page."""
     names = titles(page.sheet, page.language)
     runs = fitted("   ".join(names), 4.6, frame.width, bold=True, least=2.6)
-    lines = [(4.0, runs)]
+    lines = [(4.0, runs if runs_width(runs) <= frame.width else cut_off(names[0], 4.6, frame.width, bold=True))]
     if len(names) > 1 and runs[0].size < TWO_LINES:
-        lines = [(2.6 + 3.7 * i, fitted(name, TWO_LINES, frame.width, bold=True)) for i, name in enumerate(names)]
+        lines = [(2.6 + 3.7 * i, cut_off(name, TWO_LINES, frame.width, bold=True)) for i, name in enumerate(names)]
     lines.append((9.2 + 0.6 * (len(lines) - 1), fitted(drivers(page.sheet, page.letters), 3.2, frame.width)))
     return Piece({"labels": tuple(Text(complex(frame.left, frame.top + y), said) for y, said in lines)})
 
@@ -406,6 +406,7 @@ def _readings(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Par
 
 
 LEGIBLE_TITLE = 2.4  # mm
+TITLE_LINES = 3  # at most in the block
 BAR_ROOM, SCALES_ROOM = 56.0, 33.0  # least widths in it, for the check bar and for the scales
 
 
@@ -458,7 +459,10 @@ def _title_lines(names: tuple[str, ...], width: float) -> list[tuple[Run, ...]]:
         lines = [line for name in names for line in wrapped(name, size, width, bold=True)]
         if 1.25 * size * len(lines) <= BLOCK - 7.0:
             break
-    return lines[:3]
+    if len(lines) > TITLE_LINES:
+        last = "".join(run.text for run in lines[TITLE_LINES - 1])
+        lines[TITLE_LINES - 1] = cut_off(f"{last}…", size, width, bold=True)
+    return lines[:TITLE_LINES]
 
 
 FIGURES = (Figure("sheet", sheet_page, "small sheet", lambda scene: True, place=4),)

@@ -16,7 +16,7 @@ from typing import TypeAlias
 
 from graphkin.account.headings import term
 from graphkin.account.notation import Letters
-from graphkin.account.voice import ZERO
+from graphkin.account.voice import ZERO, numeral
 from graphkin.checking.scans import judge_scans
 from graphkin.construction.instruments import EXACT_NAME
 from graphkin.construction.scales import Scales
@@ -42,11 +42,13 @@ from graphkin.drawing.ink.symbols import COMPONENT, RESULTANT, arrow, sense_arc
 from graphkin.drawing.parts.mechanism import bare_mechanism
 from graphkin.drawing.parts.polygon import (
     END_RADIUS,
+    NUMERAL,
     Detail,
     PolygonOnPage,
     crowds,
     details,
     polygon_piece,
+    ring_numerals,
     side_by_side,
     step_numbers,
 )
@@ -107,7 +109,8 @@ def polygon_with_insets(
         for step, vector in here.in_order() if step not in keyed
     ]  # fmt: skip
     numbers = Piece({"labels": step_numbers(arrows, panel, around)})
-    return joined((figure, numbers, *pieces)), senses[len(shown) :]
+    numerals = ring_numerals(here, around + obstacles_of(numbers.drawn))
+    return joined((figure, numbers, numerals, *pieces)), senses[len(shown) :]
 
 
 def _boxes(
@@ -216,7 +219,9 @@ def _detail_inset(
             name = replace(point.text, id=id, step=detail.crowd, since=here.since(detail))
             names.append(Label(name, spot, point.toward, rank=1))
     id, classes = f"detail-{here.diagram}-{number}", ("inset", "detail")
-    runs = fitted(_enlarged(detail.factor, here.language), 2.6, box.width - 1.6)
+    runs = fitted(f"{numeral(number)}: {_enlarged(detail.factor, here.language)}", NUMERAL, box.width - 1.6)
+    if runs_width(runs) > box.width - 1.6:
+        runs = fitted(f"{numeral(number)} ({detail.factor:g} : 1)", NUMERAL, box.width - 1.6)
     drawn = _inset(box, here.diagram, parts, runs, 1.6, id, f"label-{id}", classes, detail.crowd)
     return dated(replace(drawn, labels=tuple(names)), here.since(detail)), inner
 

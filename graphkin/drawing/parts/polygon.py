@@ -16,7 +16,8 @@ from functools import cached_property
 
 import numpy as np
 
-from graphkin.account.notation import Letters, pole
+from graphkin.account.headings import number
+from graphkin.account.notation import Letters, pole, unit_of
 from graphkin.account.spoken import spoken_ref, spoken_vector
 from graphkin.account.voice import SAME, NamedPoint, PolygonPoints, numeral
 from graphkin.construction.scales import SERIES
@@ -28,18 +29,23 @@ from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primit
 from graphkin.drawing.ink.strokes import colour_of_link, colour_of_vector
 from graphkin.drawing.ink.symbols import COMPONENT, POINTER, RESULTANT, arrowhead, vector_group
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.obstacles import Obstacles, first_free
-from graphkin.drawing.place.piece import Piece, dated, joined
-from graphkin.drawing.text import SMALLEST, plain, runs_width, symbol, text_box
+from graphkin.drawing.place.obstacles import Obstacles, first_free, meets
+from graphkin.drawing.place.piece import Piece, dated, joined, obstacles_of
+from graphkin.drawing.text import LETTER, SMALLEST, plain, rich, runs_width, symbol, text_box
 from graphkin.plane import added_up, cross, dot
 from graphkin.scene.symbol import PointRef, Symbol
 
 FAR = 60.0  # mm: construction further outside than this is cut off
 SMALL = 2.0  # mm: shorter vectors are drawn again larger
+LEAST_DRAWN = 0.05  # mm: what is shorter no pencil draws at any scale of use, and is written beside its point
 TOGETHER = 3.0  # mm: small vectors nearer than this share an inset
 SEEN = 0.5  # mm: a vector shorter than this is no vector in an inset either
 LONGEST = 13.0  # mm of the largest part in the inset
 RING = 0.8  # mm from the place to the ring about it
+NUMERAL = 2.6  # mm: of the letters that a ring and its inset share
+# mm from a ring to its numeral, in the order of liking, and around it
+GAPS, WAYS = np.array((0.6, 1.2, 2.0, 3.0, 4.5, 6.5, 9.0, 12.0, 15.0)), np.exp(-2j * np.pi * (np.arange(24) + 3) / 24)
+UNLED = 4  # so many of these places have no leader
 CROWD = 5.0  # how many times larger a crowd is drawn again at most
 
 
@@ -145,7 +151,7 @@ class Detail:
 
 def details(sheet: Sheet, diagram: DiagramName) -> list[Detail]:
     """The places of a polygon that need a larger drawing."""
-    small = [v for v in sheet.vectors(diagram).values() if 0.0 < abs(v.span) < SMALL]
+    small = [v for v in sheet.vectors(diagram).values() if LEAST_DRAWN <= abs(v.span) < SMALL]
     found = [detail for group in _near(small) for detail in _at_their_scales(group)]
     return sorted(found, key=lambda d: (d.factor, -len(d.vectors), d.centre.real, d.centre.imag))
 
@@ -264,14 +270,14 @@ def points(here: PolygonOnPage) -> Piece:
 
 def _ends(here: PolygonOnPage, places: Mapping[complex, Sequence[PointRef]]) -> Iterator[Piece]:
     fixed = set(here.sheet.scene.frame.points)
-    for number, (at, refs) in enumerate(places.items()):
+    for order, (at, refs) in enumerate(places.items()):
         moving = [ref for ref in refs if ref.link or ref.point not in fixed]
         for i, ref in enumerate(moving):
             id = f"{here.diagram}-{ref}".replace("@", "")
-            dot = _dot(here.at(at), i + (number == 0))
+            dot = _dot(here.at(at), i + (order == 0))
             group = Group((dot,), id=id, classes=("end",), title=spoken_ref(ref, here.language))
             yield dated(Piece({here.diagram: (group,)}, (), (here.at(at),)), here.ends_since[ref])
-        if number and moving:
+        if order and moving:
             markup = ", ".join(filter(None, (here.letters.end(here.diagram, ref) for ref in moving)))
             names = _named(here, markup, at, f"label-{here.diagram}-{moving[0]}", 0, at)
             yield dated(Piece(labels=names), here.ends_since[moving[0]])
@@ -340,9 +346,36 @@ def _construction(here: PolygonOnPage) -> Piece:
 
 def rings(here: PolygonOnPage) -> Iterator[Group]:
     """A ring about each enlarged place."""
-    for number, d in enumerate(here.enlarged, 1):
+    for order, d in enumerate(here.enlarged, 1):
         ring = Circle(here.at(d.centre), d.radius + RING, stroke=strokes.CONSTRUCTION)
-        yield Group((ring,), id=f"ring-{here.diagram}-{number}", classes=("ring",), step=d.crowd, since=here.since(d))
+        yield Group((ring,), id=f"ring-{here.diagram}-{order}", classes=("ring",), step=d.crowd, since=here.since(d))
+
+
+def ring_numerals(here: PolygonOnPage, around: Obstacles) -> Piece:
+    """At each ring the numeral that it shares with its inset, where everything ``around`` leaves room; further off with
+    a leader."""
+    pieces = []
+    for order, d in enumerate(here.enlarged, 1):
+        id = f"label-ring-{here.diagram}-{order}"
+        text = Text(0j, plain(numeral(order), NUMERAL), id=id, classes=("label", "ring"))
+        box = text_box(text)
+        half = complex(box.width, box.height) / 2
+        edges = here.at(d.centre) + (d.radius + RING) * WAYS
+        ends = edges + (GAPS[:, None] - CLEAR) * WAYS
+        middles = ends + CLEAR * WAYS + half.real * WAYS.real + 1j * half.imag * WAYS.imag
+        leaders = np.stack(np.broadcast_arrays(edges, ends), axis=-1)[UNLED:].reshape(-1, 2)
+        others = [area for area in around.areas if area.distance(here.at(d.centre)) > 0.0]
+        areas = np.array([(area.centre, complex(area.width, area.height) / 2) for area in others]).reshape(-1, 2)
+        middles[UNLED:].reshape(-1)[meets(leaders, areas[:, 0], areas[:, 1])[0]] = np.nan
+        (place,) = first_free([middles.ravel()], [half], around, CLEAR, here.panel)
+        if place is not None:
+            gap, way = divmod(place, len(WAYS))
+            written = replace(text, at=complex(middles[gap, way]) - box.centre)
+            leader = Line(complex(edges[way]), complex(ends[gap, way]), strokes.LEADER)
+            led = (Group((leader,)),) if gap >= UNLED else ()
+            pieces.append(dated(Piece({"labels": (*led, written)}), here.since(d)))
+            around += obstacles_of(pieces[-1].drawn)
+    return joined(pieces)
 
 
 def _images(here: PolygonOnPage) -> Iterator[Primitive]:
@@ -475,16 +508,17 @@ def _name(
     here: PolygonOnPage, length: float, vectors: Sequence[Vector], letters: Mapping[complex, str]
 ) -> Label | None:
     us = here.letters.convention == "us"
-    if length == 0.0:
+    if length < LEAST_DRAWN:
         vectors = [v for v in vectors if v.role != "resultant" or us or abs(v.tip) < SAME]
     if not vectors:
         return None
     first = vectors[0]
-    written = here.letters.vector if length == 0.0 else here.letters.arrow
+    written = here.letters.vector if length < LEAST_DRAWN else here.letters.arrow
     markup = " = ".join(written(v.symbol) for v in vectors)
     id, step = f"label-{first.symbol.id}", here.vectors[first.symbol][0]
-    if length == 0.0:
-        return Label.of(symbol(markup + " = 0"), here.at(first.tip), id, rank=3, since=step, key=step_number(step))
+    if length < LEAST_DRAWN:
+        value = symbol(markup + " = 0") if length == 0.0 else rich(f"${markup}$ = {_valued(here, length)}", LETTER)
+        return Label.of(value, here.at(first.tip), id, rank=3, since=step, key=step_number(step))
     resultants = all(v.role == "resultant" for v in vectors)
     text = Text(0j, symbol(markup), "start", colour_of_vector(here.sheet, first.symbol), id, ("label",), since=step)
     key = step_number(step, text.colour)
@@ -495,6 +529,12 @@ def _name(
     ends = [letters.get(same_place(end), "") for end in (first.tail, first.tip)]
     between = "→".join(ends) if all(ends) else ""
     return Label(text, here.drawn(first), rank=2 if resultants and not us else 1, key=key, between=between)
+
+
+def _valued(here: PolygonOnPage, length: float) -> str:
+    """A length on paper (mm) as what it stands for, with its unit."""
+    unit = unit_of(here.sheet, here.diagram)
+    return f"{number(length * here.sheet.scales.of(here.diagram) / unit.si, 4)} {unit.written}"
 
 
 LEAST = 5.0  # mm: a shorter vector has no room for a number
