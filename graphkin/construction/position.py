@@ -1,10 +1,10 @@
-"""The mechanism on paper: every link placed by compass and ruler, in the order of solution, and in which assembly: the
-scene's own position as it is meant, others followed from it.
+"""The mechanism on paper: every link placed by compass and ruler, in the order of solution, and the assembly: the
+scene's own position by its data, others followed from it.
 
 Larger groups are found by trial drawings: from one position of the driver to the next the trial starts where the last
 one ended.  At the scene's own position all places are found at which a group closes, or trial drawings begin at values
-that the sketch of the problem tells: two sketched points of a link tell its direction, sliding pairs and driven angles
-that of others.
+of the problem's sketch: two sketched points of a link give its direction, sliding pairs and driven angles that of
+others.
 """
 
 from __future__ import annotations
@@ -76,14 +76,14 @@ SURPRISE = 1e-3  # so far from where it was expected a link may be found, in the
 
 @dataclass(frozen=True)
 class Assembly:
-    """Where elements stand, and how each of them is placed there.
+    """The placing of elements at a position, and the assembly of each.
 
     Parameters
     ----------
     values : of the drivers (rad, m)
     poses : every link with the mechanism of size 1
-    branches : which assembly each dyad takes, by its place among the elements: 0 the default one, 1 the other
-    reduced : by the trial positions of which mechanism each larger group is placed
+    branches : the assembly of each dyad, by its index among the elements: 0 the default, 1 the other
+    reduced : the reduced mechanism by whose trial positions each larger group is placed
     """
 
     values: Mapping[str, float]
@@ -101,9 +101,9 @@ def place(
     Parameters
     ----------
     mm : mm of paper for one m
-    instrument : what draws
-    board : where it is recorded how each link was placed, the words for each assembly by the group's links, and the
-        acts of the hand up to which each link reaches
+    instrument : the hands that draw
+    board : record of the placing of each link, the words for each assembly by the group's links, and the acts of the
+        hand up to each link
 
     Raises
     ------
@@ -148,7 +148,7 @@ def place(
 
 
 def _dyad_steps(board: Board, paper: PlacedLinks, dyad: Dyad, intersection: Intersection, index: int) -> Steps:
-    """How the loci of a dyad were drawn; on the board the words for its assembly, and what makes it uncertain."""
+    """The steps of a dyad's loci; on the board the words for its assembly, and the remarks on its accuracy."""
     links, one, two = ", ".join(dyad.links), dyad.outer_first, dyad.outer_second
     of = dyad.inner.point if dyad.inner.turns else Phrase("links", links=links)
     board.notice("mechanism", "sharp crossing", of, size=intersection.sharpness)
@@ -162,7 +162,7 @@ def _dyad_steps(board: Board, paper: PlacedLinks, dyad: Dyad, intersection: Inte
 
 
 def _record(board: Board, paper: PlacedLinks, element: Element, steps: Steps, named: set[str]) -> None:
-    """Record how the links of an element were placed, and their points, those ``named`` left out."""
+    """Record the placing of an element's links, and their points except those ``named``."""
     links, (ground, *_) = paper.links, paper.poses
     found: set[str] = set()
     left = list(element.members)
@@ -194,18 +194,18 @@ def _record(board: Board, paper: PlacedLinks, element: Element, steps: Steps, na
 def assembly_at(
     structure: Structure, elements: Sequence[Element], values: Mapping[str, float], near: Assembly | None = None
 ) -> Assembly:
-    """In which assembly some elements stand at driver values (rad, m), which count those of what rolls then.
+    """The assembly of some elements at driver values (rad, m), to which those of rolling links are added.
 
     Parameters
     ----------
-    near : a position known already, from which the motion is followed; without one the scene's own is found first
+    near : a known position, from which the motion is followed; without it the scene's own is found first
 
     Raises
     ------
     Unsolvable
-        "not drawn": no link of a larger group can be left out so that dyads remain; "not assembled": nothing fits at
-        these values, or the motion does not reach them, and then the message gives the limit; "dead point"
-    SceneError : a group has several assemblies and no sketch says which is meant
+        "not drawn": no link of a larger group can be left out so that dyads remain; "not assembled": the links do not
+        fit at these values, or the motion does not reach them, with the limit in the message; "dead point"
+    SceneError : a group has several assemblies and no sketch chooses
     """
     scene, choices = structure.scene, Choices(structure, elements)
     at_start = all(values[d.key] == d.values[0] for d in scene.drivers)
@@ -236,8 +236,8 @@ def assembly_at(
 
 
 def poses_at(choices: Choices, values: Mapping[str, float]) -> Poses:
-    """Where the links of some elements lie at driver values (rad, m), on paper of the mechanism's size, followed from
-    the scene's own position; errors as for `assembly_at`."""
+    """The poses of some elements' links at driver values (rad, m), on paper of the mechanism's size, followed from the
+    scene's own position; errors as for `assembly_at`."""
     own = {d.key: d.values[0] for d in choices.structure.scene.drivers}
     poses = own_position(choices.at_start, choices.elements).poses
     return poses if values == own else moved_to(choices, choices.elements, own, values, poses)
@@ -246,11 +246,12 @@ def poses_at(choices: Choices, values: Mapping[str, float]) -> Poses:
 def cams_in_place(
     structure: Structure, asked: Sequence[Symbol], values: Mapping[str, float], bars: bool = True
 ) -> Structure:
-    """What stands for a mechanism with cams at driver values (rad, m), where the links lie that lead to what is asked.
+    """The mechanism that replaces one with cams at driver values (rad, m), by the poses of the links that the asked
+    quantities need.
 
     Parameters
     ----------
-    bars : whether bars stand for rollers and edges, as far as they can, else pins on the pitch curves
+    bars : whether bars replace rollers and edges, if they can, else pins on the pitch curves
 
     Raises
     ------
@@ -273,7 +274,7 @@ def cams_in_place(
 def moved_to(
     choices: Choices, elements: Sequence[Element], own: Mapping[str, float], values: Mapping[str, float], poses: Poses
 ) -> dict[str, Pose]:
-    """All links at driver values, from where they lie at others (``own``), on paper of the mechanism's size.
+    """All links at driver values, followed from their poses at others (``own``), on paper of the mechanism's size.
 
     Raises
     ------
@@ -305,8 +306,8 @@ def moved_to(
 def found_near(
     choices: Choices, elements: Sequence[Element], values: Mapping[str, float], guess: Poses, start: Poses | None = None
 ) -> dict[str, Pose] | None:
-    """All links of the elements at driver values near which a position is guessed, on paper of the mechanism's size;
-    None where nothing fits near by.  What rolls is followed from ``start``."""
+    """All links of the elements at driver values, near a guessed position, on paper of the mechanism's size; None where
+    they do not fit nearby.  Rolling links are followed from ``start``."""
     structure = choices.structure
     ground = structure.scene.frame.name
     values = structure.followed(values)
@@ -338,7 +339,7 @@ def own_position(
 
     Parameters
     ----------
-    of_group : which assembly of a larger group is meant; by trial positions if None
+    of_group : function that chooses the assembly of a larger group; by trial positions if None
     """
     structure, of_group = choices.structure, of_group or _group_by_sketch
     values = {d.key: d.values[0] for d in structure.scene.drivers}
@@ -356,8 +357,8 @@ def own_position(
 
 
 def _group_by_sketch(choices: Choices, paper: PlacedLinks, group: LargerGroup) -> Poses:
-    """The assembly of a larger group that is meant: one that is sketched, improved until everything fits; where the
-    sketch does not tell it, of all that fit the one nearest to what is sketched."""
+    """The scene's assembly of a larger group: the sketched one, improved until it fits; where the sketch does not give
+    it, the fitting one nearest to the sketch."""
     structure = choices.structure
     sketched = list(_fits_by_sketch(choices, paper, group))
     fits = [fit for fit in sketched[-1:] if _is_told(structure, paper, fit)]
@@ -376,8 +377,8 @@ def _group_by_sketch(choices: Choices, paper: PlacedLinks, group: LargerGroup) -
 
 
 def _fits_by_sketch(choices: Choices, paper: PlacedLinks, group: LargerGroup) -> Iterator[dict[str, Pose]]:
-    """Positions of a group near its sketch, up to the first that is told by it: drawn at trial values that the sketch
-    tells, in the assembly that lies nearest to it, and improved until everything fits."""
+    """Positions of a group near its sketch, up to the first that agrees with it: drawn at trial values of the sketch,
+    in the assembly nearest to it, and improved until they fit."""
     structure = choices.structure
     told, rough = {**structure.scene.sketch, **structure.scene.drawn}, sketched_poses(structure, group, paper)
 
@@ -398,8 +399,8 @@ def _fits_by_sketch(choices: Choices, paper: PlacedLinks, group: LargerGroup) ->
 
 
 def sketched_poses(structure: Structure, group: LargerGroup, known: PlacedLinks) -> dict[str, Pose]:
-    """The links known, and those of a group where they are sketched: of which a point is, and whose direction two
-    points tell, or sliding pairs and driven angles by that of another."""
+    """The known links, and the sketched ones of a group: with a sketched point, and a direction by two points, or by
+    sliding pairs and driven angles from another link."""
     scene, mm = structure.scene, known.mm
     places = {p: z * mm for p, z in {**scene.sketch, **scene.drawn}.items()}
     places |= {p: known.point(n, p) for n in known.poses for p in structure.links[n].points}
@@ -432,7 +433,7 @@ def sketched_poses(structure: Structure, group: LargerGroup, known: PlacedLinks)
 
 
 def _is_told(structure: Structure, paper: PlacedLinks, poses: Poses) -> bool:
-    """Whether all points lie about where they are sketched."""
+    """Whether all points lie near their sketched places."""
     told = {**structure.scene.sketch, **structure.scene.drawn}
     off = (abs(z - told[p]) for p, z in paper.fresh(poses).items() if p in told)
     return max(off, default=0.0) <= ROUGHLY * structure.scene.size
@@ -441,8 +442,9 @@ def _is_told(structure: Structure, paper: PlacedLinks, poses: Poses) -> bool:
 def _without_twins(
     structure: Structure, paper: PlacedLinks, group: LargerGroup, found: Sequence[dict[str, Pose]]
 ) -> list[dict[str, Pose]]:
-    """Of positions whose points all lie in the same places the one where what slides lies on the positive side: a fit
-    at a value of the grid is met from both sides, and others differ only in the sense of a bar without length."""
+    """The positions without doubles: of positions with equal places of all points the one with the sliding link on the
+    positive side.  A fit at a value of the grid is met from both sides, and others differ only in the sense of a bar
+    without length."""
     slides = [p for p in group.pairs if not p.turns and p.a in group.members and p.b in group.members]
 
     def positive(poses: Poses) -> float:

@@ -1,9 +1,9 @@
-"""The projective plane: the sheet with infinity, so that a point that lies infinitely far off needs no rule of its own.
+"""The projective plane: the sheet with infinity, so that a point at infinity needs no rule of its own.
 
 Places of the plane with infinity among them have homogeneous coordinates of unit length.  A place is (x, y, w): the
 point (x + iy) / w of the chart, or for w = 0 the direction x + iy.  A line is (a, b, c) with a x + b y + c w = 0.  The
 line through two places and the place where two lines cross are both vector products; the length of the product is the
-sine of the angle between the two on the unit sphere, and says how well they tell apart (Coxeter, Projective Geometry;
+sine of the angle between the two on the unit sphere, a measure of their separation (Coxeter, Projective Geometry;
 Kimbrell, Kinematics Analysis and Synthesis, on centres at infinity).
 """
 
@@ -22,7 +22,7 @@ INFINITE = 1e-12
 def wedge(a: Place, b: Place) -> tuple[Place, float]:
     """The vector product of two places (a line) or of two lines (a place), of unit length, and the sine between them.
 
-    Both are (0, 0, 0) and 0 where the two are the same.
+    Both are (0, 0, 0) and 0 where the two coincide.
     """
     x, y, w = a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
     sine = math.sqrt(x * x + y * y + w * w)
@@ -37,7 +37,7 @@ def product(a: Place, b: Place) -> float:
 
 
 def normal(a: Place) -> Place:
-    """The same place with coordinates of unit length, w not negative."""
+    """The place with coordinates of unit length, w not negative."""
     length = math.copysign(math.sqrt(product(a, a)), a[2])
     return a[0] / length, a[1] / length, a[2] / length
 
@@ -82,15 +82,15 @@ class ProjectiveChart:
         return None if abs(w) < INFINITE else self.middle + self.unit * (complex(x, y) / w)
 
     def direction(self, place: Place) -> complex:
-        """The way to a place from the middle of the sheet, of unit length; to the right, or straight up."""
+        """The unit vector from the middle of the sheet to a place; to the right, or straight up."""
         x, y, _ = place
         size = math.hypot(x, y) or 1.0
         sense = -1.0 if x < 0.0 or (x == 0.0 and y < 0.0) else 1.0
         return complex(x, y) * (sense / size)
 
     def pole(self, at: complex, velocity: complex, omega: float) -> tuple[Place, float]:
-        """Where a motion has no velocity: the motion that gives the point ``at`` (mm) a velocity (mm/s) and turns at
-        ``omega`` (rad/s).  Returns the place and the strength: 0 where nothing moves (and then no place is meant).
+        """The pole of the motion that gives the point ``at`` (mm) a velocity (mm/s) and turns at ``omega`` (rad/s).
+        Returns the place and the strength: 0 at rest (and then the place has no meaning).
 
         The velocity of z is i omega (z - pole): with pole = q / omega, q = omega z + i v at any z.
         """

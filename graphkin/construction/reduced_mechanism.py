@@ -1,9 +1,9 @@
 """Mechanisms of dyads in place of one with a larger group, which compass and ruler cannot draw.
 
-With constraints of the group removed (bars, blocks or drivers) and as many trial drivers in their stead, every part is
-a dyad and can be drawn; the right values of the trial drivers are those at which what was removed fits (method of trial
-positions; Hain, Applied Kinematics; 试凑法).  The fewest constraints that do are removed.
-From a trial drawing near the place sought the right values are found by the gaps that it leaves.
+With constraints of the group removed (bars, blocks or drivers) and as many trial drivers in their place, every part is
+a dyad and can be drawn; at the right values of the trial drivers the removed constraints fit (method of trial
+positions; Hain, Applied Kinematics; 试凑法).  The fewest possible constraints are removed.  From a trial drawing near
+the wanted place the right values are found by its gaps.
 """
 
 from __future__ import annotations
@@ -51,13 +51,13 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class ReducedMechanism:
-    """A mechanism of one larger group less.
+    """A mechanism with dyads in place of a larger group.
 
-    ``removed`` are left out of it, ``trial`` are the trial drivers in their stead, at value and rate 0; ``elements``
-    are those that place the links of the group, in the order of drawing.  ``since`` are angles and travels (rad, m) of
-    what rolls at a position within half a turn at which it fits, by their names.  ``held`` are drivers of blocks left
-    out, as they drive the links that turn with these: by their keys there, the driver's own key and by how much the
-    angle is larger (rad).
+    ``removed`` are its removed constraints, ``trial`` the trial drivers in their place, at value and rate 0;
+    ``elements`` place the links of the group, in the order of drawing.  ``since`` are angles and travels (rad, m) of
+    rolling links at a position within half a turn at which they fit, by their names.  ``held`` are drivers of left-out
+    blocks, acting on the links that turn with these: by their keys there, the driver's own key and the increase of the
+    angle (rad).
     """
 
     structure: Structure
@@ -70,27 +70,27 @@ class ReducedMechanism:
 
     @property
     def left_out(self) -> tuple[str, ...]:
-        """Names of the links, of the drivers, or of what rolls, that are left out."""
+        """Names of the left-out links, drivers, or rolling pairs."""
         return tuple(r.name for r in self.removed)
 
     @property
     def starts(self) -> tuple[Driver, ...]:
-        """Of the position from which rolling starts: what tells where the links stand that roll, as the problem says.
+        """The given data of the starts of rolling links.
         """
         return () if self.group in self.structure.elements else self.group.starts
 
     def rolled_from(self, poses: Poses, mm: float) -> ReducedMechanism:
-        """The same, what rolls counted from a position at which it fits."""
+        """The reduced mechanism with rolling counted from a position at which it fits."""
         since = {name: value for r in self.removed for name, value in r.coordinates(poses, mm).items()}
         return replace(self, since=since) if since else self
 
     def gaps(self, paper: PlacedLinks) -> list[float]:
-        """By how much each of what was left out does not fit: in the mechanism's size, or rad."""
+        """The misfit of each left-out constraint: in the mechanism's size, or rad."""
         size = paper.mm * self.structure.scene.size
         return [r.gap(paper, self.since) / (1.0 if r.is_angle else size) for r in self.removed]
 
     def put_back(self, paper: PlacedLinks) -> dict[str, Pose]:
-        """The group's links where they lie, those left out among them."""
+        """The poses of the group's links, left-out ones included."""
         group = {name: pose for name, pose in paper.poses.items() if name in self.group.members}
         back = ((r.left_out, r.placed(paper)) for r in self.removed if r.left_out)
         return group | {name: pose for name, pose in back if pose is not None}
@@ -108,12 +108,12 @@ class ReducedMechanism:
 
 
 def reduced_mechanisms(structure: Structure, group: LargerGroup, more_than: int = 0) -> list[ReducedMechanism]:
-    """All ways to replace a larger group of a mechanism by dyads with the fewest constraints removed, or the fewest
-    that are ``more_than`` so many.
+    """All reductions of a larger group to dyads with the fewest constraints removed, or with the fewest above
+    ``more_than``.
 
     Raises
     ------
-    Unsolvable : "not drawn": nothing can be left out so that only dyads remain
+    Unsolvable : "not drawn": no constraints can be left out so that only dyads remain
     """
     before = structure.elements[: structure.elements.index(group)]
     known = {structure.scene.frame.name, *(n for e in before for n in e.members)}
@@ -127,7 +127,8 @@ def reduced_mechanisms(structure: Structure, group: LargerGroup, more_than: int 
 
 
 def _reduced(structure: Structure, group: LargerGroup, known: set[str], count: int) -> Iterator[ReducedMechanism]:
-    """The reduced mechanisms with so many constraints removed, rolling among them; ``known`` links stand before."""
+    """The reduced mechanisms with ``count`` constraints removed, those of rolling included; ``known`` links are placed
+    before."""
     scene = structure.scene
     rails = (tuple(structure.slide(n) for kind, n in r.terms if kind == "travel") for r in group.rolling)
     rolling = tuple(RemovedConstraint("", slides=s, rolling=r) for r, s in zip(group.rolling, rails, strict=True))
@@ -159,7 +160,7 @@ def _reduced(structure: Structure, group: LargerGroup, known: set[str], count: i
 
 
 def _removable(structure: Structure, group: LargerGroup, driven: set[str]) -> Iterator[RemovedConstraint]:
-    """What may be left out of a group: bars with two hinges, links with a hinge and a guide or two guides, drivers."""
+    """The removable parts of a group: bars with two hinges, links with a hinge and a guide or two guides, drivers."""
     scene = structure.scene
     touching = {n for c in scene.contacts for n in (*c.links, *((c.block, c.carrier) if c.rolling else ()))}
     touching |= {n for g in scene.gears for n in (*g.wheels, g.carrier)}
@@ -181,14 +182,14 @@ def _removable(structure: Structure, group: LargerGroup, driven: set[str]) -> It
 
 
 def _joined_at(structure: Structure, group: LargerGroup, point: str, name: str) -> str:
-    """The link to which a hinge joins a link of a group: one of the group, or one known before; "" if none."""
+    """The link to which a hinge joins a link of a group: of the group, or known before; "" without one."""
     others = {n for p in group.pairs if p.turns and p.point == point for n in p.links} - {name}
     return next((n for n in structure.hinges[point] if n in others), "")
 
 
 def _instead(drivers: Sequence[Driver], removed: Sequence[RemovedConstraint]) -> dict[str, Driver]:
-    """The drivers that are not removed, by their keys: an angle of a block left out is that of what it slides on, or of
-    what slides on it, and a constant."""
+    """The remaining drivers, by their keys: the angle of a left-out block is that of its guide, or of the link that
+    slides on it, and a constant."""
     blocks = {r.left_out: r for r in removed if r.left_out and r.slides}
     left: dict[str, Driver] = {}
     for driver in drivers:
@@ -206,9 +207,9 @@ def _instead(drivers: Sequence[Driver], removed: Sequence[RemovedConstraint]) ->
 
 
 def _trials(structure: Structure, group: LargerGroup, gone: set[str], known: set[str]) -> Iterator[Driver]:
-    """Drivers that can take its place: of a wheel that rolls on a flat face, from the block at its centre, which turns
-    as the face does; at a pair of the group that is not driven and not left out, those at known links first, for their
-    links are laid off."""
+    """Trial drivers for the removed constraints: of a wheel that rolls on a flat face, from the block at its centre,
+    which turns as the face does; at a pair of the group that is neither driven nor left out, those at known links
+    first, since their links are laid off."""
     rolling = {relation.name for relation in group.rolling}
     for contact in structure.scene.contacts:
         if contact.name in rolling and contact.flat and {contact.round[0].link, contact.block} <= set(group.members):
@@ -231,8 +232,8 @@ class RemovedConstraint:
     """A constraint removed from a group.
 
     ``left_out`` names the bar or block, "" for a driver and for rolling; ``ends`` are (point, link) of a bar's two
-    hinges, or of a block's one; ``slides`` is the sliding pair of a block, of a driven slide or of what rolls along it,
-    or both of a link that slides on two; ``rolling`` is what rolled.
+    hinges, or of a block's one; ``slides`` is the sliding pair of a block, of a driven slide or of rolling along it, or
+    both pairs of a link that slides on two; ``rolling`` is the rolling relation.
     """
 
     left_out: str
@@ -243,8 +244,8 @@ class RemovedConstraint:
 
     @property
     def kind(self) -> Literal["bar", "guide", "turn", "travel", "guides", "rolled"]:
-        """A bar's length, the side of a block's guide, a driver's angle or travel, the angle between two guides, or how
-        much has rolled off: what fits or not."""
+        """The kind of the gap: a bar's length, the side of a block's guide, a driver's angle or travel, the angle
+        between two guides, or rolling."""
         if self.rolling is not None:
             return "rolled"
         if self.driver is not None:
@@ -253,12 +254,12 @@ class RemovedConstraint:
 
     @property
     def name(self) -> str:
-        """Of the bar or block, of the driver, or of the contact or the wheels that roll."""
+        """The name of the bar or block, of the driver, or of the contact or the wheels that roll."""
         return self.rolling.name if self.rolling else self.driver.key if self.driver else self.left_out
 
     @property
     def links(self) -> tuple[str, ...]:
-        """The links between which it stood."""
+        """The links that it joined."""
         names = [link for _, link in self.ends]
         names += [n for slide in self.slides for n in slide.links if n != self.left_out]
         names += self.driver.links if self.driver and self.driver.turns else ()
@@ -270,11 +271,11 @@ class RemovedConstraint:
         return self.kind in ("turn", "guides") or (self.rolling is not None and not self.rolling.in_lengths)
 
     def gap(self, paper: PlacedLinks, since: Mapping[str, float]) -> float:
-        """By how much it does not fit: mm of paper, or rad.
+        """Its misfit: mm of paper, or rad.
 
         Parameters
         ----------
-        since : angles and travels (rad, m) of what rolls at a position within half a turn, by names of coordinates
+        since : angles and travels (rad, m) of rolling links at a position within half a turn, by names of coordinates
         """
         poses, mm, driver = paper.poses, paper.mm, self.driver
         if self.rolling is not None:  # by how much the sum that rolling keeps is another
@@ -301,7 +302,7 @@ class RemovedConstraint:
         return off if slide.a == self.left_out else -off
 
     def coordinates(self, poses: Poses, mm: float) -> dict[str, float]:
-        """The angles within a turn and the travel of what rolls (rad, m), by the names of the coordinates."""
+        """The angles within a turn and the travel of rolling links (rad, m), by the names of the coordinates."""
         values = {}
         for kind, name in self.rolling.terms if self.rolling else ():
             value = cmath.phase(poses[name].axis) if kind == "angle" else travel(self.slides[0], poses, mm) / mm
@@ -309,8 +310,8 @@ class RemovedConstraint:
         return values
 
     def placed(self, paper: PlacedLinks) -> Pose | None:
-        """Where the link left out lies, where it fits: a bar by its two hinges, a block by its hinge and the direction
-        of its guide, a link that slides on two where both put it."""
+        """The pose of the left-out link, if it fits: a bar by its two hinges, a block by its hinge and the direction of
+        its guide, a link that slides on two by both guides."""
         poses = paper.poses
         if self.kind == "guides":
             (p, to_p), (q, to_q) = ([self._slid(slide, poses, mm, paper.mm).origin for mm in (0.0, paper.mm)]
@@ -323,27 +324,27 @@ class RemovedConstraint:
         return Pose(at - axis * local, axis)
 
     def _hinges(self, paper: PlacedLinks) -> list[tuple[complex, complex]]:
-        """Of each hinge its place (mm) on the link left out, in its axes, and where the other link has it on paper."""
+        """For each hinge its place (mm) in the left-out link's axes, and its place on paper on the other link."""
         points, lying = paper.links[self.left_out].points, ((p, paper.poses[n], paper.links[n]) for p, n in self.ends)
         return [(points[p] * paper.mm, pose.origin + pose.axis * link.points[p] * paper.mm) for p, pose, link in lying]
 
     def _slid(self, slide: Pair, poses: Poses, moved: float = 0.0, mm: float = 1.0) -> Pose:
-        """The link left out as a sliding pair puts it, at a travel (mm)."""
+        """The pose of the left-out link on a sliding pair, at a travel (mm)."""
         return across(slide, self.left_out, poses[slide.other(self.left_out)], moved, mm)
 
     @property
     def other_side(self) -> str:
-        """The link on which a block left out slides, or that slides on it."""
+        """The link on which a left-out block slides, or that slides on it."""
         return self.slides[0].other(self.left_out)
 
     @property
     def turned(self) -> float:
-        """By how much (rad) a block left out is turned from the link on its other side, always."""
+        """The constant angle (rad) of a left-out block from the link on its other side."""
         turn = cmath.phase(self.slides[0].guide.direction * self.slides[0].turn)
         return turn if self.slides[0].a == self.left_out else -turn
 
     def along(self, poses: Poses) -> complex:
-        """Direction of the guide of a block left out."""
+        """The direction of a left-out block's guide."""
         (slide,) = self.slides
         rail = self._slid(slide, poses) if slide.b == self.left_out else poses[slide.b]
         return rail.axis * slide.guide.direction
@@ -353,7 +354,7 @@ class RemovedConstraint:
 
 
 class Choices:
-    """The reduced mechanisms of each larger group of a mechanism, and which of them serve now."""
+    """The reduced mechanisms of each larger group of a mechanism, and the present choice among them."""
 
     def __init__(self, structure: Structure, elements: Sequence[Element]) -> None:
         self.structure, self.elements = structure, elements
@@ -364,8 +365,8 @@ class Choices:
 
     @cached_property
     def at_start(self) -> Choices:
-        """Of the mechanism at the scene's own position, where what rolls and moves each other stands as it is given;
-        these themselves where there is nothing of it."""
+        """The choices of the mechanism at the scene's own position, with the starts of links that move each other by
+        rolling; these choices themselves without such links."""
         if not any(group.starts for group in self.structure.larger_groups):
             return self
         there = started(self.structure)
@@ -373,7 +374,8 @@ class Choices:
         return Choices(there, [e for e in there.elements if wanted.intersection(e.members)])
 
     def further(self, group: LargerGroup) -> list[ReducedMechanism]:
-        """Those with more constraints removed than it takes, for where the others are at dead points."""
+        """The reduced mechanisms with more constraints removed than necessary, for positions at which the others are at
+        dead points."""
         if group not in self._further:
             try:
                 fewest = len(self.of[group][0].removed)
@@ -385,8 +387,8 @@ class Choices:
 
 @dataclass(frozen=True)
 class _Tried:
-    """A trial drawing of a larger group: the trial values, what is drawn, the gaps that it leaves, how these change
-    with the values, and how well it finds the group (0: not at all)."""
+    """A trial drawing of a larger group: the trial values, the drawing, its gaps, their change with the values, and the
+    quality with which it finds the group (0: not at all)."""
 
     reduced: ReducedMechanism
     at: Array
@@ -399,8 +401,8 @@ class _Tried:
 def _tried(
     reduced: ReducedMechanism, known: PlacedLinks, guess: Poses, values: Sequence[float] | None = None
 ) -> _Tried | None:
-    """A trial drawing near a guess; a small gap shall mean a small error of every link, and no link outrun the trial
-    driver by much."""
+    """A trial drawing near a guess, with its quality: a small gap should mean a small error of every link, and no link
+    should move much more than the trial driver."""
     at = np.array(reduced.values(guess, known.mm) if values is None else values)
     one = drawn_near(reduced, known, guess, at)
     if one is None:
@@ -424,8 +426,8 @@ def _tried(
 def fitted(
     reduced: ReducedMechanism, known: PlacedLinks, guess: Poses, values: Sequence[float] | None = None
 ) -> dict[str, Pose] | None:
-    """A larger group near a guess: the trial values by proportional division of the gaps that trial drawings leave,
-    again and again (secant; with several trial drivers that of Broyden, Math. Comp. 19, 1965)."""
+    """A larger group near a guess: the trial values by repeated proportional division of the trial drawings' gaps
+    (secant; with several trial drivers Broyden's method, Math. Comp. 19, 1965)."""
     if not reduced.trial:  # everything stands as it is given
         drawn = drawn_near(reduced, known, guess, ())
         return None if drawn is None else reduced.put_back(drawn)
@@ -434,7 +436,7 @@ def fitted(
 
 
 def closed_from(start: _Tried, known: PlacedLinks, guess: Poses) -> dict[str, Pose] | None:
-    """``fitted`` from a trial drawing on."""
+    """``fitted``, beginning with a trial drawing."""
     reduced, at, one, gap, slope = start.reduced, start.at, start.drawn, start.gap, start.slope
     for _ in range(ROUNDS):
         try:
@@ -472,12 +474,12 @@ def drawn_near(
 
 
 def best_reduced(choices: Choices, group: LargerGroup, known: PlacedLinks, guess: Poses) -> ReducedMechanism | None:
-    """The reduced mechanism that finds the group well; None where all are at dead points."""
+    """A reduced mechanism that finds the group well; None where all are at dead points."""
     return None if best_trial(choices, group, known, guess) is None else choices.last[group]
 
 
 def best_trial(choices: Choices, group: LargerGroup, known: PlacedLinks, guess: Poses) -> _Tried | None:
-    """The trial drawing by it, which is the last of the choices then."""
+    """The trial drawing by the best reduced mechanism, which becomes the last choice."""
     last = choices.last.get(group)
     best = _tried(last.rolled_from(guess, known.mm), known, guess) if last is not None else None
     if best is not None and best.quality > GOOD / 2:
@@ -493,7 +495,7 @@ def best_trial(choices: Choices, group: LargerGroup, known: PlacedLinks, guess: 
 
 
 def _best_of(candidates: Sequence[ReducedMechanism], known: PlacedLinks, guess: Poses) -> _Tried | None:
-    """The trial drawing that finds the group best, or the first that finds it well; None where none can be drawn."""
+    """The trial drawing that finds the group best, or the first that finds it well; None if none can be drawn."""
     best: _Tried | None = None
     for reduced in candidates:
         now = _tried(reduced.rolled_from(guess, known.mm), known, guess)
@@ -507,8 +509,8 @@ def _best_of(candidates: Sequence[ReducedMechanism], known: PlacedLinks, guess: 
 def best_first(
     structure: Structure, group: LargerGroup, known: PlacedLinks, guess: Poses
 ) -> Iterator[ReducedMechanism]:
-    """The reduced mechanisms that can be drawn, those first that find the group best; those with the fewest constraints
-    removed before the others."""
+    """The reduced mechanisms that can be drawn, the best first; those with the fewest constraints removed before the
+    others."""
     choices = Choices(structure, [group])
     for some in (choices.of[group], choices.further(group)):
         tried = (_tried(reduced.rolled_from(guess, known.mm), known, guess) for reduced in some)
@@ -517,8 +519,8 @@ def best_first(
 
 
 def standing(choices: Choices, group: LargerGroup, known: PlacedLinks, guess: Poses) -> ReducedMechanism | None:
-    """A group in which links roll and move each other at the scene's own position, ``choices`` being of the mechanism
-    that drivers hold there: without its rolling.  None where all are at dead points."""
+    """A group whose links move each other by rolling, at the scene's own position; ``choices`` belong to the mechanism
+    with drivers in place of rolling.  None where all are at dead points."""
     removed: list[RemovedConstraint] = []
     trial: list[Driver] = []
     drawn: list[Driven | Dyad] = []

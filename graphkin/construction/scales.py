@@ -1,5 +1,5 @@
-"""Scales: of a round series, which of them show something in the room that it has, and which a mechanism and its
-polygons get, the scene's own or those of the 1-2-2.5-5 series that fill the paper."""
+"""Scales of a round series: those that fit a room, and those of a mechanism and its polygons, the scene's own or those
+of the 1-2-2.5-5 series that fill the paper."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ UNMET = 40.0  # what a wish that a room does not hold costs, as `Room.cost`
 
 
 def next_of_series(least: float) -> float:
-    """The next number of the series 1, 2, 2.5, 5 times a power of ten, in which scales and divisions are chosen.
+    """The next number of the series 1, 2, 2.5, 5 times a power of ten, the series of scales and divisions.
 
     >>> next_of_series(0.21), next_of_series(60.0), next_of_series(2.0)
     (0.25, 100.0, 2.0)
@@ -28,14 +28,14 @@ def next_of_series(least: float) -> float:
 
 @dataclass(frozen=True)
 class Extent:
-    """Width and height of what a figure shows (m, m/s, m/s2)."""
+    """Width and height of a figure's content (m, m/s, m/s2)."""
 
     width: float
     height: float
 
     @staticmethod
     def around(points: Iterable[complex], per_mm: float) -> Extent:
-        """Of points on paper (mm) at a scale; nothing where there are none."""
+        """The extent of points on paper (mm) at a scale; empty without points."""
         spots = list(points)
         if not spots:
             return Extent(0.0, 0.0)
@@ -48,7 +48,7 @@ class Extent:
 
 
 def fitting_scale(extent: Extent, room: tuple[float, float], units: float) -> float:
-    """The finest scale of the series (units for one mm) at which something fits the room; 1 if it spans nothing."""
+    """The finest scale of the series (units for one mm) at which an extent fits the room; 1 if it has no size."""
     least = extent.least_scale(room) * units
     if not math.isfinite(least) or least <= 0.0:
         return 1.0
@@ -72,8 +72,8 @@ class Scales:
 class Room:
     """Width and height (mm) that the mechanism and each polygon may fill.
 
-    ``others`` are rooms that may be taken instead, where their scales are so much finer (in powers of ten, of all three
-    figures together) as they ``cost`` more; with ``keeps_wishes`` scales that the scene wishes for are kept in a room
+    ``others`` are rooms that may be taken instead, if their scales are finer (in powers of ten, of all three figures
+    together) by more than their ``cost``; with ``keeps_wishes`` scales that the scene wishes for are kept in a room
     that holds them.
     """
 

@@ -1,10 +1,10 @@
 """Contours of known shape in a larger group, which are drawn with one of their links held still.
 
-Whatever the rest of a group does, links that drivers inside it hold to each other move as one link at the moment, but
-for motions that the drivers give.  Seen with one link of such a contour held still, these are drawn first; the others
-are then points of the held link, each with a known vector more (Coriolis included), and the group is drawn as if the
-contour were one link.  A point's own velocity, seen from the held link, is that relative to the coincident point of it;
-other vectors bear its name.
+Whatever the rest of a group does, links that drivers inside it hold to each other move as one link for the moment,
+except for the drivers' given motions.  These motions, seen with one link of such a contour held still, are drawn first;
+points of the others are then points of the held link with a known vector added (Coriolis included), and the group is
+drawn as if the contour were one link.  A point's velocity, seen from the held link, is its velocity relative to the
+coincident point of that link; other vectors have the link's name.
 """
 
 from __future__ import annotations
@@ -24,15 +24,14 @@ turn or slide on each other."""
 def contours(
     links: Sequence[str], joints: Sequence[Joint], turning: Sequence[tuple[str, str]]
 ) -> list[tuple[str, ...]]:
-    """The largest sets of links that can only move as one, drivers at rest, however the group hangs on others: they
-    move alike in every motion that the joints allow.
+    """The largest sets of links that can only move as one with drivers at rest, in every motion that the joints allow.
 
-    Links that a driver holds at their common pair are one already: a set of nothing else is left out.
+    Links that a driver holds at their common pair are one already: a set of only such links is left out.
 
     Parameters
     ----------
-    joints : those between links of the group
-    turning : further links whose rotations differ only by what drivers give
+    joints : between links of the group
+    turning : further links whose rotations differ only by the drivers' motions
     """
     turns = np.array([0.0, 0.0, 1.0])
     kept = [(both, turns) for both in turning]

@@ -1,8 +1,8 @@
-"""What stands on the paper after a construction, and the board on which it grows: strokes in mm, in numbered steps,
-each with its reason.
+"""The paper after a construction, and the board on which it grows: strokes in mm, in numbered steps, each with its
+reason.
 
 Coordinates are complex numbers in mm on paper, y up.  The mechanism is drawn from the world's origin, the velocity and
-acceleration polygons from their poles; where a figure is placed on a page is not decided here.
+acceleration polygons from their poles; their places on a page are decided elsewhere.
 """
 
 from __future__ import annotations
@@ -68,18 +68,18 @@ _GAPS: Mapping[Remarkable, tuple[str, ...]] = {
 
 @dataclass(frozen=True)
 class Remark:
-    """What may have to be said of the construction: whether it ``holds`` depends on the scale of the figure.
+    """A possible remark on the construction: whether it ``holds`` depends on the scale of the figure.
 
     Parameters
     ----------
     key : its phrase.  "sharp crossing": two lines cross at so small an angle that the place is uncertain; "off the
-        sheet": they cross so far from where they start that rulers do not reach, and the place is computed; "zero
-        vector"; "short arm": the two points lie too near to each other that direct a guide; "magnified": what a trial
-        polygon leaves open and is read wrong moves end points by so many times as much; "parallel legs": two legs of a
-        link leave it free along one direction, their special point lies at infinity; "at contact", "at pitch curve":
-        a sliding contact is drawn at the contact itself, or as a pin on the pitch curve, not by what replaces it
-    of : what is found there, or what it is said of
-    size : the sine of the angle of a sharp crossing, by how much it is magnified, else a length on paper (mm)
+        sheet": they cross so far from their starts that rulers do not reach, and the place is computed; "zero
+        vector"; "short arm": the two points lie too near to each other that direct a guide; "magnified": an error in
+        reading a trial polygon's gap moves end points by a multiple of it; "parallel legs": two legs of a link leave it
+        free along one direction, their special point lies at infinity; "at contact", "at pitch curve": a sliding
+        contact is drawn at the contact itself, or as a pin on the pitch curve, not by its replacement
+    of : the thing found there, or its subject
+    size : the sine of the angle of a sharp crossing, the factor of magnification, else a length on paper (mm)
     """
 
     diagram: DiagramName
@@ -127,9 +127,9 @@ class Equation:
 class Rate:
     """An angular velocity or acceleration measured on the drawing (rad/s, rad/s2; counter-clockwise positive).
 
-    ``vector`` is the relative or tangential vector it comes from (None where it is given, or is that of another link:
-    ``same_as``), ``mm`` its length on paper and ``arm_mm`` that of the bar; without a bar ``mm`` was read off the rate
-    scale of a velocity plan.
+    ``vector`` is the relative or tangential vector from which it comes (None for a given rate, or the rate of another
+    link: ``same_as``), ``mm`` its length on paper and ``arm_mm`` that of the bar; without a bar ``mm`` was read off the
+    rate scale of a velocity plan.
     """
 
     link: str
@@ -141,22 +141,22 @@ class Rate:
 
     @property
     def is_own(self) -> bool:
-        """Whether it was read off by itself, neither given nor that of another link."""
+        """Whether it was read off by itself, neither given nor the rate of another link."""
         return (self.vector is not None or self.mm != 0.0) and not self.same_as
 
     def scaled(self, vector_times: float, arm_times: float) -> Rate:
-        """The same rate read off larger figures; one that was read off a velocity plan stays."""
+        """The rate read off larger figures; a rate read off a velocity plan stays."""
         off_plan = self.mm and not self.arm_mm
         return self if off_plan else replace(self, mm=self.mm * vector_times, arm_mm=self.arm_mm * arm_times)
 
 
 @dataclass(frozen=True)
 class Reading:
-    """One quantity read off a drawing.
+    """A quantity read off a drawing.
 
-    ``on_paper`` is the length on paper (mm) it comes from, None for an angle read with the protractor; ``value`` a
+    ``on_paper`` is its length on paper (mm), None for an angle read with the protractor; ``value`` a
     complex number (m/s, m/s2) for a vector, a float (rad/s, rad/s2, counter-clockwise positive; m, rad) for others.
-    ``diagram`` is the one it was read from.
+    ``diagram`` is the diagram of the reading.
     """
 
     symbol: Symbol
@@ -167,7 +167,8 @@ class Reading:
 
 @dataclass(frozen=True)
 class LimitPosition(OnPaper):
-    """The mechanism drawn once more, at a limit position of an output: the crank's value (rad) and where links lie."""
+    """The mechanism drawn once more, at a limit position of an output: the crank's value (rad) and the poses of
+    links."""
 
     value: float
     poses: Mapping[str, Pose]
@@ -175,9 +176,8 @@ class LimitPosition(OnPaper):
 
 @dataclass(frozen=True)
 class Limits(OnPaper):
-    """Both limit positions of a slide or of a link over a whole turn of the crank, the one furthest along the guide's
-    sense, or furthest counter-clockwise, being ``high``; ``swing`` is how far a link turns between them (rad), to a
-    few degrees."""
+    """Both limit positions of a slide or of a link over a whole turn of the crank, ``high`` is the farthest along the
+    guide's sense, or counter-clockwise; ``swing`` is the angle of a link between them (rad), to a few degrees."""
 
     low: LimitPosition
     high: LimitPosition
@@ -191,22 +191,19 @@ what is seen from a link held still and that link's motion."""
 
 @dataclass(frozen=True)
 class Sheet:
-    """Everything drawn, in order.
+    """The whole drawing, in order.
 
     ``ends`` gives the end points in each polygon: ends["velocity"][PointRef("B", "3")] is b3.
     ``omega`` and ``alpha`` hold the measured rates by link.
-    ``noticed`` are what may have to be said of the construction.
-    ``causes`` tells to what the acts of the hand belong: (acts made when it was done, what).
-    ``left_out`` says what nothing asked for needs; ``held_still`` are steps drawn apart, with one link for a frame.
-    ``asked`` is what is asked for, if the drawing is limited to it; ``limits`` are the limit positions drawn for it, by
-    sliding pair or link.
-    ``groups`` are those larger than a dyad, and how each was drawn.
-    ``acting`` says of each load whether it acts here (None where it begins or ends exactly here), if forces are drawn;
-    ``growing`` are then, where the mechanism rests or has several drivers, drawings with each driver's value alone
-    growing at a unit rate.
-    ``trains`` are the velocity plans of what rolls, at scales of their own.
-    ``readings`` are the lengths (mm) that a hand which errs has read for the construction, of vectors by their symbols
-    (`either_way`), of the mechanism by the two points.
+    ``noticed`` are possible remarks on the construction.  ``causes`` gives the source of the acts of the hand: (acts
+    made when it was done, source).  ``left_out`` are links that no asked quantity needs; ``held_still`` are steps drawn
+    separately, with one link as the frame.  ``asked`` are the asked quantities, if the drawing is limited to them;
+    ``limits`` are the limit positions drawn for it, by sliding pair or link. ``groups`` are those larger than a dyad,
+    with the construction of each.  ``acting`` tells of each load whether it acts here (None where it begins or ends
+    exactly here), if forces are drawn; ``growing`` are then, where the mechanism rests or has several drivers, drawings
+    with each driver's value alone growing at a unit rate. ``trains`` are the velocity plans of rolling links, at scales
+    of their own.  ``readings`` are the lengths (mm) that an erring hand has read for the construction, of vectors by
+    their symbols (`either_way`), of the mechanism by the two points.
     """
 
     scene: Mechanism
@@ -236,12 +233,12 @@ class Sheet:
 
     @property
     def has_forces(self) -> bool:
-        """Whether forces are drawn of it: there are masses or loads, and all is drawn that they need."""
+        """Whether forces can be drawn from it: there are masses or loads, and all that they need is drawn."""
         wanted = not self.asked or any(s.scope in ("force", "cycle") for s in self.asked)
         return bool(self.scene.loading) and wanted
 
     def larger(self, times: float) -> Sheet:
-        """The mechanism alone so many times as large, drawn by any hands; without the points of its construction."""
+        """The mechanism alone enlarged by a factor, drawn by any hands; without the points of its construction."""
         return replace(
             self, scales=replace(self.scales, length=self.scales.length / times), steps=(),
             poses={name: pose.scaled(times) for name, pose in self.poses.items()},
@@ -253,11 +250,11 @@ class Sheet:
         return self.omega if kind == "omega" else self.alpha
 
     def at(self, scales: Scales) -> Sheet:
-        """The same construction at other scales: every length on paper so many times as large.
+        """The construction at other scales: every length on paper multiplied by a factor.
 
         Raises
         ------
-        ValueError : it was drawn by hands that err, whose errors depend on the scale
+        ValueError : it was drawn by erring hands, whose errors depend on the scale
         """
         if self.instrument != EXACT_NAME:
             raise ValueError(f"a sheet drawn by {self.instrument} is drawn anew at other scales")
@@ -281,12 +278,12 @@ class Sheet:
 
     @property
     def remarks(self) -> tuple[Remark, ...]:
-        """What is to be said of the construction at these scales: lines that meet off the sheet, zero vectors."""
+        """The remarks on the construction at these scales: lines that meet off the sheet, zero vectors."""
         return tuple(remark for remark in self.noticed if remark.holds)
 
     @property
     def notes(self) -> tuple[Phrase, ...]:
-        """The remarks as sentences to be, each once."""
+        """The remarks as phrases, each once."""
         return tuple(dict.fromkeys(remark.phrase for remark in self.remarks))
 
     @cached_property
@@ -296,7 +293,7 @@ class Sheet:
 
     @cached_property
     def serving(self) -> frozenset[str]:
-        """The points that only serve the construction: special points of larger groups, pitch points."""
+        """The points of the construction only: special points of larger groups, pitch points."""
         reasons = "special point", "pitch point"
         return frozenset(step.point for step in self.steps if step.reason in reasons)
 
@@ -307,7 +304,7 @@ class Sheet:
         return dict(reversed(drawn))
 
     def arm_mm(self, between: Iterable[str]) -> float | None:
-        """How far two points of the mechanism lie apart (mm), as read where a hand has; None for one that is not there.
+        """The distance of two points of the mechanism (mm), as read by an erring hand; None for a missing point.
         """
         names = frozenset(between)
         ends = [self.points.get(PointRef(name)) for name in names]
@@ -331,7 +328,7 @@ class Sheet:
         return [s for s in strokes if isinstance(s, ConstructionVector) and s.trial]
 
     def vectors_seen(self, diagram: DiagramName) -> Iterator[ConstructionVector]:
-        """The vectors of a diagram that are seen from held links; those that lead to special points left out."""
+        """The vectors of a diagram that are seen from held links, without those that lead to special points."""
         held = {step.held for step in self.steps if step.reason == "seen from"}
         special = self.special_points.keys()
         for step in self.steps if held else ():
@@ -342,7 +339,7 @@ class Sheet:
                         yield stroke
 
     def carried(self, diagram: DiagramName) -> Iterator[complex]:
-        """The ends (mm) of vectors that are laid off before their turn in the chain, but of those of special points."""
+        """The ends (mm) of vectors that are laid off before their turn in the chain, except those of special points."""
         for step in self.steps:
             if step.diagram == diagram and step.reason == "before its turn":
                 points = {ref.point for ref in (step.symbol.of, step.symbol.to) if ref is not None}
@@ -351,8 +348,8 @@ class Sheet:
 
     @cached_property
     def extents(self) -> dict[Diagram, Extent]:
-        """Width and height of the mechanism and of both polygons, poles included, by which scales are chosen: special
-        points left out, but with vectors seen from held links; trial polygons and carried vectors a little smaller."""
+        """Width and height of the mechanism and of both polygons, poles included, by which scales are chosen: without
+        special points, with vectors seen from held links, with trial polygons and carried vectors slightly smaller."""
         places = [z for ref, z in self.points.items() if ref.point not in self.serving]
         if self.scene.cams or self.scene.gears or any(link.discs for link in (self.scene.frame, *self.scene.links)):
             per = 1.0 / self.scales.length
@@ -384,7 +381,7 @@ class Sheet:
 
 
 def either_way(symbol: Symbol) -> Symbol:
-    """A vector by the name of that or of its opposite, whichever is first: both are as long.
+    """A vector by its name or that of its opposite, whichever is first: both have the same length.
 
     >>> str(either_way(Symbol.parse("v_C/B"))), str(either_way(Symbol.parse("v_B/C")))
     ('v_B/C', 'v_B/C')
@@ -402,7 +399,7 @@ def either_way(symbol: Symbol) -> Symbol:
 
 
 def without_residues(sheet: Sheet) -> Sheet:
-    """A sheet of exact hands, each vector that is nothing but rounding made zero, with the rates measured from it."""
+    """A sheet of exact hands, with every vector that is rounding alone made zero, and the rates measured from it."""
     zero = _residues(sheet)
     if not zero:
         return sheet
@@ -430,11 +427,12 @@ def without_residues(sheet: Sheet) -> Sheet:
 
 
 def greatest_before(structure: Structure, sizes: Iterable[tuple[Symbol, float]]) -> Callable[[Symbol], float]:
-    """For a quantity of the motion the greatest of sizes: of its own, and of those of the links that it hangs on.
+    """Function of a quantity of the motion to the greatest of sizes: of its own links, and of the links on which they
+    depend.
 
-    What is greater farther on in the order of solution has no part in it: beside a dead point of the last group the
-    rates of the others are as they are.  Of points that are no link's, special points of the drawing, and seen from a
-    link that is held still, all sizes count; theirs count from the first larger group on.
+    Greater sizes later in the order of solution do not count: near a dead point of the last group the rates of the
+    others are not affected.  For special points of the drawing, and vectors seen from a held link, all sizes count;
+    theirs count from the first larger group on.
     """
     elements = structure.elements
     special = next((i for i, e in enumerate(elements) if isinstance(e, LargerGroup)), len(elements) - 1)
@@ -462,7 +460,7 @@ def greatest_before(structure: Structure, sizes: Iterable[tuple[Symbol, float]])
 
 
 def _residues(sheet: Sheet) -> set[Symbol]:
-    """The vectors that are nothing but rounding."""
+    """The vectors that are rounding alone."""
     scales, size, structure = sheet.scales, sheet.scene.size, sheet.structure
     velocity, acceleration = (
         {v.symbol: abs(v.span) for v in [*sheet.vectors_seen(order), *sheet.vectors(order).values()]}
@@ -477,7 +475,7 @@ def _residues(sheet: Sheet) -> set[Symbol]:
     )
 
     def lost(sharpest: float) -> float:
-        """What rounding may have cost of a vector, as a part of the largest that leads to it."""
+        """The rounding error of a vector over the largest vector that leads to it."""
         return min(MOST_LOST, LOST * max(sharpest, 1.0) ** 2)
 
     def residue(symbol: Symbol) -> float:
@@ -505,7 +503,7 @@ def _residues(sheet: Sheet) -> set[Symbol]:
 
 
 def _crossing(remark: Remark) -> Symbol:
-    """What a crossing finds, as a quantity: its own, or the velocity of a point or of links."""
+    """The quantity that a crossing finds: its own, or the velocity of a point or of links."""
     (of,) = remark.of
     if isinstance(of, Phrase):
         return Symbol("omega", link=str(of.gaps["links"]).split(", ")[0])
@@ -517,10 +515,10 @@ def _crossing(remark: Remark) -> Symbol:
 
 @dataclass
 class Board:
-    """Steps in the order in which they are done, and what was read; the one thing in this room that grows.
+    """Steps in order, and the readings; the only value in this room that grows.
 
-    ``readings`` are the lengths (mm) that hands which err have read, as in `Sheet`: they are used at each later use;
-    ``assembly`` are the words for that of each group, and ``held_still`` what was drawn apart with a link held still.
+    ``readings`` are the lengths (mm) that erring hands have read, as in `Sheet`, for every later use; ``assembly`` are
+    the words for the assembly of each group, and ``held_still`` the steps drawn separately with a link held still.
     """
 
     instrument: Instrument
@@ -533,19 +531,18 @@ class Board:
     held_still: list[Step] = field(default_factory=list)
 
     def again(self, hand: Instrument) -> Board:
-        """What stands on the board, to go on with by other hands."""
+        """The board for continuing by other hands."""
         kept = {name: copy(value) for name, value in vars(self).items() if name != "instrument"}
         return Board(hand, **kept)
 
     def do(self, step: Step) -> None:
-        """Record one step, by its number in the order."""
+        """Record a step, with its number in the order."""
         step = replace(step, number=len(self.steps) + 1)
         self.steps.append(step)
         self.causes.append((self.instrument.acts, step))
 
     def read(self, between: Symbol | frozenset[str], mm: float) -> float:
-        """The length of a vector, or of what lies between two points of the mechanism (mm), read when it is first
-        needed."""
+        """The length of a vector, or the distance of two points of the mechanism (mm), read when it is first needed."""
         thing = either_way(between) if isinstance(between, Symbol) else between
         if self.instrument.errs is None:
             return self.instrument.read(mm)  # it shows the same each time
@@ -554,8 +551,8 @@ class Board:
         return self.readings[thing]
 
     def pricked(self, diagram: DiagramName, mark: Mark) -> bool:
-        """Whether an end point stands there already: two lines have met in it, or the last vector ends in it and now
-        bears its letter."""
+        """Whether an end point is drawn already: two lines have met in it, or the last vector ends in it and gets its
+        letter."""
         if any(mark in step.strokes for step in self.steps if step.diagram == diagram):
             return True
         last = self.steps[-1]
@@ -566,13 +563,13 @@ class Board:
         return True
 
     def notice(self, diagram: DiagramName, key: Remarkable, *of: str | Symbol | Phrase, size: float = 0.0) -> None:
-        """Take note of what may have to be said, at this scale or at another."""
+        """Note a possible remark, for this scale or another."""
         self.noticed.append(Remark(diagram, key, of, size))
 
     def cross(
         self, diagram: DiagramName, p: complex, d: complex, q: complex, e: complex, what: str | Symbol
     ) -> complex:
-        """Where the line through p along d meets the line through q along e, drawn as ruler lines.
+        """The crossing of the line through p along d and the line through q along e, drawn as ruler lines.
 
         Raises
         ------

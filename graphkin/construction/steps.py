@@ -1,8 +1,8 @@
 """A step of a construction: one verb of the hand with its arguments, and the strokes that it leaves on paper, in mm;
 and the terms of vector equations, with what is known of a vector before it is drawn.
 
-Ten verbs draw mechanisms, polygons and groups alike; the ``reason`` says which of the things is done that the verb
-stands for, and with it how the step is told (`SENTENCES`) and which arguments it has.
+Ten verbs draw mechanisms, polygons and groups alike; the ``reason`` distinguishes the uses of a verb, and gives the
+sentence of the step (`SENTENCES`) and its arguments.
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ ORDERS: tuple[Order, ...] = ("velocity", "acceleration")
 
 @dataclass(frozen=True)
 class Direction:
-    """A direction as it is written in an equation row: square to or along what is named.
+    """A direction in an equation row: square to or along a named line.
 
     ``names`` are the letters of a bar (``("B", "C")``) or the name of a guide (``("h",)``); ``relation`` is "square",
-    "along", "towards" (from the first to the second), "turned" (the relative velocity turned by 90 degrees in the
-    sense of the guide's rotation) or "found" (as a polygon of its own gave it).
+    "along", "towards" (from the first to the second), "turned" (the relative velocity turned by 90 degrees in the sense
+    of the guide's rotation) or "found" (given by a polygon of its own).
     """
 
     relation: Literal["square", "along", "towards", "turned", "found"]
@@ -56,14 +56,13 @@ class Size:
     Parameters
     ----------
     rule : "given": by the problem.  "rate": a rate, or its square, times ``factor``, the letters of a bar or a vector.
-        "over radius": the square of the vector ``factor`` over the radius of curvature (m).  "slip on curves": what the
-        curvatures of two outlines give along their normal, by the slip ``factor`` and the relative rate.  "rolling
-        curves": what they give where both are round and roll on each other, the square of the rate times ``radius``
-    rate, links : whose, of one link or of the first from the second
-    curves : the links whose outlines touch; "slip on curves": those that are round; "rolling curves": where one is
-        hollow it is the second
-    hollow : whether one is
-    radius : of curvature, or what follows from those of two outlines (m)
+        "over radius": the square of the vector ``factor`` over the radius of curvature (m).  "slip on curves": the term
+        of two outlines' curvatures along their normal, by the slip ``factor`` and the relative rate.  "rolling curves":
+        their term for round outlines that roll on each other, the square of the rate times ``radius``
+    rate, links : the rate of one link, or of the first from the second
+    curves : the links in contact; "slip on curves": the round ones; "rolling curves": a hollow one is the second
+    hollow : whether one is hollow
+    radius : of curvature, or a combination of two outlines' radii (m)
 
     >>> str(Size("rate", ("3",), ("B", "C"), square=True))
     'ω_{3}²·BC'
@@ -89,7 +88,7 @@ class Size:
         return self.written("".join(self.factor) if isinstance(self.factor, tuple) else str(self.factor))
 
     def written(self, factor: str) -> str:
-        """With the bar or the vector as it is written somewhere."""
+        """The rule with its bar or vector as written in a text."""
         turning = f"{'ω' if self.rate == 'omega' else 'α'}_{{{''.join(self.links)}}}"
         rho = [f"ρ_{{{link}}}" for link in self.curves]
         match self.rule:
@@ -112,7 +111,7 @@ GIVEN = Size("given")
 
 
 def plain_in(language: str) -> Callable[[object], str]:
-    """What writes symbols, points, sizes and directions as plain text of a language: ``v_B@3/B@2``, ``⊥BC``."""
+    """The writer of symbols, points, sizes and directions as plain text of a language: ``v_B@3/B@2``, ``⊥BC``."""
 
     def written(thing: object) -> str:
         if thing == GIVEN:
@@ -141,16 +140,16 @@ LENGTHS = {
 
 
 class OnPaper:
-    """What has places or lengths on paper (mm)."""
+    """A value with places or lengths on paper (mm)."""
 
     def scaled(self, times: float) -> Self:
-        """The same so many times as large."""
+        """The value with its lengths multiplied by ``times``."""
         return _changed(self, **{name: _times(value, times) for name, value in vars(self).items() if name in LENGTHS})
 
 
 def _changed(value: Value, **fields: object) -> Value:
-    """As ``replace``, of values that do nothing when they are made: a sheet is scaled for each figure, and taking the
-    fields as they are is ten times faster than asking for each of them."""
+    """As ``replace``, for values without work in their making: a sheet is scaled for each figure, and copying the
+    fields is ten times faster than reading each of them."""
     copy = object.__new__(type(value))
     vars(copy).update(vars(value), **fields)
     return copy
@@ -168,15 +167,15 @@ def _times(value: Any, times: float) -> Any:
 
 @dataclass(frozen=True)
 class Term(OnPaper):
-    """A term of a vector equation: is its size known, is its direction known, and as what.
+    """A term of a vector equation, with the known parts of its size and direction.
 
     Parameters
     ----------
-    size : the rule that gives the size (None where it was drawn before or is unknown)
-    direction : as it is written
-    part, turned : of a force: which part of it this is, and whether it is the opposite of its symbol's
-    role, link, pair : its part in the motion of one point relative to another; the link that both are points of, or the
-        sliding pair under which they coincide
+    size : the rule of its size (None if it was drawn before or is unknown)
+    direction : as written
+    part, turned : of a force: its part, and whether it is the opposite of its symbol
+    role, link, pair : its part in the motion of one point relative to another; the link of both points, or the sliding
+        pair at which they coincide
     along, span : on paper, while it is drawn: a unit vector along it, and the vector (mm; None: of unknown size)
     """
 
@@ -217,25 +216,26 @@ NO_SYMBOL, NO_POINT = Symbol(""), PointRef("")
 
 @dataclass(frozen=True)
 class Step:
-    """One action on the board; an argument that its verb does not have is left empty.
+    """An action on the board; an argument that its verb does not have is empty.
 
     Parameters
     ----------
-    number : its place in the order, from 1; 0 as long as it stands on no board
+    number : its number in the order, from 1; 0 before it is on a board
     equation : the number of the equation that it helps to draw
-    symbol : the vector that it draws, finds or measures by
-    ref, refs : the end point that it finds, and those from which
-    begins : of a vector seen from a held link, the vectors at whose ends it begins; None where that is the pole
-    point, points : the point of the mechanism that it finds, and those from which, or a bar; or the points it marks
+    symbol : the vector that it draws or finds, or by which it measures
+    ref, refs : the end point that it finds, and those from which it is found
+    begins : of a vector seen from a held link, the vectors at whose ends it begins; None for the pole
+    point, points : the point of the mechanism that it finds, and those from which it is found, or a bar; or the points
+        that it marks
     link, links : the link that it places, turns or takes; and others
-    base : the link relative to which something is meant; "" for the x axis, or the frame
+    base : the reference link; "" for the x axis, or the frame
     pairs : sliding pairs, by key
-    kind : the quantity that is given or read; "driven" of a special point through whose leg a driver goes
-    held : the link from which it is seen, with that held still; "" for the frame
-    value, other : what is given or read (rad, m, rad/s, ...), and the value that is added to it
-    per_mm : the scale of a plan of its own, whose lengths stay; 0 of the diagram's
-    mm, radii : lengths on paper; a scale changes these, and what ``data`` has of them
-    data : of trials and their division, and what the rates of a link give, laid off one behind the other
+    kind : the given or read quantity; "driven" for a special point with a driver in its leg
+    held : the link held still, from which it is seen; "" for the frame
+    value, other : the given or read value (rad, m, rad/s, ...), and the value added to it
+    per_mm : the scale of a plan with constant lengths; 0 for the diagram's scale
+    mm, radii : lengths on paper; a scale changes these, and those in ``data``
+    data : of trials and their division, and the parts by a link's rates, laid off in order
     """
 
     verb: Verb
@@ -267,7 +267,7 @@ class Step:
 
     @property
     def phrase(self) -> Phrase:
-        """The step as a sentence to be, without the letters of any school."""
+        """The step as a phrase, without the letters of any school."""
         key = self.sentence
         told = Phrase(key, **{name: self.gap(name) for name in gaps_of(key)})
         for block, link, turned in self.data.instead if isinstance(self.data, TrialPositions) else ():
@@ -309,8 +309,8 @@ class Step:
         return key.format(kind=self.kind, turning=turning, diagram=self.diagram)
 
     def gap(self, name: str) -> object:
-        """What stands in a gap of its sentence: an argument by its name, ``points.1`` the second of several, lengths on
-        paper as a ruler shows them; or what follows from its arguments."""
+        """The value of a gap in its sentence: an argument by its name, ``points.1`` the second of several, lengths on
+        paper as a ruler shows them; or a value that follows from its arguments."""
         match name:
             case "degrees":
                 return f"{math.degrees(self.value):.6g}"
@@ -340,7 +340,7 @@ class Step:
 
     @property
     def _rate_read(self) -> Mapping[str, str]:
-        """A rate in figures: as measured, as the sum of two, on the plan of a train."""
+        """A rate in figures: as measured, as the sum of two, or on the plan of a train."""
         match self.reason:
             case "sum of rates":
                 known, of = self.links
@@ -359,7 +359,7 @@ class Step:
 
     @property
     def _tried(self) -> Mapping[str, object]:
-        """The rates of trials and what they leave open; of several rates the first by its symbol, with its value."""
+        """The rates of trials and their gaps; of several rates the first by its symbol, with its value."""
         data = self.data
         if isinstance(data, RateTrial):
             return _assumed([one for one in data.assumed if one[1]] or data.assumed)
@@ -373,11 +373,11 @@ class Step:
 
     @property
     def finds_rate(self) -> bool:
-        """Whether it finds how a link turns, as seen from the frame."""
+        """Whether it finds the rate of a link against the frame."""
         return self.reason in ("rate", "sum of rates", "plan") and not self.held
 
     def scaled(self, times: float) -> Step:
-        """The same step with all its lengths on paper so many times as large."""
+        """The step with all its lengths on paper multiplied by ``times``."""
         strokes = tuple(stroke.scaled(times) for stroke in self.strokes)
         growth = 1.0 if self.per_mm else times
         radii = tuple(radius * growth for radius in self.radii)
@@ -401,7 +401,7 @@ Cause: TypeAlias = Step | Phrase
 
 
 def phrase_of(cause: Cause) -> Phrase:
-    """A step, or another cause of uncertainty, as a sentence to be."""
+    """A step, or another cause of uncertainty, as a phrase."""
     return cause if isinstance(cause, Phrase) else cause.phrase
 
 
@@ -423,21 +423,21 @@ class Arrow(OnPaper):
 
 @dataclass(frozen=True)
 class Vector(Arrow):
-    """A vector drawn, with its part in an equation."""
+    """A drawn vector, with its part in an equation."""
 
     role: Role
 
 
 @dataclass(frozen=True)
 class ConstructionVector(Arrow):
-    """A vector that only leads on: of a ``trial`` polygon by its number, or of a special point (0)."""
+    """A vector of the construction only: of a ``trial`` polygon by its number, or of a special point (0)."""
 
     trial: int
 
 
 @dataclass(frozen=True)
 class Ray(OnPaper):
-    """A direction known only as a line, through a point, drawn as far as the crossing ``to`` (None: it has none)."""
+    """A direction known only as a line, through a point, drawn up to the crossing ``to`` (None without one)."""
 
     through: complex
     along: complex
@@ -466,7 +466,7 @@ class Bar(OnPaper):
 
 @dataclass(frozen=True)
 class TrialCurve(OnPaper):
-    """Where the free ``point`` of a group comes to lie in trial positions, ``at``, and the curve through them."""
+    """The places ``at`` of a group's free ``point`` in trial positions, and the curve through them."""
 
     curve: tuple[complex, ...]
     at: tuple[complex, ...]
@@ -497,8 +497,8 @@ Stroke = Vector | ConstructionVector | TrialCurve | Ray | CompassArc | Bar | Mar
 
 @dataclass(frozen=True)
 class Missed:
-    """What is measured of what was left out, with the ``names`` that it lies between and the ``length`` of a bar (mm on
-    paper): degrees where it is an ``angle``, else mm."""
+    """The measured gap of a left-out part, with the ``names`` of its ends and the ``length`` of a bar (mm on paper):
+    degrees for an ``angle``, else mm."""
 
     kind: Literal["bar", "guide", "turn", "travel", "guides", "rolled"]
     names: tuple[str, ...]
@@ -512,18 +512,17 @@ TrialRow: TypeAlias = tuple[tuple[float, ...], tuple[float, ...]]
 
 @dataclass(frozen=True)
 class TrialPositions(OnPaper):
-    """A group placed by trial: ``driven`` names what is moved, ``left_out`` the link (or driver) left out until it
-    fits, ``rolling`` the contacts or gears at which as much must have rolled off as since the scene's own position,
+    """A group placed by trial: ``driven`` names the moved quantities, ``left_out`` the link (or driver) left out until
+    it fits, ``rolling`` the contacts or gears at which the rolling must fit that since the scene's own position,
     ``point`` the free point whose trial curve is drawn ("" for none), in ``count`` trial positions.  ``instead`` are
-    driven blocks left out, each with the link that is driven in its stead and by how much the block is turned from it
-    (rad).
+    left-out driven blocks, each with the link that is driven in its place and the block's angle from it (rad).
 
-    ``moved`` and ``missed`` are what is measured in the ``trials``: angles from a link ("" for the x axis) and travels,
-    in degrees and mm on paper; without any where none could be drawn.  ``divided`` are positions that proportional
-    division gives, one after the other, the last one where nothing is missed.  Where one thing is moved the first lies
-    between the trial number ``before`` (from 1) and the next; where several are, each further trial differs from the
-    first in one of them, ``parts`` of these steps together make the first that is divided, and each that is divided
-    takes the place of the trial of its number in ``replaced`` (from 1).
+    ``moved`` and ``missed`` are measured in the ``trials``: angles from a link ("" for the x axis) and travels, in
+    degrees and mm on paper; empty if none could be drawn.  ``divided`` are positions by proportional division, in
+    order, the last one without a gap.  With a single moved quantity the first lies between the trial number ``before``
+    (from 1) and the next; with several, each further trial differs from the first in one of them, ``parts`` of these
+    steps together make the first divided position, and each divided position replaces the trial of its number in
+    ``replaced`` (from 1).
     """
 
     links: tuple[str, ...]
@@ -542,7 +541,7 @@ class TrialPositions(OnPaper):
     replaced: tuple[int, ...] = ()
 
     def scaled(self, times: float) -> Self:
-        """The same with its lengths so many times as large."""
+        """The trial positions with their lengths multiplied by ``times``."""
         x = [1.0 if symbol.measure == "angle" else times for symbol in self.moved]
         y = [1.0 if miss.angle else times for miss in self.missed]
 
@@ -555,8 +554,8 @@ class TrialPositions(OnPaper):
 
 @dataclass(frozen=True)
 class FarPoint:
-    """Two links whose special point cannot be used: how far from the joints (m; in a vector graph as its places), and
-    at which angle (rad) the lines of the legs cross."""
+    """Two links whose special point cannot be used: its distance from the joints (m; in a vector graph in the unit of
+    its places), and the crossing angle (rad) of the legs' lines."""
 
     links: tuple[str, str]
     away: float
@@ -565,8 +564,8 @@ class FarPoint:
 
 @dataclass(frozen=True)
 class RateTrial:
-    """A trial polygon by its number, with what was assumed (rad/s, or the scene's units); ``far`` is the special point
-    for want of which."""
+    """A trial polygon by its number, with the assumed rates (rad/s, or the scene's units); ``far`` is the useless
+    special point that made it necessary."""
 
     number: int
     assumed: tuple[tuple[Symbol, float], ...]
@@ -575,9 +574,9 @@ class RateTrial:
 
 @dataclass(frozen=True)
 class Superposed(OnPaper):
-    """The true rates by proportional division; ``apart`` (mm) is what is left open in each trial at ``closing``, along
-    ``ways``: from the end point of the first of ``between`` to that of the second, less what is known between them,
-    ``less``, with its length in that direction; of plans of a train only what each leaves open."""
+    """The true rates by proportional division; ``apart`` (mm) are the gaps of each trial at ``closing``, along
+    ``ways``: from the end point of the first of ``between`` to that of the second, less the known vector between them,
+    ``less``, with its length in that direction; of plans of a train only the gaps."""
 
     found: tuple[tuple[Symbol, float], ...]
     closing: tuple[str, ...]
@@ -602,12 +601,12 @@ key."""
 
 
 def end_of(vector: Symbol | None) -> Phrase:
-    """Where a vector from the pole ends; None: it has no length."""
+    """The end of a vector from the pole; None for a vector without length."""
     return Phrase("the pole itself") if vector is None else Phrase("the end of", vector=vector)
 
 
 def _assumed(rates: Sequence[tuple[Symbol, float]]) -> dict[str, object]:
-    """The first of some rates as a symbol, and its value with those that follow."""
+    """The first of some rates as a symbol, and its value with the others."""
     (first, value), *rest = rates
     units = {"omega": " rad/s", "alpha": " rad/s²"}
     more = "".join(f", {symbol} = {amount(v, 5)}{units.get(symbol.kind, '')}" for symbol, v in rest)

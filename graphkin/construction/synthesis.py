@@ -1,9 +1,9 @@
-"""Mechanisms designed on the drawing board: from what they shall do to their lengths, with ruler, compass, protractor.
+"""Mechanisms designed on the drawing board: from the task to the lengths, with ruler, compass, protractor.
 
-Each construction is drawn at its true scale and measured; only what the task gives, and angles reckoned from it, are
+Each construction is drawn at its true scale and measured; only the data of the task, and angles computed from them, are
 taken as given.  Slider-crank, crank-rocker and guide bar by K after Sun Huan, Mechanical Principles, ch. 8; places of a
-bar by the circles of its points, or by inversion (Hartenberg and Denavit, Kinematic Synthesis of Linkages, ch. 9).
-What stands on the paper are strokes in mm, y up, in steps.
+bar by the circles of its points, or by inversion (Hartenberg and Denavit, Kinematic Synthesis of Linkages, ch. 9). The
+paper has strokes in mm, y up, in steps.
 """
 
 from __future__ import annotations
@@ -41,15 +41,15 @@ mechanism that is found."""
 
 @dataclass(frozen=True)
 class DesignStroke:
-    """What the hand leaves on paper.
+    """A stroke of the hand on paper.
 
     Parameters
     ----------
     kind : of lines (`LineKind`); or a circle, an angle, a point, or the point of a fixed pivot
-    places : from which to which lines run; the centre of a circle and the points near which it is drawn (none: all of
-        it); the apex of an angle and a place on each of its legs, counter-clockwise; a point (mm)
+    places : the ends of lines; the centre of a circle and the points near which it is drawn (none: the whole circle);
+        the apex of an angle and a place on each of its legs, counter-clockwise; a point (mm)
     size : radius (mm), angle (degrees)
-    name : of a point or an angle, "" for one that needs none
+    name : of a point or an angle, "" without a name
     """
 
     kind: LineKind | Literal["circle", "angle", "point", "pivot"]
@@ -104,9 +104,9 @@ class DesignSheet:
     Parameters
     ----------
     scale : units of the task's length for one mm
-    steps : what was done, in order: each a sentence to be, and the strokes that it leaves
-    lengths : what was measured, mm on paper, by the two points of a bar ("ram": distance of its line from C)
-    turned : bars that were found opposite to the angles asked
+    steps : in order: each a phrase with its strokes
+    lengths : measured lengths, mm on paper, by the two points of a bar ("ram": distance of its line from C)
+    turned : bars found opposite to the asked angles
     """
 
     task: DesignTask
@@ -118,7 +118,7 @@ class DesignSheet:
 
     @property
     def strokes(self) -> list[DesignStroke]:
-        """Everything that stands on the paper."""
+        """All strokes on the paper."""
         return [stroke for _, strokes in self.steps for stroke in strokes]
 
     @property
@@ -131,17 +131,17 @@ class DesignSheet:
         return length / self.scale
 
     def do(self, key: str, *strokes: DesignStroke, **gaps: object) -> None:
-        """Record one step, told by a sentence, with the strokes that it leaves."""
+        """Record a step by its sentence, with its strokes."""
         self.steps.append((Phrase(key, **gaps), strokes))
 
     # -- acts of the hand ----------------------------------------------------------------------------------------------
 
     def lay_off(self, start: complex, along: complex, mm: float) -> complex:
-        """A length in a direction that the set square gives."""
+        """Lay off a length in a direction by the set square."""
         return self.hand.point(start + self.hand.length(mm) * self.hand.direction(along))
 
     def lay_off_angle(self, start: complex, along: complex, mm: float) -> complex:
-        """A length in a direction that the protractor gives."""
+        """Lay off a length in a direction by the protractor."""
         return self.hand.point(start + self.hand.length(mm) * self.hand.angle(along))
 
     def plot(self, at: complex) -> complex:
@@ -149,14 +149,16 @@ class DesignSheet:
         return self.hand.point(complex(self.hand.length(self.mm(at.real)), self.hand.length(self.mm(at.imag))))
 
     def meet(self, what: str, p: complex, d: complex, q: complex, e: complex) -> complex:
-        """Where two lines meet, each through a point along a direction.  Raises Unsolvable where they are parallel."""
+        """The crossing of two lines, each through a point along a direction.  Raises Unsolvable where they are
+        parallel."""
         at = cross_lines(p, d, q, e)
         if abs(cross(d, e)) < PARALLEL or at is None:
             raise _not_drawn(what, "the lines that should find it are parallel", "other data")
         return self.hand.point(at)
 
     def cut(self, what: str, p: complex, d: complex, centre: complex, radius: float) -> tuple[complex, complex]:
-        """Where a line cuts a circle, the one further along d first.  Raises Unsolvable where it does not."""
+        """The points where a line cuts a circle, the point farther along d first.  Raises Unsolvable where it does not
+        cut it."""
         crossings = cross_line_arc(p, d, centre, radius)
         if crossings is None:
             raise _not_drawn(what, "the line does not reach the circle", "other data")
@@ -193,7 +195,7 @@ def construct(task: DesignTask, scale: float = 1.0, instrument: Instrument = EXA
 
 
 def _mm(length: float) -> str:
-    """A length as it is laid off: mm on paper."""
+    """A length for laying off: mm on paper."""
     return f"{length:.2f}"
 
 
@@ -266,7 +268,7 @@ def _locus(paper: DesignSheet, first: complex, second: complex, above: int, K: f
 def _pivot_on_circle(
     paper: DesignSheet, D: complex, locus: tuple[complex, float], task: CrankRockerTask
 ) -> complex:
-    """The crank's pivot, where the arc of the frame about D cuts the circle over C1C2."""
+    """The crank's pivot, at the crossing of the frame's arc about D and the circle over C1C2."""
     middle, radius = locus
     reach = paper.hand.compass(paper.mm(task.frame))
     if abs(middle - D) < 1e-9 * radius:
@@ -280,7 +282,7 @@ def _pivot_on_circle(
 
 
 def _pivot_on_line(paper: DesignSheet, D: complex, first: complex, second: complex, task: CrankRockerTask) -> complex:
-    """The same for K = 1: crank and rod lie in the line C1C2 in both limit positions."""
+    """The crank's pivot for K = 1: crank and rod lie in the line C1C2 in both limit positions."""
     reach = paper.hand.compass(paper.mm(task.frame))
     A = paper.cut("A", second, unit(first - second), D, reach)[0]
     paper.do("design theta", K=f"{task.K:.6g}", theta="0")
@@ -379,8 +381,8 @@ def _circle_centre(
     paper: DesignSheet, name: str, of: Sequence[str], on: Sequence[complex],
     marked: Callable[..., list[DesignStroke]],
 ) -> complex:  # fmt: skip
-    """The centre of the circle through three points, called ``of``: where the perpendicular bisectors of two chords
-    meet."""
+    """The centre of the circle through three points named ``of``: the crossing of the perpendicular bisectors of two
+    chords."""
     # the two longest sides give the best crossing
     sides = sorted(((i, j) for i, j in ((0, 1), (1, 2), (0, 2))), key=lambda side: -abs(on[side[1]] - on[side[0]]))
     (i, j), (k, m) = sorted(sides[:2])
@@ -395,7 +397,7 @@ def _circle_centre(
 
 
 def _chain(paper: DesignSheet, close: str, **chain: complex) -> None:
-    """The four bars of a linkage measured, drawn as it stands; ``close`` is what the third bar is called."""
+    """The four bars of a linkage measured and drawn; ``close`` is the name of the third bar."""
     (a, A), (b, B), (c, C), (d, D) = chain.items()
     bars = {a + b: (A, B), b + c: (B, C), close: (C, D), a + d: (A, D)}
     paper.told(line("mechanism", A, B, C, D), **bars)
@@ -403,7 +405,7 @@ def _chain(paper: DesignSheet, close: str, **chain: complex) -> None:
 
 @draw.register
 def _(task: FunctionTask, paper: DesignSheet) -> None:
-    """Two trial cranks, each with the rockers that two pairs of pairs ask for; between the reciprocals of crank and
+    """Two trial cranks, each with the rockers that two pairs of angle pairs need; between the reciprocals of crank and
     rocker each relation is a straight line (Freudenstein's equation is linear in them)."""
     hand, frame = paper.hand, paper.mm(task.frame)
     A = hand.point(0j)
@@ -436,8 +438,8 @@ def _(task: FunctionTask, paper: DesignSheet) -> None:
 
 
 def _reckoned(frame: float, per_one: float, across: float, upward: float) -> dict[str, str]:
-    """The coordinates of Q, crank and rocker, and the unit (mm): with as many decimals as the quotients want that are
-    to be true as they are written."""
+    """The coordinates of Q, crank and rocker, and the unit (mm): with the decimals that make the quotients true as
+    written."""
     lengths = [abs(frame * per_one / side) for side in (across, upward)]
     for decimals in DECIMALS:
         base, unit, *sides = (round(value, decimals) for value in (frame, per_one, across, upward))

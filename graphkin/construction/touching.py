@@ -1,7 +1,7 @@
-"""What touches, as it stands on paper: the outlines of cams, found point by point, contacts with their normals, pitch
-circles, pitch lines and pitch points.
+"""Higher pairs on paper: the outlines of cams, found point by point, contacts with their normals, pitch circles, pitch
+lines and pitch points.
 
-A cam's follower is turned back with its line; the normal goes through the instant centre, and the roller's radius is
+A cam's follower is turned back with its line; the normal passes through the instant centre, and the roller's radius is
 laid off along it.
 """
 
@@ -26,8 +26,8 @@ POINTS = 180
 
 @dataclass(frozen=True)
 class Touch:
-    """Two links that touch: a letter for it, where, the direction of the common normal, and letters and places of the
-    centres of what is round there, by link.  Wheels mesh whose centres another link holds apart: what they carry is
+    """The contact of two links: its letter, its place, the direction of the common normal, and letters and places of
+    the centres of round bodies, by link.  Meshing wheels have their centres held apart by another link: their force is
     tangential."""
 
     name: str
@@ -56,8 +56,8 @@ class Touching:
         return self.poses[link].place(self.scene.by_name[link].points[point] * self.mm)
 
     def of(self, pair: PlacedContact | PlacedGear) -> Touch:
-        """Where a contact is made, its normal out of the face, or from the first centre to the second; or where pitch
-        circles touch, or circle and pitch line, its normal the line of centres, of a rack square to its pitch line."""
+        """The place of a contact, with its normal out of the face, or from the first centre to the second; or the pitch
+        point of a gear, with the line of centres as its normal, for a rack the normal of its pitch line."""
         if isinstance(pair, PlacedContact):
             means: Literal["slides", "rolls", "meshes"] = "slides"
             if pair.rolling:
@@ -89,15 +89,15 @@ class Touching:
         return Touch(pair.name, pair.wheels, axis + line * share, normal / abs(normal), "meshes", centres)
 
     def contacts(self) -> Iterator[tuple[PlacedContact, Touch]]:
-        """The contacts both of whose links stand on paper."""
+        """The contacts with both links on paper."""
         return ((c, self.of(c)) for c in self.scene.contacts if self.poses.keys() >= {*c.links})
 
     def gears(self) -> Iterator[tuple[PlacedGear, Touch]]:
-        """The gears whose wheels and carrier stand on paper."""
+        """The gears with wheels and carrier on paper."""
         return ((g, self.of(g)) for g in self.scene.gears if self.poses.keys() >= {*g.wheels, g.carrier})
 
     def touches(self) -> Iterator[Touch]:
-        """Everything that touches: contacts, wheels, cams with their followers."""
+        """All higher pairs: contacts, wheels, cams with their followers."""
         contacts = [touch for _, touch in self.contacts()]
         yield from contacts
         taken = {*self.scene.holders, *(contact.name for contact in self.scene.contacts)}
@@ -112,12 +112,12 @@ class Touching:
                 yield Touch(_free("K", taken), (cam.link, cam.follower), at, normal, "slides")
 
     def rolling(self) -> Iterator[Touch]:
-        """Where links roll on each other, by the name of the contact or the gear."""
+        """The points of rolling, by the name of the contact or the gear."""
         yield from (touch for contact, touch in self.contacts() if contact.rolling)
         yield from (touch for _, touch in self.gears())
 
     def named(self, name: str) -> Touch:
-        """Where a contact is made, or wheels mesh."""
+        """The place of a contact, or of a mesh."""
         pairs: tuple[PlacedContact | PlacedGear, ...] = (*self.scene.contacts, *self.scene.gears)
         return next(self.of(pair) for pair in pairs if pair.name == name)
 
@@ -190,14 +190,14 @@ class CamStation(NamedTuple):
         return min(abs(self.leaning), math.pi - abs(self.leaning))
 
     def scaled(self, times: float) -> CamStation:
-        """The same so many times as large."""
+        """The station with its lengths multiplied by ``times``."""
         centre = None if self.centre is None else self.centre * times
         return self._replace(line=self.line * times, base=self.base * times, point=self.point * times, centre=centre,
                              contact=self.contact * times)  # fmt: skip
 
 
 def station(cam: LawCam, degree: float, lift: Lift | None = None) -> CamStation:
-    """The follower at an angle of the law (rad), lengths in m; ``lift`` is that of one side, at a seam.
+    """The follower at an angle of the law (rad), lengths in m; ``lift`` is given for one side of a seam.
 
     The instant centre of cam and follower, through which the normal goes, lies ds/dphi beside the axis, square to the
     path of a sliding follower; that of a swinging one on the line of both pivots, at distances from the axis and from
@@ -242,7 +242,7 @@ def outline(cam: LawCam) -> tuple[complex, ...]:
 
 
 def outlines_on_paper(scene: Mechanism, poses: Mapping[str, Pose], mm: float) -> Mapping[str, tuple[complex, ...]]:
-    """The profile of each cam that stands on paper, by its link; ``mm`` of paper for one m."""
+    """The profile of each cam on paper, by its link; ``mm`` of paper for one m."""
     outlines = {}
     for cam in scene.cams:
         if cam.link in poses:

@@ -1,14 +1,14 @@
 """The velocity plan of a train of wheels: one line of velocities a link over its line of centres, rates read off a rate
-scale; and the same of tangential accelerations.
+scale; and likewise the plan of tangential accelerations.
 
-What rolls keeps its rates when the carrier of its axes is bent or straightened, as long as no distance of two axes that
-it holds changes.  So all axes of a train are laid on one line as far as that goes; a pair of wheels whose axes stand on
-a line already, but not so far apart, gets a line of its own.
+Rolling wheels keep their rates when the carrier of their axes is bent or straightened, while the distances of axes that
+it holds stay.  So all axes of a train are laid on one line where possible; a pair of wheels with axes on a line
+already, but at another distance, gets a line of its own.
 
-The velocity of a link's places grows along its line in proportion to the height, so two known places, or one and a
-known rate, give its line; where links touch, two lines meet.  Lines drawn parallel through a pole mark off the angular
-rates.  Where neither is known, a rate is assumed and found by proportion from what is left open.
-Sources: K. Kutzbach, Mehrgliedrige Radgetriebe und ihre Gesetze, Maschinenbau 6 (1927); VDI 2157.
+The velocity of a link's places grows along its line in proportion to the height, so two known places, or one place and
+a known rate, give its line; at a contact of links two lines meet.  Parallels through a pole give the angular rates.  If
+neither is known, a rate is assumed and found by proportion from the gaps. Sources: K. Kutzbach, Mehrgliedrige
+Radgetriebe und ihre Gesetze, Maschinenbau 6 (1927); VDI 2157.
 """
 
 from __future__ import annotations
@@ -48,8 +48,8 @@ Turned = tuple[str, str, float]
 
 @dataclass(frozen=True)
 class Spot:
-    """A place of a line of centres at which some links have one velocity: an axis by its point, or where two roll on
-    each other by the name of that pair.  ``height`` in m."""
+    """A place of a line of centres at which some links have the same velocity: an axis by its point, or a contact of
+    rolling by the name of the pair.  ``height`` in m."""
 
     name: str
     height: float
@@ -59,10 +59,10 @@ class Spot:
 
 @dataclass(frozen=True)
 class CentreLine:
-    """Pairs that roll, with their axes on one line.
+    """Rolling pairs with their axes on one line.
 
-    ``still`` is the place that velocities are counted from: it belongs to the frame, or else they are those relative
-    to that axis.
+    ``still`` is the reference place of velocities: it belongs to the frame, or else the velocities are relative to that
+    axis.
     """
 
     meshes: tuple[Mesh, ...]
@@ -85,7 +85,7 @@ class CentreLine:
 
 
 def trains(meshes: Sequence[Mesh], ground: str) -> tuple[tuple[Mesh, ...], ...]:
-    """Pairs that hang together by links that move."""
+    """Rolling pairs connected by moving links."""
     groups: list[tuple[set[str], list[Mesh]]] = []
     for mesh in meshes:
         links, members = set(mesh.links) - {ground}, [mesh]
@@ -102,7 +102,7 @@ def centre_lines(train: Iterable[Mesh], links: Mapping[str, PlacedLink], ground:
 
     Parameters
     ----------
-    train : pairs that roll
+    train : rolling pairs
     links : with the points of the carriers in their own axes (m)
     ground : the frame's name
     """
@@ -124,7 +124,7 @@ def centre_lines(train: Iterable[Mesh], links: Mapping[str, PlacedLink], ground:
 
 
 def _laid(mesh: Mesh, heights: dict[str, float], links: Mapping[str, PlacedLink]) -> bool:
-    """Lay a pair's axes on a line where they fit; False where they stand there at other distances."""
+    """Lay a pair's axes on a line if they fit; False if they are there at other distances."""
     first, second = mesh.axes
     if not second:
         return first in heights
@@ -150,7 +150,7 @@ def _laid(mesh: Mesh, heights: dict[str, float], links: Mapping[str, PlacedLink]
 def _line(
     members: Sequence[Mesh], heights: Mapping[str, float], links: Mapping[str, PlacedLink], ground: str
 ) -> CentreLine:
-    """A line of centres with its places: axes, and where wheels roll on each other."""
+    """A line of centres with its places: axes, and contacts of rolling."""
     at: dict[str, dict[str, None]] = {}
     spots = []
     for mesh in members:
@@ -176,17 +176,17 @@ class TrainPlan:
 
     Parameters
     ----------
-    order, on : what it is a plan of, and the lines of centres
-    rates : those of links, first the known ones, of the frame among them (rad/s, rad/s2)
-    speeds : the known ones of sliding pairs (m/s, m/s2)
+    order, on : the order of its rates, and the lines of centres
+    rates : of links, first the known ones, the frame included (rad/s, rad/s2)
+    speeds : of sliding pairs, the known ones (m/s, m/s2)
     turns : links that turn from one another at given rates
-    length, speed, turning : what 1 mm of it is: m, m/s (m/s2), rad/s (rad/s2)
+    length, speed, turning : the value of 1 mm of it: m, m/s (m/s2), rad/s (rad/s2)
     lines : the step that draws the line of a link, between its lowest and its highest place (mm; velocity to the right,
         height upwards), and reads its rate or lays it off, by line of centres and link
-    velocities : those of places (mm), by line of centres and place
+    velocities : of places (mm), by line of centres and place
     travels : the step that reads the speed of a rack (m/s, m/s2), by sliding pair
-    gaps : what is left open where a place is found twice (mm)
-    trial : the rates that were assumed, and found by proportion
+    gaps : the differences at places found twice (mm)
+    trial : the assumed rates, found by proportion
     """
 
     order: Order
@@ -205,12 +205,12 @@ class TrainPlan:
 
     @property
     def pole(self) -> float:
-        """How far the pole stands from the rate scale (mm)."""
+        """The distance of the pole from the rate scale (mm)."""
         return self.speed / self.length / self.turning
 
     @property
     def rate(self) -> Literal["omega", "alpha"]:
-        """What the rate scale shows."""
+        """The kind of the rate scale."""
         return "omega" if self.order == "velocity" else "alpha"
 
     def line(self, link: str) -> Step | None:
@@ -228,7 +228,7 @@ class TrainPlan:
         return wanted[1] in self.rates if wanted[0] == "angle" else {*self.travels, *self.speeds} >= {wanted[1]}
 
     def drawn(self, hand: Instrument, assumed: Mapping[str, float]) -> TrainPlan:
-        """This plan, of which nothing is drawn, with all that follows, rates being assumed one after the other."""
+        """This undrawn plan with all its lines, with rates assumed in turn."""
         still = {(i, line.still): 0.0 for i, line in enumerate(self.on)}
         plan = replace(self, rates=dict(self.rates), lines={}, velocities=still, travels={}, gaps=[])
         plan._go_on(hand)
@@ -241,7 +241,7 @@ class TrainPlan:
         return plan
 
     def _go_on(self, hand: Instrument) -> None:
-        """Draw every line that what stands there gives."""
+        """Draw every line that follows from the drawn ones."""
         grown = True
         while grown:
             grown = False
@@ -292,7 +292,7 @@ class TrainPlan:
         return True
 
     def _slides(self, hand: Instrument, i: int, mesh: Mesh) -> bool:
-        """The lines of a rack and of what it slides along stand as far apart as it is fast."""
+        """Draw the lines of a rack and of its guide, whose distance is the rack's speed."""
         if mesh.carrier not in self.rates:
             return False
         axis, pitch = self.on[i].spot(mesh.axes[0]), self.on[i].spot(mesh.name)
@@ -320,7 +320,7 @@ class TrainPlan:
         return [first, *({**first, name: fastest} for name in names)]
 
     def by_trial(self, hand: Instrument, names: Sequence[str]) -> TrainPlan:
-        """This plan drawn with some rates that are found by proportion from trials."""
+        """This plan drawn with rates found by proportion from trials."""
         if not names:
             return self.drawn(hand, {})
         trials = self.trials(names)
@@ -332,8 +332,8 @@ class TrainPlan:
         return replace(self.drawn(hand, dict(zip(names, values, strict=True))), trial=trial)
 
     def to_assume(self, wanted: Coordinate) -> list[str] | None:
-        """Links whose rates have to be assumed, so that the trials find them and with them what is wanted; None where
-        none lead to it."""
+        """Links whose rates must be assumed so that the trials give them and the wanted value; None if none lead to
+        it."""
         names: list[str] = []
         for _ in range(MOST_ASSUMED):
             plan = self.drawn(EXACT, dict.fromkeys(names, 0.0))
@@ -351,7 +351,7 @@ class TrainPlan:
         return None
 
     def _closes(self, names: Sequence[str], wanted: Coordinate) -> bool:
-        """Whether what the trials leave open finds the rates assumed, and these what is wanted."""
+        """Whether the gaps of the trials give the assumed rates, and these the wanted value."""
         first, *others = (self.drawn(EXACT, plan) for plan in self.trials(names))
         slopes = np.array([plan.gaps for plan in others]) - np.array(first.gaps)
         most = float(np.abs(slopes).max(initial=0.0))
@@ -359,14 +359,14 @@ class TrainPlan:
 
 
 def train_plan(plan: TrainPlan, wanted: Coordinate, units: float, hand: Instrument = EXACT) -> TrainPlan | None:
-    """Draw a plan; None where it does not lead to what is wanted.
+    """Draw a plan; None where it does not lead to the wanted value.
 
     Parameters
     ----------
-    plan : with what is known, nothing drawn
+    plan : with the known values, nothing drawn
     wanted : a link whose rate, or a sliding pair whose speed is to be found
     units : m of the length unit, for the scales
-    hand : what draws and reads
+    hand : the hands that draw and read
     """
     names = plan.to_assume(wanted)
     if names is None:
@@ -378,8 +378,8 @@ def train_plan(plan: TrainPlan, wanted: Coordinate, units: float, hand: Instrume
 
 
 def _scaled(plan: TrainPlan, rough: TrainPlan, units: float) -> TrainPlan:
-    """A plan at the finest scales of the series at which its widest line of centres fits, as it is roughly drawn, and
-    a rate scale shows all rates."""
+    """A roughly drawn plan at the finest scales of the series at which its widest line of centres fits, and a rate
+    scale shows all rates."""
     high = max(max(h) - min(h) for h in ([s.height for s in line.spots] for line in rough.on))
     speeds = [[0.0, *(v for (j, _), v in rough.velocities.items() if j == i)] for i in range(len(rough.on))]
     wide, turns = max(max(v) - min(v) for v in speeds), [0.0, *(line.value for line in rough.lines.values())]
@@ -396,15 +396,15 @@ def rolled(
     structure: Structure, drawn: tuple[TrainPlan, ...], order: Order, wanted: Coordinate, rates: Mapping[str, float],
     travel: Callable[[str], float | None], turns: list[Turned], hand: Instrument,
 ) -> tuple[tuple[TrainPlan, ...], float, float, list[Step]]:  # fmt: skip
-    """The plans with that which leads to a rate (rad/s, rad/s2) or to the speed of a slide (m/s, m/s2), that value, the
-    length read for it (mm), and what was drawn for it.  What moves only after others were found gets a plan of its own,
-    at scales that suit it, in which the rates known then are laid off.
+    """The plans with the plan that leads to a rate (rad/s, rad/s2) or to the speed of a slide (m/s, m/s2), that value,
+    the length read for it (mm), and its strokes.  Wheels whose motion needs other results first get a plan of their
+    own, at scales that suit it, in which the rates known by then are laid off.
 
     Parameters
     ----------
     drawn : the plans of the mechanism drawn so far
     rates : known rates by link (rad/s, rad/s2)
-    travel : the known speed (m/s, m/s2) of a sliding pair, None where it is not known
+    travel : function to the known speed (m/s, m/s2) of a sliding pair, None where it is unknown
     turns : links that turn from one another at given rates
 
     Raises
@@ -440,7 +440,7 @@ def rolled(
 
 
 def _alike(structure: Structure, name: str) -> set[str]:
-    """Links that turn as one does, because they slide on each other."""
+    """Links that turn alike because they slide on each other."""
     alike, more = set[str](), {name}
     while more:
         alike |= more
@@ -449,7 +449,7 @@ def _alike(structure: Structure, name: str) -> set[str]:
 
 
 def _steps(scene: Mechanism, plan: TrainPlan) -> Iterator[Step]:
-    """How a plan was drawn."""
+    """The steps of a plan."""
     if plan.trial is not None:
         yield Step("divide", "plans", plan.order, kind=plan.rate, per_mm=plan.turning, data=plan.trial)
     # drawn beside the train, not on the polygon

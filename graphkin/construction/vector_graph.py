@@ -31,8 +31,7 @@ LONGEST = 5  # edges of an equation
 
 
 class Unknown(NamedTuple):
-    """A rate that is not known: how a link turns, and all that turn with it, or the speed along a sliding pair or at a
-    contact."""
+    """An unknown rate: of a link, with all links that turn alike, or the speed along a sliding pair or at a contact."""
 
     kind: Literal["turning", "sliding", "slipping"]
     name: str
@@ -42,11 +41,10 @@ class Unknown(NamedTuple):
 class RelativeMotion:
     """The motion of ``end`` relative to ``start``.
 
-    ``link`` is the rigid link between them, or ``slide`` the sliding pair they belong to, or ``joint`` the driven
-    turning pair, or ``contact`` the sliding contact, or ``rolling`` what rolls without slip; or they lie at the special
-    point of two links (``tied``), which legs join; or on two links of one contour, of which one is ``held`` still.
-    ``unknown`` is what is not known of it, if anything.  ``labels`` are the nodes as
-    written, coincident points with their links.
+    ``link`` is the rigid link between them, or ``slide`` their sliding pair, or ``joint`` the driven turning pair, or
+    ``contact`` the sliding contact, or ``rolling`` the rolling pair; or they lie at the special point of two links
+    joined by legs (``tied``); or on two links of one contour, of which one is ``held`` still.  ``unknown`` is its
+    unknown, if it has one.  ``labels`` are the names of the nodes, coincident points with their links.
     """
 
     start: PointRef
@@ -65,7 +63,7 @@ class RelativeMotion:
 
     @classmethod
     def of_link(cls, start: PointRef, end: PointRef, link: str, unknown: Unknown | None = None) -> RelativeMotion:
-        """Of two points of one link."""
+        """The relative motion of two points of one link."""
         way = Direction("square", (start.point, end.point))
         return cls(start, end, (start, end), way, link=link, unknown=unknown)
 
@@ -76,7 +74,7 @@ class RelativeMotion:
 
     @property
     def between(self) -> tuple[str, str]:
-        """The links of an edge between coincident points, as it is written."""
+        """The written links of an edge between coincident points."""
         return self.labels[0].link, self.labels[1].link
 
     def reversed(self) -> RelativeMotion:
@@ -88,14 +86,14 @@ Path = tuple[RelativeMotion, ...]
 
 @dataclass(frozen=True)
 class VectorChain:
-    """A vector equation to be drawn: ways that lead from known nodes to the node ``end``.
+    """A vector equation to be drawn: paths from known nodes to the node ``end``.
 
-    Of two ``sides`` each has one unknown size, and they cross there.  One side has one unknown size, what is left of a
-    way to a node that stands already, or none; or it leads from one to the other of two parallel legs of a ``link``,
-    whose special point lies at infinity, and gives its rate.
+    Two ``sides`` have one unknown size each, and cross there.  A single side has one unknown size, in a path to a drawn
+    node, or none; or it leads from one to the other of two parallel legs of a ``link``, whose special point lies at
+    infinity, and gives its rate.
 
     Two sides of a ``link`` lead to its special point ``end``, by the legs that give it: from known nodes; or from the
-    same point of another moving link, ``base``, as which the link moves there.
+    same point of another moving link, ``base``, with which the link moves there.
     """
 
     end: PointRef
@@ -105,17 +103,18 @@ class VectorChain:
 
     @property
     def is_special(self) -> bool:
-        """Whether it is that of a special point."""
+        """Whether it leads to a special point."""
         return bool(self.link) and len(self.sides) == 2
 
     @classmethod
     def closing(cls, *path: RelativeMotion, link: str = "") -> VectorChain:
-        """One way to a node."""
+        """The equation of a single path to a node."""
         return cls(path[-1].end, (path,), link)
 
     @classmethod
     def crossing(cls, path: Path) -> VectorChain:
-        """A way with two unknowns from one known node to another: both sides of the node before the second of them."""
+        """The equation of a path with two unknowns between known nodes: its two sides meet at the node before the
+        second unknown."""
         second = [i for i, edge in enumerate(path) if edge.unknown][1]
         return cls(path[second].start, (tuple(edge.reversed() for edge in reversed(path[second:])), path[:second]))
 
@@ -130,19 +129,19 @@ class VectorGraph:
 
     Parameters
     ----------
-    links, places, frame, tiny : all links with their points, where points lie on paper (mm), the fixed link, and how
-        near to each other points are the same
-    inside, pairs, joints : links of the group, all pairs that hold them, what drivers hold together among them
-    shares : for each link one that turns alike
-    guide_names : how the guides of sliding pairs are written
-    driven : sliding pairs of which a driver gives the motion
-    near : whether of the points that lie under each other on two links only those next to a point of either are kept,
-        as larger groups need: all of them would be too many
-    contacts : sliding contacts that nothing replaces
-    rolling : where links of a group roll on each other, by the name of the contact or the wheels: the letter of the
-        point, and the links
+    links, places, frame, tiny : all links with their points, the places of points on paper (mm), the fixed link, and
+        the distance within which points coincide
+    inside, pairs, joints : links of the group, all their pairs, the driven joints among them
+    shares : for each link a link that turns alike
+    guide_names : the names of the guides of sliding pairs
+    driven : sliding pairs moved by a driver
+    near : whether of the coincident points of two links only those next to a point of either are kept, as for larger
+        groups, where all would be too many
+    contacts : sliding contacts without a replacement
+    rolling : the points of rolling in a group, by the name of the contact or the wheels: the letter of the point, and
+        the links
     contours : a held link with each other of its contour
-    wide : whether a special point of one link lies under it on all that turn with it, too
+    wide : whether a special point of a link is also a node on all links that turn with it
     """
 
     def __init__(
@@ -208,7 +207,7 @@ class VectorGraph:
             self.under = list(found.values())
 
     def copy(self) -> VectorGraph:
-        """The same graph, to which special points may be added."""
+        """A copy of the graph, to which special points may be added."""
         made = copy(self)
         made.owners, made.nodes, made.order = dict(self.owners), list(self.nodes), dict(self.order)
         made.edges = {n: list(edges) for n, edges in self.edges.items()}
@@ -219,7 +218,7 @@ class VectorGraph:
 
         Parameters
         ----------
-        drawn : nodes that stand in the polygon already (preferred as starting points)
+        drawn : nodes in the polygon already (preferred as starting points)
         """
         # it may come back to where it begins: a pin that both guides belong to
         paths = [path for start in self.in_order(self.known)
@@ -238,13 +237,13 @@ class VectorGraph:
         self, start: PointRef, most: int, stop: Callable[[PointRef], bool], nodes: Collection[PointRef],
         known: Collection[Unknown] = (), shortest: int = 1,
     ) -> Iterator[Path]:  # fmt: skip
-        """Paths from a node through others to where they stop.
+        """Paths from a node through others to their ends.
 
         Parameters
         ----------
         most : the greatest number of unknowns along a path
-        nodes, known : nodes through which no path leads, as they stand already, and unknowns that are found
-        shortest : a path may come back to where it began, with more than so many edges besides the last
+        nodes, known : drawn nodes, through which no path leads, and found unknowns
+        shortest : a path may return to its beginning with more than this number of edges besides the last
         """
         stack: list[Path] = [(e,) for e in self.edges[start]]
         while stack:
@@ -263,7 +262,7 @@ class VectorGraph:
                 e.end != start or len(path) > shortest)]
 
     def strange(self, path: Path) -> int:
-        """How many nodes of a path are no joints."""
+        """The number of nodes of a path that are no joints."""
         return len({n for e in path for n in (e.start, e.end)} - self.natural)
 
     def in_order(self, nodes: Iterable[PointRef]) -> list[PointRef]:
@@ -271,7 +270,7 @@ class VectorGraph:
         return sorted(nodes, key=self.order.__getitem__)
 
     def turning(self, link: str) -> Unknown:
-        """How a link turns, by the name of one that turns alike."""
+        """The rate of a link, by the name of a link that turns alike."""
         return Unknown("turning", self.shares.get(link, link))
 
     def _add(self, edge: RelativeMotion) -> None:
@@ -279,7 +278,7 @@ class VectorGraph:
         self.edges[edge.end].append(edge.reversed())
 
     def _add_bar(self, a: PointRef, b: PointRef, link: str) -> None:
-        """Two points of a link that lie apart."""
+        """Add the edge between two distinct points of a link."""
         turning = self.turning(link)
         if abs(self.places[a.point] - self.places[b.point]) > self.tiny:
             self._add(RelativeMotion.of_link(a, b, link, turning if turning.name in self.inside else None))
@@ -287,26 +286,26 @@ class VectorGraph:
     def _coincident(
         self, letters: Sequence[str], one: str, two: str
     ) -> Iterator[tuple[PointRef, PointRef, tuple[PointRef, PointRef]]]:
-        """Points of two links that lie under each other: their nodes, and how they are written."""
+        """Coincident points of two links: their nodes, and their names."""
         for letter in letters:
             a, b = node(self.links, letter, one), node(self.links, letter, two)
             if a in self.owners and b in self.owners and a != b:
                 yield a, b, (PointRef(letter, one), PointRef(letter, two))
 
     def add(self, name: str, letter: str, at: complex) -> PointRef:
-        """One more point of a link, such as a special point."""
+        """Add a point of a link, such as a special point."""
         ref = self._added(PointRef(letter), name, at)
         self._carry_over({name: ref}, at)
         return ref
 
     def tie(self, names: tuple[str, str], letter: str, at: complex) -> None:
-        """The special point of two links: a point of each, of which the relative motion is found first."""
+        """Add the special point of two links: a point of each, whose relative motion is found first."""
         one, two = (self._added(PointRef(letter, name), name, at) for name in names)
         self._add(RelativeMotion(one, two, (one, two), Direction("found", ()), tied=True))
         self._carry_over({names[0]: one, names[1]: two}, at)
 
     def _carry_over(self, refs: dict[str, PointRef], at: complex) -> None:
-        """A special point also on the links that turn with those that have it."""
+        """Add a special point also on the links that turn with its links."""
         letter = next(iter(refs.values())).point
         left, grown = list(self.under), True
         while grown:
@@ -339,8 +338,8 @@ def _near(
     links: Mapping[str, PlacedLink], beside: list[tuple[str, str]], contacts: Sequence[PlacedContact],
     around: Collection[str], letters: Sequence[str],
 ) -> dict[str, set[str]]:  # fmt: skip
-    """For each link the letters at which it is looked at: its own, and those of links ``beside`` it, which slide on it
-    or that a driver turns on it, and of those next to them."""
+    """For each link the letters of its nodes: its own, and those of links ``beside`` it, which slide on it or are
+    turned on it by a driver, and of their neighbours."""
     on = {name: {p for p in letters if p in links[name].points} for name in around}
     for c in contacts:
         for side in c.links:
@@ -356,13 +355,13 @@ def _near(
 
 
 def contacts_of(structure: Structure, group: Dyad | LargerGroup) -> tuple[PlacedContact, ...]:
-    """The sliding contacts that a bar or a block of a group stands for."""
+    """The sliding contacts that a bar or a block of a group replaces."""
     members = group.members
     return tuple(c for c in structure.scene.contacts if not c.rolling and c.block in members)
 
 
 def past(pairs: Sequence[Pair], gone: Collection[str]) -> list[Pair]:
-    """Pairs without what is gone: turning pairs of links that only this joins at a point stand in its place."""
+    """The pairs without removed links: turning pairs of the links that these joined at a point take their place."""
     around: dict[str, list[str]] = {}
     for pair in pairs:
         if pair.turns and (pair.a in gone or pair.b in gone):
@@ -372,7 +371,7 @@ def past(pairs: Sequence[Pair], gone: Collection[str]) -> list[Pair]:
 
 
 def links_alike(links: Iterable[str], pairs: Iterable[tuple[str, str, float]]) -> dict[str, set[str]]:
-    """For each link all those with the same rotation but for given ones."""
+    """For each link all links with the same rotation up to given ones."""
     alike = {n: {n} for n in links}
     for a, b, _ in pairs:
         merged = alike.get(a, {a}) | alike.get(b, {b})

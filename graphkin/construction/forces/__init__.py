@@ -1,4 +1,4 @@
-"""Forces on the drawing board: inertia forces, force polygons group by group, joint forces, what balances, and
+"""Forces on the drawing board: inertia forces, force polygons group by group, joint forces, balancing loads, and
 Zhukovsky's lever."""
 
 from graphkin.construction.forces.draw import force_readings, force_scale, forces_on, readings_of

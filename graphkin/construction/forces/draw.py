@@ -1,16 +1,16 @@
-"""Forces of a position on the drawing board: from the drawn accelerations to what balances the mechanism, by force
-polygons and by Zhukovsky's lever; and what is read off it: sizes, directions, moments, shifts, arms on the lever.
+"""Forces of a position on the drawing board: from the drawn accelerations to the balancing load, by force polygons and
+by Zhukovsky's lever; and the readings: sizes, directions, moments, shifts, arms on the lever.
 
-What touches stands there as pairs that carry the same forces at a drawn position: a sliding contact, or a cam with its
-follower, is a pin that runs along the common tangent, rolling a pin at the contact, teeth a pin that runs along the
-line of centres.  Forces ask for the position alone, so these stand at the contact itself, whatever replaces it in
+Higher pairs are replaced by lower pairs with the same forces at a drawn position: a sliding contact, or a cam with its
+follower, by a pin that runs along the common tangent, rolling by a pin at the contact, teeth by a pin that runs along
+the line of centres.  Forces need the position alone, so these are at the contact itself, whatever replaces it in
 motion; without friction a sliding contact pushes along the common normal, teeth along the tangent of the pitch circles
-in the pitch point (what they also push apart the axes hold), and what rolls in both ways.
+in the pitch point (the axes hold their separating force), and a rolling contact in both directions.
 
 The lever is the velocity polygon turned by 90 degrees as a rigid body about its pole.  Each force stands at the end
-point of its point's velocity; the moment about the pole is the power of the force over the scale, so that all moments
-together are nought (virtual power), which gives what balances (N. E. Zhukovsky 1909; Artobolevsky, Theory of mechanisms
-and machines, ch. 13).  A couple is a pair of forces square to a bar, at the end points of the bar's points.
+point of its point's velocity; the moment about the pole is the power of the force over the scale, so that the sum of
+all moments is zero (virtual power), which gives the balancing load (N. E. Zhukovsky 1909; Artobolevsky, Theory of
+mechanisms and machines, ch. 13).  A couple is a pair of forces square to a bar, at the end points of the bar's points.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def forces_on(sheet: Sheet, hand: Instrument = EXACT, per_mm: float = 0.0) -> Fo
 
     Parameters
     ----------
-    per_mm : N for one mm of the polygons; 0: as `force_scale` chooses
+    per_mm : N for one mm of the polygons; 0: by `force_scale`
 
     Raises
     ------
@@ -80,7 +80,7 @@ def _drawn(sheet: Sheet, hand: Instrument, per_mm: float) -> ForceSheet:
 
 
 def _state(held: Sheet, hand: Instrument, per_mm: float, known: tuple[ForceVector, ...]) -> ForceState:
-    """All forces, of what acts from outside."""
+    """All forces, from the known loads."""
     structure = held.structure
     cut, groups = CutFree(DrawnPosition(held), hand, per_mm), []
     cut.push(*known)
@@ -104,7 +104,7 @@ def _state(held: Sheet, hand: Instrument, per_mm: float, known: tuple[ForceVecto
 
 
 def _joints(cut: CutFree, vectors: dict[Symbol, complex], moments: dict[Symbol, float]) -> None:
-    """The forces of all joints by their names, off what was found of pins and sliding pairs."""
+    """The forces of all joints by their names, from those of pins and sliding pairs."""
     names = cut.drawn
     for joint in (joint for joint in names.joints if joint.kind == "turning"):
         point, later = joint.point, joint.second
@@ -163,7 +163,7 @@ TURN = -1j
 
 
 def levers_of(sheet: Sheet, state: ForceState, hand: Instrument) -> tuple[Lever, ...]:
-    """A lever for each driver, or for what balances instead; none where that does not move."""
+    """A lever for each driver, or for the balance in its place; none where that does not move."""
     drivers = sheet.scene.drivers if sheet.scene.loading.balance is None else sheet.scene.drivers[:1]
     made = (
         _lever(sheet, drawn, state, driver, hand)
@@ -173,15 +173,16 @@ def levers_of(sheet: Sheet, state: ForceState, hand: Instrument) -> tuple[Lever,
 
 
 def _lever(sheet: Sheet, drawn: Sheet, state: ForceState, driver: Driver, hand: Instrument) -> Lever | None:
-    """The lever by which the balance of a driver is found: the sum of all moments about the pole is nought.
+    """The lever by which the balance of a driver is found: the sum of all moments about the pole is zero.
 
     Parameters
     ----------
-    sheet, drawn : the position, and that with this driver's value alone growing, whose velocity polygon is the lever
+    sheet, drawn : the position, and the position with this driver's value alone growing, whose velocity polygon is the
+        lever
 
     Returns
     -------
-    None where what balances does no work there
+    None where the balancing load does no work there
     """
     images = DrawnPosition(drawn)
     balance = images.balance(driver)
@@ -230,7 +231,7 @@ def force_readings(sheet: Sheet, hand: Instrument = EXACT) -> tuple[Reading, ...
 
 
 def readings_of(sheet: Sheet, forces: ForceSheet, hand: Instrument = EXACT) -> tuple[Reading, ...]:
-    """What is read off forces that are drawn; with ``+`` what a load changes that begins or ends exactly there."""
+    """The readings of drawn forces; with ``+`` those changed by a load that begins or ends exactly there."""
     return (*_of_states(forces, hand), *_shifts(sheet, forces), *_arms(forces))
 
 

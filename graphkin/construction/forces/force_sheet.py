@@ -1,5 +1,4 @@
-"""What stands on the sheet of forces: forces and couples on links, moment equations, force polygons, and what was found
-by them.
+"""The sheet of forces: forces and couples on links, moment equations, force polygons, and their results.
 
 Places are complex numbers in mm on the drawn mechanism, force vectors in mm of their polygons at ``per_mm`` N; sizes
 are in N and N m, counter-clockwise positive.
@@ -26,13 +25,14 @@ class ForceVector:
 
     Parameters
     ----------
-    symbol, part : what it is called, and which part of it this is
-    link, at : on which it acts, and at which place of the mechanism (mm)
-    off : the other link, on which its opposite acts, of a force of a pair or of what balances
-    force, moment : of a force the vector (N; of a direction alone the direction), of a couple the moment (N m)
-    turned : whether it is the opposite of its symbol's
-    by : how it is known: given, by moments before its polygon is drawn, or by closing a polygon
-    direction : as it is written where it was found by that
+    symbol, part : its symbol, and its part
+    link, at : the link on which it acts, and its place on the mechanism (mm)
+    off : the other link, on which its opposite acts, of a pair's force or a balancing load
+    force, moment : of a force the vector (N; a unit vector if only the direction is known), of a couple the moment (N
+        m)
+    turned : whether it is the opposite of its symbol
+    by : its source: given, by moments before its polygon is drawn, or by closing a polygon
+    direction : as written, if it was found by its direction
     tail, tip : in a polygon (mm)
     """
 
@@ -51,7 +51,7 @@ class ForceVector:
 
     @property
     def known(self) -> bool:
-        """Whether it was known before the group was looked at."""
+        """Whether it was known before the group."""
         return self.by == "given"
 
     @property
@@ -60,29 +60,29 @@ class ForceVector:
 
     @property
     def term(self) -> Term:
-        """It as a term of the vector equation of its polygon."""
+        """Its term in the vector equation of its polygon."""
         sized, way = self.by != "closing", self.direction or NO_DIRECTION
         return Term(self.symbol, sized, sized or self.direction is not None, None, way, self.part, self.turned)
 
     def between(self, tail: complex, tip: complex) -> ForceVector:
-        """It as it stands in a polygon (mm)."""
+        """The vector at its place in a polygon (mm)."""
         return replace(self, tail=tail, tip=tip)
 
     @property
     def back(self) -> ForceVector:
-        """What acts for it on the other link."""
+        """Its opposite, on the other link."""
         turned = self.turned if self.symbol.other else not self.turned
         return replace(self, symbol=self.symbol.opposite, link=self.off, off=self.link, force=-self.force,
                        moment=-self.moment, turned=turned)  # fmt: skip
 
     def on(self, link: str) -> ForceVector:
-        """What acts on one of its two links."""
+        """The vector as it acts on one of its two links."""
         return self if link == self.link else self.back
 
 
 def shifted_line(force: complex, at: complex, couple: float, mm: float) -> tuple[complex, float]:
-    """Where a couple (N m) puts the line of action of a force (N) that stands at a place (mm): a place of it (mm), and
-    how far it is shifted (m, counter-clockwise positive: the couple's sense), on paper with ``mm`` for one m."""
+    """The line of action of a force (N) at a place (mm) together with a couple (N m): a place of it (mm), and its shift
+    (m, counter-clockwise positive: the couple's sense), on paper with ``mm`` for one m."""
     shift = couple / abs(force)
     return at - 1j * unit(force) * (shift * mm), shift
 
@@ -107,12 +107,12 @@ class Inertia:
 
 @dataclass(frozen=True)
 class MomentTerm:
-    """The moment of what acts on a link: of a force at its place ``about`` another (mm on the mechanism; on a lever m/s
+    """The moment of an action on a link: of a force at its place ``about`` another (mm on the mechanism; on a lever m/s
     from its pole), or of a couple.
 
-    ``arm`` is the distance of its line, as measured (mm, m/s; positive where the force turns counter-clockwise; None of
-    a couple), ``moment`` what it comes to (N m, W).  On a lever a couple is a ``pair`` of forces at two end points of
-    an image; its arm is their distance, its force the couple over the length of the bar.
+    ``arm`` is the distance of its line, as measured (mm, m/s; positive where the force turns counter-clockwise; None
+    for a couple), ``moment`` its value (N m, W).  On a lever a couple is a ``pair`` of forces at two end points of an
+    image; its arm is their distance, its force the couple over the length of the bar.
     """
 
     acting: ForceVector
@@ -127,22 +127,22 @@ class MomentTerm:
 
     @property
     def size(self) -> float:
-        """Of the force, or the couple with its sense (N, N m)."""
+        """The size of the force, or the couple with its sense (N, N m)."""
         return self.moment if self.arm is None else abs(self.acting.force)
 
     @property
     def foot(self) -> complex:
-        """Of the arm, on the line of the force (mm)."""
+        """The foot of the arm, on the line of the force (mm)."""
         along = unit(self.acting.force)
         return self.about - 1j * along * cross(self.acting.at - self.about, along)
 
 
 @dataclass(frozen=True)
 class MomentEquation:
-    """The moments of all that acts on some links about a point are in balance, which gives one unknown.
+    """The moments of all actions on some links about a point are in balance, which gives one unknown.
 
     ``about`` is the letter of the point, or the name of the link at whose origin it lies; ``unknown`` is a force or a
-    couple of size 1, ``value`` (N, N m) how large it is.
+    couple of size 1, ``value`` (N, N m) its size.
     """
 
     links: tuple[str, ...]
@@ -153,7 +153,7 @@ class MomentEquation:
 
     @property
     def found(self) -> ForceVector:
-        """The unknown as large as it is."""
+        """The unknown with its found size."""
         sought = self.unknown.acting
         return replace(sought, force=sought.force * self.value, moment=sought.moment * self.value, by="moments")
 
@@ -164,14 +164,14 @@ class ForceGroup:
 
     Parameters
     ----------
-    links, kind, way : of the group, and how its forces are found
-    couples_before : couples on it that are known before it is looked at
+    links, kind, way : of the group, and the construction of its forces
+    couples_before : couples on it that are known beforehand
     moments : equations that give parts of forces
-    polygon : what acts on it head to tail, closed; of a group drawn link by link nothing
+    polygon : the forces on it head to tail, closed; empty for a group drawn link by link
     inner : the polygons of single links that give the forces inside, by link
-    couples : equations that give couples of sliding pairs, and moments that balance
-    lines : where a couple puts the line of action of the force of its pair: a place (mm), and how far that is shifted
-        (m), by the symbol of the force
+    couples : equations that give couples of sliding pairs, and balancing moments
+    lines : the line of action of a pair's force with its couple: a place (mm), and the shift (m), by the symbol of the
+        force
     """
 
     links: tuple[str, ...]
@@ -186,7 +186,7 @@ class ForceGroup:
 
     @property
     def polygons(self) -> list[list[ForceVector]]:
-        """That of the group and those of single links, those of no force left out."""
+        """The polygon of the group and those of single links, without empty ones."""
         return [polygon for polygon in (self.polygon, *self.inner.values()) if polygon]
 
 
@@ -195,9 +195,9 @@ class Lever:
     """Zhukovsky's lever of one driver: the velocity polygon turned by 90 degrees clockwise about its pole, so that the
     moment of a force about the pole is its power.  Its places and arms are velocities (m/s), moments powers (W).
 
-    ``per_mm`` is m/s for one mm of the polygon; ``virtual`` where the mechanism rests (or has several drivers) and it
-    is that of a unit rate.  ``rows`` are the moments of the known forces, ``unknown`` that of what balances, of size 1,
-    ``value`` (N m, or N along its line) what they give for it.
+    ``per_mm`` is m/s for one mm of the polygon; ``virtual`` if the mechanism rests (or has several drivers) and the
+    polygon belongs to a unit rate.  ``rows`` are the moments of the known forces, ``unknown`` that of a balancing load
+    of size 1, ``value`` (N m, or N along its line) the balancing load.
     """
 
     per_mm: float
@@ -225,7 +225,7 @@ class ForceState:
 
 @dataclass(frozen=True)
 class ForceSheet:
-    """Everything drawn of forces at a position: once, or twice where a load begins or ends exactly there."""
+    """The drawing of the forces at a position: once, or twice if a load begins or ends exactly there."""
 
     per_mm: float
     inertias: Mapping[str, Inertia]
@@ -233,7 +233,7 @@ class ForceSheet:
 
     @property
     def ways(self) -> tuple[Way, ...]:
-        """How its groups were found, each way once."""
+        """The constructions of its groups, each once."""
         return tuple(dict.fromkeys(group.way for group in self.states[0].groups))
 
     @property

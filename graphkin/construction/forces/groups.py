@@ -1,10 +1,10 @@
 """The forces of a group cut free: of a dyad, of a driven link, of a larger group.
 
-Of a dyad one polygon is drawn.  Moments about the inner pin give the part of a turning pair's force that is square to
-the bar; what slides on the other body is pushed along the guide by its own pin alone.  The polygon of the whole group,
-closed by the directions that are left, gives the rest, and that of one body the force inside (Sun Huan, Mechanical
-Principles, ch. 4; Artobolevsky, Theory of mechanisms and machines, ch. 13).  Where a driver acts, the link that is
-driven last balances, and links that a driver holds together have a couple or a push between them.
+Of a dyad one polygon is drawn.  Moments about the inner pin give the component of a turning pair's force square to the
+bar; along the guide only its own pin pushes a link that slides on the other body.  The polygon of the whole group,
+closed by the remaining directions, gives the rest, and that of one body the force inside (Sun Huan, Mechanical
+Principles, ch. 4; Artobolevsky, Theory of mechanisms and machines, ch. 13).  Where a driver acts, the last driven link
+balances, and links that a driver holds together have a couple or a push between them.
 
 Of a larger group one system is drawn: for each link two projections and the moments about one point, with arms measured
 on the mechanism; then the polygon of each link, which closes.
@@ -38,7 +38,7 @@ SINGULAR = 1e-13
 
 
 def _dead_point(links: Sequence[str]) -> Unsolvable:
-    """What is said where the lines that should close a polygon are parallel."""
+    """The error for parallel lines that should close a polygon."""
     return Unsolvable("dead point", Problem(Phrase("links", links=", ".join(links)),
                                             "the balance does no work in this position or",
                                             "move the driver off this position"))
@@ -52,19 +52,19 @@ Chain = list[ForceVector]
 
 
 def _gap(chain: Chain, end: complex, corner: complex) -> complex:
-    """From one place of a polygon to another (mm); what is left of vectors that close it already is nothing."""
+    """The vector between two places of a polygon (mm); 0 for vectors that close it within rounding."""
     rounding = abs(corner - end) <= ROUNDING * added_up(abs(vector.span) for vector in chain)
     return 0j if rounding else corner - end
 
 
 def _end_of(chain: Chain) -> complex:
-    """Where the next vector of a polygon begins (mm)."""
+    """The beginning of a polygon's next vector (mm)."""
     return chain[-1].tip if chain else 0j
 
 
 @dataclass
 class CutFree:
-    """What is known of all links while their forces are found; the last group comes first.
+    """The known forces on all links during the construction; the last group comes first.
 
     ``acting`` are the known forces and couples by link, ``pins`` the forces of pins on links, ``slides`` force and
     couple of each guiding link on its sliding one, ``done`` the links whose forces are known.
