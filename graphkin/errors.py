@@ -77,6 +77,7 @@ class GraphkinError(Exception):
     """The base of all errors that graphkin raises on purpose.  ``problems`` holds the facts."""
 
     exit_code = 2
+    status = "wrong"
 
     def __init__(self, *problems: Problem) -> None:
         self.problems = problems
@@ -98,10 +99,13 @@ class GraphkinError(Exception):
 class SceneError(GraphkinError):
     """The scene file gives no mechanism; every problem of the file is listed (exit status 2)."""
 
+    status = "scene"
+
 
 class CallError(GraphkinError):
     """The call is wrong: an unknown option value, an unknown scene or symbol (exit status 2)."""
 
+    status = "call"
 
 
 class Unsolvable(GraphkinError):
@@ -135,6 +139,7 @@ class Disagreement(GraphkinError):
     """A drawing that disagrees with the analytic solver: no paper is made of it (exit status 1)."""
 
     exit_code = 1
+    status = "disagreement"
 
 
 class NoDriver(Unsolvable):

@@ -32,8 +32,8 @@ Sentence = tuple[str, Phrase]
 class Explained(OfScene, Result):
     """A scene in words: its units, links, joints, mobility, drivers, groups with their assembly, and its question.
 
-    ``why`` is the reason why it cannot move as it is written, "" where it can; ``exit_code`` is the
-    status of the command.
+    ``why`` is the reason why it cannot move as it is written, "" where it can, ``status`` a word for it as of
+    `Unsolvable`, else "ok"; ``exit_code`` is the status of the command.
     """
 
     mechanism: Mechanism
@@ -41,6 +41,7 @@ class Explained(OfScene, Result):
     why: Wording
     language: str
     exit_code: int = 0
+    status: str = "ok"
 
     @property
     def ok(self) -> bool:
@@ -104,14 +105,14 @@ def explain(scene: SceneLike, *, language: str | None = None) -> Explained:
     known_words(language=language)
     given = as_scene(scene)
     why: Wording = ""
-    exit_code = 0
+    status, exit_code = "ok", 0
     groups: list[Phrase] = []
     try:
         from graphkin.solver import structure_of
 
         groups = [*_groups(structure_of(given), given)]
     except Unsolvable as error:
-        why, exit_code = error.reason, error.exit_code
+        why, status, exit_code = error.reason, error.status, error.exit_code
     find = ", ".join(map(str, given.question.find))
     all_asked = Phrase("explained asked all with forces" if given.loading else "explained asked all")
     told: dict[str, Iterable[Phrase]] = {
@@ -120,7 +121,7 @@ def explain(scene: SceneLike, *, language: str | None = None) -> Explained:
         "asked": [Phrase("explained asked for", quantities=find) if find else all_asked],
     }  # fmt: skip
     sentences = tuple((f"explained {about}", phrase) for about, phrases in told.items() for phrase in phrases)
-    return Explained(given, sentences, why, language or given.question.sheet.language, exit_code)
+    return Explained(given, sentences, why, language or given.question.sheet.language, exit_code, status)
 
 
 def _units(scene: Mechanism) -> Iterator[Phrase]:

@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING, Annotated, TextIO
 import typer
 
 from graphkin import __version__
-from graphkin.cli.output import asked_languages, complain, print_json
-from graphkin.errors import CallError, GraphkinError, Problem, SceneError
+from graphkin.cli.output import Answered, asked_languages, complain, failed, print_json
+from graphkin.errors import GraphkinError, Problem
 from graphkin.words import Phrase, from_others
 
 if TYPE_CHECKING:
@@ -163,10 +163,13 @@ def _run(interrupted: Callable[[int, FrameType | None], object] | None) -> str |
         return int(app(standalone_mode=False) or 0)
     except SystemExit as end:
         return end.code
+    except Answered as told:
+        complain(*told.error.problems)
+        print_json(told.answer)
+        return told.error.exit_code
     except GraphkinError as error:
         complain(*error.problems)
-        if isinstance(error, SceneError | CallError):
-            _print_problems("scene" if isinstance(error, SceneError) else "call", error.problems)
+        _print_problems(error.status, error.problems)
         return error.exit_code
     except typer.Abort:
         return 1
@@ -189,9 +192,9 @@ def _called() -> str:
 
 
 def _print_problems(status: str, problems: Sequence[Problem]) -> None:
-    """What is wrong with the scene or the call, for a program that asked for JSON."""
+    """What is wrong, for a program that asked for JSON."""
     if "--json" in sys.argv[1:]:
-        print_json({"ok": False, "status": status, "problems": [problem.data for problem in problems]})
+        print_json(failed(status, problems))
 
 
 def _leave() -> None:

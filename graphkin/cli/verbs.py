@@ -16,6 +16,7 @@ import typer
 from graphkin.cli.options import Given, command, named_numbers, processes, split_words
 from graphkin.cli.output import (
     complain,
+    failed,
     finish,
     print_json,
     print_paths,
@@ -234,7 +235,10 @@ def solve(given: Given) -> None:
     if given.out is not None:
         write_files(given.out, {"solution.json": solved.json()})
     drawn = solved.loops(given.lang) if given.loops and solved.ok else None
-    if given.json and drawn:
+    if given.json and not solved.ok:
+        problem = Problem(solved.mechanism.name, solved.said)
+        print_json(failed(str(solved.first.motion.status[0]), [problem], solved.data))
+    elif given.json and drawn:
         print_json({**solved.data, "loops": drawn.data})
     elif given.json:
         for piece in solved.json():
@@ -294,14 +298,18 @@ def sweep(given: Given) -> None:
             sweeping, out=target, designs=_replaced(given.set or ()), designs_file=given.designs, progress=progress,
             workers=None if given.scheduler else processes(given.workers),
         )  # fmt: skip
-    if given.json:
+    outcomes = swept.found.outcomes
+    wrong = bool(outcomes) and all(outcome.status == "wrong scene" for outcome in outcomes)
+    if given.json and not swept.ok:
+        row = None if outcomes else swept.over.base.table(swept.over.positions, 0, 1)
+        status, why = (row["status"][0], row["why"][0]) if row else (outcomes[0].status, outcomes[0].why)
+        print_json(failed("scene" if wrong else status, [Problem(swept.mechanism.name, why)], swept.data))
+    elif given.json:
         print_json(swept.data)
     elif not given.quiet:
         tell(swept.text)
         print_paths(sorted(swept.paths))
     if not swept.ok:
-        outcomes = swept.found.outcomes
-        wrong = bool(outcomes) and all(outcome.status == "wrong scene" for outcome in outcomes)
         if wrong:  # the call is at fault, not the mechanism
             complain(Phrase("where and what", where="--set, --designs", found=outcomes[0].why))
         complain(Phrase("no position could be solved designs.csv or table.csv"))
@@ -532,7 +540,9 @@ def explain(given: Given) -> None:
     from graphkin.api.explained import explain as explaining
 
     explained = given.call(explaining)
-    if given.json:
+    if given.json and not explained.ok:
+        print_json(failed(explained.status, [Problem(explained.mechanism.name, explained.why)], explained.data))
+    elif given.json:
         print_json(explained.data)
     elif not given.quiet:
         tell(explained.text)

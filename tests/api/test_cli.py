@@ -435,3 +435,45 @@ def test_a_design_and_a_scene_are_told_apart(call, told, tmp_path):
     done = run(*call, cwd=tmp_path)
     assert (2, "") == (done.returncode, done.stdout)
     assert told in done.stderr
+
+
+UNMOVABLE = """
+[frame]
+points = { A = [0, 0], D = [100, 0] }
+[links.1]
+points = ["A", "B"]
+length = 80
+[links.2]
+points = ["B", "C"]
+length = 50
+[links.3]
+points = ["D", "C"]
+length = 60
+[driver]
+link = "1"
+angle = 150
+omega = 3
+[printed]
+omega_3 = 2
+"""
+
+
+@pytest.mark.parametrize(
+    "call",
+    [["solve"], ["solve", "--sweep", "2"], ["check"], ["draw"], ["centres"], ["centres", "--centrode", "2"], ["audit"],
+     ["handout"], ["handout", "--template", "course-design"], ["sweep"], ["sweep", "--set", "links.1.length=85"]],
+)  # fmt: skip
+def test_a_program_reads_why_what_it_asked_cannot_be_solved(call, tmp_path):
+    (tmp_path / "s.toml").write_text(UNMOVABLE)
+    done = run(call[0], "s.toml", *call[1:], "--json", cwd=tmp_path)
+    said = json.loads(done.stdout)
+    assert (3, False, "not assembled") == (done.returncode, said["ok"], said["status"])
+    assert {"where", "found", "wanted", "id"} == set(said["problems"][0])
+
+
+def test_a_program_reads_why_a_mechanism_that_is_explained_cannot_move(tmp_path):
+    strut = '[links.4]\npoints = ["A", "C"]\nlength = 70'
+    (tmp_path / "s.toml").write_text(UNMOVABLE.replace("[printed]\nomega_3 = 2", strut))
+    said = json.loads(run("explain", "s.toml", "--json", cwd=tmp_path).stdout)
+    assert (False, "mobility") == (said["ok"], said["status"])
+    assert said["problems"]
