@@ -340,7 +340,8 @@ class Pieces:
                 value = values(inner, np.where(inner > high[pieces[i]], pieces[k], pieces[i])) * np.sign(told[k])
                 first, last = inner[value < 0][-1], inner[value > 0][0]
             # where a curve jumps, it crosses zero without being zero
-            if value[-1] - value[0] < CONTINUOUS * np.abs(told[(pieces == pieces[i]) | (pieces == pieces[k])]).max():
+            largest = np.abs(told[(pieces == pieces[i]) | (pieces == pieces[k])]).max()
+            if value[-1] - value[0] < CONTINUOUS * largest + 4 * noise[which[[pieces[i], pieces[k]]]].max():
                 found.append(float(first + last) / 2)
         return found
 

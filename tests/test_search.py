@@ -165,3 +165,8 @@ def test_a_flat_extreme_is_found_wherever_pieces_meet(middle: float) -> None:
 def test_a_flat_extreme_where_a_turn_begins_is_found_once() -> None:
     pieces = resolve(lambda t: column(np.sin(np.pi * t) ** 4), 0.0, 1.0, periodic=True)
     assert [0.0, 0.5] == pytest.approx(sorted(turn.place % 1.0 for turn in pieces.turns(0)), abs=1e-4)
+
+
+def test_an_extreme_where_two_pieces_meet_is_found_beside_values_that_may_be_off() -> None:
+    pieces = resolve(lambda t: ((3.0 - np.cos(t))[:, None], np.full((len(t), 1), 2e-8)), 0.0, 2 * np.pi, periodic=True)
+    assert [0.0, np.pi] == pytest.approx(sorted(turn.place % (2 * np.pi) for turn in pieces.turns(0)), abs=1e-6)

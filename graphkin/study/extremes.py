@@ -277,7 +277,7 @@ def _traced(way: CurveParameter, curves: Sequence[Curve]) -> list[Traced]:
     for curve, extremes, zeros in zip(moving, _extremes(way, moving), _zeros(way, moving), strict=True):
         quantity = curve.quantity
         if quantity.is_unsigned:
-            most = max((e.value for e in extremes), default=0.0)
+            most = max((e.value for e in extremes if e.kind != "end"), default=0.0)
             extremes = tuple(replace(e, value=0.0) if e.value <= 1e-11 * most else e for e in extremes)
             zeros = np.array([e.offset for e in extremes if e.value == 0.0 and e.kind != "end"])
         elif quantity.is_angle:

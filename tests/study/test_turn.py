@@ -541,3 +541,27 @@ def test_an_angle_at_an_end_where_other_links_go_away_has_eleven_digits() -> Non
     swing = next(output for output in turn.outputs if output.quantity.of == "7").position
     low, *_, high = (e.value for e in swing.extremes if e.kind == "end")
     assert low == pytest.approx(high, abs=1e-11)
+
+
+def test_a_distance_that_goes_away_at_an_end_is_not_zero_where_it_is_least() -> None:
+    distance = Quantity(Symbol.parse("d_P3/P6"))
+    turn = study_turn(driver_range(mechanism_of(random_scene(190121, ("RRP", "PRP"), "slot", False))), [distance])
+    course = next(t for t in turn.curves if t.quantity == distance)
+    assert () == course.zeros
+    assert 0.0262676 == pytest.approx(min(e.value for e in course.extremes), abs=1e-7)
+
+
+def test_the_rate_of_a_contra_parallelogram_has_its_extremes_in_line() -> None:
+    # crank 30 on a frame of 20: in line the rocker turns 5 times as fast as the crank, or a fifth as fast
+    scene = {
+        "frame": {"points": {"A": [0, 0], "D": [20, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 30}, "2": {"points": ["B", "C"], "length": 20},
+            "3": {"points": ["D", "C"], "length": 30},
+        },
+        "driver": {"link": "1", "angle": 90, "omega": -5},
+        "sketch": {"C": [30, -40]},
+    }  # fmt: skip
+    turn = study_turn(driver_range(mechanism_of(scene)))
+    rate = next(t for t in turn.curves if t.quantity.name == "omega_3")
+    assert [-25.0, -1.0] == pytest.approx(sorted(e.value for e in rate.extremes), abs=1e-7)
