@@ -320,7 +320,7 @@ class Table:
     # libraries
 
     def to_arrow(self) -> pyarrow.Table:
-        """As a table of pyarrow.  Raises CallError where it is not installed."""
+        """The table of pyarrow.  Raises CallError where it is not installed."""
         pa = _library("pyarrow")
         columns = {}
         for column in self.columns:
@@ -330,11 +330,11 @@ class Table:
         return pa.table(columns)
 
     def to_pandas(self) -> pandas.DataFrame:
-        """As a frame of pandas, its columns named by their heads.  Raises CallError where it is not installed."""
+        """The frame of pandas, its columns named by their heads.  Raises CallError where it is not installed."""
         return _library("pandas").DataFrame({c.head: c.values for c in self.columns}, copy=False)
 
     def to_xarray(self) -> xarray.Dataset:
-        """As a data set of xarray: a variable for each column, with its unit, over the columns of ``index``.
+        """The data set of xarray: a variable for each column, with its unit, over the columns of ``index``.
 
         Raises CallError where it is not installed.
         """

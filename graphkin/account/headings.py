@@ -111,7 +111,7 @@ def facts(sheet: Sheet, figure: str) -> dict[str, object]:
 
 
 def _plain_symbol(language: str) -> Callable[[object], str]:
-    """The same without marks between point and link, ``v_B3/B2``, and a direction that was found as a line."""
+    """The writer of symbols without marks between point and link, ``v_B3/B2``, and of a found direction as a line."""
     plain = plain_in(language)
 
     def written(thing: object) -> str:

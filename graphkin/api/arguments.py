@@ -345,7 +345,8 @@ def quantities_shown(
 def columns_shown(
     scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] | None
 ) -> tuple[Quantity, ...]:
-    """The same for a table over the way of the driver.  Raises CallError for a quantity of one position too."""
+    """The quantities of names in a table over the driver's range.  Raises CallError for a quantity of one position
+    too."""
     shown = quantities_shown(scene, find)
     if elsewhere := [quantity.symbol for quantity in shown if quantity.symbol.at]:
         raise CallError(*(Problem(f"find {symbol}", Phrase("is of one position no column", position=symbol.at),

@@ -109,7 +109,7 @@ class Remark:
         return Phrase(self.key, **gaps)
 
     def scaled(self, times: float) -> Remark:
-        """The same where lengths on paper are so many times as large."""
+        """The remark with lengths on paper multiplied by ``times``."""
         return self if self.key in ("sharp crossing", "magnified") else replace(self, size=self.size * times)
 
 

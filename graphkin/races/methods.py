@@ -73,7 +73,8 @@ def _prepared(work: Work) -> tuple[PreparedMechanism, PreparedMechanism]:
 
 
 def closed_forms(work: Work, repeats: int) -> Iterator[Entry]:
-    """As arrays in double and single precision, compiled where numba is installed, in plain floats one by one."""
+    """The closed form as arrays in double and single precision, compiled if numba is installed, and in plain floats one
+    by one."""
     mechanisms = _prepared(work)
     both = mechanisms[1]
     rooms = [np.empty((len(p.names), work.count)) for p in mechanisms]
@@ -120,7 +121,7 @@ def one_by_one(work: Work, repeats: int, tag: str) -> Entry:
 
 
 def single_precision(work: Work, kinds: str) -> Callable[[Array], Array]:
-    """The same formulas in numbers of 7 digits: a function of the values of the first driver."""
+    """The formulas in numbers of 7 digits: a function of the values of the first driver."""
     ready = prepare(work.structure, columns_of(work, kinds))
     code = Code(ready.dimensioned.program.graph, ready.asked, ready.fixed)
     invariants = code.invariants(ready.given(code), np.float32)

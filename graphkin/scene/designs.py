@@ -90,7 +90,7 @@ class LimitsTask(FileTable):
 
 @file_table
 class BarPlace(FileTable):
-    """Where a bar lies: two points of it, or in a file the first and its angle (degrees)."""
+    """The place of a bar: two points of it, or in a file the first and its angle (degrees)."""
 
     B: Point
     C: FarPoint = None  # type: ignore[assignment]  # placed when it is read

@@ -332,7 +332,7 @@ class Question:
         return self.title_zh if language == "zh" and self.title_zh else self.title
 
     def source_in(self, language: str) -> str:
-        """Where the problem comes from, in a language: as the title."""
+        """The source of the problem in a language, chosen as the title is."""
         return self.source_zh if language == "zh" and self.source_zh else self.source
 
 

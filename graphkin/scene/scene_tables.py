@@ -470,7 +470,7 @@ PAPERS = {
 
 @file_table
 class Tools(FileTable):
-    """What the tools of a pencil drawing can do; used with --instrument pencil.
+    """The accuracy of a pencil drawing's tools; used with --instrument pencil.
 
     A step is the fineness to which a value is read or laid off; the others are standard deviations.
     """

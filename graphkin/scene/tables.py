@@ -139,7 +139,7 @@ class Unit(NamedTuple):
 
     @property
     def written(self) -> str:
-        """As it stands on figures and papers: ``mm/s²``, ``°``, ``N·m``."""
+        """The unit in print: ``mm/s²``, ``°``, ``N·m``."""
         return self.text.replace("2", "²").replace("deg", "°").replace(" ", "·")
 
     def beside(self, number: str) -> str:

@@ -1,6 +1,5 @@
-"""The numbers that are given: values of drivers with their cosines and sines, in words and at even steps; and the
-decimals that were written in the file for them, computed with in 50 digits where positions are so near to a singular
-one that 16 are not enough."""
+"""The given numbers: values of drivers with their cosines and sines, in words and at even steps; and the decimals
+written in the file for them, for computations in 50 digits near singular positions, where 16 are not enough."""
 
 from __future__ import annotations
 
@@ -27,7 +26,7 @@ MANY = 2000
 
 @dataclass(frozen=True)
 class GivenValues:
-    """Values of the first driver as they come."""
+    """Given values of the first driver."""
 
     values: Array
 
@@ -39,7 +38,7 @@ class GivenValues:
 
     @property
     def given(self) -> tuple[Array]:
-        """What compiled code takes."""
+        """The inputs of compiled code."""
         return (self.values,)
 
     @property
@@ -83,7 +82,7 @@ class UniformGrid:
 
     @property
     def given(self) -> tuple[int, int]:
-        """What compiled code takes beside start and way."""
+        """The inputs of compiled code besides start and way."""
         return self.n, self.first
 
     @property
@@ -124,7 +123,7 @@ def own_values(scene: Mechanism) -> Array:
 
 
 def goal_values(scene: Mechanism, at: Mapping[str, float] | None) -> Array:
-    """The scene's driver values, but for those given by driver key, shape (drivers,).
+    """The scene's driver values, with those given by driver key replaced, shape (drivers,).
 
     Raises
     ------
@@ -158,7 +157,7 @@ def working() -> AbstractContextManager[Context]:
 
 
 def meant(value: float) -> tuple[Decimal, bool]:
-    """The decimal that was written in the file for a float, and whether there is one; else the float itself."""
+    """The decimal written in the file for a float, and whether there is one; else the float itself."""
     short = f"{value:.{SHORT}g}"
     if abs(float(short) - value) <= 4.5e-16 * abs(value):
         return Decimal(short), True
@@ -166,19 +165,19 @@ def meant(value: float) -> tuple[Decimal, bool]:
 
 
 def meant_angle(value: float) -> tuple[Decimal, bool]:
-    """The angle (rad) of the decimal degrees that were written for it."""
+    """The angle (rad) of the decimal degrees written for it."""
     with working():
         degrees, known = meant(float(Decimal(value) * 180 / PI))
         return (degrees * PI / 180 if known else Decimal(value)), known
 
 
 def meant_value(driver: Driver, value: float) -> Decimal:
-    """The value of a driver that was written for a float."""
+    """The value of a driver written for a float."""
     return (meant_angle if driver.turns else meant)(value)[0]
 
 
 def meant_direction(z: complex) -> tuple[tuple[Decimal, Decimal], bool]:
-    """The unit vector at the decimal degrees that were written for it."""
+    """The unit vector at the decimal degrees written for it."""
     angle, known = meant_angle(cmath.phase(z))
     if known:
         with working():
@@ -201,8 +200,8 @@ def law_doubts(drivers: Sequence[Driver]) -> Array:
 
 
 def conversion_error(z: complex, direction: bool) -> tuple[float, float]:
-    """How far a place or a direction of the file may be off after its conversion from decimals and units: as floats,
-    and as the decimals that are taken to be meant."""
+    """The error of a place or a direction of the file after its conversion from decimals and units: as floats, and as
+    the decimals taken for them."""
     if direction:
         (x, y), known = meant_direction(z)
     else:
@@ -214,7 +213,7 @@ def conversion_error(z: complex, direction: bool) -> tuple[float, float]:
 
 
 def cos_sin(angle: Decimal) -> tuple[Decimal, Decimal]:
-    """Cosine and sine by their series, after the angle is brought within 45 degrees of a quarter turn."""
+    """Cosine and sine by their series, with the angle reduced to 45 degrees about a quarter turn."""
     quarter = PI / 2
     turns = (angle / quarter).to_integral_value(rounding=ROUND_HALF_EVEN)
     x = angle - turns * quarter

@@ -1,4 +1,4 @@
-"""A mechanism made ready to give a few quantities at very many positions, or at one in no time."""
+"""A mechanism made ready to give a few quantities at very many positions, or at one in microseconds."""
 
 from __future__ import annotations
 
@@ -47,11 +47,10 @@ FINER, FINEST = 16, 4
 class PreparedMechanism:
     """A mechanism with its assembly followed over the range of its first driver, and the code for what is asked.
 
-    names : of the columns, two for a vector ("v_B.x", "v_B.y")
-    asked : their formulas, but for those of loads
-    wanted : what was asked for by name
+    names : of the columns, two for a vector ("v_B.x", "v_B.y") asked : their formulas, except those of loads
+    wanted : the names of the asked quantities
     units : what one metre, one radian and one metre in rates are in the units of the columns
-    bounded : whether columns of bounds stand after all others, one for each name; they are made from the constraints of
+    bounded : whether columns of bounds follow all others, one for each name; they are made from the constraints of
         all links, some hundred times slower than the values
     loads : forces and moments that were asked for, by name: the last of the names, solved position by position as they
         have no closed form, some hundred times slower
@@ -70,13 +69,13 @@ class PreparedMechanism:
 
     @property
     def rows(self) -> int:
-        """Of the array of columns: bounds stand last."""
+        """The rows of the array of columns: bounds come last."""
         return len(self.names) + (len(self.wanted) + len(self.loads)) * self.bounded
 
     @cached_property
     def residues(self) -> Array:
-        """What a few roundings leave of nothing in each column, beside the size of the mechanism and the motion of its
-        drivers, shape (columns,); 0 for forces, whose size they do not tell."""
+        """The size of a few roundings in each column, by the size of the mechanism and the motion of its drivers, shape
+        (columns,); 0 for forces, whose size these do not give."""
         scene, (metre, radian, metre_of_rates) = self.structure.scene, self.units
         rate = second = 0.0
         for driver in scene.drivers:
@@ -113,7 +112,7 @@ class PreparedMechanism:
 
     @cached_property
     def _even(self) -> bool:
-        """Whether every position of a turn is far from a singular one, so that none needs to be looked at."""
+        """Whether every position of a turn is far from a singular one, so that none needs examination."""
         ahead = self.range.ahead
         if ahead.limit is not None or len(ahead.flips) or self.by_newton:
             return False
@@ -135,7 +134,7 @@ class PreparedMechanism:
 
     @cached_property
     def signs(self) -> dict[Name, float] | None:
-        """The assembly of each group where it is the same everywhere."""
+        """The assembly of each group, if it is the same everywhere."""
         if len(self.range.ahead.flips) or len(self.range.behind.flips) or self.by_newton:
             return None
         return {("sign", i): float(mode[0]) for i, mode in self.range.modes(np.zeros(1)).items() if mode.ndim == 1}
@@ -165,7 +164,7 @@ class PreparedMechanism:
 
     @cached_property
     def _value_errors(self) -> Array:
-        """How far the values of the drivers, and of what follows them, may be off over the range, shape (drivers,)."""
+        """The error bounds of the values of drivers and their followers over the range, shape (drivers,)."""
         scene = self.structure.scene
         ends = np.abs(self.range.start) + abs(self.range.wide) * (np.arange(len(scene.drivers)) == 0)
         followers = [abs(d.values[0]) + float(np.abs(d.ratios) @ ends) for d in self.structure.followers]
@@ -174,7 +173,7 @@ class PreparedMechanism:
 
     @cached_property
     def code(self) -> Code:
-        """What is asked; below it the sines of groups, where positions are to be looked at."""
+        """The code of the asked formulas; after them the sines of groups, if positions must be examined."""
         asked = self.asked if self.open or self._even else (*self.asked, *self._sines)
         return Code(self.dimensioned.program.graph, asked, self.fixed, self.open)
 
@@ -187,12 +186,12 @@ class PreparedMechanism:
 
     @cached_property
     def by_design(self) -> Code:
-        """What is asked, with what is open among the params: for one design after the other."""
+        """The code of the asked formulas with the open numbers among the params: for designs in turn."""
         return Code(self.dimensioned.program.graph, self.asked, {*self.fixed, *self.open})
 
     @cached_property
     def fixed(self) -> dict[Name, float]:
-        """Numbers of the formulas that are no dimensions, as far as they are the same everywhere."""
+        """Numbers of the formulas that are no dimensions and the same everywhere."""
         numbers = {**self._held, **(self.signs or {})}
         return {name: number for name, number in numbers.items() if name not in self.open}
 
@@ -206,8 +205,8 @@ class PreparedMechanism:
         return {}
 
     def opened(self, names: frozenset[Name], moving: tuple[bool, ...]) -> PreparedMechanism:
-        """The same with some numbers of the formulas open, to be given for each design; made once.  ``moving`` tells
-        for each driver whether it has a second rate in some of them."""
+        """The mechanism with some numbers of the formulas open, to be given for each design; made once.  ``moving``
+        tells for each driver whether it has a second rate in some of them."""
         if (names, moving) not in self._opened:
             dimensioned = program_of(self.structure, moving, names)
             asked = formulas(dimensioned.program, self.structure, self.wanted, self.units)
@@ -219,7 +218,7 @@ class PreparedMechanism:
         return self.dimensioned.params(code.params, self.fixed)
 
     def invariants(self, code: Code) -> list[Array] | None:
-        """What is the same at all positions, and in all designs; found once."""
+        """The numbers that are the same at all positions, and in all designs; computed once."""
         if code not in self._invariants:
             self._invariants[code] = code.invariants(self.given(code))
         return self._invariants[code]
@@ -231,8 +230,8 @@ class PreparedMechanism:
     # one position
 
     def at(self, value: float) -> tuple[float, ...] | None:
-        """The asked quantities at one value of the first driver, in plain floats; None where there is no such position
-        or it is a dead point.  With loads the bounds come after them."""
+        """The asked quantities at one value of the first driver, in plain floats; None where the position does not
+        exist or is a dead point.  With loads the bounds come after them."""
         return self._by_columns(value) if self.loads else self._one(value)
 
     @cached_property
@@ -281,11 +280,11 @@ class PreparedMechanism:
         return self.range.full
 
     def _modes_at(self, value: Array) -> dict[int, Array]:
-        """The assembly mode of each group at values of the first driver; beyond its reach that at its end."""
+        """The assembly mode of each group at values of the first driver; beyond its range the mode at its end."""
         return self.range.modes(self.range.offsets(value) / abs(self.range.wide))
 
     def signs_at(self, value: Array) -> dict[Name, Array]:
-        """The assembly of each group at values of the first driver, where it changes."""
+        """The assembly of each group at values of the first driver, if it changes."""
         return {("sign", i): mode for i, mode in self._modes_at(value).items() if mode.ndim == 1}
 
     def _from_larger_groups(self, value: Array, ok: Array) -> Mapping[Name, Array]:
@@ -301,14 +300,14 @@ class PreparedMechanism:
 
     @cached_property
     def _numbers(self) -> Array:
-        """What compiled code takes: the params, then start and way of the driver over its range."""
+        """The inputs of compiled code: the params, then start and way of the driver over its range."""
         grid = self.range.grid(1)
         assert isinstance(grid, UniformGrid)  # where the motion starts it is
         return np.array([*self.given(self.code), grid.start, grid.way])
 
     @cached_property
     def on_grid(self) -> Kernel:
-        """At even steps; of what is open one design after the other."""
+        """The code at even steps; with open numbers for designs in turn."""
         return Kernel(self.by_design if self.open else self.code, self.turns, True, len(self.asked), SINGULAR)
 
     @cached_property
@@ -317,7 +316,7 @@ class PreparedMechanism:
 
     @cached_property
     def clear(self) -> bool:
-        """Whether there is nothing to be looked at: a whole turn of one assembly, far from every dead point."""
+        """Whether no position needs examination: a whole turn of one assembly, far from every dead point."""
         return self._regular and not self.loads and not self.bounded
 
     @cached_property
@@ -330,14 +329,14 @@ class PreparedMechanism:
         Parameters
         ----------
         values : shape (n,) (rad, m)
-        out : where to put them, shape (len(names), n)
+        out : array for them, shape (len(names), n)
         fast : compile the formulas with numba, and run them on all cores where the positions are many; the first call
             takes some seconds
 
         Returns
         -------
         columns : shape (len(names), n), in SI; NaN where not ok
-        ok : bool, shape (n,): False where the motion does not come, and at dead points
+        ok : bool, shape (n,): False where the motion does not reach the position, and at dead points
 
         Raises
         ------
@@ -349,7 +348,7 @@ class PreparedMechanism:
 
     def _all(self, steps: GivenValues | UniformGrid, out: Array, fast: bool) -> Array:
         """All columns: those of formulas, below them forces and moments, at last the bounds of both, infinite where
-        they are not known; NaN where there is no such position."""
+        they are unknown; NaN where the position does not exist."""
         count, n = len(self.asked), len(steps)
         ok = self._formulas(steps, out[:count], fast) if count or not self.loads else self._reached(steps.values)
         if self.clear:
@@ -370,7 +369,7 @@ class PreparedMechanism:
         return ok
 
     def _formulas(self, steps: GivenValues | UniformGrid, out: Array, fast: bool) -> Array:
-        """The columns of formulas, and where there is such a position; where there is none they mean nothing."""
+        """The columns of formulas, and whether the position exists; elsewhere they have no meaning."""
         n, count, compiled = len(steps), len(self.asked), fast and not self.by_newton
         if n > CHUNK and not compiled:
             parts = [slice(k, min(k + CHUNK, n)) for k in range(0, n, CHUNK)]
@@ -396,7 +395,7 @@ class PreparedMechanism:
         return ok
 
     def _bounds(self, value: Array, ok: Array, out: Array) -> None:
-        """How far rounding may have moved the columns of each name, at the values that are ok."""
+        """Bounds of the rounding errors of each name's columns, at the values that are ok."""
         if not ok.any():
             return
         structure, state = self.structure, self._state(value[ok])
@@ -443,12 +442,12 @@ def prepare(
     scene : a scene, or its structure
     asked : columns by name, as in ``column_symbol``: "B", "v_B", "a_B@3", "omega_3", ...
     units : what one metre, one radian and one metre in rates are in the units of the columns
-    bounded : after all others a column for each name, of how far rounding may have moved its values
-    along : the range of its first driver, where that is known already
+    bounded : after all others a column for each name, with a bound of its values' rounding errors
+    along : the range of its first driver, if it is known already
 
     Raises
     ------
-    CallError : a name that names nothing
+    CallError : a name of no quantity
     Unsolvable, SceneError : as for ``solve``
     """
     structure = structure_of(scene)
@@ -465,8 +464,8 @@ Units = tuple[float, float, float]
 
 
 def column_symbol(name: str) -> Symbol:
-    """What a column is of: "B", "B@3" (place of a point), "v_B", "a_B@3", "v_C/B", "theta_3", "omega_3", "alpha_3",
-    "s_2/3" (travel of a sliding pair).  Raises CallError for what is none of these."""
+    """The symbol of a column: "B", "B@3" (place of a point), "v_B", "a_B@3", "v_C/B", "theta_3", "omega_3", "alpha_3",
+    "s_2/3" (travel of a sliding pair).  Raises CallError for another name."""
     try:
         symbol = Symbol.parse(name)
     except ValueError as error:
@@ -477,7 +476,7 @@ def column_symbol(name: str) -> Symbol:
 
 
 def _factor(symbol: Symbol, units: Units) -> float:
-    """What a quantity in SI is to be multiplied by."""
+    """The factor from a quantity in SI to the columns' unit."""
     return units[_PER[symbol.measure]] if symbol.measure in _PER else 1.0
 
 
@@ -528,8 +527,8 @@ def force_rows(
     Returns
     -------
     rows : one for each head of each name, in the scene's units
-    bounds : for each name how far rounding may have moved its rows, where that is wanted (``bounded``)
-    ok : bool, shape (n,): where the motion comes, and its balance does work
+    bounds : for each name a bound of its rows' rounding errors, if it is wanted (``bounded``)
+    ok : bool, shape (n,): positions that the motion reaches and in which the balance does work
     """
     forces, per = forces_of(reach.motion(reach.offsets(values))), reach.scene.units.newtons
     rows, bounds = [], []

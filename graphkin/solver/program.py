@@ -1,6 +1,6 @@
 """The formulas of a structure: every link and group by the values of the drivers.
 
-Lengths and places are left open in them, so that one program serves every mechanism that differs in these only.
+Lengths and places are open in them, so that one program serves all mechanisms that differ in these only.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class Program:
     """The formulas of all mechanisms of one form.
 
     poses : each link by its name, fields are formulas
-    groups, joints : what each dyad gives, and its joint frames, by its place among the elements
+    groups, joints : the solution of each dyad, and its joint frames, by its index among the elements
     """
 
     def __init__(self, structure: Structure, moving: Sequence[bool], open_: Container[Name] = ()) -> None:
@@ -53,7 +53,7 @@ class Program:
 
     def number(self, *name: str) -> Vec:
         """A place or direction of the scene: ("point", link, point), ("turn", slide), ("through", slide), ("ratio",
-        what rolls, "angle" or "travel", of what), ..."""
+        rolling link, "angle" or "travel", of link), ..."""
         z = self._numbers[name]
         return Vec(*(self._part(name, axis, x) for axis, x in (("x", z.real), ("y", z.imag))))
 
@@ -95,13 +95,13 @@ class Program:
         return self.graph.input(("travel", k)), *self._rates(driver)
 
     def lift(self, cam: LawCam) -> tuple[Real | Vec, Real, Real]:
-        """Where a follower stands, and its derivatives by the angle of the cam."""
+        """The place of a follower, and its derivatives by the angle of the cam."""
         parts = ("slope", "bend", *(("travel",) if isinstance(cam.motion, SlidingFollower) else ("cos", "sin")))
         slope, bend, *stands = (self.graph.input(("lift", cam.link, part)) for part in parts)
         return (Vec(*stands) if len(stands) == 2 else stands[0]), slope, bend
 
     def rolled(self, rolled: Rolled) -> tuple[Real | Vec, Real, Real]:
-        """Where what rolls stands, and its rates, from those of what it rolls on."""
+        """The value of a rolling link, and its rates, from those of the links on which it rolls."""
         rate = second = self.graph.const(0)
         for coordinate, _ in rolled.factors:
             one, two = self.rates_of(coordinate)
@@ -114,7 +114,7 @@ class Program:
         return stands, rate, second
 
     def ratio(self, rolled: Rolled, coordinate: Coordinate) -> Real:
-        """By how much what rolls goes as one of the angles and travels that it follows."""
+        """The ratio of a rolling link's motion to one of the angles and travels that it follows."""
         return self.number("ratio", rolled.key, *coordinate).real
 
     def rates_of(self, coordinate: Coordinate) -> tuple[Real, Real]:
@@ -157,7 +157,7 @@ class Program:
     # code
 
     def code(self, key: Hashable, asked: Sequence[Real | Vec], varying: frozenset[Name] = frozenset()) -> Code:
-        """The code for some formulas, made once; of a vector both components.  ``varying`` are rates of drivers that
+        """The code for some formulas, made once; for a vector both components.  ``varying`` are rates of drivers that
         change from position to position."""
         if (key, varying) not in self._codes:
             self._codes[key, varying] = Code(self.graph, [x for value in asked for x in components(value)], (), varying)
@@ -181,7 +181,7 @@ def _numbers(structure: Structure) -> dict[Name, complex]:
 
 
 def _form(structure: Structure, open_: Container[Name]) -> Hashable:
-    """What a program depends on: elements, joints and drivers by name, and which numbers are 0, 1 or -1."""
+    """The form of a program: elements, joints and drivers by name, and the numbers that are 0, 1 or -1."""
     drivers = tuple((d.key, *d.links, d.rolls) for d in structure.drivers)
     special = tuple(
         (*name, axis, x if x in SPECIAL and (*name, axis) not in open_ else None)
@@ -237,14 +237,14 @@ class DimensionedProgram:
         return z.real if name[-1] == "x" else z.imag
 
     def decimal(self, name: Name) -> tuple[Decimal, Decimal]:
-        """A number of the file as a decimal, and how far it may be off: not at all where it stands so in the file."""
+        """A number of the file as a decimal, and its error: 0 for a number written so in the file."""
         if name[0] == "size":
             return Decimal(self.structure.scene.size), Decimal(0)
         parts, known = self._meant(name[:-1])
         return parts[0 if name[-1] == "x" else 1], Decimal(0 if known else GIVEN * abs(self._numbers[name[:-1]]))
 
     def _meant(self, name: Name) -> tuple[tuple[Decimal, Decimal], bool]:
-        """What was written in the file for a place or direction, and whether it can be told."""
+        """The decimals written in the file for a place or direction, and whether they can be told."""
         if name not in self._written:
             z = self._numbers[name]
             if name[0] in ("turn", "direction"):
@@ -268,7 +268,7 @@ def program_of(
     Parameters
     ----------
     moving : for each driver whether it has a second rate
-    open_ : numbers by name that stay open even where they are 0, 1 or -1
+    open_ : numbers by name that stay open even if they are 0, 1 or -1
     """
     key = "program", moving, open_
     if key in structure.kept:

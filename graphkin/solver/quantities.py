@@ -39,11 +39,11 @@ def _angle(direction: Array) -> Array:
 
 @dataclass(frozen=True)
 class Posed(Generic[V, R]):
-    """The links of a structure where they are, by arrays of shape (n,) or by formulas.
+    """The links of a structure in their poses, as arrays of shape (n,) or formulas.
 
     poses : pose of each link by its name
     slides : the sliding pairs and pins in slots
-    number : a place or direction of the scene by its name, as in ``Program.number``; None as the scene gives it
+    number : a place or direction of the scene by its name, as in ``Program.number``; None for the scene's own
     angle : of a direction (rad)
     """
 
@@ -54,7 +54,7 @@ class Posed(Generic[V, R]):
     angle: Callable[[V], R] = _angle  # type: ignore[assignment]
 
     def pose(self, link: str) -> Pose[V, R]:
-        """Of a link or the block of a pin.  Raises CallError for an unknown name."""
+        """The pose of a link or the block of a pin.  Raises CallError for an unknown name."""
         if link not in self.poses:
             known = did_you_mean(link, self.structure.scene.by_name)
             raise CallError.of(Phrase("link", name=link), "there is no such link", known)
@@ -66,8 +66,8 @@ class Posed(Generic[V, R]):
         return self.structure.links.get(name) or self.structure.scene.by_name[name]
 
     def holder(self, point: str) -> str:
-        """Of the links that have a point the frame, or the first in the order of solution, which is known best; of a
-        point of contact what stands for the contact."""
+        """Of the links with a point the frame, or the first in the order of solution, which is known best; for a point
+        of contact the link that replaces the contact."""
         scene = self.structure.scene
         if point in scene.holders:
             return min(scene.holders[point], key=lambda name: self._order.get(name, len(self._order)))
@@ -83,14 +83,14 @@ class Posed(Generic[V, R]):
         return {**order, self.structure.scene.frame.name: -1}
 
     def is_under(self, ref: PointRef) -> bool:
-        """Whether a point is the place of a link that lies at another link's pin now."""
+        """Whether a point is a link's place at another link's pin."""
         return bool(ref.link) and ref.point not in self.link(ref.link).points
 
     def point(self, ref: PointRef) -> Pose[V, R]:
-        """Axes that move with the point's link, their origin at its point, or at its place that lies at that pin now.
+        """Axes that move with the point's link, with their origin at its point, or at its place at that pin now.
 
-        Without a link the pin itself: the point of any link that has it; of a contact the place where it is made, which
-        runs along both outlines.
+        Without a link the pin itself: the point of any link that has it; for a contact its place, which runs along both
+        outlines.
         """
         if self.is_under(ref):
             return self.pose(ref.link).carrying(self.point(PointRef(ref.point)).z)
@@ -105,7 +105,7 @@ class Posed(Generic[V, R]):
         return self.poses[slide.b].fixed(slide.guide.through, slide.guide.direction)
 
     def sliding(self, slide: Pair) -> Pose[V, R]:
-        """What slides, as seen from its guide: the x axis is along the guide's sense."""
+        """The sliding link seen from its guide: the x axis is along the guide's sense."""
         return self.guide(slide).inverse().of(self.poses[slide.a])
 
     def travel(self, slide: Pair) -> R:
@@ -149,7 +149,7 @@ def _rate(field: str) -> Callable[[Posed[V, R], Symbol], V | R]:
 
 
 def _theta(posed: Posed[V, R], symbol: Symbol) -> R:
-    """Of a link's own x axis, or of one link's against another's."""
+    """The angle of a link's own x axis, or from another link's."""
     turn = posed.pose(symbol.link).u
     return posed.angle(turn * posed.pose(symbol.other).u.conjugate() if symbol.other else turn)
 
@@ -166,7 +166,7 @@ def _gamma(posed: Posed, symbol: Symbol) -> Array:
 
 
 def _transmission(posed: Posed, symbol: Symbol) -> Array:
-    """Of the group of two links that has these."""
+    """The transmission angle of the group with these two links."""
     dyad = next(dyad for dyad in posed.structure.dyads.values() if "-".join(dyad.links) == symbol.name)
     return _crossing(posed.poses, joint_of_dyad(posed.structure, dyad))
 
@@ -184,7 +184,7 @@ def _coordinate(posed: Posed, symbol: Symbol) -> Array:
 
 
 def _place(posed: Posed, symbol: Symbol, name: str) -> Array:
-    """Where a point or an instant centre lies; NaN for a centre at infinity or of links that move as one."""
+    """The place of a point or an instant centre; NaN for a centre at infinity or of links that move as one."""
     scene = posed.structure.scene
     if name in scene.holders:
         return np.asarray(posed.point(PointRef(name)).z)
@@ -221,10 +221,10 @@ def pole(one: Pose, two: Pose) -> tuple[Array, Array]:
 
 
 def _part(posed: Posed, symbol: Symbol) -> Array:
-    """A part of an acceleration: normal (an), tangential (at), Coriolis (ak), or what is left of it (ar).
+    """A part of an acceleration: normal (an), tangential (at), Coriolis (ak), or the rest (ar).
 
-    Seen from a second link a point of a first one runs along a path: its Coriolis term is by the turning of the second
-    link; of what is left the part along the normal of the path is by its curvature.
+    Seen from a second link a point of a first one runs along a path: its Coriolis term comes from the turning of the
+    second link; the component of the rest along the normal of the path comes from its curvature.
     """
     of, to, kind = symbol.of, symbol.to, symbol.kind
     assert of is not None
@@ -246,7 +246,7 @@ def _path(posed: Posed, kind: str, of: PointRef, to: PointRef) -> tuple[str, Arr
     """The link from which a point is seen to run along a path, of coincident points of two links, and the unit normal
     of the path, where a part of this kind is told by that; None where it is no path that bends.
 
-    It is that of a pin in a curved slot, of a contact, or a circle about the hinge of both links.
+    It is the path of a pin in a curved slot, of a contact, or a circle about the hinge of both links.
     """
     links = posed.structure.scene.by_name
     curved = (s for s in posed.slides if s.guide.curvature and s.pin == of.point)
@@ -356,7 +356,7 @@ VALUES: Mapping[str, Callable[[Posed[Any, Any], Symbol], Any]] = {
 
 
 def bound_of_symbol(posed: Posed, symbol: Symbol, bounds: Mapping[str, ErrorBound[Array]]) -> Array:
-    """How far a place, an angle, a travel or a rate of them may be off (SI), shape (n,), by the bounds of the links."""
+    """The error bound of a place, an angle, a travel or a rate of them (SI), shape (n,), by the bounds of the links."""
     order, frame = symbol.order, posed.structure.scene.frame.name
     assert order is not None
     known = {frame: ErrorBound(*(np.zeros(1),) * 6), **bounds}
@@ -391,7 +391,7 @@ def bound_of_symbol(posed: Posed, symbol: Symbol, bounds: Mapping[str, ErrorBoun
 
 
 def _crossing(poses: Mapping[str, Pose], joint: TransmissionAngle) -> Array:
-    """The angle between the two directions that decide how well a group passes on a force, 0 .. pi/2 (rad)."""
+    """The angle between the two directions of a joint's transmission angle, 0 .. pi/2 (rad)."""
     first, second = (poses[end[0]].fixed(end[1]).z - poses[start[0]].fixed(start[1]).z
                      for start, end in (joint.first, joint.second))  # fmt: skip
     with np.errstate(all="ignore"):

@@ -522,7 +522,7 @@ def regrouped(scene: Mechanism, known: Iterable[str], members: Iterable[str]) ->
 
 
 def _wrong_count(structure: Structure) -> Problem:
-    """What is said where a mechanism has more or fewer drivers than its mobility: the count, and what is right."""
+    """The sentences on a mechanism with more or fewer drivers than its mobility: the count, and the remedy."""
     scene, mobility = structure.scene, structure.mobility
     given, names = len(scene.drivers), ", ".join(d.key for d in scene.drivers)
     higher = f" - {mobility.higher}" if mobility.higher else ""

@@ -121,8 +121,7 @@ def _joints(cut: CutFree, vectors: dict[Symbol, complex], moments: dict[Symbol, 
 
 
 def held_by_pairs(sheet: Sheet) -> Sheet:
-    """The same drawing with the structure in which forces are found, where pairs stand for what touches; itself where
-    nothing does."""
+    """The drawing with the structure for forces, in which lower pairs replace the contacts; itself without contacts."""
     scene, mm = sheet.scene, 1.0 / sheet.scales.length
     if not (scene.contacts or scene.gears or scene.cams):
         return sheet

@@ -92,7 +92,7 @@ class CutFree:
         self.push(*(acting for acting in (force, force.back) if acting.link not in inside))
 
     def on(self, links: Iterable[str]) -> list[ForceVector]:
-        """What is known to act on some links, of no size left out."""
+        """The known actions on some links, without those of size zero."""
         return [load for link in links for load in self.acting[link] if load.force or load.moment]
 
     def couples_on(self, links: Iterable[str]) -> list[ForceVector]:
@@ -126,7 +126,7 @@ class CutFree:
         return ForceVector(symbol, link, at=at, by="closing", off=off)
 
     def set_balance(self, balance: ForceVector, found: ForceVector) -> None:
-        """What balances, as it was found on one of its two links."""
+        """Set a balancing load, as found on one of its two links."""
         whole = found.on(balance.link)
         self.balances[balance.symbol] = whole.force or whole.moment
 
@@ -154,7 +154,7 @@ class CutFree:
     def moments(
         self, links: Sequence[str], about: complex, letter: str, unknown: ForceVector, more: Iterable[ForceVector] = ()
     ) -> MomentEquation:
-        """How large a force of known line, or a couple, is by the moments of all that acts on some links.
+        """The size of a force of known line, or of a couple, by the moments of all actions on some links.
 
         Parameters
         ----------
@@ -250,7 +250,7 @@ def _slide_found(
 
 
 def _shift_line(cut: CutFree, group: ForceGroup, force: ForceVector, couple: float) -> None:
-    """Where a couple (N m) puts the line of action of its force."""
+    """Shift the line of action of a pair's force by its couple (N m)."""
     if force.force:
         group.lines[force.symbol] = shifted_line(force.force, force.at, couple, cut.drawn.mm)
 
@@ -311,7 +311,7 @@ OuterParts = tuple[list[ForceVector], ForceVector]
 def _outer_parts(
     cut: CutFree, dyad: Dyad, at_first: ForceVector, at_second: ForceVector, group: ForceGroup
 ) -> tuple[tuple[list[ForceVector], ForceVector | None], OuterParts]:
-    """What is known of both outer forces before the polygon closes; None where nothing of the first is left open."""
+    """The known parts of both outer forces before the polygon closes; None where the first is known completely."""
     slide, outer = dyad.inner, dyad.outer_second
     if slide.turns:
         return (_by_inner_pin(cut, dyad.first.links, dyad.outer_first, at_first, slide, group),

@@ -67,7 +67,7 @@ class DrawnPosition:
         return Symbol(kind, PointRef(point) if several and point else None, link=first, other=second)
 
     def of_pin(self, point: str, link: str) -> Symbol:
-        """What the force of the pin at a point on a link is called."""
+        """The name of the force of the pin at a point on a link."""
         if link in self.blocks:
             of, on = self.blocks[link]
             return self.between(of, on, point)
@@ -106,7 +106,7 @@ class DrawnPosition:
         return self.place(link, self.sheet.structure.links[link].points[point]) if drawn is None else drawn
 
     def foot(self, slide: Pair) -> complex:
-        """Where the force of a sliding pair acts: the sliding link's first point, or its origin (mm)."""
+        """The place of a sliding pair's force: the sliding link's first point, or its origin (mm)."""
         return self.point(slide.a, slide.pin) if slide.pin else self.sheet.poses[slide.a].origin
 
     def along(self, slide: Pair) -> complex:
@@ -114,7 +114,7 @@ class DrawnPosition:
         return self.sheet.poses[slide.b].axis * slide.guide.direction
 
     def balance(self, driver: Driver) -> ForceVector:
-        """What balances in place of a driver, of size 1: what the scene says, else a moment where it turns and a force
+        """The balancing load in place of a driver, of size 1: the scene's own, else a moment where it turns and a force
         along the guide where it slides."""
         scene = self.structure.scene
         said, frame = scene.loading.balance, scene.frame.name

@@ -1,6 +1,6 @@
 """The sheet: mechanism, both polygons, equations, given data, readings and title block on one page, true to scale; and
-under them the photograph or scan, with the lines that were read off it.  What of its equations, data, insets and
-readings finds no room in its own place stands where others have left some, or on further pages.
+under them the photograph or scan, with the lines read from it.  Equations, data, insets and readings without room in
+their own place go to the room that others leave, or to further pages.
 """
 
 from __future__ import annotations
@@ -67,12 +67,12 @@ TWO_LINES = 3.4  # mm: letters of titles that stand below each other, where one 
 def sheet_page(
     sheet: Sheet, report: Report | None = None, *, language: str | None = None, convention: str | None = None
 ) -> Drawing:
-    """One page with everything; what it has no room for stands on its ``further`` pages.
+    """The page of the sheet; parts without room are on its ``further`` pages.
 
     Parameters
     ----------
     sheet : drafted in ``sheet_room(scene)``, so that its polygons fill their panels
-    report : its readings held against the exact values; without it the table shows the readings alone
+    report : its readings compared with the exact values; without it the table shows the readings alone
     language : "en", "zh" or "both"; the scene's own if None
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
     """
@@ -118,15 +118,15 @@ def sheet_page(
 
 
 def _drawn_page(page: FigurePage, width: float, height: float, pieces: Sequence[Piece], number: str) -> Drawing:
-    """A page of the sheet; ``number`` stands behind its title."""
+    """A page of the sheet; ``number`` follows its title."""
     title = figure_title(page.sheet, "sheet", page.language) + number
     return Drawing(width, height, layer_groups(joined(pieces)), title, "", languages(page.language)[0],
                    facts(page.sheet, "sheet"))  # fmt: skip
 
 
 class _Writing:
-    """Equations, given data and readings, with the insets of Coriolis terms that found no room in their panel; each is
-    set once for each of its rooms, however many plans are tried."""
+    """Equations, given data and readings, with the insets of Coriolis terms without room in their panel; each is set
+    once for each of its rooms, for all plans tried."""
 
     def __init__(
         self, page: FigurePage, rows: Sequence[TableRow], lines: Sequence[LineToSet], senses: Sequence[CoriolisTerm]
@@ -136,7 +136,7 @@ class _Writing:
         self._set = cache(lambda part, rest, room: part(page, rest, room, "own"))
 
     def on(self, plan: SheetPlan, size: float) -> tuple[list[Piece], Remainder]:
-        """All of it on a plan, given data in letters of at most a size; and what is left for further pages."""
+        """The writing on a plan, given data in letters of at most ``size``; and the rest for further pages."""
         page, whole = self.page, self.whole(size)
         parts = (_own_given, plan.given), (_own_equations, plan.equations), (_readings, plan.readings)
         rest, pieces, rooms = whole, list[Piece](), list[Box]()
@@ -164,7 +164,7 @@ class _Writing:
 
 
 def _as_page(sheet: Sheet, figure: Drawing, plan: SheetPlan, number: int) -> Drawing:
-    """A figure on a page of the sheet's size, or a longer one where it takes that."""
+    """A figure on a page of the sheet's size, or on a longer one if necessary."""
     to = complex(plan.page.left - MARGIN, plan.page.top - MARGIN)
     height = max(plan.height, figure.height + to.imag)
     return replace(figure, width=plan.width, height=height, children=moved(figure.children, to),
@@ -177,7 +177,7 @@ def _in_corner(words: str, frame: Box) -> Piece:
 
 
 def _step_number(page: FigurePage, frame: Box) -> Piece:
-    """What the numbers in brackets at the vectors are."""
+    """The note on the numbers in brackets at the vectors."""
     words = fitted(term("step number", page.language, number="(9)"), 2.4, 0.7 * frame.width)
     return Piece({"labels": (Text(complex(frame.left, frame.bottom + 4.0), words),)})
 
@@ -201,8 +201,7 @@ def _mechanism(page: FigurePage, panel: Box) -> Piece:
 
 
 def _polygons(page: FigurePage, plan: SheetPlan) -> tuple[Piece, Piece | None, list[CoriolisTerm]]:
-    """The polygons on a plan, that of accelerations where there is one, and the Coriolis terms for whose insets there
-    was no room."""
+    """The polygons on a plan, of accelerations if it is drawn, and the Coriolis terms without room for their insets."""
     velocity, _ = _polygon(page, "velocity", plan.velocity)
     if not page.sheet.vectors("acceleration"):
         return velocity, None, []
@@ -215,23 +214,23 @@ def _polygon(page: FigurePage, diagram: DiagramName, panel: Box) -> tuple[Piece,
 
 
 def _heights(page: FigurePage, plan: SheetPlan) -> list[float]:
-    """How high (mm) the polygons are on a plan with their names."""
+    """The heights (mm) of the polygons with their names on a plan."""
     panels = zip(POLYGONS, (plan.velocity, plan.acceleration), strict=True)
     return [extent(page.sheet, diagram, box.grown(-3.0)).height + 2 * NAMES for diagram, box in panels]
 
 
 def _insets(pieces: Sequence[object]) -> list[str]:
-    """The insets that stand in polygons."""
+    """The insets in polygons."""
     drawn = (piece.drawn for piece in pieces if isinstance(piece, Piece))
     return [thing.id for each in drawn for thing in walk(each) if isinstance(thing, Group) and "inset" in thing.classes]
 
 
 @dataclass(frozen=True, eq=False)
 class Remainder:
-    """What is left to be shown, in the order of its parts.
+    """The remaining content, in the order of its parts.
 
     size : of the letters of the given data, at most (mm)
-    begun : whether some of the readings stand already
+    begun : whether some of the readings are shown already
     """
 
     equations: Sequence[LineToSet] = ()
@@ -252,7 +251,7 @@ Part: TypeAlias = tuple[Piece, Remainder, Box]
 
 
 def _into(page: FigurePage, rest: Remainder, room: Box, place: Place) -> tuple[list[Piece], Remainder]:
-    """What of the rest a room holds, one kind of part below the other."""
+    """The part of the rest that fits a room, kinds below each other."""
     pieces: list[Piece] = []
     for part in (_equations, _senses, _given, _readings):
         piece, rest, room = part(page, rest, room, place)
@@ -261,7 +260,7 @@ def _into(page: FigurePage, rest: Remainder, room: Box, place: Place) -> tuple[l
 
 
 def continued(page: FigurePage, rest: Remainder, rooms: Sequence[Box]) -> Piece | None:
-    """The rest in rooms that other writing has left on the first page; None where they do not hold all of it."""
+    """The rest in rooms that other writing leaves on the first page; None where it does not fit."""
     pieces: list[Piece] = []
     for room in rooms:
         more, rest = _into(page, rest, room, "spare")
@@ -270,8 +269,8 @@ def continued(page: FigurePage, rest: Remainder, rooms: Sequence[Box]) -> Piece 
 
 
 def overleaf(page: FigurePage, rest: Remainder, frame: Box) -> tuple[Drawing, ...]:
-    """As many pages as the rest takes, each of the size of a first page whose inside is ``frame``, halved down to
-    A4 or Letter: what is left are words."""
+    """The further pages of the rest, each of the size of a first page with the inside ``frame``, halved down to A4 or
+    Letter, since the rest are words."""
     short, long = sorted((frame.left + frame.right, frame.top + frame.bottom))
     if long / 2 >= NARROWEST:
         while long / 2 >= NARROWEST:
@@ -293,7 +292,7 @@ def overleaf(page: FigurePage, rest: Remainder, frame: Box) -> tuple[Drawing, ..
 
 
 def _held(page: FigurePage, before: Remainder, after: Remainder) -> str:
-    """What a further page holds, in words: what was left before it and is not after it."""
+    """The content of a further page in words: the parts that remain before it and not after it."""
     kinds = {
         "equations": len(before.equations) - len(after.equations), "given": len(before.given) - len(after.given),
         "readings": len(before.readings) - len(after.readings),
@@ -321,7 +320,7 @@ def captioned(box: Box, caption: str, layer: str, children: tuple[Primitive, ...
 
 
 def below(room: Box, drawn: tuple[Primitive, ...], gap: float = LEAST_GAP) -> Box:
-    """What is left of a room below what is drawn in it."""
+    """The part of a room below its content."""
     ink = ink_box(drawn)
     return Box(room.left, (ink.bottom if ink else room.top) + gap, room.right, room.bottom)
 
@@ -336,7 +335,7 @@ def _foot(room: Box) -> Box:
 
 
 def _own_given(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Part:
-    """The given data, as large as they fit, with insets below them where these have room too."""
+    """The given data, as large as they fit, with insets below them if these have room too."""
     drawn, left = given_data(page.sheet, page.letters, page.language, room, rest.size)
     data, rest = captioned(room, page.term("given"), "labels", drawn), replace(rest, given=left)
     if left or below(room, drawn, GUTTER).top >= _foot(room).top:
@@ -346,7 +345,7 @@ def _own_given(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Pa
 
 
 def _own_equations(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Part:
-    """The equations, and below them insets, where all of the equations have room above these."""
+    """The equations, and below them insets, if all equations have room above these."""
     above = Box(room.left, room.top, room.right, _foot(room).top - GUTTER)
     if rest.senses and above.height >= EQUATIONS_ROOM:
         written, left, _ = _equations(page, rest, above, place)

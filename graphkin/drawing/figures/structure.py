@@ -229,7 +229,7 @@ def _group(sheet: Sheet, elements: Sequence[Element], letters: Letters, tag: str
 
 
 def _times_for_points(here: MechanismOnPaper, elements: Sequence[Element], room: complex) -> float:
-    """How many times as large the points of elements fill a room (mm) that rails longer than it cross; at most 1."""
+    """The factor at which the points of elements fill a room (mm) that longer rails cross; at most 1."""
     structure = here.sheet.structure
     points = {p for e in elements for n in e.members for p in structure.links[n].points}
     box = Box.around([here.places[p] for p in points if p in here.places] or [0j])
