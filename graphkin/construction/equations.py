@@ -329,20 +329,20 @@ def _fill(plot: Polygons, order: Order, side: Side, tip: complex, tail: complex,
 def _rate(plot: Polygons, order: Order, edge: RelativeMotion, vector: Arrow, group: Element) -> None:
     """Measure the angular rate of a link from a vector between two of its points and the bar that joins them: the
     vector over the bar, omega = v / l, alpha = a_t / l (Sun Huan, Mechanical Principles, ch. 3)."""
-    symbol, span = vector.symbol, vector.span
+    bar, symbol, span = edge.bar, vector.symbol, vector.span
     arm = plot.places[edge.end.point] - plot.places[edge.start.point]
     # in a trial the ends need not meet: only the part square to the bar turns it
     mm = abs(cross(arm, span) / abs(arm) if plot.trial else span)
     hand, rate = plot.board.instrument, RATE[order]
     read = abs(hand.read(mm) if plot.trial else plot.board.read(symbol, mm))
-    size = hand.noted(read * plot.per[order] / plot.length(arm, edge.bar), min(MOST - 1, figures(on_paper(read))))
+    size = hand.noted(read * plot.per[order] / plot.length(arm, bar), min(MOST - 1, figures(on_paper(read))))
     value = size if cross(arm, span) >= 0 else -size
     own = plot.own_values.rate(Symbol(rate, link=edge.link), value)
     if own is not None:
         plot.believed.add((order, edge.link))
     source = symbol if symbol in plot.drawn[order] else None
     plot.rates[order][edge.link] = Rate(edge.link, value if own is None else own, source, read, abs(arm))
-    plot.do(Step("read", "rate", order, kind=rate, link=edge.link, symbol=symbol, points=edge.bar, value=value, mm=read,
+    plot.do(Step("read", "rate", order, kind=rate, link=edge.link, symbol=symbol, points=bar, value=value, mm=read,
                  held=plot.held))  # fmt: skip
     assert not isinstance(group, Driven)
     spread(plot, order, edge.link, group)
@@ -435,8 +435,9 @@ def _rigid_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Ter
     a_t = alpha l, square to the bar."""
     if edge.link in plot.still:
         return []
-    arm, per, bar = plot.places[edge.end.point] - plot.places[edge.start.point], plot.per[order], edge.bar
-    square = 1j * unit(arm)
+    arm, per = plot.places[edge.end.point] - plot.places[edge.start.point], plot.per[order]
+    along, bar = unit(arm), edge.bar
+    square = 1j * along
     rate = None if edge.unknown else plot.rates[order].get(edge.link)
     rule = None if rate is None else _by_rate(plot, (edge.link,), bar, RATE[order])
     if order == "velocity":
@@ -444,7 +445,7 @@ def _rigid_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Ter
         return [_term(plot, edge, "v", square, mm, edge.direction, rule)]
     omega, length = plot.rates["velocity"][edge.link].value, plot.length(arm, bar)
     squared = _by_rate(plot, (edge.link,), bar, square=True)
-    normal = _term(plot, edge, "an", -unit(arm), omega**2 * length / per, Direction("towards", bar[::-1]), squared)
+    normal = _term(plot, edge, "an", -along, omega**2 * length / per, Direction("towards", bar[::-1]), squared)
     if rate is not None and rate.value == 0.0:
         return [normal]
     mm = None if rate is None else rate.value * length / per

@@ -23,6 +23,7 @@ import numpy as np
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceVector, MomentEquation, MomentTerm, shifted_line
 from graphkin.construction.forces.position import DrawnPosition
 from graphkin.construction.instruments import Instrument
+from graphkin.construction.sheet import PARALLEL
 from graphkin.construction.steps import NO_DIRECTION, Direction, Part
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, cross, cross_lines, dot, unit
@@ -32,7 +33,6 @@ from graphkin.words import Phrase
 
 NORMAL, TANGENT = "n-n", "t-t"
 """The common normal and tangent of what touches, by name as a guide."""
-PARALLEL = 1e-12
 SINGULAR = 1e-13
 """Reciprocal condition of a drawn system that tells nothing."""
 
