@@ -22,10 +22,11 @@ from graphkin.drawing.place.obstacles import (
     Indices,
     Obstacles,
     Points,
-    Sides,
     crosses,
+    in_rows,
     joined,
     near,
+    overlapping,
     separated,
     sides,
     sides_around,
@@ -103,14 +104,15 @@ class Label:
 class Places(NamedTuple):
     """Places of boxes, as arrays whose last dimension they are.
 
-    forms : middles, half sizes, feet on the marks, tips of leaders (the feet where there is none), shape (4, places)
+    forms : x and y of middles, half sizes, feet on the marks, tips of leaders (the feet where there is none), shape
+        (2, 4, places) (mm)
     costs : in looks (mm)
     gaps : distances from the marks (mm)
     bad : whether a dashed line runs through the box, or its leader across what leaders are to go round
     owners : the requests for which they are
     """
 
-    forms: Points
+    forms: Floats
     costs: Floats
     gaps: Floats
     bad: Flags
@@ -119,59 +121,49 @@ class Places(NamedTuple):
     @classmethod
     def stacked(cls, tables: Iterable[Places]) -> Places:
         """The places of several tables, one after the other."""
-        columns: Any = map(np.hstack, zip(*tables, strict=True))
+        columns: Any = (np.concatenate(column, axis=-1) for column in zip(*tables, strict=True))
         return cls(*columns)
 
-    def picked(self, some: Flags | Indices | slice) -> Places:
+    def picked(self, some: Indices) -> Places:
         """Some of the places."""
-        return Places(self.forms[:, some], self.costs[some], self.gaps[some], self.bad[some], self.owners[some])
+        columns: Any = (column.take(some, axis=-1) for column in self)
+        return Places(*columns)
 
 
 LEADER_SPACE = 0.25  # mm between a leader and the box of any other label
 
 
-def meeting(ones: Points, others: Points, space: complex) -> Flags:
+def meeting(ones: Floats, others: Floats, space: tuple[float, float]) -> Flags:
     """Which of some boxes with leaders, in rows, meet which others, in columns: they come nearer than a space (mm,
     across and down), or the leader of one runs over the box of the other, or nearly, or crosses its leader.
 
     Both come as the forms of `Places`; one of nan is nowhere, and meets none.
     """
-    over: Flags = np.zeros((ones.shape[1], others.shape[1]), dtype=bool)
-    room = complex(max(space.real, LEADER_SPACE), max(space.imag, LEADER_SPACE))
-    columns, rows = joined([*near(_around(others, room), _around(ones, 0j))])
-    if not rows.size:
-        return over
-    ones, others = ones.take(rows, axis=1), others.take(columns, axis=1)
-    off, reach = ones[0] - others[0], ones[1] + (others[1] + space)
-    met: Flags = (np.abs(off.real) < reach.real) & (np.abs(off.imag) < reach.imag)
-    for leads, boxes in ((ones, others), (others, ones)):
-        some = (~met & (leads[2] != leads[3])).nonzero()[0]
+    room = np.array(space)[:, None]
+    met = overlapping(sides(others[:, 0], others[:, 1]), sides(ones[:, 0], ones[:, 1] + room))
+    led, leading = _with_leader(ones), _with_leader(others)
+    for leads, some, boxes, struck in ((ones, led, others, met), (others, leading, ones, met.T)):
         if some.size:
-            (middles, halves), (start, end) = boxes[:2].take(some, axis=1), leads[2:].take(some, axis=1)
-            met[some] = _strikes(start, end, middles, halves + LEADER_SPACE * (1 + 1j))
-    some = (~met & (ones[2] != ones[3]) & (others[2] != others[3])).nonzero()[0]
-    if some.size:
-        met[some] = crosses(*ones[2:].take(some, axis=1), *others[2:].take(some, axis=1))
-    over[rows[met], columns[met]] = True
-    return over
+            middles, halves = boxes[:, 0], boxes[:, 1] + LEADER_SPACE
+            start, end = leads[:, 2].take(some, axis=1), leads[:, 3].take(some, axis=1)
+            lead, box = joined(near(sides_around(start, end), sides(middles, halves)))
+            off, along = middles.take(box, axis=1) - start.take(lead, axis=1), (end - start).take(lead, axis=1)
+            hit = ~separated(off, halves.take(box, axis=1), along)
+            struck[some.take(lead[hit]), box[hit]] = True
+    if led.size and leading.size:
+        a, b, c, d = (
+            forms[:, end].take(some, axis=1) for forms, some in ((ones, led), (others, leading)) for end in (2, 3)
+        )
+        one, other = joined(near(sides_around(a, b), sides_around(c, d)))
+        a, b, c, d = (ends.take(some, axis=1) for ends, some in ((a, one), (b, one), (c, other), (d, other)))
+        crossed = crosses(a, b, c, d)
+        met[led.take(one[crossed]), leading.take(other[crossed])] = True
+    return met
 
 
-def _around(forms: Points, room: complex) -> Sides:
-    """The sides of boxes around boxes with their leaders, and so much room (mm)."""
-    (x, half_x, foot_x, _), (y, half_y, foot_y, _) = forms.real, forms.imag
-    reach_x, reach_y = half_x + room.real, half_y + room.imag
-    left, top = np.minimum(x - reach_x, foot_x - room.real), np.minimum(y - reach_y, foot_y - room.imag)
-    right, bottom = np.maximum(x + reach_x, foot_x + room.real), np.maximum(y + reach_y, foot_y + room.imag)
-    return left, top, right, bottom
-
-
-def _strikes(start: Points, end: Points, middles: Points, halves: Points) -> Flags:
-    """Whether segments run over boxes."""
-    off, reach = middles - (start + end) / 2, (end - start) / 2
-    struck: Flags = np.abs(off.real) < halves.real + np.abs(reach.real)
-    struck &= np.abs(off.imag) < halves.imag + np.abs(reach.imag)
-    struck &= ~separated(middles, halves, start, end)
-    return struck
+def _with_leader(forms: Floats) -> Indices:
+    """Which of some places have a leader."""
+    return np.flatnonzero((forms[0, 2] != forms[0, 3]) | (forms[1, 2] != forms[1, 3]))
 
 
 LEADER_FROM = 5.0  # mm: a label further off than this has a leader
@@ -187,7 +179,6 @@ FORBIDDEN = 1e5
 OUTSIDE = 100  # faults that leaving the panel counts for
 FOOT_REACH = 0.45  # mm: what lies nearer to the foot of a leader is the mark itself
 NEAR_END = 2.0
-TILE = 8.0  # mm: boxes are judged strip by strip
 
 
 class LabelPanel:
@@ -204,10 +195,10 @@ class LabelPanel:
         writing, thick = set(obstacles.writing), set(obstacles.thick)
         areas = [area.grown(LEADER_SPACE) if area in writing else area for area in obstacles.areas]
         diagonals = tuple((complex(area.left, area.top), complex(area.right, area.bottom)) for area in areas)
-        self.start, self.end = _columns(diagonals + obstacles.solid + obstacles.dashed)
+        self.start, self.end = _ends(diagonals + obstacles.solid + obstacles.dashed)
         self.reach = sides_around(self.start, self.end)
         self.areas, self.solid = len(areas), len(areas) + len(obstacles.solid)
-        self.vectors = _columns(obstacles.vectors)
+        self.vectors = _ends(obstacles.vectors)
         self.weights = np.array(
             [FORBIDDEN if area in writing else AREA_WEIGHT for area in obstacles.areas]
             + [THICK_WEIGHT if line in thick else 1.0 for line in obstacles.solid]
@@ -216,10 +207,8 @@ class LabelPanel:
         # Labels at the same place share one mark: coincident points are told apart by their letters.
         distinct = [*dict.fromkeys(map(ends, (*(label.mark for label in labels), *marks)))]
         self.index = {pair: i for i, pair in enumerate(distinct)}
-        self.mark_start, self.mark_end = _columns(distinct)
-        self.mark_reach, self.mark_is_point = (
-            sides_around(self.mark_start, self.mark_end), self.mark_start == self.mark_end
-        )
+        self.mark_start, self.mark_end = _ends(distinct)
+        self.mark_is_point = (self.mark_start == self.mark_end).all(axis=0)
         self._ask()
         if labels:
             self._find(range(len(labels)), AROUND_POINT, AROUND_VECTOR)
@@ -229,11 +218,11 @@ class LabelPanel:
         labels = [*self.labels, *(self.labels[i] for i in self.keys)]
         self.boxes = [box_about(text.runs) for text in self.texts]
         self.own = np.array([self.index[ends(label.mark)] for label in labels], dtype=int)
-        self.half = np.array([complex(box.width, box.height) / 2 for box in self.boxes])
-        along = self.mark_end[self.own] - self.mark_start[self.own]
-        square = 1j * along / np.where(self.mark_is_point[self.own], 1.0, np.abs(along))
-        self.ways = np.hstack((np.broadcast_to(WAYS, (len(labels), len(WAYS))), np.outer(square, (1.0, -1.0))))
-        self.disliked = _disliked([label.toward for label in labels], self.ways)
+        self.half = np.array([(box.width, box.height) for box in self.boxes]).T / 2
+        x, y = (self.mark_end - self.mark_start)[:, self.own]
+        square = (1j * x - y) / np.where(self.mark_is_point[self.own], 1.0, np.hypot(x, y))
+        ways = np.hstack((np.broadcast_to(WAYS, (len(labels), len(WAYS))), np.outer(square, (1.0, -1.0))))
+        self.ways, self.disliked = in_rows(ways), _disliked([label.toward for label in labels], ways)
 
     def ask_for_keys(self) -> Mapping[int, int]:
         """Let the keys of all labels that have one want places too; returns their requests."""
@@ -261,7 +250,7 @@ class LabelPanel:
         found = found.picked(np.lexsort((found.costs, found.owners)))
         bounds = (np.searchsorted(found.owners, some, side).tolist() for side in ("left", "right"))
         for i, first, last in zip(some, *bounds, strict=True):
-            self.found[i] = found.picked(slice(first, last))
+            self.found[i] = found.picked(np.arange(first, last))
 
     def _around(self, some: Sequence[int], around_points: Floats, around_vectors: Floats) -> Places:
         """Places of some requests round their marks, without leaders, nothing in the way of them.
@@ -275,13 +264,15 @@ class LabelPanel:
         owners = np.concatenate([np.repeat(own, pattern.shape[1]) for own, pattern in lots])
         shares, gaps, turn = np.hstack([np.tile(pattern, len(own)) for own, pattern in lots])
         which = turn.astype(np.intp)
-        mark, half, way = self.own[owners], self.half[owners], self.ways[owners, which]
-        feet = self.mark_start[mark] + shares * (self.mark_end[mark] - self.mark_start[mark])
-        across, down = way.real * half.real, way.imag * half.imag
-        hold = np.clip(1.6 * across, -half.real, half.real) + 1j * np.clip(1.6 * down, -half.imag, half.imag)
-        middles = feet + gaps * way + np.where(which >= len(WAYS), (np.abs(across) + np.abs(down)) * way, hold)
+        mark, half = self.own.take(owners), self.half.take(owners, axis=1)
+        way = self.ways.reshape(2, -1).take(owners * self.ways.shape[2] + which, axis=1)
+        feet = self.mark_start.take(mark, axis=1) + shares * (self.mark_end - self.mark_start).take(mark, axis=1)
+        reach = way * half
+        hold = np.clip(1.6 * reach, -half, half)
+        middles = feet + gaps * way + np.where(which >= len(WAYS), np.abs(reach).sum(axis=0) * way, hold)
         costs = gaps + self.disliked[owners, which] + OFF_MIDDLE * np.abs(shares - 0.5)
-        return Places(np.array((middles, half, feet, feet)), costs, gaps, np.zeros(len(gaps), dtype=bool), owners)
+        forms = np.stack((middles, half, feet, feet), axis=1)
+        return Places(forms, costs, gaps, np.zeros(len(gaps), dtype=bool), owners)
 
     def everywhere(self, request: int) -> Places:
         """All places for one request, each fault of them at its price."""
@@ -293,33 +284,35 @@ class LabelPanel:
         are to be kept."""
         faults = OUTSIDE * self._outside(places).astype(int)
         if not keep:
-            places, faults = places.picked(faults == 0), faults[faults == 0]
-        middles, halves, _, _ = places.forms
-        which, what = self._touched(middles, halves + CLEARANCE * (1 + 1j), keep)
+            places = places.picked(np.flatnonzero(faults == 0))
+            faults = np.zeros(len(places.costs), dtype=int)
+        which, what = self._touched(places.forms[:, 0], places.forms[:, 1] + CLEARANCE, keep)
         np.add.at(faults, which[what < self.solid], 1)
         dashed = which[what >= self.solid]
         np.add.at(places.costs, dashed, DASHED_COST)
         places.bad[dashed] = True
         led = self._needs_leader(places)
         faults[led & (places.gaps < LEADER_LEAST)] += 1
-        kept = faults == 0
         if not keep:
+            kept = np.flatnonzero(faults == 0)
             places, led, faults = places.picked(kept), led[kept], faults[kept]
         self._charge_beyond(places, led)
         self._lead(places, led)
-        kept = places.costs < FORBIDDEN
-        return (places, faults) if keep else (places.picked(kept), faults[kept])
+        if not keep:
+            kept = np.flatnonzero(places.costs < FORBIDDEN)
+            places, faults = places.picked(kept), faults[kept]
+        return places, faults
 
     def _lead(self, places: Places, led: Flags) -> None:
         """Draw the leaders of some places, which then cost more."""
         some = led.nonzero()[0]
-        middles, halves, feet, _ = places.forms[:, some]
+        middles, halves, feet, _ = places.forms.take(some, axis=-1).swapaxes(0, 1)
         owners = self.own[places.owners[some]]
         way = _gap(middles - feet, halves)
-        length = np.maximum(np.abs(way), 1e-9)
-        places.forms[3, some] = to = feet + way * np.maximum(0.0, 1.0 - LEADER_GAP / length)
+        length = np.maximum(np.hypot(*way), 1e-9)
+        places.forms[:, 3, some] = to = feet + way * np.maximum(0.0, 1.0 - LEADER_GAP / length)
         crossed, heaviest = self._crossed(feet, feet + way / length * FOOT_REACH, to)
-        nearest = np.minimum(np.abs(self.mark_start[owners] - feet), np.abs(self.mark_end[owners] - feet))
+        nearest = np.minimum(*(np.hypot(*(ends[:, owners] - feet)) for ends in (self.mark_start, self.mark_end)))
         places.costs[some] += LEADER_COST + CROSSED_COST * crossed
         places.costs[some] += END_COST * (~self.mark_is_point[owners] & (nearest < NEAR_END))
         places.bad[some] |= heaviest > 1.0
@@ -328,74 +321,67 @@ class LabelPanel:
         """Let places of points cost more that have no leader though a vector runs between."""
         start, end = self.vectors
         some = (~led & (places.gaps > BESIDE) & self.mark_is_point[self.own[places.owners]]).nonzero()[0]
-        middles, halves, feet, _ = places.forms[:, some]
+        middles, halves, feet, _ = places.forms.take(some, axis=-1).swapaxes(0, 1)
         way = _gap(middles - feet, halves)
-        first, last = feet + way / np.maximum(np.abs(way), 1e-9) * FOOT_REACH, feet + way
-        for which, what in near(sides_around(first, last), sides_around(start, end)):
-            over = touching(first.take(which), last.take(which), start.take(what), end.take(what))
-            places.costs[some[np.unique(which[over])]] += BEYOND_COST
+        first, last = feet + way / np.maximum(np.hypot(*way), 1e-9) * FOOT_REACH, feet + way
+        which, what = joined(near(sides_around(first, last), sides_around(start, end)))
+        over = touching(first[:, which], last[:, which], start[:, what], end[:, what])
+        places.costs[some[np.unique(which[over])]] += BEYOND_COST
 
     def _outside(self, places: Places) -> Flags:
-        (middles, halves, _, _), panel = places.forms, self.panel
-        low, high = middles - halves, middles + halves
-        across = (low.real < panel.left) | (high.real > panel.right)
-        beyond: Flags = across | (low.imag < panel.top) | (high.imag > panel.bottom)
+        left, top, right, bottom = sides(places.forms[:, 0], places.forms[:, 1])
+        beyond: Flags = (left < self.panel.left) | (right > self.panel.right)
+        beyond |= (top < self.panel.top) | (bottom > self.panel.bottom)
         return beyond
 
-    def _touched(self, middles: Points, halves: Points, keep: bool) -> tuple[Indices, Indices]:
+    def _touched(self, middles: Floats, halves: Floats, keep: bool) -> tuple[Indices, Indices]:
         """Pairs of a box and an obstacle that it meets; obstacles count areas, solid, dashed in turn."""
-        order = np.argsort(np.floor(middles.real / TILE) * FORBIDDEN + middles.imag)
-        middles, halves = middles.take(order), halves.take(order)
-        boxes = sides(middles - halves, middles + halves)
-        areas = [side[: self.areas] for side in self.reach]
-        lines = [side[self.areas :] for side in self.reach]
-        found = [*near(boxes, areas)]
+        boxes, along = sides(middles, halves), self.end - self.start
+        found = [*near(boxes, [side[: self.areas] for side in self.reach])]
+        others = np.arange(len(boxes[0]))
         if not keep:
-            free = np.ones(len(middles), dtype=bool)
-            for which, _ in found:
-                free[which] = False
-            some = free.nonzero()[0]
-            boxes = [side.take(some) for side in boxes]
-        for which, what in near(boxes, lines):
-            if not keep:
-                which = some.take(which)
-            what += self.areas
-            hit = ~separated(middles.take(which), halves.take(which), self.start.take(what), self.end.take(what))
-            found.append((which[hit], what[hit]))
-        which, what = joined(found)
-        return order.take(which), what
+            others = np.delete(others, joined(found)[0])
+            boxes = [side.take(others) for side in boxes]
+        for box, line in near(boxes, [side[self.areas :] for side in self.reach]):
+            box, line = others.take(box), line + self.areas
+            off = middles.take(box, axis=1) - self.start.take(line, axis=1)
+            hit = ~separated(off, halves.take(box, axis=1), along.take(line, axis=1))
+            found.append((box[hit], line[hit]))
+        return joined(found)
 
     def _needs_leader(self, places: Places) -> Flags:
         """Which places need a leader: far ones, and those about as near to another mark of the same kind as to their
         own."""
         led: Flags = places.gaps > LEADER_FROM
         close = (~led).nonzero()[0]
-        middles, halves, _, _ = places.forms[:, close]
-        own, reach = self.own[places.owners[close]], halves + (places.gaps[close] + NEARER) * (1 + 1j)
-        for which, what in near(sides(middles - reach, middles + reach), self.mark_reach):
-            others = (self.mark_is_point[own[which]] == self.mark_is_point[what]) & (own[which] != what)
-            i, j = which[others], what[others]
-            hit = ~separated(middles[i], reach[i], self.mark_start[j], self.mark_end[j])
-            led[close[i[hit]]] = True
+        middles, halves, _, _ = places.forms.take(close, axis=-1).swapaxes(0, 1)
+        own, reach = self.own[places.owners[close]], halves + (places.gaps[close] + NEARER)
+        which, what = joined(near(sides(middles, reach), sides_around(self.mark_start, self.mark_end)))
+        others = (self.mark_is_point[own[which]] == self.mark_is_point[what]) & (own[which] != what)
+        which, what = which[others], what[others]
+        along = (self.mark_end - self.mark_start)[:, what]
+        hit = ~separated(middles[:, which] - self.mark_start[:, what], reach[:, which], along)
+        led[close[which[hit]]] = True
         return led
 
-    def _crossed(self, feet: Points, start: Points, to: Points) -> tuple[Floats, Floats]:
+    def _crossed(self, feet: Floats, start: Floats, to: Floats) -> tuple[Floats, Floats]:
         """What each leader runs over, by weights, and the weightiest of it: areas are joints and arrowheads, or
         writing."""
-        whole, heaviest = np.zeros(len(feet)), np.zeros(len(feet))
+        whole, heaviest = np.zeros((2, feet.shape[1]))
         for which, what in near(sides_around(start, to), self.reach):
-            a, b, c, d = start.take(which), to.take(which), self.start.take(what), self.end.take(what)
+            a, b = start.take(which, axis=1), to.take(which, axis=1)
+            c, d = self.start.take(what, axis=1), self.end.take(what, axis=1)
             over = np.zeros(len(what))
             over[touching(a, b, c, d)] = 1.0
             areas = (what < self.areas).nonzero()[0]  # a leader over an area crosses one of its diagonals
-            a, b, c, d = a.take(areas), b.take(areas), c.take(areas), d.take(areas)
-            foot = feet.take(which.take(areas))
-            own = (c.real <= foot.real) & (foot.real <= d.real) & (c.imag <= foot.imag) & (foot.imag <= d.imag)
+            a, b, c, d = (ends.take(areas, axis=1) for ends in (a, b, c, d))
+            foot = feet.take(which.take(areas), axis=1)
+            own = ((c <= foot) & (foot <= d)).all(axis=0)
             written = self.weights.take(what.take(areas)) >= FORBIDDEN  # a foot under writing is no place for it
-            other = c.real + 1j * d.imag, d.real + 1j * c.imag
+            other = np.array((c[0], d[1])), np.array((d[0], c[1]))
             over[areas] = np.where(own, written, over.take(areas) + crosses(a, b, *other))
             over *= self.weights.take(what)
-            whole += np.bincount(which, over, len(feet))
+            whole += np.bincount(which, over, len(whole))
             np.maximum.at(heaviest, which, over)
         return whole, heaviest
 
@@ -406,10 +392,10 @@ def ends(mark: Mark) -> Segment:
     return complex(round(start.real, 3), round(start.imag, 3)), complex(round(end.real, 3), round(end.imag, 3))
 
 
-def _columns(segments: Sequence[Segment]) -> tuple[Points, Points]:
-    """Starts and ends of segments."""
-    start, end = np.array(segments, dtype=complex).reshape(-1, 2).T.copy()
-    return start, end
+def _ends(segments: Sequence[Segment]) -> tuple[Floats, Floats]:
+    """Starts and ends of segments, in rows."""
+    start, end = np.array(segments, dtype=complex).reshape(-1, 2).T
+    return in_rows(start), in_rows(end)
 
 
 def _disliked(toward: Sequence[tuple[float, ...]], ways: Points) -> Floats:
@@ -434,7 +420,6 @@ def _apart(liked: Sequence[float], ways: Points) -> Floats:
     return apart
 
 
-def _gap(off: Points, half: Points) -> Points:
+def _gap(off: Floats, half: Floats) -> Floats:
     """From points to the nearest of boxes that stand so far off."""
-    clipped: Points = off - (np.clip(off.real, -half.real, half.real) + 1j * np.clip(off.imag, -half.imag, half.imag))
-    return clipped
+    return off - np.clip(off, -half, half)

@@ -9,7 +9,7 @@ dimension.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
 from typing import Any, TypeAlias
@@ -18,10 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.ink.primitives import (
-    Segment,
-)
-from graphkin.plane import cross
+from graphkin.drawing.ink.primitives import Segment
 
 Points: TypeAlias = NDArray[np.complex128]
 Floats: TypeAlias = NDArray[np.float64]
@@ -32,47 +29,48 @@ Sides: TypeAlias = Sequence[Floats]
 
 ON_LINE = 1e-9  # mm⁴: so near to a line, but for rounding, lies on it
 MOST_PAIRS = 1 << 16  # of boxes compared at a time: what a processor holds near
-FEW = 50
 
 
-def sides(low: Points, high: Points) -> Sides:
-    """Of boxes with these corners."""
-    return low.real.copy(), low.imag.copy(), high.real.copy(), high.imag.copy()
+def in_rows(points: Points) -> Floats:
+    """Points as x and y in two rows, shape (2, ...)."""
+    return np.array((points.real, points.imag))
 
 
-def sides_around(start: Points, end: Points) -> Sides:
-    """Of the boxes around segments."""
-    left, right, top, bottom = start.real, end.real, start.imag, end.imag
-    return np.minimum(left, right), np.minimum(top, bottom), np.maximum(left, right), np.maximum(top, bottom)
+def sides(middles: Floats, halves: Floats) -> Sides:
+    """Of boxes of these middles and half sizes, in rows."""
+    return *(middles - halves), *(middles + halves)
+
+
+def sides_around(start: Floats, end: Floats) -> Sides:
+    """Of the boxes around segments, whose ends are in rows."""
+    return *np.minimum(start, end), *np.maximum(start, end)
+
+
+def overlapping(boxes: Sides, others: Sides) -> Flags:
+    """Which upright boxes (columns) meet which others (rows); a box of nan meets none."""
+    left, top, right, bottom = (side[:, None] for side in others)  # the many lie side by side in memory
+    meeting: Flags = boxes[0] <= right
+    meeting &= boxes[2] >= left
+    meeting &= boxes[1] <= bottom
+    meeting &= boxes[3] >= top
+    return meeting
 
 
 def near(boxes: Sides, others: Sides) -> Iterator[tuple[Indices, Indices]]:
-    """Pairs of upright boxes that meet, by their indices, in lots; a box of nan meets none."""
-    count = len(others[0])
-    if not count:
-        return
-    rows = max(1, MOST_PAIRS // count)
-    for first in range(0, len(boxes[0]), rows):
-        own_left, own_top, own_right, own_bottom = own = [side[first : first + rows] for side in boxes]
-        left, top, right, bottom = others
-        if count > FEW:  # boxes that follow each other mostly lie together, and far from most others
-            low, high = np.fmin.reduce(own[:2], axis=1), np.fmax.reduce(own[2:], axis=1)
-            some = ((left <= high[0]) & (right >= low[0]) & (top <= high[1]) & (bottom >= low[1])).nonzero()[0]
-            left, top, right, bottom = (side.take(some) for side in others)
-        meeting = left <= own_right[:, None]
-        meeting &= right >= own_left[:, None]
-        meeting &= top <= own_bottom[:, None]
-        meeting &= bottom >= own_top[:, None]
-        pairs = meeting.ravel().nonzero()[0]
-        which = pairs // max(1, len(left))
-        pairs -= which * len(left)
-        if first:
-            which += first
-        yield which, some.take(pairs) if count > FEW else pairs
+    """Pairs of upright boxes that meet, by their indices, in lots."""
+    width = len(boxes[0])
+    rows = max(1, MOST_PAIRS // max(1, width))
+    for first in range(0, len(others[0]), rows):
+        which = overlapping(boxes, [side[first : first + rows] for side in others]).ravel().nonzero()[0]
+        what = which // max(1, width)
+        which -= what * width
+        what += first
+        yield which, what
 
 
-def joined(lots: Sequence[tuple[Indices, Indices]]) -> tuple[Indices, Indices]:
+def joined(lots: Iterable[tuple[Indices, Indices]]) -> tuple[Indices, Indices]:
     """All pairs of some lots."""
+    lots = list(lots)
     if len(lots) == 1:
         return lots[0]
     none = np.empty(0, dtype=np.intp)
@@ -80,42 +78,49 @@ def joined(lots: Sequence[tuple[Indices, Indices]]) -> tuple[Indices, Indices]:
     return np.concatenate(which), np.concatenate(what)
 
 
-def separated(centres: Points, half: Points | complex, start: Points, end: Points) -> Flags:
-    """Whether the normal of a segment separates it from a box (of centre and half size); the axes of the box are the
-    caller's to check."""
-    along = end - start
-    distance = np.abs(cross(along, centres - start))
-    apart: Flags = distance > half.real * np.abs(along.imag) + half.imag * np.abs(along.real)
+def separated(off: Floats, half: Floats, along: Floats) -> Flags:
+    """Whether the normal of a segment separates it from a box; the axes of the box are the caller's to check.
+
+    Parameters
+    ----------
+    off : from the start of each segment to the middle of its box, shape (2, n) (mm), as the others
+    half : half the size of the box
+    along : from the start of the segment to its end
+    """
+    distance = np.abs(along[0] * off[1] - along[1] * off[0])
+    apart: Flags = distance > half[0] * np.abs(along[1]) + half[1] * np.abs(along[0])
     return apart
 
 
 def meets(segments: Points, centres: Points, half: Points) -> tuple[Indices, Indices]:
     """Which segments, of shape (n, 2), meet which boxes, by their indices."""
-    start, end = segments.T
-    which, what = joined([*near(sides_around(start, end), sides(centres - half, centres + half))])
-    met = ~separated(centres[what], half[what], start[which], end[which])
+    (start, end), middles, halves = in_rows(segments.T).swapaxes(0, 1), in_rows(centres), in_rows(half)
+    which, what = joined(near(sides_around(start, end), sides(middles, halves)))
+    off, along = middles[:, what] - start[:, which], (end - start)[:, which]
+    met = ~separated(off, halves[:, what], along)
     return which[met], what[met]
 
 
-def crosses(a: Points, b: Points, c: Points, d: Points) -> Flags:
-    """Whether lines from a to b cross lines from c to d between their ends."""
-    found: Flags = (_off(a, b, c, d) < 0) & (_off(c, d, a, b) < 0)
-    return found
+def crosses(a: Floats, b: Floats, c: Floats, d: Floats) -> Flags:
+    """Whether lines from a to b cross lines from c to d between their ends, all in rows."""
+    crossed: Flags = (_off(a, b, c, d) < 0) & (_off(c, d, a, b) < 0)
+    return crossed
 
 
-def touching(a: Points, b: Points, c: Points, d: Points) -> Indices:
+def touching(a: Floats, b: Floats, c: Floats, d: Floats) -> Indices:
     """Which lines from a to b cross lines from c to d between their ends, or of which one ends on the other."""
     some = (_off(a, b, c, d) <= ON_LINE).nonzero()[0]  # few: only these are looked at from the other side
-    both = _off(c.take(some), d.take(some), a.take(some), b.take(some)) <= ON_LINE
-    found: Indices = some[both]
-    return found
+    both = _off(*(ends.take(some, axis=1) for ends in (c, d, a, b))) <= ON_LINE
+    touched: Indices = some[both]
+    return touched
 
 
-def _off(a: Points, b: Points, c: Points, d: Points) -> Floats:
+def _off(a: Floats, b: Floats, c: Floats, d: Floats) -> Floats:
     """Negative where points a and b lie on either side of the endless lines through c and d."""
-    along = d - c
-    found: Floats = cross(along, a - c) * cross(along, b - c)
-    return found
+    x, y = d - c
+    (a_x, a_y), (b_x, b_y) = a - c, b - c
+    areas: Floats = (x * a_y - y * a_x) * (x * b_y - y * b_x)
+    return areas
 
 
 @dataclass(frozen=True)

@@ -10,9 +10,10 @@ Christensen, Marks and Shieber, An empirical study of algorithms for point-featu
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -21,10 +22,10 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Line, Text
 from graphkin.drawing.place.labels import FORBIDDEN, Label, LabelPanel, Mark, Places, meeting
-from graphkin.drawing.place.obstacles import Flags, Obstacles
+from graphkin.drawing.place.obstacles import Flags, Indices, Obstacles
 from graphkin.plane import added_up
 
-SPACE = complex(1.8, 0.9)  # mm between two labels, beside each other and one above the other
+SPACE = 1.8, 0.9  # mm between two labels, beside each other and one above the other
 # What it costs that a label stands nowhere, by its rank: from the last two on it may be missing rather than have a
 # leader across vectors.
 MISSING = (1e9, 3000.0, 2000.0, 200.0, 105.0, 100.0)
@@ -35,10 +36,12 @@ GAIN = 1.0  # mm: for less no label is moved
 PUSHED, PUSH = 200, 10.0
 ROUNDS = 6
 TRIED, LOOKED_AT = 45, 100  # places tried that others stand in, and places that these may make room in
+ROUNDING = 1e-6  # mm
 LOT = 8  # places of all labels looked at together for some in which no label stands
 IN_THE_WAY = 2  # labels that make room for another at most
 TOLD, NOWHERE = -1, -2  # in place of a request
 NOTHING = Obstacles()
+NO_FORM = (math.nan, 0.0, 0.0, 0.0), (math.nan, 0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -71,19 +74,18 @@ def place(
 
 
 class Stand(NamedTuple):
-    """How a label stands: by which request (``TOLD`` in a list, ``NOWHERE``), at what cost (mm), its middle, half size,
-    foot and tip of its leader (mm), and whether it stands badly."""
+    """How a label stands: by which request (``TOLD`` in a list, ``NOWHERE``), at what cost (mm), x and y (mm) of its
+    middle, half size, foot and tip of its leader, and whether it stands badly."""
 
     request: int
     cost: float
-    form: tuple[complex, complex, complex, complex] = (complex(np.nan, np.nan), 0j, 0j, 0j)
+    form: Sequence[Sequence[float]] = NO_FORM
     bad: bool = False
 
     @classmethod
-    def at(cls, places: Places, k: int) -> Stand:
+    def at(cls, places: Places, k: int | np.intp) -> Stand:
         """At one of some places."""
-        middle, half, foot, tip = map(complex, places.forms[:, k])
-        return cls(int(places.owners[k]), float(places.costs[k]), (middle, half, foot, tip), bool(places.bad[k]))
+        return cls(int(places.owners[k]), float(places.costs[k]), places.forms[:, :, k].tolist(), bool(places.bad[k]))
 
 
 class Placement:
@@ -96,8 +98,9 @@ class Placement:
         self.choices = LabelPanel(labels, panel, obstacles, marks)
         self.lacking = [Stand(NOWHERE, MISSING[min(label.rank, len(MISSING) - 1)]) for label in labels]
         self.stands = [*self.lacking]
-        self.forms = np.array([stand.form for stand in self.stands], dtype=complex).reshape(-1, 4).T
+        self.forms = np.array([stand.form for stand in self.stands]).reshape(-1, 2, 4).transpose(1, 2, 0).copy()
         self.telling = False  # whether a list may tell labels by their ends
+        self._list_places()
         order = ((label.rank >= DISPENSABLE, len(self.choices.found[i].costs), i) for i, label in enumerate(labels))
         self._stand([i for _, _, i in sorted(order)])
         self._settle(range(len(labels)))
@@ -105,6 +108,7 @@ class Placement:
             if label.rank == 0 and self.stands[i].request == NOWHERE:
                 self._insist(i)
         self.choices.look_further(self._wanting)
+        self._list_places()
         self._settle(self._wanting)
         for i in self._wanting:
             self._push(i)
@@ -125,7 +129,7 @@ class Placement:
         return tuple(self._placed(i, one) for i, one in enumerate(self.stands) if one.request >= 0)
 
     def _placed(self, i: int, stand: Stand) -> Placed:
-        middle, half, foot, tip = stand.form
+        middle, half, foot, tip = map(complex, *stand.form)
         text, own = self.choices.texts[stand.request], self.choices.boxes[stand.request]
         box = Box.around((middle - half, middle + half))
         at = complex(box.left - own.left, box.top - own.top)
@@ -143,6 +147,7 @@ class Placement:
         """Put keys in place of names that stand badly and of those in their way; else have them told by their ends."""
         crowded, keys = self.crowded, self.choices.ask_for_keys()
         self.choices.look_further([keys[i] for i in crowded if i in keys])
+        self._list_places()
         self._settle(crowded)
         self.telling = True
         self._settle(self.crowded)
@@ -159,44 +164,66 @@ class Placement:
 
     def _take(self, i: int, stand: Stand) -> None:
         self.stands[i] = stand
-        self.forms[:, i] = stand.form
+        self.forms[:, :, i] = stand.form
+
+    def _list_places(self) -> None:
+        """List the places of all labels anew, with their numbers by label: those by its name and by its key, which
+        costs more, the cheapest first."""
+        lots = [self.choices.found[i] for i in range(len(self.labels))]
+        if not lots:
+            return
+        for i, request in self.choices.keys.items():
+            keys = self.choices.found[request]
+            lot = Places.stacked((lots[i], keys._replace(costs=keys.costs + KEY_COST)))
+            lots[i] = lot.picked(np.argsort(lot.costs, kind="stable"))
+        bounds = accumulate((len(lot.costs) for lot in lots), initial=0)
+        self.numbers = [np.arange(*span) for span in pairwise(bounds)]
+        self.places = Places.stacked(lots)
+
+    def _others_in(self, i: int, some: Indices) -> Flags:
+        """Which labels (rows) but one stand in some places (columns)."""
+        others = meeting(self.forms, self.places.picked(some).forms, SPACE)
+        others[i] = False
+        return others
 
     def _stand(self, order: Sequence[int]) -> None:
         """Have labels take, one after the other, the cheapest place in which no other stands."""
         if not order:
             return
-        lots = [self.choices.found[i].picked(slice(LOT)) for i in order]
-        places = Places.stacked(lots)  # in which mostly there is a free one for each
-        met, taken = meeting(places.forms, places.forms, SPACE), np.zeros(len(places.costs), dtype=bool)
+        lots = [self.numbers[i][:LOT] for i in order]
+        places = self.places.picked(np.concatenate(lots))  # in which mostly there is a free one for each
+        met, shut = meeting(places.forms, places.forms, SPACE), np.zeros(len(places.costs), dtype=bool)
         first = 0
         for i, lot in zip(order, lots, strict=True):
-            last = first + len(lot.costs)
-            free = (~taken[first:last]).nonzero()[0]
+            last = first + len(lot)
+            free = (~shut[first:last]).nonzero()[0]
             if free.size:
-                self._take(i, Stand.at(lot, int(free[0])))
-                taken |= met[first + free[0]]
+                self._take(i, Stand.at(self.places, lot[free[0]]))
+                shut |= met[first + free[0]]
             elif self._stand_further(i):
-                taken |= meeting(self.forms[:, i : i + 1], places.forms, SPACE)[0]
+                shut |= meeting(self.forms[:, :, i : i + 1], places.forms, SPACE)[0]
             first = last
 
     def _stand_further(self, i: int) -> bool:
-        """Have a label take the cheapest of its further places in which no other stands; whether there is one."""
-        places = self.choices.found[i].picked(slice(LOT, None))
-        free = np.flatnonzero(~meeting(self.forms, places.forms, SPACE).any(axis=0))
+        """Have a label take the cheapest of its places in which no other stands; whether there is one."""
+        places = self.numbers[i]
+        free = np.flatnonzero(~self._others_in(i, places).any(axis=0))
         if free.size:
-            self._take(i, Stand.at(places, int(free[0])))
+            self._take(i, Stand.at(self.places, places[free[0]]))
         return bool(free.size)
 
     def _improve(self, i: int) -> bool:
         """Move a label, and a few in its way, to where they cost less together; whether there is such a place."""
-        here, without, places = self.stands[i], self._without(i), self._places(i)
+        here, without = self.stands[i], self._without(i)
         least = min(here.cost - GAIN, without.cost)
-        if here.cost <= without.cost and not (places.costs[:1] < least).any():
+        costs = self.places.costs[self.numbers[i]]
+        if here.cost <= without.cost and not (costs[:1] < least).any():
             return False
-        self._take(i, without)
-        offers, met = self._offers(places, least)
-        room, lots, clear = self._room(sorted({j for others in met for j in others}), offers)
-        costs, room_costs = offers.costs.tolist(), room.costs.tolist()
+        offers, met = self._offers(i, int(np.searchsorted(costs, least)))
+        crowd = sorted({j for others in met for j in others})
+        room, lots, clear = self._room(i, crowd, offers, least)
+        costs, room_costs = self.places.costs[offers].tolist(), self.places.costs[room].tolist()
+        forms = self.places.picked(room).forms
         shut: dict[int, Flags] = {}  # what each place of those in the way leaves clear
         best, moved = without if without.cost < here.cost else here, dict[int, int]()
         for n, others in enumerate(met):
@@ -210,82 +237,84 @@ class Placement:
                     break
                 if k >= 0 and j != others[-1]:
                     if k not in shut:
-                        shut[k] = ~meeting(room.forms[:, k : k + 1], room.forms, SPACE)[0]
+                        shut[k] = ~meeting(forms[:, :, k : k + 1], forms, SPACE)[0]
                     left = left & shut[k]
             else:
                 if cost < least:
-                    least, best, moved = cost, Stand.at(offers, n), goes
+                    least, best, moved = cost, Stand.at(self.places, offers[n]), goes
+        if best == here:
+            return False
         self._take(i, best)
         for j, k in moved.items():
-            self._take(j, Stand.at(room, k) if k >= 0 else self._without(j))
-        return best != here
+            self._take(j, Stand.at(self.places, room[k]) if k >= 0 else self._without(j))
+        return True
 
     def _push(self, i: int) -> None:
         """Put a label where it costs little, whoever stands there, and let these find places; back where that costs
         more."""
         before = list(self.stands)
-        self._take(i, self._without(i))
-        places = self._places(i, PUSHED)
-        if len(places.costs):
-            met = meeting(self.forms, places.forms, SPACE)
-            k = int(np.argmin(places.costs + PUSH * met.sum(axis=0)))
-            self._take(i, Stand.at(places, k))
+        places = self.numbers[i][:PUSHED]
+        if places.size:
+            met = self._others_in(i, places)
+            k = int(np.argmin(self.places.costs[places] + PUSH * met.sum(axis=0)))
+            self._take(i, Stand.at(self.places, places[k]))
             pushed = np.flatnonzero(met[:, k]).tolist()
             for j in pushed:
                 self._take(j, self._without(j))
             self._settle(pushed)
         if added_up(one.cost for one in self.stands) > added_up(one.cost for one in before) - GAIN:
             for j, stand in enumerate(before):
-                self._take(j, stand)
+                if self.stands[j] != stand:
+                    self._take(j, stand)
 
     def _without(self, i: int) -> Stand:
         """How a label stands that has no place: told in a list by the ends of its vector, or nowhere."""
         telling = self.telling and self.labels[i].between and self.lacking[i].cost > TOLD_COST
         return Stand(TOLD, TOLD_COST) if telling else self.lacking[i]
 
-    def _places(self, i: int, count: int | None = None) -> Places:
-        """The places of a label by its name and by its key, which costs more, the cheapest first."""
-        places = self.choices.found[i]
-        if i in self.choices.keys:
-            keys = self.choices.found[self.choices.keys[i]]
-            places = Places.stacked((places, keys._replace(costs=keys.costs + KEY_COST)))
-            places = places.picked(np.argsort(places.costs, kind="stable"))
-        return places.picked(slice(0, count))
-
-    def _offers(self, places: Places, least: float) -> tuple[Places, list[list[int]]]:
-        """Those of some places that cost less than so much, up to one in which nobody stands, with the few labels that
-        stand there."""
-        places = places.picked(slice(0, int(np.searchsorted(places.costs, least))))
-        met = meeting(self.forms, places.forms, SPACE)
+    def _offers(self, i: int, count: int) -> tuple[Indices, list[list[int]]]:
+        """Those of so many places of a label, up to one in which nobody stands, in which few stand, and these."""
+        places = self.numbers[i][:count]
+        met = self._others_in(i, places)
         crowd = met.sum(axis=0)
         free = np.flatnonzero(crowd == 0)[:1]
         few = np.flatnonzero(crowd[: free[0] if free.size else None] <= IN_THE_WAY)[:TRIED]
         some = np.concatenate((few, free))
-        which, who = met.T[some].nonzero()
-        lots = np.split(who, np.searchsorted(which, np.arange(1, len(some))))[: len(some)]
-        return places.picked(some), [lot.tolist() for lot in lots]
+        return places[some], [np.flatnonzero(others).tolist() for others in met.T[some]]
 
-    def _room(self, some: Sequence[int], offers: Places) -> tuple[Places, dict[int, slice], Flags]:
-        """Places of some labels that no other is in the way of, the cheapest first; which of them are those of each
-        label; and which of them (columns) each of the places offered (rows) leaves clear."""
+    def _room(
+        self, i: int, some: Sequence[int], offers: Indices, least: float
+    ) -> tuple[Indices, dict[int, slice], Flags]:
+        """Places of some labels that none but a label to be moved is in the way of, the cheapest first; which of them
+        are those of each label; and which of them (columns) each of the places offered (rows) leaves clear.
+
+        Dearer ones are left out than could be paid for by what the labels save, if all are to cost less than ``least``.
+        """
         if not some:
-            return offers, {}, np.empty((len(offers.costs), 0), dtype=bool)
-        lots = [self._places(j, LOOKED_AT) for j in some]
-        places = Places.stacked(lots)
-        labels = np.repeat(some, [len(lot.costs) for lot in lots])
-        met = meeting(np.hstack((self.forms, offers.forms)), places.forms, SPACE)
+            return offers[:0], {}, np.empty((len(offers), 0), dtype=bool)
+        known = self.places.costs
+        now = [self.stands[j].cost for j in some]
+        saved = max(
+            cost - known[self.numbers[j]].min(initial=min(cost, self._without(j).cost))
+            for j, cost in zip(some, now, strict=True)
+        )
+        most = least - known[offers[0]] + saved + ROUNDING
+        counts = [np.searchsorted(known[self.numbers[j]], cost + most) for j, cost in zip(some, now, strict=True)]
+        lots = [self.numbers[j][: min(LOOKED_AT, count)] for j, count in zip(some, counts, strict=True)]
+        places, labels = np.concatenate(lots), np.repeat(some, [len(lot) for lot in lots])
+        standing_offered = np.concatenate((self.forms, self.places.picked(offers).forms), axis=-1)
+        met = meeting(standing_offered, self.places.picked(places).forms, SPACE)
         standing, offered = met[: len(self.labels)], met[len(self.labels) :]
-        standing[labels, np.arange(len(labels))] = False
+        standing[i] = standing[labels, np.arange(len(labels))] = False
         free = np.flatnonzero(~standing.any(axis=0))
-        places = places.picked(free)
         bounds = np.searchsorted(labels[free], [*some, len(self.labels)]).tolist()
         spans = {j: slice(*span) for j, span in zip(some, pairwise(bounds), strict=True)}
-        return places, spans, ~offered[:, free]
+        return places[free], spans, ~offered[:, free]
 
     def _insist(self, i: int) -> None:
         """Put a label where it does least harm, and give up those in its way that may be given up."""
         places = self.choices.everywhere(i)
-        met = meeting(self.forms, places.forms, 0j)
+        met = meeting(self.forms, places.forms, (0.0, 0.0))
         worth = np.array([min(FORBIDDEN, stand.cost) for stand in self.lacking])
         k = int(np.argmin(places.costs + worth @ met))
         for j in np.flatnonzero(met[:, k]).tolist():
