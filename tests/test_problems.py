@@ -214,6 +214,12 @@ def test_what_cannot_be_solved_is_told_in_chinese_beside_the_results_too(tmp_pat
     assert [None, None] == [ENGLISH_WORDS.search(one.stdout.replace(str(tmp_path), "")) for one in (solved, swept)]
 
 
+def test_clauses_in_chinese_are_parted_by_chinese_marks(tmp_path):
+    swept = run("sweep", "toggle-press-force", "--positions", "4", "-o", str(tmp_path), "--lang", "zh")
+    pages = [path.read_text(encoding="utf-8") for path in tmp_path.glob("*.svg")]
+    assert [] == [text for text in (swept.stdout, *pages) if re.search(r"[\u4e00-\u9fff][^\n<]*; ", text)]
+
+
 @pytest.mark.parametrize(
     ("language", "told"), [("en", "0, a zero count; a count must be positive"), ("zh", "0，个数为零；个数应为正")]
 )

@@ -178,7 +178,8 @@ class Audited(OfScene, Result):
                 said = str(row.get("looks_like", row.get("why", "") if row["verdict"] == "not readable" else ""))
                 if isinstance(gap, dict):
                     open_ = Phrase("loop open", loop=gap["loop"], gap=f"{gap['gap']:.4g} {self.mechanism.units.length}")
-                    said = "; ".join(filter(None, (said, say(open_, self.language))))
+                    mark = word("list semicolon", self.language)
+                    said = mark.join(filter(None, (said, say(open_, self.language))))
                 values = str(row["written"]), _shown(row["exact"]), str(row["unit"])
                 rows.append([*lead, str(row["symbol"]), *values, off, verdict, said])
         return rows

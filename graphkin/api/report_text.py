@@ -210,13 +210,14 @@ MOST_CURVES = 40
 def turn_text(turn: TurnStudy, language: str) -> list[str]:
     """The study of a turn, in lines."""
     scene = turn.scene
-    driver, colon = scene.drivers[0], word("colon", language)
+    driver, colon, semicolon = scene.drivers[0], word("colon", language), word("list semicolon", language)
     lines: list[str] = []
     reach = turn.ranges[0]
     if reach.whole:
         said = word("full turn", language)
         if turn.reach.turns > 1:
-            said += "; " + say(Phrase("turns to close", turns=turn.reach.turns), language)
+            repeats = say(Phrase("turns to close", turns=turn.reach.turns), language)
+            said += semicolon + repeats
     else:
         said = _between(scene, reach.low, reach.high, reach.open_low, reach.open_high)
     lines.append(f"{word('range', language)} {driver.key}{colon}{said}")
@@ -228,8 +229,8 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
         lines.append("  " + say(Phrase("not looked for", links=", ".join(turn.not_searched)), language))
     for loop in turn.loops:
         turning = say(Phrase("turns fully", links=", ".join(loop.turns) or "–"), language)
-        names = ", ".join(loop.links)
-        lines.append(f"{word('basic mechanism', language)} {names}{colon}{word(loop.name, language)}; {turning}")
+        head = f"{word('basic mechanism', language)} {', '.join(loop.links)}{colon}"
+        lines.append(f"{head}{word(loop.name, language)}{semicolon}{turning}")
     for output in turn.outputs:
         lines += _output(turn, output, language)
     for least in turn.transmission:
@@ -239,7 +240,7 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
         pressure = say(Phrase("greatest pressure", angle=f"{math.degrees(least.pressure):.6g}°"), language)
         names = f"{least.group.kind} {', '.join(least.group.links)}"
         angle = f"{math.degrees(least.angle):.6g}°"
-        lines.append(f"{word('least transmission', language)} {names}{colon}{angle} ({where}); {pressure}")
+        lines.append(f"{word('least transmission', language)} {names}{colon}{angle} ({where}){semicolon}{pressure}")
     lines += _curves(turn, language)
     lines += _forces_of_turn(turn, language)
     return lines + _flywheel(turn, language)
@@ -264,7 +265,8 @@ def _forces_of_turn(turn: TurnStudy, language: str) -> list[str]:
             if math.isfinite(e.value) else say(Phrase("grows without bound at", place=_at(scene, e)), language)
             for e in extremes
         ]  # fmt: skip
-        lines.append(f"{name} ({unit.text}): {'; '.join(dict.fromkeys(parts))}")
+        whole = word("list semicolon", language).join(dict.fromkeys(parts))
+        lines.append(f"{name} ({unit.text}): {whole}")
     return lines
 
 
@@ -282,7 +284,7 @@ def _flywheel(turn: TurnStudy, language: str) -> list[str]:
         say(Phrase("excess work is", work=f"{moment.of(flywheel.excess):.8g} {moment.text}"), language),
         f"J_F = {inertia.of(flywheel.inertia):.8g} {inertia.text} (δ = {flywheel.delta:g})",
     ]
-    return [head + "; ".join(said)]
+    return [head + word("list semicolon", language).join(said)]
 
 
 def _between(scene: Mechanism, low: float, high: float, open_low: bool = False, open_high: bool = False) -> str:
@@ -333,7 +335,7 @@ def _curves(turn: TurnStudy, language: str) -> list[str]:
         if traced.zeros:
             places = ", ".join(scene.unit_of(scene.drivers[0]).said(z) for z in traced.zeros)
             parts.append(f"{word('zero at', language)} {places}")
-        lines.append(f"{quantity.name} ({unit.text}): {'; '.join(parts)}")
+        lines.append(f"{quantity.name} ({unit.text}): {word('list semicolon', language).join(parts)}")
     return lines
 
 

@@ -286,7 +286,8 @@ def _formulas(lesson: Lesson, key: str, items: Sequence[str], between: str = "li
 def _clauses(lesson: Lesson, key: str, clauses: dict[str, list[str]]) -> Iterator[Paragraph]:
     """Clauses in each language, if there are any, with their label."""
     if any(clauses.values()):
-        yield Paragraph(in_each(lesson.language, lambda each: labelled(key, "; ".join(clauses[each]), each)))
+        whole = {each: word("list semicolon", each).join(some) for each, some in clauses.items()}
+        yield Paragraph(in_each(lesson.language, lambda each: labelled(key, whole[each], each)))
 
 
 def labelled(key: str, text: str, language: str) -> str:

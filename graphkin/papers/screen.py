@@ -21,7 +21,7 @@ from graphkin.account.given import drivers
 from graphkin.account.headings import FIGURE_WORDS, number, term
 from graphkin.account.notation import Letters, scale_statement
 from graphkin.account.spoken import spoken_words
-from graphkin.account.voice import capital
+from graphkin.account.voice import capital, whole_sentence
 from graphkin.checking.uncertainty import COVERAGE
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName, Step, Vector
@@ -251,14 +251,15 @@ def _figures(lesson: Lesson, piece: Piece, frames: Frames) -> Iterator[Figure]:
     for name, drawn, panel in _drawings(lesson, piece, frames):
         is_stepped = name != "centres"
         children: tuple[Primitive, ...] = layer_groups(moved_piece(drawn, -panel.corners[0]))
-        vectors = "; ".join(
+        vectors = word("list semicolon", first).join(
             f"{spoken_words(f'${letters.vector(row.symbol)}$', first)} "
             f"{number(lesson.in_unit(row.symbol, abs(row.true)), 4)} {lesson.unit(row.symbol)}, {way(row, first)}"
             for row in lesson.results if row.symbol.is_vector and row.symbol.measure == name
         )  # fmt: skip
         title = term(FIGURE_WORDS[name] if name != "centres" else name, lesson.language)
         drawing = Drawing(panel.width, panel.height, stepped(children) if is_stepped else children, title,
-                          f"{spoken_words(at, first)}. {vectors}", first)  # fmt: skip
+                          whole_sentence(spoken_words(at, first), first) + word("between sentences", first) + vectors,
+                          first)  # fmt: skip
         scale = scale_statement(lesson.sheet, letters.convention, name if name != "centres" else "mechanism")
         yield _figure(name, drawing, words_html(title, first), words_html(scale, first), named=is_stepped)
 

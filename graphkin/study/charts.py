@@ -60,7 +60,7 @@ def heading(scene: Mechanism, title: str, facts: Sequence[str], language: str) -
     return (
         Text(complex(LEFT, 15.0), rich(title, 5.0, bold=True)),
         Text(complex(LEFT, 20.5), rich(title_of(scene, language), 3.5)),
-        Text(complex(LEFT, 25.5), rich("; ".join(facts), 3.5)),
+        Text(complex(LEFT, 25.5), rich(word("list semicolon", language).join(facts), 3.5)),
     )
 
 

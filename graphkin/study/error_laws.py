@@ -293,7 +293,7 @@ def _page(shown: Sequence[Singularity], every: Sequence[Singularity], language: 
         if len(shown) % 2:
             chart.add_words(figure, *_lesson(corners[len(shown)], every, language))
 
-    names = "; ".join(word(s.key, language) for s in shown)
+    names = word("list semicolon", language).join(word(s.key, language) for s in shown)
     return chart.ChartPage(
         WIDTH, HEIGHT, paint, title=title, desc=f"{facts}: {names}", lang=language,
         metadata={"study": "stability", "singularities": [s.key for s in shown]},

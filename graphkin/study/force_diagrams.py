@@ -258,7 +258,8 @@ def flywheel_page(reach: DriverRange, study: FlywheelStudy, language: str) -> ch
 
     return chart.ChartPage(
         charts.WIDTH, MOMENT_TOP + MOMENT_TALL + ENERGY_GAP + ENERGY_LOW + 20.0, paint,
-        title=f"{title}: {charts.title_of(scene, language)}", desc="; ".join(facts).replace("$", ""), lang=language,
+        title=f"{title}: {charts.title_of(scene, language)}", lang=language,
+        desc=word("list semicolon", language).join(facts).replace("$", ""),
         metadata={"scene": scene.name, "units": moment, "flywheel": study.link},
     )  # fmt: skip
 

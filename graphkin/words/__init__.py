@@ -96,7 +96,11 @@ def as_data(said: object) -> Any:
 
 
 def from_data(kept: Any) -> Any:
-    """The statement of which ``as_data`` gave these data."""
+    """The statement of which ``as_data`` gave these data.
+
+    >>> str(from_data(["points", {"link": 2, "points": ["listed", {"first": "B", "second": "C"}]}]))
+    'mark B, C on link 2'
+    """
     if not isinstance(kept, list):
         return kept
     key, gaps = kept
