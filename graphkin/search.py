@@ -296,12 +296,22 @@ class Pieces:
             return np.zeros(0)
         found.sort()
         kept: list[float] = []
+        whole = self.high[-1] - self.low[0]
         for t in found:
-            if not kept or t - kept[-1] > SAME * (self.high[-1] - self.low[0]):
+            apart = t - kept[-1] if kept else np.inf
+            if apart <= BESIDE * whole and self._unsure(coefficients, doubt, t - apart / 2):
+                kept[-1] = t - apart / 2  # rounding has parted one root
+            elif apart > SAME * whole:
                 kept.append(min(max(t, float(self.low[0])), float(self.high[-1])))
         if self.periodic and len(kept) > 1 and kept[-1] - kept[0] > (1 - SAME) * (self.high[-1] - self.low[0]):
             kept.pop()
         return np.array(kept)
+
+    def _unsure(self, coefficients: Array, doubt: Array, place: float) -> bool:
+        """Whether polynomials, shape (pieces, k), are no more at a place than what they may be off."""
+        k = min(int(np.searchsorted(self.high, place)), len(self.high) - 1)
+        low, high = self.low[k], self.high[k]
+        return bool(abs(chebyshev.chebval((2 * place - low - high) / (high - low), coefficients[k])) <= doubt[k])
 
     def _crossings(self, coefficients: Array, noise: Array, roots: Sequence[float]) -> list[float]:
         """Where curves cross zero and no polynomial tells the root: where two pieces meet, or several roots at once,

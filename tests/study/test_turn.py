@@ -563,5 +563,6 @@ def test_the_rate_of_a_contra_parallelogram_has_its_extremes_in_line() -> None:
         "sketch": {"C": [30, -40]},
     }  # fmt: skip
     turn = study_turn(driver_range(mechanism_of(scene)))
-    rate = next(t for t in turn.curves if t.quantity.name == "omega_3")
+    rate, second = (next(t for t in turn.curves if t.quantity.name == name) for name in ("omega_3", "alpha_3"))
+    assert [0.0, math.pi] == pytest.approx(sorted(zero % math.tau for zero in second.zeros), abs=1e-8)
     assert [-25.0, -1.0] == pytest.approx(sorted(e.value for e in rate.extremes), abs=1e-7)
