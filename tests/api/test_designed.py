@@ -290,3 +290,11 @@ def test_a_free_datum_is_told_as_far_as_the_rest_of_the_wish_is_met(task, low, h
 
 def test_a_rocker_that_is_the_better_the_smaller_it_is_has_no_best():
     assert graphkin.design("rocker-limits").choice is None
+
+
+def test_the_ends_between_which_a_free_datum_may_be_chosen_are_not_said_to_be_chosen():
+    rocker = {"kind": "crank-rocker", "swing": 32, "rocker": 75, "K": 1.25}
+    (_, said) = graphkin.design({"design": {**rocker, "frame": 70}}).sentences("en")
+    assert said.startswith("frame may be chosen between 45.592 and 75 ")
+    with pytest.raises(graphkin.Unsolvable, match=r"between 45\.592 and 75"):
+        graphkin.design({"design": {**rocker, "frame": 75}})
