@@ -122,6 +122,7 @@ class PolygonPoints:
         per_role = Counter(foot.role for foot in between)
         per_end: Counter[str] = Counter()
         feet: list[NamedPoint] = []
+        written = {self.letters.end(self.diagram, ref) for refs in self.places.values() for ref in refs}
         for foot in between:
             assert foot.symbol is not None
             of, to = foot.symbol.of, foot.symbol.to
@@ -132,9 +133,11 @@ class PolygonPoints:
             link = next((special[r.point] for r in (of, to) if r and r.point in special), "")
             link = link or link_of_vector(self.sheet, foot.symbol)
             letter = self.letters.foot(foot.role, of, per_end[end], link, per_role[foot.role] == 1)
-            if any(letter == other.letter for other in feet):
+            if letter in written:
+                per_end[end] += 1
                 index = self.letters.ref(of) + (self.letters.ref(to) if to else "")
                 letter = self.letters.foot(foot.role, of, per_end[end], index, alone=False)
+            written.add(letter)
             feet.append(replace(foot, letter=letter))
         return tuple(feet)
 

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import json
 import math
 import re
 from decimal import Decimal
@@ -12,6 +13,7 @@ from graphkin.account.account import Account
 from graphkin.account.in_mechanism import InMechanism
 from graphkin.account.in_polygon import InPolygon
 from graphkin.account.notation import letters_of
+from graphkin.account.voice import PolygonPoints
 from graphkin.api.handouts import handout
 from graphkin.construction import draft
 from graphkin.construction.steps import Reason
@@ -275,3 +277,18 @@ def test_a_vector_that_is_nought_is_not_drawn_from_the_pole():
     sheet = draft(mechanism_of(random_scene(1, ("RPR", "slotted", "slotted"), "resting", True)))
     speaker = Account(sheet, letters_of(sheet, "chinese"))
     assert "a_P1_3 = 0." in [plain_words(speaker.step(s, "en")) for s in sheet.steps if s.reason == "pole to end"]
+
+
+@pytest.mark.parametrize(("name", "old", "new", "convention"), [
+    ("disc-on-disc", "O", "O", "british"), ("sixbar-guide-40deg", "D", "K", "chinese"),
+    ("shaper-scheme-2", "C", "N", "chinese"),
+])  # fmt: skip
+def test_a_foot_between_components_never_bears_the_letter_of_an_end_point(name, old, new, convention):
+    scene = read(name).to_dict()
+    asked = {key: scene[key] for key in ("frame", "links", "contacts", "pins", "driver", "sketch") if key in scene}
+    sheet = draft(mechanism_of(json.loads(json.dumps(asked).replace(f'"{old}"', f'"{new}"'))))
+    named = PolygonPoints(sheet, "acceleration", letters_of(sheet, convention)).named
+    places = {}
+    for point in named:
+        places.setdefault(point.letter, []).append(point.at)
+    assert {} == {letter: at for letter, at in places.items() if abs(max(at, key=abs) - min(at, key=abs)) > 1e-3}
