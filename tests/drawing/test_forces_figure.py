@@ -239,3 +239,12 @@ def test_what_rounding_leaves_of_forces_that_cancel_is_told_as_nought(seed, driv
     told = [line for stage in stages_of(scene) for step in stage.steps for line in step.lines("en")]
     assert any(line.endswith(" = 0") for line in told)
     assert [] == [line for line in told if "10^{" in line]
+
+
+@pytest.mark.parametrize(("name", "links", "force"), [
+    ("shaper-forces", "5-6", "F_1-6"), ("shaper-forces", "3-4", "F_1-4"), ("boom-lifted", "1-2-3", "F_4-1"),
+])  # fmt: skip
+def test_the_sketch_of_a_group_and_its_polygon_stand_on_one_page(name: str, links: str, force: str) -> None:
+    pages = [page.content("svg").decode() for page in graphkin.draw(name, figures=["forces"]).figures.values()]
+    (page,) = (page for page in pages if f'id="free-body-{links}"' in page)
+    assert re.search(f'class="vector[^"]*" id="{force}', page)

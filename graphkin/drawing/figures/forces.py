@@ -112,7 +112,8 @@ def _given(page: FigurePage, forces: ForceSheet) -> Block:
 
 def _groups(page: FigurePage, forces: ForceSheet, room: float) -> Iterator[Block]:
     """Group by group in the order of construction, each with its caption and the text below it, in parts if it does not
-    fit a page; if loads begin or end here, without and with them."""
+    fit a page, but sketch and polygons on one as long as it holds them; if loads begin or end here, without and with
+    them."""
     names: Counter[str] = Counter()
     state = None
     account = ForceAccount(page.sheet, forces, page.letters)
@@ -124,9 +125,15 @@ def _groups(page: FigurePage, forces: ForceSheet, room: float) -> Iterator[Block
         state = stage.state
         caption = page.prose((text for _, text in stage.heading(page.language)), 3.2, bold=True)
         first, *more = _pictures(page, forces, stage, names)
-        parts = column(caption, first, gap=CLOSE), *more, _below(page, account, stage)
-        whole = column(*parts, gap=CLOSE)
-        yield from parts if more or whole.height > room else (whole,)
+        text = _below(page, account, stage)
+        pictures = column(caption, first, *more, gap=CLOSE)
+        whole = column(pictures, text, gap=CLOSE)
+        if whole.height <= room and not more:
+            yield whole
+        elif pictures.height <= room:
+            yield from (pictures, text)
+        else:
+            yield from (column(caption, first, gap=CLOSE), *more, text)
 
 
 def _loaded(page: FigurePage, again: bool) -> Block:
