@@ -363,3 +363,8 @@ def test_each_problem_is_told_with_no_other_that_follows_from_it(wrong: list[tup
 def test_a_start_where_nothing_rolls_is_refused() -> None:
     [sentence] = messages(changed(FOUR_BAR, (LINK2, f"{LINK2}\nstart = 30")))
     assert sentence.startswith("links.2.start: nothing rolls here; leave start out")
+
+
+def test_a_mass_that_is_wrong_is_something_to_balance() -> None:
+    [sentence] = messages(changed(FOUR_BAR, ("[driver]", '[masses.2]\nmass = 2\n[balance]\non = "1"\n[driver]')))
+    assert sentence.startswith("masses.2.at: is missing")
