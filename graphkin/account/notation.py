@@ -136,7 +136,9 @@ class Letters:
         letter, rest = _parted(ref.point)
         link = ref.link or self.blocks.get(ref.point, "")
         if not rest and not link and letter.lower() == _POLES[self.convention][0]:
-            link = self.holders[ref.point][0]  # the pole has this letter already
+            # the pole has this letter already; O of link 4 is not the point O4
+            holders = self.holders[ref.point]
+            link = next((name for name in holders if ref.point + name not in self.holders), holders[0])
         index = f"{rest},{link}" if rest and link else rest + link
         prime = "'" if diagram == "acceleration" else ""
         return letter.lower() + (f"_{{{index}}}" if index else "") + prime

@@ -281,9 +281,9 @@ def test_a_vector_that_is_nought_is_not_drawn_from_the_pole():
 
 @pytest.mark.parametrize(("name", "old", "new", "convention"), [
     ("disc-on-disc", "O", "O", "british"), ("sixbar-guide-40deg", "D", "K", "chinese"),
-    ("shaper-scheme-2", "C", "N", "chinese"),
+    ("shaper-scheme-2", "C", "N", "chinese"), ("shaper-scheme-2", "B", "O", "british"),
 ])  # fmt: skip
-def test_a_foot_between_components_never_bears_the_letter_of_an_end_point(name, old, new, convention):
+def test_no_two_places_of_a_polygon_bear_one_letter(name, old, new, convention):
     scene = read(name).to_dict()
     asked = {key: scene[key] for key in ("frame", "links", "contacts", "pins", "driver", "sketch") if key in scene}
     sheet = draft(mechanism_of(json.loads(json.dumps(asked).replace(f'"{old}"', f'"{new}"'))))
