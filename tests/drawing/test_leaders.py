@@ -207,3 +207,8 @@ def test_the_number_of_the_step_of_a_short_vector_stands_before_its_name():
 
 def test_a_vector_that_is_carried_over_has_its_name_in_a_crowd_too():
     assert "aB3B2k" == texts_of("boom-lifted", "sheet")["label-carried-ak_B3-B2"].replace(" ", "")
+
+
+def test_the_leader_of_a_rings_numeral_ends_before_it(violations):
+    drawing = draw("double-butterfly", at=110, figures=["acceleration"], language="en", convention="russian")
+    assert [] == violations(drawing.figures["acceleration"].content("svg"))

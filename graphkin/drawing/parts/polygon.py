@@ -362,7 +362,10 @@ def ring_numerals(here: PolygonOnPage, around: Obstacles) -> Piece:
         half = complex(box.width, box.height) / 2
         edges = here.at(d.centre) + (d.radius + RING) * WAYS
         ends = edges + (GAPS[:, None] - CLEAR) * WAYS
-        middles = ends + CLEAR * WAYS + half.real * WAYS.real + 1j * half.imag * WAYS.imag
+        # the corner or the edge of the box that looks at the ring slides with the way
+        across, down = 1.6 * half.real * WAYS.real, 1.6 * half.imag * WAYS.imag
+        hold = np.clip(across, -half.real, half.real) + 1j * np.clip(down, -half.imag, half.imag)
+        middles = ends + CLEAR * WAYS + hold
         leaders = np.stack(np.broadcast_arrays(edges, ends), axis=-1)[UNLED:].reshape(-1, 2)
         others = [area for area in around.areas if area.distance(here.at(d.centre)) > 0.0]
         areas = np.array([(area.centre, complex(area.width, area.height) / 2) for area in others]).reshape(-1, 2)
