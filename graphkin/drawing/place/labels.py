@@ -220,7 +220,8 @@ class LabelPanel:
         self.own = np.array([self.index[ends(label.mark)] for label in labels], dtype=int)
         self.half = np.array([(box.width, box.height) for box in self.boxes]).T / 2
         x, y = (self.mark_end - self.mark_start)[:, self.own]
-        square = (1j * x - y) / np.where(self.mark_is_point[self.own], 1.0, np.hypot(x, y))
+        along = x + 1j * y
+        square = 1j * along / np.where(self.mark_is_point[self.own], 1.0, np.abs(along))
         ways = np.hstack((np.broadcast_to(WAYS, (len(labels), len(WAYS))), np.outer(square, (1.0, -1.0))))
         self.ways, self.disliked = in_rows(ways), _disliked([label.toward for label in labels], ways)
 
