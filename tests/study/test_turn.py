@@ -566,3 +566,11 @@ def test_the_rate_of_a_contra_parallelogram_has_its_extremes_in_line() -> None:
     rate, second = (next(t for t in turn.curves if t.quantity.name == name) for name in ("omega_3", "alpha_3"))
     assert [0.0, math.pi] == pytest.approx(sorted(zero % math.tau for zero in second.zeros), abs=1e-8)
     assert [-25.0, -1.0] == pytest.approx(sorted(e.value for e in rate.extremes), abs=1e-7)
+
+
+def test_angles_at_both_ends_where_other_links_go_away_are_each_of_its_own_end() -> None:
+    # by polynomials through ten and twelve positions of the solver
+    turn = study_turn(driver_range(as_scene(redriven(7007))))
+    swing = next(output for output in turn.outputs if output.quantity.of == "5").position
+    ends = [e.value for e in swing.extremes if e.kind == "end"]
+    assert [-3.98568951327, 0.09813559657] == pytest.approx(ends, abs=1e-10)
