@@ -37,8 +37,6 @@ STEPS_TO_END = 2e-2
 """Of the angle that runs over the range: steps to an end that the solver does not come near enough to."""
 ASIDE = 1e-3
 """Of the way from a zero to the nearer end of the motion: so far aside of it the curve is not zero."""
-SLACK = 1e-9
-"""Of an extreme: what goes beyond it there by less is rounding."""
 ZERO = 0.01
 """Of the values there: what a curve is at most where it is zero."""
 HAIR = 1e-6
@@ -371,18 +369,7 @@ def _extremes(way: CurveParameter, curves: Sequence[Curve]) -> list[tuple[Extrem
     ]
     offsets = _polished(way, curves, turns)
     # only what is printed takes all its digits
-    if reach.full:
-        values = _values(reach, [c.quantity for c in curves], offsets, extended=True)
-    else:
-        values = []
-        for k, (at, *beside) in enumerate(_about(way, curves, offsets)):
-            senses = np.array([turn.sense for turn in turns[k]])
-            least = np.min(senses * (at - beside), axis=0) if len(senses) else senses
-            # the pieces next to an end may not resolve how a curve grows there
-            true = np.array([turn.at_seam for turn in turns[k]], dtype=bool) | ~(least < -SLACK * np.abs(at))
-            turns[k] = [turn for turn, told in zip(turns[k], true, strict=True) if told]
-            offsets[k] = offsets[k][true]
-            values.append(at[true])
+    values = _values(reach, [c.quantity for c in curves], offsets, extended=True)
     found: list[tuple[Extreme, ...]] = []
     for curve, own, places, fine in zip(curves, turns, offsets, values, strict=True):
         ends: list[list[Extreme]] = [[], []]
