@@ -1,10 +1,10 @@
-"""A straight path of driver values, and where groups of two links close along it: in which stretches, to which
-ends, and where on the way their two assemblies meet.
+"""A straight path of driver values, and the stretches in which groups of two links close along it: their ends, and the
+change points at which two assemblies meet.
 
 A group of two links has a discriminant: positive where it can be assembled in two modes, zero where they fall
 together.  Along a path the mode is kept while it stays positive.  Where it only touches zero (a change point, the
-parallelogram in line) the smooth motion goes over to the other mode; where it goes below, the group ends.  A group
-behind others is looked for where these close, one stretch after the other, so that none is too short to be seen.
+parallelogram in line) the smooth motion changes to the other mode; where it becomes negative, the group ends.  A group
+after others is searched where these close, stretch by stretch, so that none is too short to be found.
 """
 
 from __future__ import annotations
@@ -68,7 +68,8 @@ class Path:
 
     @classmethod
     def of_driver(cls, structure: Structure, values: Array) -> Path:
-        """That of the first driver, the others at their values (rad, m): its parameter is the driver's own value."""
+        """The path of the first driver, the others at their values (rad, m): its parameter is the driver's own
+        value."""
         start, end = values.astype(float), values.astype(float)
         start[0], end[0] = 0.0, 1.0
         return cls(structure, start, end)
@@ -83,7 +84,7 @@ class Path:
         return np.asarray(self.start + t[:, None] * (self.end - self.start))
 
     def rescaled(self, by: float) -> Path:
-        """The same way, its end so many times as far: nearer where the motion goes on, farther where it has ended."""
+        """The path with its end moved by a factor: nearer where the motion continues, farther where it has ended."""
         modes = {i: lambda t, mode=mode: mode(np.asarray(t) * by) for i, mode in self.modes.items()}
         nodes, flips = self.nodes / by, self.flips / by
         return replace(
@@ -106,21 +107,21 @@ class Path:
         return replace(self, modes={**self.modes, i: lambda _: mode})
 
     def off_flips(self, t: Array) -> Array:
-        """Parameters, those at a change point moved a little beside it: there a group tells nothing."""
+        """Parameters, those at a change point moved slightly off it, since a group has no mode there."""
         for flip in self.flips:
             t = np.where(np.abs(t - flip) < OFF_FLIP, flip + OFF_FLIP, t)
         return t
 
     def discriminant(self, i: int, t: Array) -> Array:
-        """That of a dyad which has a mode, shape (n,)."""
+        """The discriminant of a dyad with a mode, shape (n,)."""
         t = self.off_flips(t)
         solved = positions(self.structure, self.drive(t), self.mode(t), i + 1, rates=False).groups[i]
         assert isinstance(solved, DyadSolution)
         return np.broadcast_to(solved.discriminant, t.shape)
 
     def exactly(self, i: int, t: float) -> ExactDiscriminant | None:
-        """That of a dyad along the path in fifty digits, the modes as they are at a parameter; None behind others than
-        dyads."""
+        """The discriminant of a dyad along the path in fifty digits, with the modes at a parameter; None after elements
+        other than dyads."""
         if not all(e.explicit for e in self.structure.elements[:i]):
             return None
         drivers = self.structure.scene.drivers
@@ -133,7 +134,8 @@ class Path:
 
     @cached_property
     def change_points(self) -> tuple[ChangePoint, ...]:
-        """Where two assemblies of a group meet on the way, and the motion went smoothly on, in the order of the way."""
+        """The change points on the path, at which two assemblies of a group meet and the motion continues smoothly, in
+        order."""
         found = []
         for i, t in sorted(self.passed, key=lambda one: one[1]):
             element = self.structure.elements[i]
@@ -142,7 +144,7 @@ class Path:
         return tuple(found)
 
     def why_ended(self, between: tuple[float, float] | None = None) -> Phrase:
-        """Why it ends, and between which values the motion runs, where that is known."""
+        """The reason why it ends, and the values between which the motion runs, if these are known."""
         end = self.values(np.array([self.reach]))[0].tolist()
         return limit_why(self.structure, self.by or 0, np.flatnonzero(self.end != self.start).tolist(), end, between)
 
@@ -152,11 +154,11 @@ class Path:
         return {i: mode[0] for i, mode in self.mode(np.ones(1)).items()}
 
     def turned(self, t: Array) -> dict[str, Array]:
-        """How far each link has turned from the start (rad), whole turns included, to a few degrees."""
+        """The angle of each link from the start (rad), whole turns included, to a few degrees."""
         return {name: self.turned_of(name, t) for name in self.angles}
 
     def turned_of(self, link: str, t: Array) -> Array:
-        """The same of one link.  Raises KeyError for a redundant one."""
+        """The angle of a link from the start.  Raises KeyError for a redundant link."""
         return np.asarray(np.interp(t, self.nodes, self.angles[link]) - self.angles[link][0])
 
     @cached_property
@@ -192,13 +194,12 @@ class ExactDiscriminant:
         return self.discriminant(*self._at(t))
 
     def zero(self, about: float) -> Decimal | None:
-        """Where it goes through zero, near a parameter; None where it does not."""
+        """The parameter at which it goes through zero, near a parameter; None where it does not."""
         return newton(self, about)
 
     def touches(self, about: float, near: float) -> tuple[Decimal, ...] | None:
-        """Where it comes to zero beside a place at which it is least, so near to a parameter: at one, where it touches
-        zero as far as the digits of the file tell; at two, between which it goes below; at none.  None where no least
-        value is found."""
+        """The zeros near its least value, within ``near`` of a parameter: one where it touches zero within the digits
+        of the file; two between which it is negative; or none.  None where no least value is found."""
         place = touch(self, about)
         if place is None or abs(place - Decimal(about)) > near:
             return None
@@ -217,7 +218,7 @@ class Stretch:
     """A stretch of a path in which a group closes.
 
     low, high : its ends (parameters)
-    ends : whether the group ends there, or is only not looked at further
+    ends : whether the group ends there, or the search does
     touches : change points inside, in increasing order
     """
 
@@ -228,7 +229,8 @@ class Stretch:
 
 
 def stretches(path: Path, i: int, low: float, high: float) -> list[Stretch]:
-    """Where a dyad of a path closes, in increasing order, between two parameters between which all before it do."""
+    """The stretches in which a dyad of a path closes, in increasing order, between two parameters between which all
+    earlier ones close."""
 
     def touching(about: float) -> tuple[Decimal, ...] | None:
         exact = path.exactly(i, about)
@@ -241,17 +243,16 @@ def closed(
     gap: Callable[[Array], Array], low: float, high: float,
     touching: Callable[[float], Sequence[Decimal] | None] = lambda _: None, seams: Collection[float] | Array = (),
 ) -> list[Stretch]:  # fmt: skip
-    """Where a discriminant is not below zero between two places.
+    """The stretches between two places in which a discriminant is not negative.
 
-    It is represented over an angle whose cosine runs from one to the other: in that it is smooth up to the ends of
-    groups before it.
+    It is represented over an angle whose cosine runs from one place to the other: as a function of that angle it is
+    smooth up to the ends of earlier groups.
 
     Parameters
     ----------
     gap : function of places, shape (n,), to values, shape (n,), without a unit
-    touching : what tells more exactly where it comes to zero beside a place at which it is least, see
-        ``ExactDiscriminant.touches``
-    seams : where it may be rough
+    touching : function that finds its zeros near a least value more exactly, see ``ExactDiscriminant.touches``
+    seams : places at which it may be rough
     """
     wide = high - low
     if not wide > 0.0:
@@ -302,8 +303,8 @@ def closed(
 
 
 def _polished(gap: Callable[[Array], Array], root: float, sides: Array, near: float) -> float:
-    """The last place where a discriminant is not below zero, about a root; places on both sides of that, first where it
-    is not."""
+    """The last place at which a discriminant is not negative, near a root; the places on both sides of it, first that
+    where it is negative."""
     inside, outside = (root + float(np.clip(side - root, -near, near)) for side in sides)
     if (gap(np.array([inside, outside])) >= 0.0).tolist() != [True, False]:
         return root
@@ -313,12 +314,11 @@ def _polished(gap: Callable[[Array], Array], root: float, sides: Array, near: fl
 def assembled(
     path: Path, dyads: Sequence[int], low: float, high: float, signs: Mapping[int, float]
 ) -> Iterator[tuple[Path, Stretch]]:
-    """The stretches of a path in which some dyads close one after the other, each with the path on which these have
-    their modes.
+    """The stretches of a path in which some dyads close in turn, each with the path on which these have their modes.
 
     Parameters
     ----------
-    dyads : by their places among the elements
+    dyads : by their indices among the elements
     signs : the assemblies that are given; of the other dyads both are tried
     """
     if not dyads:
@@ -339,5 +339,5 @@ def assembled(
 
 
 def not_tried(structure: Structure) -> list[tuple[str, ...]]:
-    """Links of groups that stand behind so many others that not all their assemblies are tried."""
+    """Links of groups after too many others to try all their assemblies."""
     return [group.links for group in [*structure.dyads.values()][MOST_GROUPS:]]

@@ -1,8 +1,8 @@
-"""The range of the first driver: how far the motion reaches from a position to both sides, or after how many turns it
-closes, which assembly stands at each place of it, and the motion there; and the ways to other driver values.
+"""The range of the first driver: the reach of the motion from a position to both sides, or the number of turns after
+which it closes, the assembly at each place of it, and the motion there; and the paths to other driver values.
 
-Whatever goes over the driver's range goes this way: a solution elsewhere and over a turn, prepared mechanisms, the
-study of a turn, the positions of a handout.
+All computations over the driver's range use it: a solution elsewhere and over a turn, prepared mechanisms, the study of
+a turn, the positions of a handout.
 
 Quantities of the whole turn: stroke of a slide, swing of a link, coefficient of travel-speed variation.
 """
@@ -45,8 +45,8 @@ SAME = 1e-8
 
 
 def range_of(structure: Structure, at: Mapping[str, float] | None = None) -> DriverRange:
-    """Follow a mechanism from its own position, or from other driver values, over as many turns of its first driver as
-    it takes until every link lies where it lay; or to both limits of the motion, be they more than a turn apart.
+    """Follow a mechanism from its own position, or from other driver values, over turns of its first driver until every
+    link is back in its pose; or to both limits of the motion, even if they are more than a turn apart.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def range_of(structure: Structure, at: Mapping[str, float] | None = None) -> Dri
 
     Raises
     ------
-    SceneError : a group has several assemblies and no sketch tells which
+    SceneError : a group has several assemblies and no sketch chooses
     Unsolvable : the start cannot be assembled or reached
     CallError : ``at`` names no driver
     """
@@ -69,8 +69,8 @@ def range_of(structure: Structure, at: Mapping[str, float] | None = None) -> Dri
 
 
 def range_from(structure: Structure, modes: Mapping[int, Array], start: Array, which: int = 0) -> DriverRange:
-    """The range about driver values, shape (drivers,), at which the groups have these modes; of the first driver, or of
-    another."""
+    """The range of the first driver, or of another, about driver values, shape (drivers,), at which the groups have
+    these modes."""
     asked = which, start.tobytes(), tuple((i, mode.tobytes()) for i, mode in modes.items())
     # strokes, loads and tables of one motion ask for the same
     if structure.kept.get("range", (None,))[0] != asked:
@@ -117,7 +117,7 @@ def _followed(structure: Structure, modes: Mapping[int, Array], start: Array, wh
 
 
 def _closes(path: Path) -> bool:
-    """Whether every link lies at the end of a path where it lay at its start."""
+    """Whether every link has the same pose at the end of a path as at its start."""
     ends = np.array([0.0, 1.0])
     poses = positions(path.structure, path.drive(ends), path.mode(ends), rates=False).poses
     for pose in (p.spread(2) for p in poses.values()):
@@ -129,7 +129,7 @@ def _closes(path: Path) -> bool:
 
 
 def stopped_why(structure: Structure, modes: Mapping[int, Array], start: Array, path: Path) -> Phrase:
-    """Why a way from the values of ``start`` ends, and between which values the motion runs."""
+    """The reason why a path from the values of ``start`` ends, and the values between which the motion runs."""
     moved = np.flatnonzero(path.end != path.start)
     if len(moved) > 1:
         return path.why_ended()
@@ -140,8 +140,8 @@ def stopped_why(structure: Structure, modes: Mapping[int, Array], start: Array, 
 
 
 def way_to(structure: Structure, modes: Mapping[int, Array], goal: Array) -> Path:
-    """The way from the scene's own position to other driver values: straight, whole turns included, else the other way
-    round for drivers that turn; the straight one if none gets there."""
+    """The path from the scene's own position to other driver values: straight, whole turns included, else the opposite
+    way round for drivers that turn; the straight path if none reaches them."""
     from graphkin.solver.continuity import follow_path
 
     start, ended = own_values(structure.scene), list[tuple[Mapping[int, Array], Path]]()
@@ -162,10 +162,10 @@ class DriverRange:
     offsets divided by ``wide``.
 
     start : values of all drivers at offset 0, shape (drivers,) (rad, m)
-    ahead, behind : the ways in the sense of the driver and against it; the same where the motion closes
-    wide : how far each of them goes, if nothing ends it, signed (rad, m)
-    turns : after how many turns of the driver every link lies where it lay; 0 where the motion does not close, because
-        something ends it, be it beyond a turn, or the driver slides
+    ahead, behind : the paths in the sense of the driver and against it; the same path where the motion closes
+    wide : the length of each of them without an end, signed (rad, m)
+    turns : the number of the driver's turns after which every link is back in its pose; 0 where the motion does not
+        close, because it ends, also beyond a turn, or the driver slides
     """
 
     structure: Structure
@@ -177,7 +177,7 @@ class DriverRange:
 
     @cached_property
     def kept(self) -> dict[Hashable, Any]:
-        """What was found of the whole range and is asked for again: strokes, the flywheel."""
+        """Results of the whole range kept for further use: strokes, the flywheel."""
         return {}
 
     @property
@@ -204,18 +204,18 @@ class DriverRange:
 
     @property
     def limited(self) -> tuple[bool, bool]:
-        """Whether the motion ends at the least and at the greatest offset, or is only not followed further."""
+        """Whether the motion ends at the least and at the greatest offset, or is followed only to them."""
         return (not self.full and self.behind.limit is not None), self.ahead.limit is not None
 
     @cached_property
     def rolls_apart(self) -> bool:
-        """Whether positions a turn of the driver apart differ, since something rolls, and the motion ends somewhere, so
-        that a value is reached one way only."""
+        """Whether positions a turn of the driver apart differ by rolling, and the motion has an end, so that a value is
+        reached from one side only."""
         return self.driver.turns and self.structure.rolls and not self.full and any(self.limited)
 
     @cached_property
     def limit_why(self) -> Wording:
-        """Why the motion ends."""
+        """The reason why the motion ends."""
         path = self.ahead if self.ahead.limit is not None else self.behind
         low, high = sorted(self.value(np.array(self.ends)).tolist())
         return "" if path.limit is None else path.why_ended((low, high))
@@ -233,9 +233,9 @@ class DriverRange:
         return values
 
     def offsets(self, value: Array) -> Array:
-        """The offsets at which the motion comes to these values of the first driver, or would: those of the values
-        themselves, of a motion that closes within its turns; of an angle that it does not reach so, at most a turn
-        ahead or as far behind as the motion reaches, unless something rolls on by then."""
+        """The offsets at which the motion reaches these values of the first driver, or would: of the values themselves,
+        in a closed motion within its turns; for an angle outside them at most a turn ahead, or behind within the
+        motion's reach, unless rolling changes the position by then."""
         offset = np.asarray(self.sense * (value - self.start[0]))
         if not self.driver.turns or self.rolls_apart:
             return offset
@@ -246,7 +246,7 @@ class DriverRange:
         return np.asarray(np.where(self.reaches(offset), offset, within))
 
     def reaches(self, offset: Array) -> Array:
-        """Whether the motion comes to these offsets, shape (n,)."""
+        """Whether the motion reaches these offsets, shape (n,)."""
         low, high = self.ends
         return np.asarray((offset >= low) & (offset <= high))
 
@@ -261,7 +261,7 @@ class DriverRange:
 
     @cached_property
     def seams(self) -> Array:
-        """Offsets at which one part of the law of a cam gives way to the next, in increasing order."""
+        """Offsets of the seams between parts of a cam's law, in increasing order."""
         starts = [(cam, start) for cam in self.scene.cams for start in cam.law.starts]
         if not starts:
             return np.zeros(0)
@@ -289,8 +289,8 @@ class DriverRange:
 
     def grid(self, n: int, first: int = 0, last: int | None = None) -> UniformGrid | GivenValues:
         """Values of the first driver at positions ``first`` to ``last`` (not included) of a table of n: a turn from the
-        start on in the sense of the driver, or evenly inside the range of travel; where what rolls comes to an angle
-        the other way round alone, the value a turn less."""
+        start on in the sense of the driver, or evenly inside the range of travel; where rolling links reach an angle
+        only from the other side, the value a turn less."""
         last, start = n if last is None else last, float(self.start[0])
         if self.rolls_apart:
             offset = self.table_offsets(n, first, last)
@@ -305,7 +305,8 @@ class DriverRange:
     # the assembly
 
     def modes(self, part: Array) -> dict[int, Array]:
-        """The assembly mode of each group at parts of the range, for ``positions``; beyond its ends that at the end."""
+        """The assembly mode of each group at parts of the range, for ``positions``; beyond its ends the mode at the
+        end."""
         ahead, t, s = self._split(part)
         modes = self.ahead.mode(t)
         if ahead.all():
@@ -314,12 +315,12 @@ class DriverRange:
         return {i: np.where(ahead.reshape(-1, *[1] * (f.ndim - 1)), f, other[i]) for i, f in modes.items()}
 
     def turned(self, part: Array) -> Mapping[str, Array]:
-        """How far each link that is not redundant has turned since the start (rad), whole turns included, to a few
-        degrees; each found when it is asked for."""
+        """The angle of each link that is not redundant from the start (rad), whole turns included, to a few degrees;
+        each is computed when it is asked for."""
         return _Turned(self, part)
 
     def _split(self, part: Array) -> tuple[Array, Array, Array]:
-        """Which parts lie ahead, and all of them as parameters of both ways."""
+        """Whether parts lie ahead, and all of them as parameters of both paths."""
         return part >= 0, np.clip(part, 0.0, self.ahead.reach), np.clip(-part, 0.0, self.behind.reach)
 
     @cached_property
@@ -328,7 +329,7 @@ class DriverRange:
 
     @cached_property
     def change_points(self) -> tuple[ChangePoint, ...]:
-        """Where two assemblies of a group meet in the range, and the motion goes smoothly on."""
+        """The change points of the range, at which two assemblies of a group meet and the motion continues smoothly."""
         return self.ahead.change_points + (() if self.full else self.behind.change_points)
 
     @property
@@ -344,8 +345,8 @@ class DriverRange:
 
         Parameters
         ----------
-        offset : shape (n,); over the range of an angle driver that cannot turn fully an offset may also be meant the
-            other way round
+        offset : shape (n,); over the range of an angle driver that cannot turn fully an offset may also be reached the
+            opposite way round
         unit : rates by the first driver's own value (rate 1, second rate 0, other drivers held) instead of the scene's
         extended : False for curves: 16 digits throughout, and no reasons where the status is not ok
         rates : of the first driver at each offset, first and second, shape (n,), instead of the scene's
@@ -368,7 +369,7 @@ class DriverRange:
         return self._motion(within / abs(self.wide), self.values(offset), drive, self.reaches(offset), extended)
 
     def _reached(self, offset: Array) -> Array:
-        """The offsets, a turn less where an angle driver that cannot turn fully comes there the other way round."""
+        """The offsets, a turn less where an angle driver that cannot turn fully reaches them the opposite way round."""
         low, high = self.ends
         if self.full or not self.driver.turns:
             return offset
@@ -392,7 +393,7 @@ class DriverRange:
         return replace(self.motion(self.table_offsets(n)), passed=self.change_points)
 
     def sweep_in_blocks(self, n: int) -> Iterator[Motion]:
-        """``sweep`` a block of positions at a time: no more of it is in memory."""
+        """``sweep`` block by block, with a single block in memory."""
         offset = self.table_offsets(n)
         before: Motion | None = None
         for first in range(0, n, BLOCK):
@@ -423,7 +424,7 @@ class DriverRange:
 
 @dataclass(frozen=True)
 class _Turned(Mapping[str, Array]):
-    """How far links have turned at parts of a range, by name: of a million positions only what is asked for."""
+    """The angles of links from the start at parts of a range, by name: each is computed when it is asked for."""
 
     range: DriverRange
     part: Array
@@ -472,9 +473,9 @@ def motion_of(
     Parameters
     ----------
     modes : the assembly mode of each group at each position, as for ``positions``
-    assembled : tells the assembly in words
-    good, why : which positions the motion reaches, shape (n,), and why it does not reach the others
-    extended : False leaves 16 digits where they are rough, and the reasons away
+    assembled : gives the assembly in words
+    good, why : the positions that the motion reaches, shape (n,), and the reason for the others
+    extended : False keeps 16 digits everywhere, without reasons
     """
     n = len(drive)
     if n > BLOCK:
@@ -500,10 +501,10 @@ def motion_of(
 
 
 def joined(blocks: Iterable[Motion], n: int) -> Motion:
-    """Motions of blocks of positions, one after the other, as one of n positions.
+    """Motions of blocks of positions, in order, as one motion of n positions.
 
-    Each block is let go before the next is found, and what is the same at all positions, or for two links (the angle of
-    a block on its guide), is kept once: fields may be read-only, or be the memory of another.
+    Each block is released before the next is computed, and values that are equal at all positions, or for two links
+    (the angle of a block on its guide), are kept once: fields may be read-only, or share memory.
     """
     columns: dict[tuple[str, str], list[Array]] = {}
     reasons, lengths, some = list[Wording](), list[int](), None
@@ -542,8 +543,8 @@ def _columns(motion: Motion) -> Iterator[tuple[tuple[str, str], Array]]:
 
 
 def _held_once(field: str, values: Array, held: dict[tuple[str, bytes, bytes], Array]) -> Array:
-    """Values of a block: one row where all are the same bit by bit (minus zero is not zero, and NaN is NaN), and the
-    memory of those held that are the same."""
+    """Values of a block: one row where all are equal bit by bit (minus zero is not zero, and NaN is NaN), in the memory
+    of equal kept ones."""
     first, last = values[:1].tobytes(), values[-1:].tobytes()
     if first == last and values.tobytes() == first * len(values):
         values = values[:1].copy()
@@ -552,7 +553,7 @@ def _held_once(field: str, values: Array, held: dict[tuple[str, bytes, bytes], A
 
 
 def _in_one_column(parts: list[Array], lengths: Sequence[int], n: int) -> Array:
-    """The rows of blocks below each other; one row for all while they are the same.  The parts are let go."""
+    """The rows of blocks below each other; one row for all while they are equal.  The parts are released."""
     first = parts[0]
     if all(len(part) == 1 and part.tobytes() == first.tobytes() for part in parts):
         return np.broadcast_to(first, (n, *first.shape[1:]))
@@ -589,7 +590,8 @@ class Extremes:
 
     @property
     def lag(self) -> float:
-        """The angle theta between the crank's two limit positions (rad), what the longer way lacks to half a turn."""
+        """The acute angle theta between the crank's two limit positions (rad), the difference of the longer way from
+        half a turn."""
         way = abs(self.high_offset - self.low_offset)
         lag = max(way, math.tau - way) - math.pi
         return lag if lag > ROUNDED else 0.0
@@ -602,7 +604,7 @@ class Extremes:
 
 
 def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
-    """The extremes of the sliding pair or link that a symbol is of, over one turn of the driver.
+    """The extremes of a symbol's sliding pair or link over one turn of the driver.
 
     Raises
     ------
@@ -635,8 +637,8 @@ def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
 
 
 def _turns(reach: DriverRange, symbol: Symbol) -> tuple[Array, Array, float]:
-    """Where an output turns back over a turn of the driver: offsets and values there, the end of a stretch along which
-    it stands still; and how far it gets in a turn."""
+    """The reversals of an output over a turn of the driver: offsets and values, of a dwell its end; and the output's
+    change in a turn."""
 
     def course(offset: Array, extended: bool = False) -> Array:
         """Value and rate by the driver's own angle, shape (n, 2)."""

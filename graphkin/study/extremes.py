@@ -1,4 +1,4 @@
-"""Extremes and zeros of quantities over the whole range of the driver; and what their curves run over: the driver's
+"""Extremes and zeros of quantities over the whole range of the driver; and the parameter of their curves: the driver's
 offset, or an angle in which positions are smooth up to the ends.
 """
 
@@ -44,8 +44,8 @@ HAIR = 1e-6
 
 @dataclass(frozen=True)
 class Extreme:
-    """A greatest or least value, or the value at an end of the motion: where (offset, and value of the driver, SI) and
-    how much (SI); ``local`` where the quantity goes beyond it elsewhere in a range that ends."""
+    """A greatest or least value, or the value at an end of the motion: its place (offset, and value of the driver, SI)
+    and its value (SI); ``local`` if the quantity exceeds it elsewhere in a range that ends."""
 
     kind: Literal["max", "min", "end"]
     offset: float
@@ -56,8 +56,8 @@ class Extreme:
 
 @dataclass(frozen=True)
 class Traced:
-    """A quantity over the driver's range: its extremes in the order of the motion, and where it is zero (driver);
-    ``unbounded`` where it grows without bound towards an end of the range."""
+    """A quantity over the driver's range: its extremes in the order of the motion, and its zeros (driver);
+    ``unbounded`` if it grows without bound towards an end of the range."""
 
     quantity: Quantity
     extremes: tuple[Extreme, ...]
@@ -83,7 +83,7 @@ class Traced:
 
 @dataclass(frozen=True)
 class Curve:
-    """A quantity, and its place among the curves that represent it."""
+    """A quantity, and its index among the curves that represent it."""
 
     quantity: Quantity
     pieces: Pieces
@@ -108,7 +108,7 @@ class CurveParameter:
 
     @cached_property
     def _away(self) -> tuple[bool, bool]:
-        """At which ends links go away without bound."""
+        """The ends at which links go away without bound."""
         low, high = self.reach.ends
         parts = np.array([1e-6, 1e-4])
         motion = self.reach.motion(np.append(low + parts * (high - low), high - parts * (high - low)), extended=False)
@@ -118,7 +118,7 @@ class CurveParameter:
 
     @cached_property
     def seams(self) -> Array:
-        """Where one part of the law of a cam gives way to the next, in increasing order."""
+        """The seams between parts of a cam's law, in increasing order."""
         low, high = self.reach.ends
         offsets = self.reach.seams
         return offsets if self.reach.full else 2 * np.arcsin(np.sqrt((offsets - low) / (high - low)))
@@ -129,8 +129,8 @@ class CurveParameter:
         return 0.0 if abs(value) <= NOTHING * (size if curve.quantity.measure == "length" else 1.0) else value
 
     def _at_end(self, curve: Curve, which: int) -> float:
-        """There the solver refuses it, or loses half of its digits: from the curve, or from values nearer and nearer to
-        the end."""
+        """The value at an end, where the solver refuses it, or loses half of its digits: from the curve, or from values
+        nearer and nearer to the end."""
         value = np.nan if self._away[which] else float(curve.pieces.at(self.range[which], curve.k))
         if np.isfinite(value):
             return curve.quantity.of_smooth(value)
@@ -172,7 +172,7 @@ class CurveParameter:
         ))
 
     def inside(self, parameter: Array) -> Array:
-        """Those that are not at an end of the motion."""
+        """The parameters that are not at an end of the motion."""
         if self.reach.full:
             return parameter
         margin = NEAR_END * float(np.pi)
@@ -191,7 +191,7 @@ def driver_value(reach: DriverRange, offset: float) -> float:
 
 
 def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[Traced, ...]:
-    """Find all extremes and zeros of quantities; of a mechanism that is singular throughout there are none."""
+    """Find all extremes and zeros of quantities; a mechanism that is singular throughout has none."""
     way = CurveParameter(reach)
     places = [q for q in quantities if q.is_position]
     rates = [q for q in quantities if not q.is_position]
@@ -228,15 +228,15 @@ def _values(
     reach: DriverRange, quantities: Sequence[Quantity], offsets: Sequence[Array], extended: bool = False,
     unit: bool = False,
 ) -> list[Array]:
-    """Quantities at offsets of their own, for each as many as it has, all from one motion; with ``unit`` of a driver
-    that moves at the rate 1."""
+    """Quantities at offsets of their own, any number for each, all from one motion; with ``unit`` for a driver of rate
+    1."""
     ends = np.cumsum([0, *map(len, offsets)]).tolist()
     motion = reach.motion(np.concatenate([*offsets, np.zeros(1)]), unit=unit, extended=extended)
     return [q.values(reach, motion)[a:b] for q, (a, b) in zip(quantities, pairwise(ends), strict=True)]
 
 
 def _grow(reach: DriverRange, rates: Sequence[Quantity]) -> Array:
-    """Whether rates grow without bound towards the lower and the upper end, as far as is known there, shape (2, n)."""
+    """Whether rates grow without bound towards the lower and the upper end, if it is known there, shape (2, n)."""
     low, high = reach.ends
     motion = reach.motion(low + (high - low) * np.concatenate([NEAR, 1.0 - NEAR]), extended=False)
     nearest, next_ = np.abs([q.values(reach, motion) for q in rates]).T.reshape(2, 2, -1).swapaxes(0, 1)
@@ -244,7 +244,7 @@ def _grow(reach: DriverRange, rates: Sequence[Quantity]) -> Array:
 
 
 def _floor(reach: DriverRange, rates: Sequence[Quantity]) -> Array:
-    """For each rate the size that such rates have in this mechanism: what is nothing beside it is zero."""
+    """For each rate the size of such rates in this mechanism: smaller values within rounding are zero."""
     size = reach.scene.size
     motion = reach.motion(np.linspace(*reach.ends, 62)[1:-1], extended=False)
     poses = [motion.poses[link.name] for link in reach.scene.links]
@@ -257,7 +257,7 @@ def _floor(reach: DriverRange, rates: Sequence[Quantity]) -> Array:
 
 
 def _usual(values: Array) -> float:
-    """The median size of what is known of some values; 0 where nothing is."""
+    """The median size of the known values; 0 without any."""
     known = np.abs(values[np.isfinite(values)])
     return float(np.median(known)) if len(known) else 0.0
 

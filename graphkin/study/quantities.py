@@ -33,9 +33,9 @@ IN_LINE = 1e-12
 class Quantity:
     """One quantity that changes over the turn, by its symbol: ``theta_3`` (angle of a link), ``s_6/1`` (travel of a
     sliding pair), their rates ``omega_3``, ``alpha_3``, ``v_6/1``, ``a_6/1``, the place of a point, a force or a
-    moment, the transmission angle of a group of two links ("transmission_4-5"), or what else ``find`` knows.
+    moment, the transmission angle of a group of two links ("transmission_4-5"), or another quantity of ``find``.
 
-    along : of a vector that lies on a guide its part along that, with its sign, stands for it instead of its size
+    along : whether a vector on a guide is given by its signed component along it instead of its size
     """
 
     symbol: Symbol
@@ -56,13 +56,13 @@ class Quantity:
 
     @property
     def measure(self) -> Measure:
-        """What kind of number it is."""
+        """The kind of its number."""
         return self.symbol.measure
 
     @property
     def order(self) -> int | None:
-        """How often the angle of a link or the travel of a sliding pair is derived by the time in it; None of what else
-        it is."""
+        """The order of its derivative by time of a link's angle or a sliding pair's travel; None for other
+        quantities."""
         relative = self.kind == "theta" and not self.is_angle
         return None if self.symbol.of or relative else self.symbol.order
 
@@ -88,13 +88,13 @@ class Quantity:
 
     @property
     def is_size(self) -> bool:
-        """Whether one number of it is the size of a vector."""
+        """Whether one of its numbers is the size of a vector."""
         return self.symbol.is_vector and not self.along
 
     @property
     def is_unsigned(self) -> bool:
-        """Whether it is never less than 0, and zero only where it is least: a size, a distance, an angle of 90 degrees
-        at most."""
+        """Whether it is never negative, and zero only at a least value: a size, a distance, an angle of at most 90
+        degrees."""
         return self.is_size or self._apart or self._folded
 
     @property
@@ -104,12 +104,12 @@ class Quantity:
 
     @property
     def can_be_prepared(self) -> bool:
-        """Whether a prepared mechanism gives it, as it stands in tables."""
+        """Whether a prepared mechanism gives it as tables show it."""
         given = self.symbol.order is not None and self.kind != "theta"
         return given and not (self.symbol.is_rate_of_pair or self.symbol.axis)
 
     def unit(self, scene: Mechanism, radians: bool = False) -> Unit:
-        """Its unit in tables; with ``radians`` that in JSON."""
+        """Its unit in tables; with ``radians`` in JSON."""
         return scene.units.of(self.measure, radians)
 
     def whole(self, motion: Motion) -> Array:
@@ -119,7 +119,7 @@ class Quantity:
         return value_of(motion, self.symbol)
 
     def values(self, reach: DriverRange | None, motion: Motion) -> Array:
-        """Its values as real numbers (SI), shape (n,); in a motion of a range angles go on from those before."""
+        """Its values as real numbers (SI), shape (n,); in a motion of a range angles are continuous."""
         if reach is not None and self.kind == "theta":
             angle, other = reach.angle(motion, self.symbol.link), self.symbol.other
             return angle - reach.angle(motion, other) if other else angle
@@ -129,8 +129,8 @@ class Quantity:
         return np.abs(found) if self.is_size else np.asarray(found.real)
 
     def parts(self, reach: DriverRange | None, motion: Motion) -> tuple[Array, ...]:
-        """Its values in a motion (alone, or of a range) in the table's units, 0 where they are nothing but rounding:
-        one array, or a vector's components."""
+        """Its values in a motion (alone, or of a range) in the table's units, 0 where they are rounding alone: one
+        array, or a vector's components."""
         found = self.values(reach, motion) if self.is_angle else self.whole(motion)
         if self.is_load:
             found = settled(found, forces_of(motion).floors[self.measure == "moment"])
@@ -149,11 +149,11 @@ class Quantity:
         return [Column(self.name, np.abs(parts[0] + 1j * parts[1]), unit, self.name), *made] if sized else made
 
     def smooth(self, reach: DriverRange, motion: Motion) -> tuple[Array, Array]:
-        """What is smooth where the quantity may not be, and grows with it: the square of a vector's size or of a
-        distance, minus the cosine of twice an angle that is 90 degrees at most, else the quantity itself; and how far
-        it may be off, 0 where that is not known.
+        """A smooth function that grows with the quantity: the square of a vector's size or of a distance, minus the
+        cosine of twice an angle of at most 90 degrees, else the quantity itself; and its error bound, 0 where it is
+        unknown.
 
-        A rate that is nothing but rounding (no larger than the solver's own bound of its error) is 0.
+        A rate that is rounding alone (no larger than the solver's own bound of its error) is 0.
         """
         value, bound = self.values(reach, motion), self._bound(motion)
         if self._folded:
@@ -163,20 +163,19 @@ class Quantity:
         return (value**2, (2 * np.abs(value) + bound) * bound) if self.is_size or self._apart else (value, bound)
 
     def of_smooth(self, value: float) -> float:
-        """Its value from what is smooth of it."""
+        """Its value from its smooth function."""
         if self._folded:
             sine = (1.0 + value) / 2  # the square of it
             return math.asin(math.sqrt(min(1.0, sine))) if sine > IN_LINE else 0.0
         return math.sqrt(max(0.0, value)) if self._apart or self.is_size else value
 
     def of_extrapolated(self, value: float) -> float:
-        """A value that was extrapolated: angles of 90 degrees at most are not less than 0, nor is what rounding
-        leaves of 0."""
+        """An extrapolated value: angles of at most 90 degrees are not negative, and 0 where they are rounding alone."""
         return 0.0 if self._folded and value < IN_LINE else value
 
     @property
     def _folded(self) -> bool:
-        """Whether it is an angle that is 90 degrees at most."""
+        """Whether it is an angle of at most 90 degrees."""
         return self.kind in ("gamma", "pressure", "transmission")
 
     @property
@@ -186,11 +185,11 @@ class Quantity:
 
     @property
     def _ends(self) -> float:
-        """How many places err in it: two points that are seen from each other."""
+        """The number of places whose errors it has: two for points seen from each other."""
         return 1.0 if self.measure.startswith("ang") or self.kind == "place" else 2.0
 
     def _bound(self, motion: Motion) -> Array:
-        """How far rounding may have moved it; 0 where that is not known."""
+        """The bound of its rounding error; 0 where it is unknown."""
         if self.is_load:
             return np.nan_to_num(forces_of(motion).bound[self.measure == "moment"])
         of = motion.accuracy.of(self._links(motion))
@@ -205,7 +204,7 @@ class Quantity:
         return np.asarray(np.where(np.isfinite(bound), self._ends * bound, 0.0))
 
     def _links(self, motion: Motion) -> Iterable[str]:
-        """The links whose errors it has; none where it takes more than them, as a transmission angle does."""
+        """The links whose errors it has; none for a quantity of further links, as a transmission angle."""
         moves = self.symbol.scope == "motion" or self.order == 0
         return links_for(motion.structure, self.symbol) if moves else ()
 
@@ -237,7 +236,7 @@ def rates_of(quantity: Quantity) -> tuple[Quantity, Quantity, Quantity]:
 
 
 def all_that_moves(structure: Structure) -> tuple[Quantity, ...]:
-    """Everything that moves: each pin once, and each point under a sliding pin."""
+    """The quantities of all that moves: each pin once, and each point under a sliding pin."""
     scene, slides = structure.scene, own_slides(structure.scene, all_slides(structure))
     found = [q for link in scene.links for q in link_quantities(link.name)]
     seen: set[PointRef] = set()

@@ -1,7 +1,7 @@
 """Sweeps: a mechanism, or many designs of it, followed over the range of the driver; in memory, or into files.
 
-The table is cut into pieces that depend on nothing but the sweep itself, so that it is the same whoever makes them, and
-whenever: an interrupted sweep goes on in its folder from the pieces that are done.
+The table is cut into pieces that depend on the sweep alone, so that they are the same on every machine and at any time:
+an interrupted sweep is continued in its folder from the finished pieces.
 """
 
 from __future__ import annotations
@@ -49,10 +49,10 @@ is no such position; and where there is, shape (positions,)."""
 
 @dataclass(frozen=True)
 class FollowedDesign:
-    """One mechanism, whose motion is followed.
+    """A mechanism whose motion is followed.
 
-    asked : what the table shows; nothing: everything that moves
-    at : driver values to start from (SI), by driver key; nothing: the scene's position 1, or its own position
+    asked : the quantities of the table; empty: all motions
+    at : driver values to start from (SI), by driver key; empty: the scene's position 1, or its own position
     """
 
     scene: Mechanism
@@ -65,12 +65,12 @@ class FollowedDesign:
 
     @cached_property
     def watched(self) -> tuple[Quantity, ...]:
-        """What the table shows."""
+        """The quantities of the table."""
         return self.asked or all_that_moves(self.structure)
 
     @cached_property
     def start(self) -> dict[str, float]:
-        """Driver values of the first row, where it is not the scene's own position.  Raises Unsolvable."""
+        """Driver values of the first row, if it is not the scene's own position.  Raises Unsolvable."""
         places = named_positions(self.scene) if not self.at else None
         if places is None or not places.reach.full:
             return dict(self.at)
@@ -83,8 +83,8 @@ class FollowedDesign:
 
     @cached_property
     def engine(self) -> PreparedMechanism | None:
-        """The mechanism prepared for what is asked; None where everything is asked, or something that the formulas do
-        not give, where a larger group has no closed form, or where it starts elsewhere than the scene."""
+        """The mechanism prepared for the asked quantities; None if all are asked, or one that the formulas do not give,
+        if a larger group has no closed form, or if it starts elsewhere than the scene."""
         if not self.asked or not all(w.can_be_prepared for w in self.asked):
             return None
         if self.at or self.scene.question.positions is not None or moves_by_law(self.scene):
@@ -97,14 +97,13 @@ class FollowedDesign:
             return None
 
     def arrays(self, n: int) -> Arrays | None:
-        """All of n positions at once, where the mechanism can be prepared; very many by compiled code."""
+        """The arrays of all n positions at once, if the mechanism can be prepared; very many by compiled code."""
         if self.engine is None:
             return None
         return self.engine.sweep(n, fast=pays(n))
 
     def parts(self, columns: Array) -> Parts:
-        """What is watched among the columns of the prepared mechanism, as people read it: 0 where it is nothing but
-        what rounding leaves."""
+        """The quantities of the table from the columns of the prepared mechanism, 0 where they are rounding alone."""
         engine = self.engine
         assert engine is not None
         settled_columns = map(settled, columns, engine.residues)
@@ -113,7 +112,7 @@ class FollowedDesign:
         return tuple(tuple(by_name[w.name + e] for e in ends[w.is_vector]) for w in self.watched)
 
     def table(self, n: int, first: int, last: int) -> Table:
-        """Positions ``first`` to ``last`` (not included) of n: driver values, what is watched, status and reason."""
+        """Positions ``first`` to ``last`` (not included) of n: driver values, quantities, status and reason."""
         if self.engine is not None:
             return self.table_of(self.engine.columns(self.reach.grid(n, first, last).values), n, first, last)
         times = np.array(moments(self.scene, n)[first:last]) if moves_by_law(self.scene) else None
@@ -127,7 +126,7 @@ class FollowedDesign:
         return self._rows(first, motion.values, parts, motion.status, motion.why, times)
 
     def table_of(self, arrays: Arrays, n: int, first: int, last: int) -> Table:
-        """The table of what a prepared mechanism gave at positions ``first`` to ``last`` of n."""
+        """The table of a prepared mechanism's results at positions ``first`` to ``last`` of n."""
         (columns, ok), rows = arrays, last - first
         values = np.repeat(self.reach.start[None], rows, axis=0)
         values[:, 0] = self.reach.grid(n, first, last).values
@@ -145,7 +144,7 @@ class FollowedDesign:
         return self._rows(first, values, parts, status, why)
 
     def blank(self, first: int, last: int, status: str = "", why: str = "") -> Table:
-        """The table of positions that have no values."""
+        """The table of positions without values."""
         nothing = np.full(last - first, np.nan)
         parts = tuple((nothing,) * (1 + w.is_vector) for w in self.watched)
         values = np.stack([nothing] * len(self.scene.drivers), axis=1)
@@ -155,7 +154,7 @@ class FollowedDesign:
     def _rows(
         self, first: int, values: Array, parts: Parts, status: Words, why: Words, times: Array | None = None
     ) -> Table:
-        """The table of what is watched."""
+        """The table of the quantities."""
         return motion_table(
             self.scene, self.watched, bool(self.asked), first, values, parts, status, why, times
         )
@@ -163,10 +162,11 @@ class FollowedDesign:
 
 @dataclass(frozen=True)
 class Outcome:
-    """How one design came out.
+    """The outcome of a design.
 
     design : its number from 0
-    status, why : "ok"; "partly" (some positions have no values, with the reason of the first); or why none has
+    status, why : "ok"; "partly" (some positions have no values, with the reason of the first); or the reason why none
+        has
     cells : range, strokes, K, least transmission angles (see `graphkin.study.turn_data.design_row`)
     good : positions that are ok
     """
@@ -180,11 +180,11 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Found:
-    """What a sweep came to: positions that are ok, and over designs how each came out.
+    """The result of a sweep: the positions that are ok, and over designs the outcome of each.
 
-    arrays : what is watched, where all of it was computed at once by a prepared mechanism
-    table : in memory; None where it was written into files, or is made of ``arrays``
-    damaged : pieces kept from before that were damaged, and were made again
+    arrays : the quantities of the table, if a prepared mechanism computed all of them at once
+    table : in memory; None if it was written into files, or is made of ``arrays``
+    damaged : damaged pieces of an earlier run, which were made again
     """
 
     good: int
@@ -197,11 +197,11 @@ class Found:
 
 @dataclass(frozen=True)
 class Sweep:
-    """A sweep: positions of one mechanism, or of many designs of it; what is cut off it is a sweep again.
+    """A sweep: positions of one mechanism, or of many designs of it; a piece of it is a sweep again.
 
-    source : the scene, or the mapping of its file where designs replace numbers in it
+    source : the scene, or the mapping of its file if designs replace numbers in it
     asked, at : as for a `FollowedDesign`
-    some : first and last position (not included) that alone are meant of each design; all where it is None
+    some : first and last position (not included) of each design; None for all
     """
 
     source: Mechanism | Tables
@@ -223,12 +223,12 @@ class Sweep:
 
     @property
     def numbers(self) -> int:
-        """Numbers in the table, about."""
+        """The approximate count of numbers in the table."""
         return self.rows * (2 * len(self.base.watched) + 1)
 
     @property
     def scene(self) -> Mechanism:
-        """The scene itself, with nothing replaced."""
+        """The scene itself, without replaced values."""
         return self.base.scene
 
     @cached_property
@@ -257,17 +257,17 @@ class Sweep:
 
     @property
     def _shape(self) -> tuple[int, int]:
-        """Designs in a piece, and pieces in which the positions of one are."""
+        """The number of designs in a piece, and of pieces for the positions of one design."""
         return max(1, min(BLOCK // self.positions, MOST_DESIGNS)), -(-self.positions // BLOCK)
 
     @property
     def pieces(self) -> int:
-        """How many pieces the sweep is cut into."""
+        """The number of pieces of the sweep."""
         together, along = self._shape
         return -(-len(self.designs) // together) * along
 
     def piece(self, number: int) -> Sweep:
-        """One piece: some designs, or some positions of one."""
+        """A piece: some designs, or some positions of one."""
         together, along = self._shape
         group, block = divmod(number, along)
         some = block * BLOCK, min((block + 1) * BLOCK, self.positions)
@@ -280,7 +280,7 @@ _BASE: list[FollowedDesign] = []
 
 
 def _same(design: FollowedDesign) -> FollowedDesign:
-    """The design, or that which was swept last where it is the same."""
+    """The design, or the last swept design if it is the same."""
     for latest in _BASE:
         if latest == design:
             return latest
@@ -289,8 +289,8 @@ def _same(design: FollowedDesign) -> FollowedDesign:
 
 
 def made(sweep: Sweep) -> tuple[Table, list[Outcome]]:
-    """The table of a piece, and how each of its designs came out there.  What goes wrong with a design is said in its
-    rows; nothing is raised for it."""
+    """The table of a piece, and the outcome of each of its designs.  Failures of a design are told in its rows and not
+    raised."""
     designs, keys = sweep.designs, sweep.designs.keys
     followed = [_followed(sweep, designs[k]) for k in range(len(designs))]
     first, last = sweep.some or (0, sweep.positions)
@@ -306,15 +306,15 @@ def made(sweep: Sweep) -> tuple[Table, list[Outcome]]:
 
 
 def made_text(sweep: Sweep) -> tuple[bytes, list[Outcome]]:
-    """The same with the rows of the table as those of a CSV file."""
+    """The piece with the rows of the table as those of a CSV file."""
     (table, outcomes), out = made(sweep), io.BytesIO()
     table.write_csv(out, head=False)
     return out.getvalue(), outcomes
 
 
 def _together(sweep: Sweep, designs: Sequence[FollowedDesign | tuple[str, str]]) -> dict[int, Arrays]:
-    """What the prepared scene gives for those designs that are the scene itself with other dimensions, in the same
-    assembly: as ``prepare(...).over(...)``, which is that of no others."""
+    """The results of the prepared scene for designs that are the scene with other dimensions in the same assembly, as
+    of ``prepare(...).over(...)``."""
     try:
         ready = sweep.base.engine
     except Unsolvable:
@@ -342,7 +342,7 @@ def _together(sweep: Sweep, designs: Sequence[FollowedDesign | tuple[str, str]])
 def _rows(
     sweep: Sweep, number: int, design: FollowedDesign | tuple[str, str], arrays: Arrays | None, first: int, last: int
 ) -> tuple[Table, Outcome]:
-    """Some positions of a design, and how it came out there."""
+    """Some positions of a design, and its outcome."""
     if isinstance(design, tuple):
         status, why = design
         return sweep.base.blank(first, last, status, why), Outcome(number, status, why, {}, 0)
@@ -360,7 +360,7 @@ def _rows(
 
 
 def _followed(sweep: Sweep, values: tuple[Value, ...]) -> FollowedDesign | tuple[str, str]:
-    """A design whose way is known, or the status and the reason why it has none."""
+    """A design with its path, or the status and the reason why it has none."""
     try:
         if isinstance(sweep.source, Mechanism):
             design = sweep.base
@@ -376,7 +376,7 @@ def _followed(sweep: Sweep, values: tuple[Value, ...]) -> FollowedDesign | tuple
 
 
 def _with_design(table: Table, keys: Sequence[str], number: int, values: Sequence[Value]) -> Table:
-    """The table of a design, with its number and what is replaced in it before it."""
+    """The table of a design, after its number and its replaced values."""
     if not keys:
         return table
     n = len(table)
@@ -400,12 +400,12 @@ def collect(sweep: Sweep, workers: Workers, progress: Progress | None = None) ->
 def write_tables(
     sweep: Sweep, folder: Path, workers: Workers, parquet: bool = False, progress: Progress | None = None
 ) -> Found:
-    """Make what is missing of a sweep and write its tables into a folder; they appear whole or not at all.
+    """Make the missing pieces of a sweep and write its tables into a folder; they appear whole or not at all.
 
     Parameters
     ----------
     parquet : whether table.parquet is written too
-    progress : called with the rows that are done and all rows
+    progress : called with the number of finished rows and of all
 
     Raises
     ------
@@ -462,8 +462,8 @@ def _count(sweep: Sweep, done: int, progress: Progress | None) -> None:
 
 
 def _joined(sweep: Sweep, outcomes: Sequence[Outcome]) -> Found:
-    """What a sweep came to, from what its pieces say in their order: a design is "ok", "partly" so (some positions
-    could not be given), or has the status of the first that could not."""
+    """The result of a sweep from its pieces in order: a design is "ok", "partly" so (some positions failed), or has the
+    status of the first that failed."""
     whole = []
     for design, pieces in groupby(outcomes, lambda outcome: outcome.design):
         parts = list(pieces)
@@ -475,7 +475,7 @@ def _joined(sweep: Sweep, outcomes: Sequence[Outcome]) -> Found:
 
 
 def designs_table(sweep: Sweep, outcomes: Sequence[Outcome]) -> Table:
-    """A row for each design: what was replaced, how it came out, strokes, K, least transmission angles."""
+    """A row for each design: replaced values, outcome, strokes, K, least transmission angles."""
     names = tuple(dict.fromkeys(name for o in outcomes for name in o.cells))
     rows = (
         (o.design + 1, *sweep.designs[o.design], o.status, *(o.cells.get(n) for n in names), o.why) for o in outcomes

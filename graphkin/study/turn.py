@@ -1,5 +1,5 @@
-"""The motion of a whole turn: range of the driver, limit positions, strokes, K, transmission, classes, extremes; in
-which ranges of the driver a mechanism can be assembled, and which of them the motion reaches."""
+"""The motion of a whole turn: range of the driver, limit positions, strokes, K, transmission, classes, extremes; and
+the ranges of the driver in which the mechanism can be assembled, with those that the motion reaches."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Output:
 
     position : its angle or travel over the turn; the extremes are the limit positions, in which the mechanism is at a
         dead point when the output drives it
-    turned : how far it turns over the range of the driver (rad; 0 for a slide, and for a link that comes back)
+    turned : its angle over the range of the driver (rad; 0 for a slide, and for a link that comes back)
     """
 
     position: Traced
@@ -40,7 +40,7 @@ class Output:
 
     @property
     def swings(self) -> bool:
-        """Whether it moves between limit positions: not of a link that stands still, or turns on and on."""
+        """Whether it moves between limit positions: not for a link that rests, or turns on and on."""
         return self.position.constant is None and not self.turned
 
     @property
@@ -66,7 +66,7 @@ class Output:
 
     @property
     def without(self) -> Literal["goes away", "not computed", "does not move", "turns on"]:
-        """What it does, where it has no stroke."""
+        """The phrase for an output without a stroke."""
         if self.unbounded:
             return "goes away"
         if self.not_computed:
@@ -100,7 +100,7 @@ class Least:
 
 @dataclass(frozen=True)
 class BasicLoop:
-    """One basic mechanism, by name as in textbooks.
+    """A basic mechanism, by its textbook name.
 
     Grashof's rule for four-bars, its forms for slider-cranks and their inversions, offsets included (Norton, Design of
     Machinery, ch. 2 and 3; 孙桓 《机械原理》, ch. 8; for the offset Hall, Kinematics and Linkage Design).
@@ -110,7 +110,7 @@ class BasicLoop:
     links : its links, the frame last
     lengths : by their names (m): "crank", "coupler", "rocker", "frame"; "crank", "rod", "offset"; "crank", "centres",
         "offset"
-    grashof : whether some link can turn fully about another; None where the rule does not apply
+    grashof : whether some link can turn fully about another; None if the rule does not apply
     turns : the links that can turn fully about the frame
     """
 
@@ -146,8 +146,7 @@ def _pivot(structure: Structure, link: str) -> str | None:
 
 
 def _mate(structure: Structure, group: Dyad, joint: Pair) -> str:
-    """The link outside a group at one of its outer pins: the frame, or one that is pivoted to the frame, if there are
-    several."""
+    """The link outside a group at one of its outer pins: of several the frame, or a link pivoted to the frame."""
     frame = structure.scene.frame.name
     others = [n for n in structure.hinges.get(joint.point, (joint.b,)) if n not in group.links]
     if frame in others or not others:
@@ -161,8 +160,8 @@ def _between(structure: Structure, link: str, one: str, two: str) -> float:
 
 
 def _on_crank(structure: Structure, group: Dyad) -> tuple[tuple[Pair, str], tuple[Pair, str], str, str] | None:
-    """Of a group that turns about a crank and about the frame: both outer pairs, each with the link of the group there,
-    first that on the crank; the crank and its pivot.  None for another group."""
+    """For a group that turns about a crank and about the frame: both outer pairs, each with the group's link there, the
+    crank's first; the crank and its pivot.  None for another group."""
     frame = structure.scene.frame.name
     moving = group.outer_first, group.first.links[0]
     fixed = group.outer_second, group.second.links[0]
@@ -193,8 +192,8 @@ def _four_bar(structure: Structure, group: Dyad) -> BasicLoop | None:
 
 
 def four_bar_class(crank: float, coupler: float, rocker: float, frame: float) -> tuple[str, bool, tuple[str, ...]]:
-    """Grashof's class of a four-bar, whether it is a Grashof linkage, and which of "crank" and "rocker" (the two links
-    pivoted to the frame) turn fully.
+    """Grashof's class of a four-bar, whether it is a Grashof linkage, and those of "crank" and "rocker" (the two links
+    pivoted to the frame) that turn fully.
 
     >>> four_bar_class(150, 500, 300, 400)
     ('crank-rocker', True, ('crank',))
@@ -319,7 +318,7 @@ _FINDERS: Mapping[DyadKind, Callable[[Structure, Dyad], BasicLoop | None]] = {
 
 @dataclass(frozen=True)
 class TurnStudy:
-    """What is to be said about the motion over a whole turn (SI)."""
+    """The study of the motion over a whole turn (SI)."""
 
     reach: DriverRange
     ranges: tuple[AssemblyRange, ...]
@@ -334,12 +333,12 @@ class TurnStudy:
 
     @property
     def not_searched(self) -> tuple[str, ...]:
-        """Links for whose sake ranges in which the mechanism assembles otherwise are not known."""
+        """Links whose other assemblies, and so further ranges, are unknown."""
         return not_searched(self.reach)
 
     @cached_property
     def flywheel(self) -> FlywheelStudy | Unsolvable | None:
-        """The flywheel that the scene asks for, or why it has none; None where it asks for none."""
+        """The flywheel that the scene asks for, or the reason why it has none; None if it asks for none."""
         if self.scene.loading.flywheel is None:
             return None
         try:
@@ -350,9 +349,9 @@ class TurnStudy:
     def quick_return(self, output: Output) -> tuple[float, float] | None:
         """K of an output, and the crank angle theta (rad) between its limit positions; None where it has none.
 
-        K = (180 + theta) / (180 - theta): the greater of the two ways of the driver between the limit positions of the
-        output, divided by the smaller; 1 or more (coefficient of travel speed variation, 行程速比系数; quick-return or
-        time ratio, Norton, Design of Machinery, ch. 3).
+        K = (180 + theta) / (180 - theta): the greater of the driver's two angles between the limit positions of the
+        output over the smaller; 1 or more (coefficient of travel speed variation, 行程速比系数; quick-return or time
+        ratio, Norton, Design of Machinery, ch. 3).
         """
         low, high = output.low, output.high
         if low is None or high is None or self.reach.turns != 1:
@@ -368,9 +367,9 @@ def study_turn(reach: DriverRange, asked: Sequence[Quantity] = (), everything: b
 
     Parameters
     ----------
-    asked : quantities whose extremes and zeros are wanted besides those of the outputs and their rates; where there are
-        none, those of every link and sliding pair
-    everything : False leaves out all but the limit positions of the outputs, transmission and classes
+    asked : quantities whose extremes and zeros are wanted besides those of the outputs and their rates; without outputs
+        those of every link and sliding pair
+    everything : False gives only the limit positions of the outputs, transmission and classes
     """
     scene = reach.scene
     start = reach.known
@@ -437,8 +436,8 @@ BESIDE = 1e-9
 class AssemblyRange:
     """Values of the first driver (SI) between which the mechanism assembles.
 
-    ``reached`` says whether the motion of the scene's own assembly runs there; ``whole`` that it is a full turn;
-    ``open_low``, ``open_high`` that the motion does not end there but was not followed further.
+    ``reached`` tells whether the motion of the scene's own assembly runs there; ``whole`` whether it is a full turn;
+    ``open_low``, ``open_high`` whether the motion does not end there but was not followed further.
     """
 
     low: float
@@ -450,9 +449,9 @@ class AssemblyRange:
 
 
 def ranges(reach: DriverRange) -> tuple[AssemblyRange, ...]:
-    """The range that the motion reaches, then all others in which some assembly closes, as far as ``not_searched`` does
-    not say otherwise: within a turn of the driver; of a driven slide within four sizes of the mechanism and twice as
-    far as its motion reaches."""
+    """The range that the motion reaches, then all others in which some assembly closes, except those of
+    ``not_searched``: within a turn of the driver; of a driven slide within four sizes of the mechanism and twice as far
+    as its motion reaches."""
     if reach.full:
         return (AssemblyRange(0.0, 2 * np.pi * reach.turns, True, whole=True),)
     low, high = sorted(float(reach.value(np.array(end))) for end in reach.ends)
@@ -465,9 +464,9 @@ def ranges(reach: DriverRange) -> tuple[AssemblyRange, ...]:
 
 
 def not_searched(reach: DriverRange) -> tuple[str, ...]:
-    """Links for whose sake ranges in which the mechanism assembles otherwise are not known: of larger groups, whose
-    assemblies are known only along their motion, of groups behind what rolls, which stands elsewhere after each turn,
-    or of too many groups to try all their assemblies."""
+    """Links whose other assemblies, and so further ranges, are unknown: of larger groups, whose assemblies are known
+    only along their motion, of groups after rolling links, whose place differs after each turn, or of too many groups
+    to try all their assemblies."""
     if reach.full:
         return ()
     elements, larger = reach.structure.elements, [e.links for e in reach.structure.larger_groups]
@@ -497,6 +496,6 @@ def _elsewhere(reach: DriverRange, dyads: list[int], own: AssemblyRange) -> list
 
 
 def _within(low: float, high: float) -> AssemblyRange:
-    """The same range with its middle in (-pi, pi]."""
+    """The range with its middle in (-pi, pi]."""
     shift = 2 * np.pi * np.ceil(((low + high) / 2 - np.pi - 1e-9) / (2 * np.pi))
     return AssemblyRange(float(low - shift), float(high - shift), False)

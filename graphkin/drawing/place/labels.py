@@ -1,8 +1,8 @@
-"""What a label is, the places around its mark where it could stand, ring by ring, what each costs in looks, which of
-them the drawing leaves free, and whether labels at two of them are in each other's way.
+"""Labels: the possible places around a mark, ring by ring, the cost of each in looks, the places that the drawing
+leaves free, and the conflicts of labels at two places.
 
-All places of all labels are made and judged together as arrays: upright boxes tell what is near, the separating axes of
-box and segment what touches.
+All places of all labels are made and judged together as arrays: upright boxes find neighbours, the separating axes of
+box and segment contacts.
 """
 
 from __future__ import annotations
@@ -69,18 +69,18 @@ LED_FROM_POINT, LED_FROM_VECTOR = _grid((0.5,), FURTHER, range(48)), _grid(FEET,
 
 @dataclass(frozen=True)
 class Label:
-    """A text that wants a place.
+    """A text that needs a place.
 
     Parameters
     ----------
-    text : what to write; its ``at`` is not used
-    mark : a point, or the two ends of a segment, that it names
-    toward : directions (rad, counter-clockwise) from a point in the order of liking; for a segment the side whose
-        normal is nearest to the first of them is liked
-    rank : one of rank 0 must stand, others are given up where there is no room, the highest rank first
-    key : what may stand in its place in a crowd, the text being listed elsewhere
-    between : the letters of the ends of its vector, by which a list can tell it in a crowd where not even the key has
-        room; in the notation of symbols, empty where the ends have none
+    text : the text; its ``at`` is not used
+    mark : the named point, or the two ends of the named segment
+    toward : directions (rad, counter-clockwise) from a point in order of preference; for a segment the side with the
+        normal nearest to the first is preferred
+    rank : a label of rank 0 must be placed, others are given up without room, the highest rank first
+    key : the text that may replace it in a crowd, with the label listed elsewhere
+    between : the letters of its vector's ends, by which a list names it in a crowd without room for the key; in the
+        notation of symbols, empty for ends without letters
     """
 
     text: Text
@@ -104,12 +104,12 @@ class Label:
 class Places(NamedTuple):
     """Places of boxes, as arrays whose last dimension they are.
 
-    forms : x and y of middles, half sizes, feet on the marks, tips of leaders (the feet where there is none), shape
+    forms : x and y of middles, half sizes, feet on the marks, tips of leaders (the feet without a leader), shape
         (2, 4, places) (mm)
     costs : in looks (mm)
     gaps : distances from the marks (mm)
-    bad : whether a dashed line runs through the box, or its leader across what leaders are to go round
-    owners : the requests for which they are
+    bad : whether a dashed line runs through the box, or its leader crosses strokes that leaders should avoid
+    owners : their requests
     """
 
     forms: Floats
@@ -134,10 +134,10 @@ LEADER_SPACE = 0.25  # mm between a leader and the box of any other label
 
 
 def meeting(ones: Floats, others: Floats, space: tuple[float, float]) -> Flags:
-    """Which of some boxes with leaders, in rows, meet which others, in columns: they come nearer than a space (mm,
-    across and down), or the leader of one runs over the box of the other, or nearly, or crosses its leader.
+    """Whether boxes with leaders, in rows, meet others, in columns: they come nearer than a space (mm, across and
+    down), or the leader of one runs over the box of the other, or nearly, or crosses its leader.
 
-    Both come as the forms of `Places`; one of nan is nowhere, and meets none.
+    Both are forms of `Places`; a form of nan is nowhere, and meets none.
     """
     room = np.array(space)[:, None]
     met = overlapping(sides(others[:, 0], others[:, 1]), sides(ones[:, 0], ones[:, 1] + room))
@@ -162,7 +162,7 @@ def meeting(ones: Floats, others: Floats, space: tuple[float, float]) -> Flags:
 
 
 def _with_leader(forms: Floats) -> Indices:
-    """Which of some places have a leader."""
+    """Whether places have a leader."""
     return np.flatnonzero((forms[0, 2] != forms[0, 3]) | (forms[1, 2] != forms[1, 3]))
 
 
@@ -182,9 +182,9 @@ NEAR_END = 2.0
 
 
 class LabelPanel:
-    """A panel with what is drawn on it and all marks, which knows the places of labels, and of keys in their stead.
+    """A panel with its strokes and marks, and the places of labels and of their keys.
 
-    A request is the number of a label, or one behind those for a label's key.
+    A request is the number of a label, or a number after these for a label's key.
     """
 
     def __init__(self, labels: Sequence[Label], panel: Box, obstacles: Obstacles, marks: Sequence[Mark]) -> None:
@@ -214,7 +214,7 @@ class LabelPanel:
             self._find(range(len(labels)), AROUND_POINT, AROUND_VECTOR)
 
     def _ask(self) -> None:
-        """Take up the requests of all texts that there are."""
+        """Add the requests of all texts."""
         labels = [*self.labels, *(self.labels[i] for i in self.keys)]
         self.boxes = [box_about(text.runs) for text in self.texts]
         self.own = np.array([self.index[ends(label.mark)] for label in labels], dtype=int)
@@ -226,7 +226,7 @@ class LabelPanel:
         self.ways, self.disliked = in_rows(ways), _disliked([label.toward for label in labels], ways)
 
     def ask_for_keys(self) -> Mapping[int, int]:
-        """Let the keys of all labels that have one want places too; returns their requests."""
+        """Add requests for the keys of all labels that have one; returns them."""
         some = [i for i, label in enumerate(self.labels) if label.key is not None]
         self.keys = {i: len(self.labels) + k for k, i in enumerate(some)}
         for i in some:
@@ -239,12 +239,12 @@ class LabelPanel:
         return self.keys
 
     def look_further(self, some: Sequence[int]) -> None:
-        """Look for more places of some requests, with leaders round what is in their way."""
+        """Find more places for some requests, with leaders around obstacles."""
         if some:
             self._find(some, LED_FROM_POINT, LED_FROM_VECTOR)
 
     def _find(self, some: Sequence[int], around_points: Floats, around_vectors: Floats) -> None:
-        """Add those of some places that have no fault to those that are known of some requests, the cheapest first."""
+        """Add the faultless ones of some places to the known places of some requests, the cheapest first."""
         judged, _ = self._judged(self._around(some, around_points, around_vectors), keep=False)
         known = [self.found[i] for i in some if i in self.found]
         found = Places.stacked((*known, judged)) if known else judged
@@ -254,9 +254,9 @@ class LabelPanel:
             self.found[i] = found.picked(np.arange(first, last))
 
     def _around(self, some: Sequence[int], around_points: Floats, around_vectors: Floats) -> Places:
-        """Places of some requests round their marks, without leaders, nothing in the way of them.
+        """Places of some requests around their marks, without leaders and obstacles.
 
-        The corner or the edge of a box that looks at its foot slides with the way; one beside a vector touches a line
+        The corner or edge of a box that faces its foot slides with the direction; a box beside a vector touches a line
         along it.
         """
         requests = np.array(some, dtype=np.intp)
@@ -276,13 +276,13 @@ class LabelPanel:
         return Places(forms, costs, gaps, np.zeros(len(gaps), dtype=bool), owners)
 
     def everywhere(self, request: int) -> Places:
-        """All places for one request, each fault of them at its price."""
+        """All places for a request, each fault at its cost."""
         places, faults = self._judged(self._around([request], AROUND_POINT, AROUND_VECTOR), keep=True)
         return places._replace(costs=places.costs + FORBIDDEN * faults)
 
     def _judged(self, places: Places, keep: bool) -> tuple[Places, Indices]:
-        """Places at their costs with their leaders, and how many faults they have; those with faults only where they
-        are to be kept."""
+        """Places with costs and leaders, and the number of their faults; those with faults only if they are to be
+        kept."""
         faults = OUTSIDE * self._outside(places).astype(int)
         if not keep:
             places = places.picked(np.flatnonzero(faults == 0))
@@ -305,7 +305,7 @@ class LabelPanel:
         return places, faults
 
     def _lead(self, places: Places, led: Flags) -> None:
-        """Draw the leaders of some places, which then cost more."""
+        """Add the leaders of some places, with their cost."""
         some = led.nonzero()[0]
         middles, halves, feet, _ = places.forms.take(some, axis=-1).swapaxes(0, 1)
         owners = self.own[places.owners[some]]
@@ -319,7 +319,7 @@ class LabelPanel:
         places.bad[some] |= heaviest > 1.0
 
     def _charge_beyond(self, places: Places, led: Flags) -> None:
-        """Let places of points cost more that have no leader though a vector runs between."""
+        """Charge places of points without a leader beyond a vector."""
         start, end = self.vectors
         some = (~led & (places.gaps > BESIDE) & self.mark_is_point[self.own[places.owners]]).nonzero()[0]
         middles, halves, feet, _ = places.forms.take(some, axis=-1).swapaxes(0, 1)
@@ -336,7 +336,7 @@ class LabelPanel:
         return beyond
 
     def _touched(self, middles: Floats, halves: Floats, keep: bool) -> tuple[Indices, Indices]:
-        """Pairs of a box and an obstacle that it meets; obstacles count areas, solid, dashed in turn."""
+        """Pairs of a box and a touched obstacle; obstacles count areas, solid, dashed in turn."""
         boxes, along = sides(middles, halves), self.end - self.start
         found = [*near(boxes, [side[: self.areas] for side in self.reach])]
         others = np.arange(len(boxes[0]))
@@ -351,7 +351,7 @@ class LabelPanel:
         return joined(found)
 
     def _needs_leader(self, places: Places) -> Flags:
-        """Which places need a leader: far ones, and those about as near to another mark of the same kind as to their
+        """Whether places need a leader: far ones, and those about as near to another mark of the same kind as to their
         own."""
         led: Flags = places.gaps > LEADER_FROM
         close = (~led).nonzero()[0]
@@ -366,8 +366,8 @@ class LabelPanel:
         return led
 
     def _crossed(self, feet: Floats, start: Floats, to: Floats) -> tuple[Floats, Floats]:
-        """What each leader runs over, by weights, and the weightiest of it: areas are joints and arrowheads, or
-        writing."""
+        """The weight of the strokes that each leader crosses, and the greatest single weight: areas are joints and
+        arrowheads, or writing."""
         whole, heaviest = np.zeros((2, feet.shape[1]))
         for which, what in near(sides_around(start, to), self.reach):
             a, b = start.take(which, axis=1), to.take(which, axis=1)
@@ -388,7 +388,8 @@ class LabelPanel:
 
 
 def ends(mark: Mark) -> Segment:
-    """Ends of a mark, a point being both, to a thousandth of a millimetre, so that coincident marks are equal."""
+    """The ends of a mark, for a point both the same, to a thousandth of a millimetre, so that coincident marks are
+    equal."""
     start, end = mark if isinstance(mark, tuple) else (mark, mark)
     return complex(round(start.real, 3), round(start.imag, 3)), complex(round(end.real, 3), round(end.imag, 3))
 
@@ -400,8 +401,8 @@ def _ends(segments: Sequence[Segment]) -> tuple[Floats, Floats]:
 
 
 def _disliked(toward: Sequence[tuple[float, ...]], ways: Points) -> Floats:
-    """What each way from a mark (columns) costs for the directions that are liked of it (rows): of a point from all of
-    them, of a vector for the side that the last two of the ways are on."""
+    """The cost of each direction from a mark (columns) for its preferred directions (rows): of a point from all of
+    them, of a vector for the side of the last two directions."""
     first = np.array([page_direction((liked or (LIKED,))[0]) for liked in toward]).reshape(-1, 1)
     costs: Floats = 0.4 * (1.0 - (ways * first.conj()).real)
     costs[:, : len(WAYS)] = 0.5 * _apart((LIKED,), WAYS) / np.pi
@@ -415,12 +416,12 @@ def _disliked(toward: Sequence[tuple[float, ...]], ways: Points) -> Floats:
 
 
 def _apart(liked: Sequence[float], ways: Points) -> Floats:
-    """Angles (rad) of ways (columns) with directions (rows)."""
+    """Angles (rad) between directions in columns and in rows."""
     directions = np.array([page_direction(angle) for angle in liked])
     apart: Floats = np.abs(np.angle(ways * directions.conj()[:, None]))
     return apart
 
 
 def _gap(off: Floats, half: Floats) -> Floats:
-    """From points to the nearest of boxes that stand so far off."""
+    """The vectors from points to the nearest places of boxes at these offsets."""
     return off - np.clip(off, -half, half)

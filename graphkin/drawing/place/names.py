@@ -1,7 +1,7 @@
 """Names in their places on a piece.
 
-In a crowd, where a name could only stand with its leader across vectors, its key stands there, as the number of the
-step that drew the vector, and the name behind the key in a free place of the panel.
+In a crowd, where a name has room only with its leader across vectors, its key stands there, the number of the vector's
+step, and the name follows the key in a free place of the panel.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ AID = 3  # the rank of what leads on only
 
 
 def with_labels(piece: Piece, panel: Box, fences: Sequence[Box] = ()) -> Piece:
-    """The piece with its labels in their places, in the layer "labels"; some that find none are given up.
+    """The piece with its labels in their places, in the layer "labels"; some without a place are given up.
 
     No label leaves the panel or enters a fence.
     """
@@ -34,7 +34,7 @@ def with_labels(piece: Piece, panel: Box, fences: Sequence[Box] = ()) -> Piece:
 
 
 def with_crowd(piece: Piece, panel: Box, fences: Sequence[Box] = ()) -> tuple[Piece, tuple[Label, ...]]:
-    """As `with_labels`, with those of the labels that stand badly."""
+    """The piece as of `with_labels`, and the labels with faults."""
     labels = [label for label in piece.labels if label.rank < _most(len(piece.labels))]
     vectors = obstacles_of(tuple(thing for layer in POLYGONS for thing in piece.layers.get(layer, ()))).thick
     fenced = Obstacles(areas=tuple(fences), writing=tuple(fences), vectors=vectors)
@@ -55,7 +55,7 @@ def without(piece: Piece, ids: Collection[str]) -> Piece:
 
 
 def _most(count: int) -> int:
-    """The rank from which labels are left out at once, because there are so many that none would be read."""
+    """The rank from which labels are left out at once, because they are too many to be read."""
     return 5 if count < 45 else 4 if count < 60 else 2
 
 
@@ -63,7 +63,7 @@ def named(
     labels: Sequence[Label], panel: Box, obstacles: Obstacles, marks: Sequence[Mark]
 ) -> tuple[tuple[Primitive, ...], tuple[Label, ...]]:
     """Labels in their places with their leaders, parameters as for `labels.place`; those of a crowd listed by their
-    keys; and those that stand badly nevertheless."""
+    keys; and the labels with remaining faults."""
     placement = Placement(labels, panel, obstacles, marks)
     placed, crowded = placement.placed, placement.crowded
     listed: tuple[Text, ...] = ()
@@ -82,7 +82,7 @@ def named(
 def _listed(
     placement: Placement, panel: Box, obstacles: Obstacles
 ) -> tuple[tuple[Placed, ...], tuple[Text, ...], list[int]] | None:
-    """Labels in a crowd with keys for some, the list of these, and those that stand badly nevertheless; None where the
+    """Labels in a crowd with keys for some, the list of these, and the labels with remaining faults; None where the
     list has no room."""
     placement.shorten()
     placed = placement.placed
@@ -96,15 +96,15 @@ def _listed(
 
 
 def _standing(placed: Iterable[Placed]) -> Obstacles:
-    """Labels that stand, as obstacles for others."""
+    """Placed labels as obstacles for others."""
     boxes = tuple(one.box for one in placed)
     leaders = tuple((one.leader.start, one.leader.end) for one in placed if one.leader is not None)
     return Obstacles(solid=leaders, areas=boxes, writing=boxes)
 
 
 def _entry(name: Text, key: Text | None, between: str) -> Text:
-    """A key with what it stands for, and the letters of its ends where neither stands at its vector; only the name
-    where there is no key, or the name begins with it."""
+    """A key with its name, and the letters of its ends if neither stands at its vector; only the name without a key, or
+    if the name begins with it."""
     runs = name.runs
     if key is not None and not name.string.startswith(key.string.rstrip("… ")):
         runs = _behind(key.runs, name.runs, BEHIND)
@@ -119,8 +119,8 @@ def _behind(first: tuple[Run, ...], second: tuple[Run, ...], gap: float) -> tupl
 
 
 def _list(entries: Sequence[Text], panel: Box, around: Obstacles) -> tuple[Text, ...]:
-    """The entries in columns in a free place of the panel, or one after the other in several where none holds all of
-    them; empty where there is no room."""
+    """The entries in columns in a free place of the panel, or in order in several if none holds all of them; empty
+    where there is no room."""
     for lines in range(len(entries), 0, -1):
         found = _in_columns(entries, lines, panel, around, CLEAR)
         if found:
@@ -137,7 +137,7 @@ def _list(entries: Sequence[Text], panel: Box, around: Obstacles) -> tuple[Text,
 def _in_columns(
     entries: Sequence[Text], lines: int, panel: Box, around: Obstacles, clear: float
 ) -> tuple[Text, ...]:
-    """Entries in columns of so many lines at most in one free place; empty where there is none."""
+    """Entries in columns of at most ``lines`` lines in one free place; empty without such a place."""
     boxes = [text_box(entry) for entry in entries]
     columns = [range(k, min(k + lines, len(entries))) for k in range(0, len(entries), lines)]
     widths = [max(boxes[i].right for i in column) for column in columns]

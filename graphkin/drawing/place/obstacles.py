@@ -1,6 +1,6 @@
-"""What stands in the way on a figure: solid lines, dashed lines, and areas that nothing may cover; whether lines and
-upright boxes meet, for many at once; and what takes the first free of its places: numbers of steps, insets, lists of
-names, arcs of rates.
+"""Obstacles on a figure: solid lines, dashed lines, and areas that no label may cover; the intersection of many lines
+and upright boxes at once; and the search for a first free place: for numbers of steps, insets, lists of names, arcs of
+rates.
 
 Many boxes are arrays of complex numbers, by their middle and half size; many segments have their two ends in the last
 dimension.
@@ -37,17 +37,17 @@ def in_rows(points: Points) -> Floats:
 
 
 def sides(middles: Floats, halves: Floats) -> Sides:
-    """Of boxes of these middles and half sizes, in rows."""
+    """The sides of boxes of these middles and half sizes, in rows."""
     return *(middles - halves), *(middles + halves)
 
 
 def sides_around(start: Floats, end: Floats) -> Sides:
-    """Of the boxes around segments, whose ends are in rows."""
+    """The sides of the boxes around segments with ends in rows."""
     return *np.minimum(start, end), *np.maximum(start, end)
 
 
 def overlapping(boxes: Sides, others: Sides) -> Flags:
-    """Which upright boxes (columns) meet which others (rows); a box of nan meets none."""
+    """Whether upright boxes (columns) meet others (rows); a box of nan meets none."""
     left, top, right, bottom = (side[:, None] for side in others)  # the many lie side by side in memory
     meeting: Flags = boxes[0] <= right
     meeting &= boxes[2] >= left
@@ -79,7 +79,7 @@ def joined(lots: Iterable[tuple[Indices, Indices]]) -> tuple[Indices, Indices]:
 
 
 def separated(off: Floats, half: Floats, along: Floats) -> Flags:
-    """Whether the normal of a segment separates it from a box; the axes of the box are the caller's to check.
+    """Whether the normal of a segment separates it from a box; the caller checks the axes of the box.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def separated(off: Floats, half: Floats, along: Floats) -> Flags:
 
 
 def meets(segments: Points, centres: Points, half: Points) -> tuple[Indices, Indices]:
-    """Which segments, of shape (n, 2), meet which boxes, by their indices."""
+    """The pairs of segments, of shape (n, 2), and boxes that meet, by their indices."""
     (start, end), middles, halves = in_rows(segments.T).swapaxes(0, 1), in_rows(centres), in_rows(half)
     which, what = joined(near(sides_around(start, end), sides(middles, halves)))
     off, along = middles[:, what] - start[:, which], (end - start)[:, which]
@@ -108,7 +108,7 @@ def crosses(a: Floats, b: Floats, c: Floats, d: Floats) -> Flags:
 
 
 def touching(a: Floats, b: Floats, c: Floats, d: Floats) -> Indices:
-    """Which lines from a to b cross lines from c to d between their ends, or of which one ends on the other."""
+    """Whether lines from a to b cross lines from c to d between their ends, or one ends on the other."""
     some = (_off(a, b, c, d) <= ON_LINE).nonzero()[0]  # few: only these are looked at from the other side
     both = _off(*(ends.take(some, axis=1) for ends in (c, d, a, b))) <= ON_LINE
     touched: Indices = some[both]
@@ -125,9 +125,9 @@ def _off(a: Floats, b: Floats, c: Floats, d: Floats) -> Floats:
 
 @dataclass(frozen=True)
 class Obstacles:
-    """Segments, and areas as upright boxes, on the page in mm; ``writing`` are those of the areas that leaders may not
-    run over either, ``thick`` those of the solid segments that they are to go round: vectors and links, ``vectors``
-    those of these beyond which no letter of a point is to stand without a leader."""
+    """Segments, and areas as upright boxes, on the page in mm; ``writing`` are areas that leaders may not cross either,
+    ``thick`` solid segments that they should avoid: vectors and links, ``vectors`` those beyond which no letter of a
+    point may stand without a leader."""
 
     solid: tuple[Segment, ...] = ()
     dashed: tuple[Segment, ...] = ()
@@ -150,15 +150,15 @@ CLEAR = 2.0  # mm between an inset and what is drawn
 def first_free(
     choices: Sequence[Points], halves: Sequence[complex], around: Obstacles, clear: float, panel: Box | None = None
 ) -> list[int | None]:
-    """For some boxes, one after the other, the index of the first of its places where it stands clear of everything.
+    """For some boxes in order the index of the first clear place of each.
 
     Parameters
     ----------
-    choices : middles (mm) of the places of each box in the order of liking, nan for none
+    choices : middles (mm) of the places of each box in order of preference, nan for none
     halves : half the size of each box (mm, across and down)
-    around : what is drawn and written
-    clear : mm around a box that are free of all that, and of the boxes before it
-    panel : no box comes nearer to its edge than that either
+    around : all strokes and texts
+    clear : mm around a box without strokes, texts, and earlier boxes
+    panel : no box comes nearer to its edge either
     """
     sizes = [len(places) for places in choices]
     middles = np.concatenate(choices)
@@ -181,7 +181,7 @@ def first_free(
 
 
 def _covered(middles: Points, reach: Points, around: Obstacles) -> Flags:
-    """On which boxes of these middles and half sizes anything stands."""
+    """Whether boxes of these middles and half sizes are covered."""
     lines = np.array((*around.solid, *around.dashed), dtype=complex).reshape(-1, 2)
     covered: Flags = np.zeros(len(middles), dtype=bool)
     covered[meets(lines, middles, reach)[1]] = True
@@ -195,8 +195,7 @@ def _covered(middles: Points, reach: Points, around: Obstacles) -> Flags:
 def free_boxes(
     count: int, size: tuple[float, float], panel: Box, obstacles: Obstacles, clear: float = CLEAR
 ) -> list[Box]:
-    """Up to ``count`` boxes of a size (mm) along the edges of a panel, ``clear`` (mm) of what is drawn; corners
-    first."""
+    """Up to ``count`` boxes of a size (mm) along the edges of a panel, ``clear`` (mm) of strokes; corners first."""
     boxes = _places(size, panel)
     middles = np.array([box.centre for box in boxes], dtype=complex)
     found = first_free([middles] * count, [complex(*size) / 2] * count, obstacles, clear) if count else []
@@ -224,15 +223,15 @@ _SPREAD = np.linspace(-HALF_SPAN, HALF_SPAN, 5)
 
 
 class RateArrowClearance:
-    """Segments (mm) that arcs keep clear of; arcs that were given a place are added to them."""
+    """Segments (mm) from which arcs keep clear; placed arcs are added to them."""
 
     def __init__(self, segments: Sequence[tuple[complex, complex]]) -> None:
         self.segments = list(segments)
 
     def arc(self, centres: Sequence[complex], radius: float) -> tuple[complex, float, float]:
-        """Centre, radius (mm) and middle direction (rad) of the arc about one of some centres that is clearest.
+        """Centre, radius (mm) and middle direction (rad) of the clearest arc about one of some centres.
 
-        ``radius`` is the least radius; centres are in the order of liking.
+        ``radius`` is the least radius; centres are in order of preference.
         """
         ends = np.array(self.segments, dtype=complex).reshape(-1, 2)
         reach = radius + ARC_RADII[-1] - ARC_RADII[0] + LABEL_AT + CLEAR_LABEL

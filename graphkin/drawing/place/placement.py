@@ -1,9 +1,9 @@
-"""Where labels stand: clear of each other and of the drawing, inside their panel, nearer to their own mark than to any
-other of its kind, or tied to it by a leader.
+"""The placement of labels: clear of each other and of the drawing, inside their panel, nearer to their own mark than to
+any other of its kind, or tied to it by a leader.
 
-Each label has places around its mark that the drawing leaves free, each at a cost.  First labels take the cheapest that
-is left, the most constrained first; then one move is made until none gains: a label goes where it and those in its way
-cost less together, these going to places that are free, or nowhere (greedy point labelling with repair, after
+Each label has places around its mark that the drawing leaves free, each at a cost.  First labels take the cheapest free
+place, the most constrained label first; then moves are made until none gains: a label goes to a place where it and the
+labels in its way cost less together, these going to free places, or nowhere (greedy point labelling with repair, after
 Christensen, Marks and Shieber, An empirical study of algorithms for point-feature label placement, ACM Trans. Graphics
 14, 1995).
 """
@@ -46,9 +46,9 @@ NO_FORM = (math.nan, 0.0, 0.0, 0.0), (math.nan, 0.0, 0.0, 0.0)
 
 @dataclass(frozen=True)
 class Placed:
-    """A label at its place: the text, its box, and the leader that ties it to its mark where it needs one.
+    """A label at its place: the text, its box, and its leader to the mark if it needs one.
 
-    ``clear`` is False where no place without a fault was found; ``keyed`` says that its key stands for it.
+    ``clear`` is False if no faultless place was found; ``keyed`` tells that its key replaces it.
     """
 
     text: Text
@@ -61,21 +61,21 @@ class Placed:
 def place(
     labels: Sequence[Label], panel: Box, obstacles: Obstacles = NOTHING, marks: Sequence[Mark] = ()
 ) -> tuple[Placed, ...]:
-    """Give labels their places, in their order, those left out that are given up; the same input gives the same places.
+    """Give labels their places, in their order, without those given up; the same input gives the same places.
 
     Parameters
     ----------
     labels : in the order of importance among equals
     panel : no label leaves it
-    obstacles : what is drawn already
-    marks : further points and segments that a reader could take a label for, besides those of the labels
+    obstacles : the strokes already drawn
+    marks : further points and segments for which a label could be mistaken, besides those of the labels
     """
     return Placement(labels, panel, obstacles, marks).placed
 
 
 class Stand(NamedTuple):
-    """How a label stands: by which request (``TOLD`` in a list, ``NOWHERE``), at what cost (mm), x and y (mm) of its
-    middle, half size, foot and tip of its leader, and whether it stands badly."""
+    """The place of a label: its request (``TOLD`` in a list, ``NOWHERE``), its cost (mm), x and y (mm) of its middle,
+    half size, foot and tip of its leader, and whether it has a fault."""
 
     request: int
     cost: float
@@ -84,12 +84,12 @@ class Stand(NamedTuple):
 
     @classmethod
     def at(cls, places: Places, k: int | np.intp) -> Stand:
-        """At one of some places."""
+        """The stand at one of some places."""
         return cls(int(places.owners[k]), float(places.costs[k]), places.forms[:, :, k].tolist(), bool(places.bad[k]))
 
 
 class Placement:
-    """Which label stands where; parameters as for `place`."""
+    """The labels' places; parameters as for `place`."""
 
     def __init__(
         self, labels: Sequence[Label], panel: Box, obstacles: Obstacles = NOTHING, marks: Sequence[Mark] = ()
@@ -115,12 +115,12 @@ class Placement:
 
     @property
     def _wanting(self) -> list[int]:
-        """The labels that stand badly, or nowhere."""
+        """The labels with a fault, or without a place."""
         return [i for i, one in enumerate(self.stands) if one.bad or one.request == NOWHERE]
 
     @property
     def told(self) -> list[int]:
-        """The labels that a list tells by their ends."""
+        """The labels that a list names by their ends."""
         return [i for i, stand in enumerate(self.stands) if stand.request == TOLD]
 
     @property
@@ -139,12 +139,12 @@ class Placement:
 
     @property
     def crowded(self) -> list[int]:
-        """The labels that stand badly, or nowhere though they have keys and may not be missing."""
+        """The labels with a fault, or without a place though they have keys and must be placed."""
         keyed = [label.key is not None and label.rank < DISPENSABLE for label in self.labels]
         return [i for i in self._wanting if self.stands[i].request != NOWHERE or keyed[i]]
 
     def shorten(self) -> None:
-        """Put keys in place of names that stand badly and of those in their way; else have them told by their ends."""
+        """Replace names with faults, and names in their way, by keys; else list them by their ends."""
         crowded, keys = self.crowded, self.choices.ask_for_keys()
         self.choices.look_further([keys[i] for i in crowded if i in keys])
         self._list_places()
@@ -153,7 +153,7 @@ class Placement:
         self._settle(self.crowded)
 
     def _settle(self, some: Iterable[int]) -> None:
-        """Move some labels, the dearest first, as long as that gains anything."""
+        """Move some labels, the costliest first, while any move gains."""
         waiting = set(some)
         for _ in range(ROUNDS):
             for i in sorted(waiting, key=lambda i: (-self.stands[i].cost, i)):
@@ -167,8 +167,8 @@ class Placement:
         self.forms[:, :, i] = stand.form
 
     def _list_places(self) -> None:
-        """List the places of all labels anew, with their numbers by label: those by its name and by its key, which
-        costs more, the cheapest first."""
+        """List the places of all labels again, with their numbers by label: for its name and for its key, which costs
+        more, the cheapest first."""
         lots = [self.choices.found[i] for i in range(len(self.labels))]
         if not lots:
             return
@@ -181,13 +181,13 @@ class Placement:
         self.places = Places.stacked(lots)
 
     def _others_in(self, i: int, some: Indices) -> Flags:
-        """Which labels (rows) but one stand in some places (columns)."""
+        """Whether labels (rows), except one, stand in some places (columns)."""
         others = meeting(self.forms, self.places.picked(some).forms, SPACE)
         others[i] = False
         return others
 
     def _stand(self, order: Sequence[int]) -> None:
-        """Have labels take, one after the other, the cheapest place in which no other stands."""
+        """Let labels take, in order, the cheapest free place."""
         if not order:
             return
         lots = [self.numbers[i][:LOT] for i in order]
@@ -205,7 +205,7 @@ class Placement:
             first = last
 
     def _stand_further(self, i: int) -> bool:
-        """Have a label take the cheapest of its places in which no other stands; whether there is one."""
+        """Let a label take its cheapest free place; whether there is one."""
         places = self.numbers[i]
         free = np.flatnonzero(~self._others_in(i, places).any(axis=0))
         if free.size:
@@ -213,7 +213,7 @@ class Placement:
         return bool(free.size)
 
     def _improve(self, i: int) -> bool:
-        """Move a label, and a few in its way, to where they cost less together; whether there is such a place."""
+        """Move a label, and a few in its way, to places of lower total cost; whether there are such places."""
         here, without = self.stands[i], self._without(i)
         least = min(here.cost - GAIN, without.cost)
         costs = self.places.costs[self.numbers[i]]
@@ -250,8 +250,8 @@ class Placement:
         return True
 
     def _push(self, i: int) -> None:
-        """Put a label where it costs little, whoever stands there, and let these find places; back where that costs
-        more."""
+        """Put a label in a cheap place, occupied or not, and let the displaced labels find places; undo it if that
+        costs more."""
         before = list(self.stands)
         places = self.numbers[i][:PUSHED]
         if places.size:
@@ -268,12 +268,12 @@ class Placement:
                     self._take(j, stand)
 
     def _without(self, i: int) -> Stand:
-        """How a label stands that has no place: told in a list by the ends of its vector, or nowhere."""
+        """The stand of a label without a place: in a list by the ends of its vector, or nowhere."""
         telling = self.telling and self.labels[i].between and self.lacking[i].cost > TOLD_COST
         return Stand(TOLD, TOLD_COST) if telling else self.lacking[i]
 
     def _offers(self, i: int, count: int) -> tuple[Indices, list[list[int]]]:
-        """Those of so many places of a label, up to one in which nobody stands, in which few stand, and these."""
+        """The first places of a label, up to a free one, in which few labels stand, and these labels."""
         places = self.numbers[i][:count]
         met = self._others_in(i, places)
         crowd = met.sum(axis=0)
@@ -285,10 +285,10 @@ class Placement:
     def _room(
         self, i: int, some: Sequence[int], offers: Indices, least: float
     ) -> tuple[Indices, dict[int, slice], Flags]:
-        """Places of some labels that none but a label to be moved is in the way of, the cheapest first; which of them
-        are those of each label; and which of them (columns) each of the places offered (rows) leaves clear.
+        """Places of some labels that only labels to be moved obstruct, the cheapest first; those of each label; and
+        whether each offered place (rows) leaves them (columns) clear.
 
-        Dearer ones are left out than could be paid for by what the labels save, if all are to cost less than ``least``.
+        Places too costly for the labels' savings are left out, if all are to cost less than ``least``.
         """
         if not some:
             return offers[:0], {}, np.empty((len(offers), 0), dtype=bool)
@@ -312,7 +312,7 @@ class Placement:
         return places[free], spans, ~offered[:, free]
 
     def _insist(self, i: int) -> None:
-        """Put a label where it does least harm, and give up those in its way that may be given up."""
+        """Put a label in its least harmful place, and give up labels in its way that may be given up."""
         places = self.choices.everywhere(i)
         met = meeting(self.forms, places.forms, (0.0, 0.0))
         worth = np.array([min(FORBIDDEN, stand.cost) for stand in self.lacking])
