@@ -455,11 +455,11 @@ def with_bars(reading: Reading) -> Reading:
         link, _, guide = ref.partition(".")
         return (link, guide) if (link, guide) in arcs else None
 
-    def note(key: Key, bar: str, point: str, block: bool) -> None:
+    def note(key: Key, bar: str, point: str, of: str = "") -> None:
         first, last = arcs[key].ends or (None, None)
         ends = None if first is None or last is None else (math.radians(first), math.radians(last))
         radius = (arcs[key].r or 0.0) * reading.metres
-        slots.append(CircularSlot(key[1], key[0], centres[key], radius, bar, point, block, ends))
+        slots.append(CircularSlot(key[1], key[0], centres[key], radius, bar, point, not of, ends, of))
 
     def without_arcs(name: str, body: AnyBody) -> AnyBody:
         return replace(body, guides={key: guide for key, guide in body.guides.items() if (name, key) not in arcs})
@@ -483,7 +483,7 @@ def with_bars(reading: Reading) -> Reading:
                 bar = _free(slot[1], taken)
                 taken.add(bar)
                 bars[bar] = Link(points=[centres[slot], point], length=arcs[slot].r or 0.0)
-                note(slot, bar, point, block=False)
+                note(slot, bar, point, pin.of)
 
     def on_bars(name: str, link: Link) -> Link:
         # of the circular slots that it runs in a link has the centres, as points in its own axes
@@ -503,7 +503,7 @@ def with_bars(reading: Reading) -> Reading:
                 # along the guide's sense, turned back by angle_on, lies the own x axis: the centre is to the left of it
                 to_centre = 1j * direction(-angle) * (arcs[key].r or 0.0)
                 at[centres[key]] = [to_centre.real, to_centre.imag]
-                note(key, name, link.points[0], block=True)
+                note(key, name, link.points[0])
         return without_arcs(name, replace(link, at=at))
 
     moving = {name: on_bars(name, link) for name, link in reading.links.items()}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -31,14 +32,30 @@ class ForceJoint:
         return Symbol(kind, PointRef(self.point) if self.several else None, link=self.first, other=self.second)
 
 
+def hosts_at(mechanism: Mechanism, point: str, holders: Collection[str]) -> dict[str, str]:
+    """The links that what guides a pin or a block along a circle is paired with at a point: in its pin the link that
+    has the pin, in its centre the link that has the slot.
+
+    Parameters
+    ----------
+    holders : the links that meet there
+    """
+    ends = ((slot.bar, host) for slot in mechanism.slots
+            for place, host in ((slot.point, slot.of), (slot.centre, slot.on)) if place == point)  # fmt: skip
+    return {bar: host for bar, host in ends if bar in holders and host in holders}
+
+
 def joints(mechanism: Mechanism) -> tuple[ForceJoint, ...]:
-    """All joints: at each point the first link that has it, the frame if it does, with each later one; then sliding
-    pairs, guiding link first, and pins in slots.  Redundant links carry nothing."""
+    """All joints: at each point the first link that has it, the frame if it does, with each later one, but what is
+    guided along a circle with the link of the pin or of the slot; then sliding pairs, guiding link first, and pins in
+    slots.  Redundant links carry nothing."""
     here = {mechanism.frame.name, *(link.name for link in mechanism.links if not link.redundant)}
     found: list[ForceJoint] = []
     for point, holders in mechanism.holders.items():
-        first, *later = [name for name in holders if name in here] or [""]
-        found += [ForceJoint("turning", first, second, point) for second in later]
+        meeting = [name for name in holders if name in here]
+        hosts = hosts_at(mechanism, point, meeting)
+        first = next((name for name in meeting if name not in hosts), "")
+        found += [ForceJoint("turning", hosts.get(name, first), name, point) for name in meeting if name != first]
     found += [ForceJoint("slot" if s.of else "sliding", s.on, s.of or s.link, s.point)
               for s in mechanism.slides if {s.on, s.of or s.link} <= here]
     if mechanism.instead_of is None:

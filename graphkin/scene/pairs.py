@@ -79,6 +79,7 @@ class CircularSlot:
 
     ``bar`` is the link that guides the point: a bar in place of a pin in the slot, or the block itself (``block``).
     ``ends`` are the angles (rad, from the own x axis of ``on``) between which it is drawn, if the file has them.
+    ``of`` is the link that has the pin, "" for a block or a cam.
     """
 
     name: str
@@ -89,6 +90,7 @@ class CircularSlot:
     point: str
     block: bool = False
     ends: tuple[float, float] | None = None
+    of: str = ""
 
 
 @dataclass(frozen=True)

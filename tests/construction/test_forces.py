@@ -19,6 +19,7 @@ from graphkin.construction.forces.groups import CutFree
 from graphkin.errors import Unsolvable
 from graphkin.plane import cross
 from graphkin.scene import mechanism_of
+from graphkin.scene.force_names import joints
 from graphkin.scene.symbol import Symbol
 from tests.mechanisms import KINDS, floating_cylinder, random_scene, redriven
 from tests.solver.test_forces import CASES, PLACES, loaded, number, scene_of
@@ -356,3 +357,98 @@ def test_a_driver_s_moment_loads_the_next_link_of_a_chain_with_the_opposite_sens
 
     monkeypatch.setattr(groups, "_at_driven_joint", flipped)
     assert "M_3" in wrong(CHAIN)
+
+
+OWNED_PIN = tomllib.loads("""
+gravity = {}
+[frame]
+points = { A = [0, 0], C = [300, 50] }
+[links.2]
+points = ["C", "D"]
+length = 150
+[links.3]
+points = ["D", "E"]
+length = 200
+guides = { g = { centre = [100, 50], r = 250 }, s = { through = [0, 50], angle = 10 } }
+[links.4]
+points = ["A", "H"]
+length = 80
+[links.1]
+points = ["A", "B"]
+length = 100
+[pins.A]
+of = "1"
+in = "3.g"
+[[driver]]
+link = "1"
+angle = 60
+omega = 10
+alpha = 0
+[[driver]]
+link = "2"
+angle = 100
+omega = -3
+alpha = 0
+[[driver]]
+link = "4"
+angle = 200
+omega = 5
+alpha = 0
+[masses]
+1 = { at = [50, 10], mass = 1 }
+2 = { at = [50, 0], mass = 1.5 }
+3 = { at = [100, 20], mass = 2, inertia = 0.01 }
+4 = { at = [30, 5], mass = 0.7 }
+""")
+"""A pin in a slot on a fixed hinge of three links, of the one that is written last."""
+
+
+def owned(slot="g", of="1", point="A"):
+    return {**OWNED_PIN, "pins": {point: {"of": of, "in": f"3.{slot}"}}}
+
+
+IN_ORDER = {"links": dict(sorted(OWNED_PIN["links"].items()))}
+"""The links by their numbers: the slot's is cut free before that of the pin."""
+
+
+BLOCK_ON_A_COMPOUND_HINGE = tomllib.loads("""
+frame = { points = { A = [0, 0], C = [300, 0], G = [400, 250] } }
+links.1 = { points = ["A", "D"], length = 80 }
+links.3 = { points = ["D", "E"], length = 250 }
+links.6 = { points = ["E"], on = "5.s" }
+links.2 = { points = ["C", "E"], length = 150 }
+links.5 = { points = ["G"], guides = { s = { through = "G", angle = 0 } } }
+driver = { link = "1", angle = 70, omega = 10 }
+sketch = { E = [270, 147] }
+balance = { on = "5" }
+loads.P = { on = "3", at = [100, 20], force = 100, angle = 200 }
+""")
+"""Three links on a hinge, of which the two written last are cut free together, the last one first."""
+
+
+@pytest.mark.parametrize("scene", [owned("g"), owned("s"), owned("g", "4"), owned("s", "4"), owned("s", "1", "B"),
+                                   owned("g") | IN_ORDER, owned("s") | IN_ORDER, BLOCK_ON_A_COMPOUND_HINGE])
+def test_a_force_in_a_polygon_is_the_force_of_its_name(scene):
+    (state,) = forces_on(drawn(scene)).states
+    met = [(joint.point, joint.symbol("F")) for joint in joints(mechanism_of(scene))]
+    met += [(pin.point, Symbol("F", link=pin.on, other=pin.of)) for pin in mechanism_of(scene).pins]
+    for polygon in (polygon for group in state.groups for polygon in group.polygons):
+        spans = {}
+        for vector in (v for v in polygon if v.symbol.other and not (v.known and v.symbol.link in "ABCDEF")):
+            spans[vector.symbol] = spans.get(vector.symbol, 0j) + vector.span
+        for symbol, span in spans.items():
+            pairs = {symbol: 1, symbol.opposite: -1}
+            if symbol.link in "ABCDEF":  # the pin's own, of several links
+                at = {pair for point, pair in met if point == symbol.link}
+                pairs = {s: 1 if s.other == symbol.other else -1 for s in at if symbol.other in (s.link, s.other)}
+            named = sum(sign * state.vectors.get(pair, 0j) for pair, sign in pairs.items())
+            assert named == pytest.approx(span, abs=1e-9), str(symbol)
+
+
+@pytest.mark.parametrize("of", ["1", "4"])
+def test_the_link_of_a_pin_bears_the_force_of_a_circular_slot_as_it_is_drawn(of):
+    forces = by_name(forces_on(drawn(owned("g", of))))
+    assert f"F_{of}/g" in forces
+    on_link = forces[f"F_0/{of}"] - forces[f"F_{of}/g"] + forces[f"Fi_{of}"] + forces[f"G_{of}"]
+    assert 0 == pytest.approx(abs(on_link), abs=1e-9)
+    assert (True, []) == judged(owned("g", of))

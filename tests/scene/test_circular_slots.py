@@ -11,6 +11,7 @@ import pytest
 import graphkin
 from graphkin.errors import SceneError
 from graphkin.scene import mechanism_of
+from graphkin.scene.force_names import joints
 from graphkin.scene.reading import as_mapping
 
 pytestmark = pytest.mark.quick
@@ -151,3 +152,25 @@ def test_two_pins_in_one_slot_run_each_on_its_own_tangent() -> None:
         "driver": {"link": "1", "angle": 50, "omega": 3},
     }  # fmt: skip
     assert graphkin.check(scene).ok
+
+
+def pairs_at(scene: dict[str, Any], point: str) -> list[tuple[str, str]]:
+    mechanism = mechanism_of(scene)
+    return [(joint.first, joint.second) for joint in joints(mechanism) if joint.point == point]
+
+
+def test_a_pin_in_a_circular_slot_is_paired_with_the_link_that_has_it() -> None:
+    scene = with_pin()
+    links = {"3": {"points": ["C", "D"], "length": 20}, **scene["links"]}
+    for of in ("2", "3"):
+        hinge = pairs_at({**scene, "links": links, "pins": {"C": {"of": of, "in": "0.s"}}}, "C")
+        assert [("3", "2"), (of, "s")] == hinge
+
+
+def test_what_a_circular_slot_guides_is_paired_with_the_link_of_the_slot_in_a_centre_on_a_hinge() -> None:
+    scene = with_pin()
+    links = {**scene["links"], "4": {"points": ["M", "P"], "length": 30, "guides": {"s": {"centre": "M", "r": 120}}}}
+    assert [("0", "4"), ("4", "s")] == pairs_at({**scene, "links": links, "pins": {"C": {"of": "2", "in": "4.s"}}}, "M")
+    block = {"3": {"points": ["C"], "on": "4.s"}, **links}
+    bare = {key: value for key, value in scene.items() if key != "pins"}
+    assert [("4", "3"), ("0", "4")] == pairs_at({**bare, "links": block}, "M")

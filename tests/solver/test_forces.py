@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import random
+import tomllib
 from dataclasses import replace
 from pathlib import Path
 
@@ -404,3 +405,38 @@ def test_a_pair_that_no_load_passes_through_has_no_force_at_all():
     forces = graphkin.solve(scene).data["positions"][0]["forces"]
     nothing = sorted(name for name, force in forces.items() if force == [0.0, 0.0])
     assert ["F_0/5", "F_2/4", "F_4/5"] == nothing
+
+
+PIN_OF = tomllib.loads("""
+gravity = {}
+frame = { points = { A = [0, 0], C = [300, 50] } }
+links.4 = { points = ["A", "H"], length = 80 }
+links.2 = { points = ["C", "D"], length = 150 }
+links.3 = { points = ["D", "E"], length = 200, guides = { g = { centre = [100, 50], r = 250 } } }
+links.1 = { points = ["A", "B"], length = 100 }
+driver = [{ link = "1", angle = 60, omega = 10, alpha = 0 }, { link = "2", angle = 100, omega = -3, alpha = 0 },
+          { link = "4", angle = 200, omega = 5, alpha = 0 }]
+masses.1 = { at = [50, 10], mass = 1 }
+masses.3 = { at = [100, 20], mass = 2, inertia = 0.01 }
+masses.4 = { at = [30, 5], mass = 0.7 }
+""")
+
+
+@pytest.mark.parametrize("of", ["1", "4"])
+def test_the_link_of_a_pin_bears_the_force_of_a_circular_slot(of):
+    here = graphkin.solve({**PIN_OF, "pins": {"A": {"of": of, "in": "3.g"}}}).data["positions"][0]
+    forces = {name: number(value) for name, value in here["forces"].items()}
+    # of the slot: radial, so that its moment about D holds weight, inertia and couple of link 3
+    turned = here["links"]["3"]["angle"]
+    axis = complex(math.cos(turned), math.sin(turned))
+    hinge, pin = number(here["points"]["D@3"]["position"]) / 1000, 0j
+    radial = pin - (hinge + (0.1 + 0.05j) * axis)
+    arm = pin - hinge
+    mass = (0.1 + 0.02j) * axis
+    known = (mass.conjugate() * (forces["Fi_3"] + forces["G_3"])).imag + here["moments"]["Mi_3"]
+    on_slot = radial * -known / (arm.conjugate() * radial).imag
+    # what bears: the link of the pin alone, on its hinge of the frame
+    for link in ("1", "4"):
+        bears = on_slot if link == of else 0
+        expected = bears - forces[f"Fi_{link}"] - forces[f"G_{link}"]
+        assert expected == pytest.approx(forces[f"F_0/{link}"], abs=1e-9 * abs(on_slot))

@@ -107,12 +107,8 @@ def _joints(cut: CutFree, vectors: dict[Symbol, complex], moments: dict[Symbol, 
     """The forces of all joints by their names, from those of pins and sliding pairs."""
     names = cut.drawn
     for joint in (joint for joint in names.joints if joint.kind == "turning"):
-        point, later = joint.point, joint.second
-        force = cut.pins[point, later]
-        # the block of a pin in a slot belongs to the link of the pin
-        force += added_up((cut.pins[point, key] for key, (of, _) in names.blocks.items()
-                           if of == later and point in names.structure.links[key].points), 0j)  # fmt: skip
-        vectors[names.between(joint.first, later, point)] = force / cut.per_mm
+        force = cut.at_pin(joint.point, joint.second)
+        vectors[names.between(joint.first, joint.second, joint.point)] = force / cut.per_mm
     for slide in names.structure.slides:
         force, couple = cut.slides[slide.key]
         vectors[names.of_slide(slide)] = force / cut.per_mm

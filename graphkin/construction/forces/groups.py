@@ -100,26 +100,48 @@ class CutFree:
         return [load for load in self.on(links) if not load.force]
 
     def load_pins(self, members: Iterable[str]) -> None:
-        """Links found before hang on pins of these: what they do there acts on the first that has the pin."""
-        inside = set(members)
-        for point, holders in self.drawn.structure.hinges.items():
-            mine = [n for n in holders if n in inside]
-            others = [n for n in holders if n not in inside]
-            if not mine or not others or any(n not in self.done for n in others):
+        """Links found before hang on pins of these: what guests do there acts on their hosts, what the others do on the
+        first that has the pin."""
+        drawn, inside = self.drawn, set(members)
+        for point, holders in drawn.structure.hinges.items():
+            if inside.isdisjoint(holders):
                 continue
-            carrier, at = mine[0], self.drawn.point(mine[0], point)
-            hung = {self.drawn.of_pin(point, other).opposite: -self.pins[point, other] for other in others}
-            if len(holders) > 2 and carrier != self.drawn.holders[point][0]:
+            hosts, loaded = drawn.hosts[point], set[str]()
+            for guest, host in hosts.items():
+                hanging = drawn.with_guests(point, guest)
+                if host in inside and self.done.issuperset(hanging):
+                    loaded.update(hanging)
+                    symbol = drawn.of_pin(point, guest, self.done).opposite
+                    self._load_pin(point, host, symbol, -self.at_pin(point, guest))
+            others = [n for n in holders if n not in inside and n not in loaded]
+            if not others or not self.done.issuperset(others):
+                continue
+            heads = [n for n in others if hosts.get(n) not in others]
+            mine = [n for n in holders if n in inside and hosts.get(n) not in inside]
+            carrier = next((n for n in mine if n not in hosts), mine[0])
+            hung = {drawn.of_pin(point, n, self.done).opposite: -self.at_pin(point, n, others) for n in heads}
+            alone = carrier == drawn.holders[point][0] and hosts.keys().isdisjoint(mine)
+            if len(mine) + len(heads) > 2 and not alone:
                 hung = {Symbol("F", link=point, other=carrier): added_up(hung.values(), 0j)}
             for symbol, force in hung.items():
-                self.push(ForceVector(symbol, carrier, force, at))
-                self.pins[point, carrier] += force
+                self._load_pin(point, carrier, symbol, force)
+
+    def _load_pin(self, point: str, link: str, symbol: Symbol, force: complex) -> None:
+        """A known force of a pin acts on a link."""
+        self.push(ForceVector(symbol, link, force, self.drawn.point(link, point)))
+        self.pins[point, link] += force
+
+    def at_pin(self, point: str, link: str, of: Collection[str] = ()) -> complex:
+        """The force (N) of a pin on a link and its guests together, on those ``of`` some if these are given."""
+        names = self.drawn.with_guests(point, link)
+        return added_up((self.pins[point, name] for name in names if not of or name in of), 0j)
 
     def at_pair(self, pair: Pair, links: Sequence[str]) -> ForceVector:
         """The force of a pair on that of some links which it holds, of no size yet."""
         link, off = (pair.a, pair.b) if pair.a in links else (pair.b, pair.a)
         if pair.turns:
-            symbol, at = self.drawn.of_pin(pair.point, pair.a), self.drawn.point(pair.a, pair.point)
+            symbol = self.drawn.of_pin(pair.point, pair.a, self.done)
+            at = self.drawn.point(pair.a, pair.point)
         else:
             symbol, at = self.drawn.of_slide(pair), self.drawn.foot(pair)
             symbol = symbol if link == pair.a else symbol.opposite
@@ -365,10 +387,11 @@ def _inner_force(
     if pair.turns:
         names, point, known = cut.drawn, pair.point, cut.drawn.structure.links
         first, second = (next(n for n in body.links if point in known[n].points) for body in dyad.bodies)
-        symbol = names.of_pin(point, second).opposite
-        if second == names.holders[point][0] and len(names.structure.hinges[point]) > 2:
-            # the first link at a pin bears the sum of several: the force inside is called as the other link's is
-            symbol = names.of_pin(point, first)
+        # at a pin of several links the first of both bears what was there before: the force is called as the other's is
+        hosts, holders = names.hosts[point], names.structure.hinges[point]
+        bearing = min((first, second), key=lambda link: (link in hosts, holders.index(link)))
+        on_other = names.of_pin(point, first if bearing == second else second, cut.done)
+        symbol = on_other if bearing == second else on_other.opposite
         cut.pins[point, first] += force
         cut.pins[point, second] -= force
         on_first = ForceVector(symbol, first, force, cut.drawn.point(first, point), by="closing", off=second)
@@ -435,7 +458,7 @@ def _at_driven_joint(
     cut.lay(chain, *(replace(load, by="given") for load in extra if load.symbol.is_vector))
     on = cut.at_pair(pair, (leaf,))
     if pair.turns:
-        symbol = cut.drawn.of_pin(pair.point, leaf)
+        symbol = cut.drawn.of_pin(pair.point, leaf, cut.done)
         if leaf == cut.drawn.holders.get(pair.point, ("",))[0]:
             symbol = cut.drawn.between(other, leaf, pair.point)
         on = ForceVector(symbol, leaf, at=cut.drawn.point(leaf, pair.point), by="closing", off=other)
@@ -508,9 +531,12 @@ def _unknown_forces(cut: CutFree, members: Sequence[str], balances: Sequence[For
         if not mine:
             continue
         held = any(n not in inside and n not in cut.done for n in holders)
-        at, off = cut.drawn.point(mine[0], point), "" if held else mine[0]
-        for link in mine if held else mine[1:]:
-            force = ForceVector(cut.drawn.of_pin(point, link), link, at=at, off=off)
+        hosts = {guest: host for guest, host in cut.drawn.hosts[point].items() if host in inside}
+        first = next(n for n in mine if n not in hosts)
+        at, off = cut.drawn.point(first, point), "" if held else first
+        for link in (n for n in mine if held or n != first):
+            symbol = cut.drawn.of_pin(point, link, cut.done | inside)
+            force = ForceVector(symbol, link, at=at, off=hosts.get(link, off))
             unknowns += [(replace(force, force=along), point, None) for along in (1 + 0j, 1j)]
     for slide in structure.slides:
         if slide.key not in cut.slides and {slide.a, slide.b} & inside:

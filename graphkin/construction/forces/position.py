@@ -11,7 +11,7 @@ together are the force alone, on a line at the distance h = M / F from the centr
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -21,7 +21,7 @@ from graphkin.construction.links_on_paper import travel
 from graphkin.construction.sheet import Sheet
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot, unit
-from graphkin.scene.force_names import ForceJoint, joints
+from graphkin.scene.force_names import ForceJoint, hosts_at, joints
 from graphkin.scene.model import Driver, LinkMass, LoadOn, SpringOn
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Element, LargerGroup, Pair, Structure, analyse
@@ -32,9 +32,10 @@ from graphkin.words import Phrase
 class DrawnPosition:
     """The joints of a sheet by name, and the images of all its links.
 
-    Links at one point: the first that has it (the frame, or the link written first) is paired with each later one.  The
-    block of a pin in a slot has no name of its own: what it carries is the force between the link of the pin and the
-    link of the slot.
+    Links at one point: the first that has it (the frame, or the link written first) is paired with each later one.
+    Guests are paired with their host alone: the block of a pin in a slot, or the bar in place of a circular slot, with
+    the link of the pin.  A block has no name of its own: what it carries is the force between the link of the pin and
+    the link of the slot.
     """
 
     sheet: Sheet
@@ -52,9 +53,23 @@ class DrawnPosition:
         return {slide.a: (slide.of, slide.b) for slide in self.structure.slides if slide.slot}
 
     @cached_property
+    def hosts(self) -> Mapping[str, Mapping[str, str]]:
+        """For each hinge its guests, each with its host."""
+        found = dict[str, Mapping[str, str]]()
+        for point, names in self.structure.hinges.items():
+            blocks = {block: of for block, (of, _) in self.blocks.items() if {block, of} <= {*names}}
+            found[point] = {**blocks, **hosts_at(self.structure.scene, point, names)}
+        return found
+
+    @cached_property
     def holders(self) -> Mapping[str, tuple[str, ...]]:
-        """The links that meet at each hinge, blocks left out."""
-        return {p: tuple(n for n in names if n not in self.blocks) for p, names in self.structure.hinges.items()}
+        """The links that meet at each hinge, guests left out."""
+        return {p: tuple(n for n in names if n not in self.hosts[p]) for p, names in self.structure.hinges.items()}
+
+    def with_guests(self, point: str, link: str) -> list[str]:
+        """A link at a hinge, with its guests there, and theirs."""
+        guests = (guest for guest, host in self.hosts.get(point, {}).items() if host == link)
+        return [link, *(name for guest in guests for name in self.with_guests(point, guest))]
 
     @cached_property
     def joints(self) -> tuple[ForceJoint, ...]:
@@ -66,20 +81,24 @@ class DrawnPosition:
         several = point and sum({joint.first, joint.second} == {first, second} for joint in self.joints) > 1
         return Symbol(kind, PointRef(point) if several and point else None, link=first, other=second)
 
-    def of_pin(self, point: str, link: str) -> Symbol:
-        """The name of the force of the pin at a point on a link."""
+    def of_pin(self, point: str, link: str, done: Collection[str]) -> Symbol:
+        """The name of the force of the pin at a point on a link, without those of the link's guests that are known:
+        the pin's own where it is the sum of several.
+
+        Parameters
+        ----------
+        done : the links whose forces are known
+        """
         if link in self.blocks:
             of, on = self.blocks[link]
             return self.between(of, on, point)
-        names = self.holders[point]
-        if link != names[0]:
-            return self.between(names[0], link, point)
-        if len(names) == 2:
-            return self.between(names[1], link, point)
-        block = [ends for ends in self.blocks.values() if ends[0] == link] if len(names) == 1 else []
-        if len(block) == 1:
-            return self.between(block[0][1], link, point)
-        return Symbol("F", link=point, other=link)
+        hosts, (first, *later) = self.hosts[point], self.holders[point]
+        paired = later if link == first else [hosts.get(link, first)]
+        paired = [*paired, *(guest for guest, host in hosts.items() if host == link and guest not in done)]
+        if len(paired) != 1:
+            return Symbol("F", link=point, other=link)
+        _, other = self.blocks.get(paired[0], ("", paired[0]))
+        return self.between(other, link, point)
 
     def of_slide(self, slide: Pair, kind: str = "F") -> Symbol:
         """The force (couple) of the guiding link on the sliding one."""
