@@ -139,8 +139,9 @@ def _curve(turn: TurnStudy, traced: Traced) -> dict[str, Json]:
     data: dict[str, Json] = {
         "unit": traced.quantity.unit(scene, radians=True).text,
         "extremes": [_extreme(turn, traced, e) for e in traced.extremes],
-        "zeros": [_driver(scene, z) for z in traced.zeros],
     }
+    if not traced.quantity.is_angle:  # where a turning link points along x is not sought
+        data["zeros"] = [_driver(scene, z) for z in traced.zeros]
     if traced.constant is not None:
         data["constant"] = traced.quantity.unit(scene, radians=True).of(traced.constant)
     return data

@@ -574,3 +574,8 @@ def test_angles_at_both_ends_where_other_links_go_away_are_each_of_its_own_end()
     swing = next(output for output in turn.outputs if output.quantity.of == "5").position
     ends = [e.value for e in swing.extremes if e.kind == "end"]
     assert [-3.98568951327, 0.09813559657] == pytest.approx(ends, abs=1e-10)
+
+
+def test_zeros_are_told_of_the_curves_whose_zeros_are_sought() -> None:
+    curves = to_json(turn_of("slider-crank-offset"))["curves"]
+    assert {"theta_2": False, "omega_2": True} == {name: "zeros" in curves[name] for name in ("theta_2", "omega_2")}
