@@ -21,7 +21,7 @@ from pydantic import Field as Rule
 
 from graphkin.errors import Problem, SceneError, did_you_mean, unfit
 from graphkin.files import Json, OwnTables, Tables
-from graphkin.plane import degrees, direction
+from graphkin.plane import direction
 from graphkin.scene.scene import file_text, files_named, library, parsed, safe_name, shelf
 from graphkin.scene.scene_tables import SMALLEST, List, Magnitude, NotNegative, Number, Place, SheetWishes, Text
 from graphkin.scene.tables import FileTable, Form, Units, file_table, file_table_by_name, plain, shown, xy
@@ -111,7 +111,6 @@ class BarPositionsTask(FileTable):
     BC: Magnitude | None = None
     A: Point | None = None
     D: Point | None = None
-    angles: tuple[float, ...] = field(default=(), metadata={"beside": True})  # as given, degrees
 
 
 @file_table_by_name
@@ -290,8 +289,7 @@ def _bar_positions(task: BarPositionsTask, problems: list[Problem]) -> BarPositi
         elif abs(here - first_length) > SAME_BAR * first_length:
             say(f"positions.{i}", "the bar is long", "in position 1", value=f"{here:.6g}", name=f"{first_length:.6g}")
     first, second, third = placed
-    angles = tuple(degrees(place.C - place.B) for place in placed)
-    return None if len(problems) > before else replace(task, positions=(first, second, third), angles=angles)
+    return None if len(problems) > before else replace(task, positions=(first, second, third))
 
 
 # -- the mechanism that was found --------------------------------------------------------------------------------------

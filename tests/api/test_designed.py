@@ -168,6 +168,7 @@ def test_the_greatest_offset_is_just_not_reached():
         ({"kind": "function", "pairs": [[1, 2], [3], [4, 5]]}, "design.pairs.2: found [3]; two angles in degrees"),
         ({**SLIDER, "K": -1}, "design.K: found -1, a negative number"),
         ({**PLACES, "A": [0, 0]}, "design.D: is missing"),
+        ({**PLACES, "angles": [10, -8, -35]}, "design.angles: unknown key"),
         ({"kind": "limits", "A": [0], "D": [1, 1], "rocker": 1, "angles": [1, 2]}, "a place is"),
     ],
 )

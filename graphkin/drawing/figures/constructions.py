@@ -44,6 +44,7 @@ from graphkin.drawing.place.piece import Piece, cut_to, ink_box
 from graphkin.drawing.plate import Plate, centred
 from graphkin.drawing.text import plain, rich, runs_width, symbol
 from graphkin.drawing.write.drawing import Drawing
+from graphkin.plane import degrees
 from graphkin.scene.designs import BarPositionsTask, Design
 from graphkin.scene.laws import TURN
 from graphkin.scene.model import Mechanism
@@ -168,11 +169,11 @@ def asked_words(design: Design, language: str) -> str:
             parts.append(f"{key if key in ('K', 'BC') else term(f'datum {key}', language)} = {number(value)}{size}")
         elif key == "pairs":
             parts += [f"{number(a)}° → {number(b)}°" for a, b in value]
-        elif key == "angles" and value and task.kind == "limits":
+        elif key == "angles":
             parts.append(f"{number(value[0])}°, {number(value[1])}°")
         elif isinstance(task, BarPositionsTask) and key == "positions":
             for k, place in enumerate(task.positions, 1):
-                lies = f", {number(task.angles[k - 1])}°" if task.BC else f", $C_{{{k}}}$ {_at(place.C)}"
+                lies = f", {number(degrees(place.C - place.B))}°" if task.BC else f", $C_{{{k}}}$ {_at(place.C)}"
                 parts.append(f"$B_{{{k}}}$ {_at(place.B)}{lies}")
         elif isinstance(value, complex):
             parts.append(f"{key} {_at(value)}")
