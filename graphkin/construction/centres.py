@@ -229,10 +229,12 @@ class Centres:
         return None if of is None or to is None else of - to
 
     def _velocity(self, ref: PointRef) -> complex | None:
-        turning = self.turning_of(ref)
-        place = None if turning is None else self.of(turning.link, self.scene.frame.name).place
-        if turning is None or place is None or turning.strength == 0.0:
-            return 0j if turning else None
+        turning, frame = self.turning_of(ref), self.scene.frame.name
+        if turning is None:
+            return None
+        place = None if turning.link == frame else self.of(turning.link, frame).place
+        if place is None or turning.strength == 0.0:
+            return 0j
         return self.chart.velocity(place, turning.strength, self.point(ref.point)) / self.mm
 
     def velocity_error(self, symbol: Symbol) -> float:

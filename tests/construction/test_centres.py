@@ -226,6 +226,13 @@ def test_a_relative_velocity_by_centres_is_that_of_the_one_point_less_that_of_th
     assert c - b == pytest.approx(centres.velocity(Symbol.parse("v_C/B")), rel=1e-12)
 
 
+def test_a_velocity_by_centres_relative_to_a_point_of_the_frame_is_that_of_the_point() -> None:
+    centres = find_centres(mechanism_of("slider-crank-offset"))
+    alone, relative = (centres.velocity(Symbol.parse(name)) for name in ("v_C@3", "v_C@3/C@4"))
+    assert alone is not None
+    assert alone == relative
+
+
 def test_a_velocity_by_centres_may_be_off_by_the_more_the_nearer_two_of_its_centres_lie_to_each_other() -> None:
     scene, of_slider = read("slider-crank-offset"), Symbol.parse("v_C")
     errors = []
