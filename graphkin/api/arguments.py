@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from importlib.util import find_spec
 from numbers import Integral, Real
@@ -16,11 +16,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, get_args
 
 from graphkin.errors import CallError, Problem, as_list, did_you_mean, unfit
+from graphkin.scene.asked import known_symbol
 from graphkin.scene.force_names import force_of, no_force
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.scene import SceneLike, mechanism_of
 from graphkin.scene.scene_tables import Convention
-from graphkin.scene.symbol import Symbol, known_symbol
+from graphkin.scene.symbol import Symbol
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import BOTH, LANGUAGES, Phrase, Wording, from_others
 
@@ -275,20 +276,10 @@ def asked_symbols(
     """
     if find is None:
         return scene.question.find
-    points = [*scene.holders, *(contact.name for contact in scene.contacts)]
-    positions = scene.question.positions.names if scene.question.positions else ()
-
-    def missing(key: str, known: Collection[str]) -> Callable[[str, str], Problem | None]:
-        def problem(where: str, name: str) -> Problem | None:
-            return None if name in known else Problem(where, Phrase(key, name=name), did_you_mean(name, known))
-
-        return problem
-
-    no_link, no_point = missing("there is no link", scene.by_name), missing("there is no point", points)
-    asked, problems, pins = list[Symbol](), list[Problem](), {pair.key: pair.point for pair in scene.slidings}
+    asked, problems = list[Symbol](), list[Problem]()
     for text in [find] if isinstance(find, Symbol) else as_list("find", find, Phrase("give symbols v_b omega_3")):
         where = f"find {text!s:.120}"
-        symbol = known_symbol(where, str(text), no_link, no_point, scene.by_name, positions, drawn, pins)
+        symbol = known_symbol(where, str(text), scene, drawn)
         no_such = no_force(scene, where, symbol) if isinstance(symbol, Symbol) else None
         if no_such is not None:
             problems.append(no_such)

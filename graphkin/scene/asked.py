@@ -12,7 +12,7 @@ from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.bodies import Reading
 from graphkin.scene.model import Driver, Mechanism, StatedValues
 from graphkin.scene.scene_tables import Positions, StrokeStart
-from graphkin.scene.symbol import Printed, Symbol, Unreadable, known_symbol, stated
+from graphkin.scene.symbol import Printed, Symbol, Unreadable, centre_links, no_quantity, stated
 from graphkin.scene.tables import Units, path_name
 from graphkin.words import Phrase
 
@@ -27,27 +27,77 @@ Stated = float | str | Sequence[float]
 # -- quantities --------------------------------------------------------------------------------------------------------
 
 
-def _symbol(where: str, text: str, reading: Reading) -> Symbol | Problem:
-    """A symbol whose points, links and position exist, or its first problem."""
-    lost = [text[:120].partition(" at ")[2]] if reading.lost_under("positions") else []  # any name may be there
-    symbol = known_symbol(where, text[:120], reading.no_link, reading.no_point, reading.points,
-                          [*reading.positions, *lost], pins={pair.key: pair.point for pair in reading.slides})
-    return symbol if isinstance(symbol, Symbol) else symbol[0]
+def known_symbol(where: str, text: str, scene: Mechanism | Reading, drawn: bool = True) -> Symbol | list[Problem]:
+    """The quantity of a scene that a name means, or the problems with the name.
+
+    Parameters
+    ----------
+    where : where the name stands, as problems tell it
+    drawn : whether it is asked of a drawing, which has neither places nor rates of sliding pairs by themselves
+    """
+    try:
+        symbol = Symbol.parse(text)
+    except ValueError as error:
+        return [Problem(where, error.args[0])]
+    if drawn and symbol.kind == "place" and symbol.of and scene.no_point(where, symbol.of.point):
+        return [Problem(where, no_quantity(text))]
+    pair = symbol.of_pair
+    if pair and scene.no_point(where, pair.other) and not scene.no_link(where, pair.other):
+        if symbol.axis:
+            return [Problem(where, Phrase("is no vector", text=pair))]
+        symbol = pair
+    of, to = symbol.of, symbol.to
+    missing = [scene.no_link(where, name) for name in symbol.links()]
+    slides = symbol.is_rate_of_pair or symbol.kind in ("s", "stroke", "K", "theta_lag")
+    if slides and symbol.other and symbol.link[:1].isupper() and missing[0]:  # of a pin in a slot
+        missing[0] = scene.no_point(where, symbol.link)
+    missing += [scene.no_point(where, ref.point) for ref in (of, to)
+                if ref and not (symbol.kind == "d" and centre_links(ref.point, scene.points))]  # fmt: skip
+    problems = [problem for problem in missing if problem is not None]
+    if problems:
+        return problems
+    nowhere = scene.no_position(where, symbol.at) if symbol.at else None
+    if nowhere:
+        return [nowhere]
+    if of and to == of:
+        return [Problem(where, "is relative to itself", "name two different points", text=text)]
+    if symbol.kind in ("ak", "ar") and of and to and to.point != of.point:
+        return [Problem(where, "names two different points", "it is between coincident points of two links", text=text,
+                        kind=symbol.kind)]
+    if drawn and symbol.is_of_tables:
+        return [Problem(where, "is given by tables alone", "ask a drawing for", text=text,
+                        instead=_drawn_instead(symbol, scene))]
+    return symbol
 
 
-def spelling_of(scene: Mechanism) -> Spelling:
+def _drawn_instead(symbol: Symbol, scene: Mechanism | Reading) -> str:
+    """The quantities of a drawing that tell one that only tables give."""
+    if symbol.kind == "place" and symbol.of:
+        return f"x_{symbol.of.point}, y_{symbol.of.point}"
+    if symbol.axis:
+        return str(symbol.whole)
+    pair = next((pair for pair in scene.slides if pair.key == symbol.pair), None)
+    link = pair.of or pair.link if pair else symbol.link
+    point = pair.point if pair and pair.point else next(iter(scene.points.get(link, ())), "B")
+    return f"{symbol.kind}_{point}@{link}/{point}@{symbol.other}"
+
+
+def spelling_of(scene: Mechanism | Reading) -> Spelling:
     """The reader of a scene's quantities by names as people write them."""
     from graphkin.scene.spelling import Spelling
 
-    points = {link.name: tuple(link.points) for link in (scene.frame, *scene.links)}
-    return Spelling.by_link(points, scene.units, [contact.name for contact in scene.contacts])
+    owners: dict[str, frozenset[str]] = dict.fromkeys(scene.contact_names, frozenset())
+    for link, names in scene.points.items():
+        for name in names:
+            owners[name] = owners.get(name, frozenset()) | {link}
+    return Spelling(owners, frozenset(scene.points), scene.units)
 
 
 def asked(reading: Reading) -> tuple[Symbol, ...]:
     """The symbols of ``find``, each once, in its order; their problems are noted."""
-    symbols = [_symbol(path_name(("find", text)), text, reading) for text in reading.file.find or ()]
-    reading.wrong(*(s for s in symbols if isinstance(s, Problem)))
-    return tuple(dict.fromkeys(s for s in symbols if isinstance(s, Symbol)))
+    symbols = [known_symbol(path_name(("find", text)), text[:120], reading) for text in reading.file.find or ()]
+    reading.wrong(*(symbol[0] for symbol in symbols if not isinstance(symbol, Symbol)))
+    return tuple(dict.fromkeys(symbol for symbol in symbols if isinstance(symbol, Symbol)))
 
 
 def stated_values(reading: Reading) -> tuple[StatedValues, ...]:
@@ -92,16 +142,14 @@ def _values(table: str, values: Mapping[str, Stated], reading: Reading) -> dict[
         if text in ("by", "at"):
             continue
         where = path_name((*table.split("."), text))
-        symbol, unit = _symbol(where, text, reading), ""
-        if isinstance(symbol, Problem):
-            from graphkin.scene.spelling import Spelling
-
-            spelling = Spelling.by_link(reading.points, reading.units, reading.contacts)
+        symbol, unit = known_symbol(where, text[:120], reading), ""
+        if not isinstance(symbol, Symbol):
+            spelling = spelling_of(reading)
             name, unit = spelling.head(text)
             meant = spelling.symbol(name)
-            symbol = symbol if meant is None else _symbol(where, str(meant), reading)
-        if isinstance(symbol, Problem):
-            reading.wrong(symbol)
+            symbol = symbol if meant is None else known_symbol(where, str(meant), reading)
+        if not isinstance(symbol, Symbol):
+            reading.wrong(symbol[0])
         elif symbol in printed:
             reading.say(where, "is given twice", "give it once", symbol=symbol)
         elif not isinstance(value, int | float | str) and not symbol.is_vector:

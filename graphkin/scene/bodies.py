@@ -18,7 +18,18 @@ from typing import TypeVar
 from graphkin.errors import Problem, did_you_mean
 from graphkin.plane import direction
 from graphkin.scene.pairs import CircularSlot, SlidingPair
-from graphkin.scene.scene_tables import Compass, DrivenSlide, Driver, Frame, Guide, Link, Pin, Polar, SceneTables
+from graphkin.scene.scene_tables import (
+    Compass,
+    DrivenSlide,
+    Driver,
+    Frame,
+    Guide,
+    Link,
+    Pin,
+    Polar,
+    SceneTables,
+    no_position,
+)
 from graphkin.scene.tables import KeyPath, Units
 from graphkin.words import Phrase, Wording, alternatives
 
@@ -91,8 +102,7 @@ class Reading:
     @cached_property
     def positions(self) -> tuple[str, ...]:
         """The names of the file's positions, the numbered ones first."""
-        table = self.file.positions
-        return (*map(str, range(1, (table.count or 0) + 1)), *table.also) if table else ()
+        return self.file.positions.names if self.file.positions else ()
 
     @cached_property
     def points(self) -> Mapping[str, tuple[str, ...]]:
@@ -113,7 +123,7 @@ class Reading:
         return names
 
     @cached_property
-    def contacts(self) -> frozenset[str]:
+    def contact_names(self) -> frozenset[str]:
         """The names of the points of contact."""
         return frozenset(self.file.contacts) | self.lost_names("contacts")
 
@@ -178,10 +188,14 @@ class Reading:
 
     def no_point(self, where: str, point: str) -> Problem | None:
         """The problem of a point that no link has."""
-        everywhere = {p for points in self.points.values() for p in points} | self.contacts
+        everywhere = {p for points in self.points.values() for p in points} | self.contact_names
         if point in everywhere or "" in self.unsure:
             return None
         return Problem(where, "no link has a point", did_you_mean(point, everywhere), point=point)
+
+    def no_position(self, where: str, name: str) -> Problem | None:
+        """The problem of a position that does not exist; any name may be there where the positions were taken out."""
+        return None if self.lost_under("positions") else no_position(where, name, self.positions)
 
     def no_point_of(self, where: str, link: str, point: str) -> Problem | None:
         """The problem of a point that this link does not have."""

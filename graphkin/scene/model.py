@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
+from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.laws import MotionLaw
 from graphkin.scene.pairs import (
     CircularSlot,
@@ -22,7 +23,7 @@ from graphkin.scene.pairs import (
     PlacedGuide,
     SlidingPair,
 )
-from graphkin.scene.scene_tables import Flywheel, LoadPhase, Positions, SceneTables, SheetWishes, Vary
+from graphkin.scene.scene_tables import Flywheel, LoadPhase, Positions, SceneTables, SheetWishes, Vary, no_position
 from graphkin.scene.symbol import Printed, Symbol
 from graphkin.scene.tables import Measure, Unit, Units
 
@@ -380,6 +381,32 @@ class Mechanism:
     def whole(self) -> Mechanism:
         """The mechanism of the file: the mechanism with cams where this one replaces it, else this one."""
         return self if self.instead_of is None else self.instead_of
+
+    @property
+    def points(self) -> Mapping[str, tuple[str, ...]]:
+        """The names of the points of each link, the frame's first."""
+        return {link.name: tuple(link.points) for link in (self.frame, *self.links)}
+
+    @property
+    def contact_names(self) -> tuple[str, ...]:
+        """The names of the points of contact."""
+        return tuple(contact.name for contact in self.contacts)
+
+    def no_link(self, where: str, name: str) -> Problem | None:
+        """The problem of a link that does not exist, None if it does."""
+        if name in self.by_name:
+            return None
+        return Problem(where, "there is no link", did_you_mean(name, self.by_name), name=name)
+
+    def no_point(self, where: str, name: str) -> Problem | None:
+        """The problem of a point that no link has and in which nothing touches, None if there is one."""
+        known = (*self.holders, *self.contact_names)
+        return None if name in known else Problem(where, "there is no point", did_you_mean(name, known), name=name)
+
+    def no_position(self, where: str, name: str) -> Problem | None:
+        """The problem of a position that has no such name, None if there is one."""
+        known = self.question.positions.names if self.question.positions else ()
+        return no_position(where, name, known)
 
     def asking(self, **changed: Any) -> Mechanism:
         """This mechanism with parts of its question changed: ``find``, the wishes of its ``sheet``, and so on."""

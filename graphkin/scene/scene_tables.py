@@ -16,10 +16,10 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import Discriminator, Strict, StringConstraints, Tag
 from pydantic import Field as Rule
 
-from graphkin.errors import Problem
+from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.laws import LAWS
 from graphkin.scene.tables import FileTable, Form, Units, file_table, file_table_by_name, key
-from graphkin.words import LANGUAGES
+from graphkin.words import LANGUAGES, Phrase
 
 SMALLEST, LARGEST = 1e-15, 1e15
 """The smallest length, and the smallest rate that is not 0; the largest number."""
@@ -442,6 +442,12 @@ class Positions(FileTable):
         if name in self.also:
             return self.also[name]
         return None if first is None else first + sense * math.tau * (int(name) - 1) / (self.count or 1)
+
+
+def no_position(where: str, name: str, known: Sequence[str]) -> Problem | None:
+    """The problem of a name that no position has, None if it is known."""
+    wanted = did_you_mean(name, known) if known else Phrase("name positions in positions")
+    return None if name in known else Problem(where, "there is no position", wanted, at=name)
 
 
 @file_table

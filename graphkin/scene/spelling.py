@@ -12,7 +12,7 @@ import cmath
 import math
 import re
 import unicodedata
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -57,15 +57,6 @@ class Spelling:
     points: Mapping[str, frozenset[str]]
     links: frozenset[str]
     units: Units
-
-    @classmethod
-    def by_link(cls, points: Mapping[str, Iterable[str]], units: Units, contacts: Iterable[str] = ()) -> Spelling:
-        """From the points of each link, the frame's included, and the names of contacts."""
-        owners: dict[str, frozenset[str]] = dict.fromkeys(contacts, frozenset())
-        for link, names in points.items():
-            for name in names:
-                owners[name] = owners.get(name, frozenset()) | {link}
-        return cls(owners, frozenset(points), units)
 
     def head(self, text: str) -> tuple[str, str]:
         """The name in a head and its unit, "" if none is written: ``v_C (m/s)``, ``ω3 [rad/s]``, ``v_C/(mm·s⁻¹)``."""

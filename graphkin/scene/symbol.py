@@ -11,12 +11,11 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Container, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import Decimal, InvalidOperation
 from typing import Literal, NamedTuple
 
-from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.tables import Measure, Unit, Units
 from graphkin.words import Phrase, say
 
@@ -208,7 +207,7 @@ class Symbol:
             return cls.of_names("place", place.groupdict(""))
         name = next((kind for kind in _LONGEST_FIRST if text.startswith(f"{kind}_")), None)
         if name is None:
-            raise ValueError(_no_quantity(text))
+            raise ValueError(no_quantity(text))
         kind = KINDS[name]
         names = text[len(name) + 1 :]
         match = re.fullmatch(_FORMS[kind.form], names)
@@ -235,6 +234,14 @@ class Symbol:
     def is_rate_of_pair(self) -> bool:
         """Whether it is a rate of a sliding pair along its guide."""
         return self.of is None and _OF_ALL[self.kind].of_pairs
+
+    @property
+    def of_pair(self) -> Symbol | None:
+        """The rate of a sliding pair whose links are called as its two points; None where it is no such quantity."""
+        of, to = self.of, self.to
+        if of is None or to is None or of.link or to.link or not _OF_ALL[self.kind].of_pairs:
+            return None
+        return Symbol(self.kind, link=of.point, other=to.point, at=self.at)
 
     @property
     def is_of_tables(self) -> bool:
@@ -320,7 +327,7 @@ _MISSING = {
 """What a name lacks that has not the form of its kind; of the other forms it names no link."""
 
 
-def _no_quantity(text: str) -> Phrase:
+def no_quantity(text: str) -> Phrase:
     """The sentence on a name that names no quantity."""
     known = ", ".join(re.sub(" or .*|,.*", "", kind.example) for kind in KINDS.values())
     return Phrase("is no quantity known are", text=text, names=known)
@@ -334,62 +341,6 @@ def centre_links(name: str, links: Container[str]) -> tuple[str, str] | None:
     """
     cuts = ((name[1:k], name[k:]) for k in range(2, len(name))) if name.startswith(("P", "I")) else ()
     return next(((a, b) for a, b in cuts if a != b and a in links and b in links), None)
-
-
-def known_symbol(
-    where: str,
-    text: str,
-    no_link: Callable[[str, str], Problem | None],
-    no_point: Callable[[str, str], Problem | None],
-    links: Container[str],
-    positions: Sequence[str],
-    drawn: bool = True,
-    pins: Mapping[str, str] | None = None,
-) -> Symbol | list[Problem]:
-    """The quantity that a name means, or the problem with the name.
-
-    Parameters
-    ----------
-    where : where the name stands, as problems tell it
-    no_link, no_point : the problem of a name that is no link, or no point; None where it is one
-    links : the names of all links, by which instant centres are named
-    positions : the names of the positions
-    drawn : whether it is asked of a drawing, which has neither places nor rates of sliding pairs by themselves
-    pins : of sliding pairs by their keys the point that slides, as far as they have one
-    """
-    try:
-        symbol = Symbol.parse(text)
-    except ValueError as error:
-        return [Problem(where, error.args[0])]
-    if drawn and symbol.kind == "place" and symbol.of and no_point(where, symbol.of.point):
-        return [Problem(where, _no_quantity(text))]
-    of, to, of_pairs = symbol.of, symbol.to, _OF_ALL[symbol.kind].of_pairs
-    if of_pairs and of and to and no_point(where, to.point) and not (of.link or to.link or no_link(where, to.point)):
-        symbol = Symbol(symbol.kind, link=of.point, other=to.point, at=symbol.at)
-    pin = symbol.link[:1].isupper() and symbol.other and (of_pairs or symbol.kind in ("s", "stroke", "K", "theta_lag"))
-    found = [no_link(where, name) for name in symbol.links()]
-    if pin and found[0]:
-        found[0] = no_point(where, symbol.link)
-    for ref in (symbol.of, symbol.to):
-        if ref is not None and not (symbol.kind == "d" and centre_links(ref.point, links)):
-            found.append(no_point(where, ref.point))
-    problems = [problem for problem in found if problem is not None]
-    if problems:
-        return problems
-    if symbol.at and symbol.at not in positions:
-        wanted = did_you_mean(symbol.at, positions) if positions else Phrase("name positions in positions")
-        return [Problem(where, "there is no position", wanted, at=symbol.at)]
-    if symbol.of and symbol.to == symbol.of:
-        return [Problem(where, "is relative to itself", "name two different points", text=text)]
-    if symbol.kind in ("ak", "ar") and symbol.of and symbol.to and symbol.to.point != symbol.of.point:
-        return [Problem(where, "names two different points", "it is between coincident points of two links", text=text,
-                        kind=symbol.kind)]
-    if drawn and symbol.is_of_tables:
-        point = (pins or {}).get(symbol.pair) or "B"
-        vector = str(symbol.whole) if symbol.axis else f"{symbol.kind}_{point}@{symbol.link}/{point}@{symbol.other}"
-        instead = f"x_{symbol.of.point}, y_{symbol.of.point}" if symbol.kind == "place" and symbol.of else vector
-        return [Problem(where, "is given by tables alone", "ask a drawing for", text=text, instead=instead)]
-    return symbol
 
 
 # -- values that somebody states, with the digits they are stated to ---------------------------------------------------

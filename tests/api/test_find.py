@@ -88,14 +88,30 @@ def test_what_stands_in_tables_alone_is_refused_with_what_a_drawing_has(name: st
     assert f"is given by tables alone: solve and sweep have it; of a drawing ask for {instead}" in told
 
 
+@pytest.mark.parametrize(("scene", "rate"), [("geneva-step", "v_B/2"), ("loader-cylinder", "v_7/6"),
+                                             ("slider-crank-offset", "a_3/4")])  # fmt: skip
+def test_what_a_drawing_has_instead_of_a_rate_along_a_guide_can_be_asked_of_it(scene: str, rate: str) -> None:
+    with pytest.raises(graphkin.CallError) as refused:
+        graphkin.check(scene, find=rate)
+    instead = str(refused.value.problems[0].wanted).rpartition(" ")[2]
+    assert graphkin.check(scene, find=instead)[instead]
+
+
+LETTERED = {
+    "frame": {"name": "F", "points": {"A": [0, 0]}, "guides": {"h": {"through": [0, 0], "angle": 0}}},
+    "links": {"1": {"points": ["A", "B"], "length": 20}, "2": {"points": ["B", "C"], "length": 60},
+              "G": {"points": ["C"], "on": "F.h"}},
+    "driver": {"link": "1", "angle": 60, "omega": 10},
+}  # fmt: skip
+
+
+def test_a_rate_along_a_guide_has_no_component_where_its_links_are_letters() -> None:
+    with pytest.raises(graphkin.CallError, match='"v_G/F" is no vector'):
+        graphkin.solve(LETTERED, find="v_G/F.x")
+
+
 def test_a_name_of_two_points_is_of_a_sliding_pair_where_they_are_links() -> None:
-    scene = {
-        "frame": {"name": "F", "points": {"A": [0, 0]}, "guides": {"h": {"through": [0, 0], "angle": 0}}},
-        "links": {"1": {"points": ["A", "B"], "length": 20}, "2": {"points": ["B", "C"], "length": 60},
-                  "G": {"points": ["C"], "on": "F.h"}},
-        "driver": {"link": "1", "angle": 60, "omega": 10},
-    }  # fmt: skip
-    solved = graphkin.solve(scene)
+    solved = graphkin.solve(LETTERED)
     assert solved["v_C"][0].real == pytest.approx(solved["v_G/F"][0], rel=1e-12)
     assert solved["v_C/B"][0] == pytest.approx(solved["v_C"][0] - solved["v_B"][0], rel=1e-12)
 
