@@ -166,6 +166,8 @@ class Pieces:
     def zeros(self, curve: int) -> Array:
         """Parameters at which a curve is zero, in increasing order; of a stretch along which it is zero, the ends."""
         found = self._roots(self.coefficients[:, :, curve], self.scale[curve], self.doubt[:, curve])
+        if not len(self.seams):
+            return found
         whole = self.high[-1] - self.low[0]
         nothing = np.abs(self.levels(curve)).min(axis=0) <= NOTHING * self.scale[curve]
         for seam in self.seams[nothing]:
@@ -189,7 +191,7 @@ class Pieces:
     def extremes(self, curve: int) -> Array:
         """Parameters at which the derivative of a curve is zero, in increasing order."""
         c = self.coefficients[:, :, curve]
-        slopes = np.stack([chebyshev.chebder(piece) for piece in c])
+        slopes = np.ascontiguousarray(chebyshev.chebder(c, axis=1))
         first, last = self.weight[:, curve] / 2
         if first or last:
             # f = g / (s^2a c^2b), s and c of half the parameter, is at rest where g' s c - g (a c^2 - b s^2) = 0
@@ -212,8 +214,37 @@ class Pieces:
         ----------
         at_rest : whether a seam counts at which the curve is zero
         """
+        low, high = float(self.low[0]), float(self.high[-1])
+        places = self.extremes(curve)
+        room = np.inf if self.periodic else np.minimum(places - low, high - places) / 2
+        near, far = (np.minimum(by * (high - low), room) for by in (BESIDE, FARTHER))
+        beside = self._within(np.stack([places - near, places + near, places - far, places + far]))
+        values, *around = self.at(np.concatenate([places[None], beside]), curve)
+        # 1 where the curve is greater at a place than beside it, -1 where it is less, 0 where rounding does not tell
+        more = (values - np.stack(around)).reshape(2, 2, -1)
+        told = np.abs(more) > STILL * np.maximum(self.scale[curve], np.abs(values))
+        sides, farther = np.where(told, np.sign(more), 0.0)
+        rises, falls = np.where(sides.all(axis=0), sides, farther)
+        turning = (rises == falls) & (np.abs(rises) == 1.0)
+        at_seams = list[Turn]()
+        if len(self.seams):
+            at_seams, of_seam = self._turns_at_seams(curve, at_rest, places, values)
+            turning &= ~of_seam
+        inner = zip(*(x[turning].tolist() for x in (places, values, rises)), strict=True)
+        turns = sorted([*at_seams, *(Turn(place, value, sense) for place, value, sense in inner)])
+        # between two greatest values lies a least one: where none is found, rounding has parted one place
+        short = BESIDE * (high - low)
+        parted = [turn for turn, after in pairwise(turns) if turn.sense == after.sense
+                  and not (turn.at_seam or after.at_seam) and after.place - turn.place < short]  # fmt: skip
+        return [turn for turn in turns if turn not in parted]
+
+    def _turns_at_seams(
+        self, curve: int, at_rest: bool, places: Array, values: Array
+    ) -> tuple[list[Turn], NDArray[np.bool_]]:
+        """The turns of a curve at seams, and which of the places at which its derivative is zero, with its values
+        there, are those of a seam."""
         low, high, slack = float(self.low[0]), float(self.high[-1]), SAME_AT_SEAM * self.scale[curve]
-        found, levels = list[Turn](), self.levels(curve)
+        turns, levels = list[Turn](), self.levels(curve)
         near = np.minimum(BESIDE_SEAM * (high - low), self._room() / 3)
         before, beyond = (self.at(self._within(self.seams + by), curve) for by in (-near, near))
         for sense in (1.0, -1.0):
@@ -221,30 +252,11 @@ class Pieces:
             turning = (sense * (top - before) >= -slack) & (sense * (top - beyond) > slack)
             turning &= at_rest | (np.abs(top) > slack)
             ends = zip(self.seams[turning].tolist(), top[turning].tolist(), strict=True)
-            found += [Turn(*end, sense, True) for end in ends]
-        places = self.extremes(curve)
+            turns += [Turn(*end, sense, True) for end in ends]
         apart = np.abs(places[:, None] - self.seams)
         apart = np.minimum(apart, high - low - apart) if self.periodic else apart
-        values = self.at(places, curve)
-        told = ((apart < near) & (np.abs(levels - values[:, None, None]) <= slack).any(axis=1)).any(axis=1)
-        room = np.inf if self.periodic else np.minimum(places - low, high - places) / 2
-        sides, farther = (self._sides(places, np.minimum(by * (high - low), room), curve) for by in (BESIDE, FARTHER))
-        rises, falls = np.where(sides.all(axis=0), sides, farther)
-        turning = (rises == falls) & (np.abs(rises) == 1.0) & ~told
-        inner = zip(*(x[turning].tolist() for x in (places, values, rises)), strict=True)
-        turns = sorted([*found, *(Turn(*one) for one in inner)])
-        # between two greatest values lies a least one: where none is found, rounding has parted one place
-        beside = BESIDE * (high - low)
-        parted = [turn for turn, after in pairwise(turns) if turn.sense == after.sense
-                  and not (turn.at_seam or after.at_seam) and after.place - turn.place < beside]  # fmt: skip
-        return [turn for turn in turns if turn not in parted]
-
-    def _sides(self, places: Array, steps: Array, curve: int) -> Array:
-        """Whether a curve is greater (1) or less (-1) at places than a step before them and a step after them, shape
-        (2, n); 0 where rounding does not tell."""
-        values = self.at(places, curve)
-        more = values - np.stack([self.at(self._within(places + by), curve) for by in (-steps, steps)])
-        return np.where(np.abs(more) > STILL * np.maximum(self.scale[curve], np.abs(values)), np.sign(more), 0.0)
+        same = (np.abs(levels - values[:, None, None]) <= slack).any(axis=1)
+        return turns, np.asarray(((apart < near) & same).any(axis=1))
 
     def _room(self) -> Array:
         """The distance of each seam from its neighbour: another seam, or an end of the range."""
