@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     from graphkin.study.graphical import Chords, Way
     from graphkin.study.over_time import TimeStudy
     from graphkin.study.quantities import Quantity
-    from graphkin.study.sweeps import Found, Sweep
+    from graphkin.study.sweeps import Arrays, Outcome, Sweep
     from graphkin.study.turn import TurnStudy
     from graphkin.table import Array
 
@@ -67,15 +67,23 @@ class Swept(OfScene, Result):
     degrees for angles; over designs of shape (designs, positions).  ``table`` also has the drivers' values and the
     status of each position.  Table, study and figures are made when they are first asked for.  ``paths`` are the files
     written to a given folder.
+
+    content : the table, its file, or the arrays of a prepared mechanism of which it is made
+    by_design : the outcome of each design, or of the scene itself
+    damaged : damaged pieces of an earlier run, which were made again
+    written : the files of its tables
     """
 
     figure_formats = CHART_FORMATS
 
     over: Sweep
-    found: Found
+    content: Table | Path | Arrays
+    by_design: tuple[Outcome, ...]
     language: str
     measured: Mapping[Quantity, Sequence[tuple[float, float]]] = field(default_factory=dict)
     on_paper: tuple[tuple[Way, str], ...] = ()
+    damaged: int = 0
+    written: tuple[Path, ...] = ()
     paths: list[Path] = field(default_factory=list)
 
     @property
@@ -90,7 +98,7 @@ class Swept(OfScene, Result):
     @property
     def good(self) -> int:
         """Positions that are solved."""
-        return self.found.good
+        return sum(outcome.good for outcome in self.by_design)
 
     @property
     def ok(self) -> bool:
@@ -100,38 +108,33 @@ class Swept(OfScene, Result):
     @property
     def outcomes(self) -> Mapping[str, int]:
         """Over designs the number of designs with each status."""
-        return Counter(outcome.status for outcome in self.found.outcomes)
+        return Counter(outcome.status for outcome in self.by_design) if self.over.designs.keys else {}
 
     def __getitem__(self, name: str) -> Array:
         """An asked quantity by its name, or any column of the table: NaN where it is missing.  Raises CallError for an
         unknown one."""
         name = as_text("name", name)
-        quantity = next((w for w in self.over.base.watched if w.name == name), None)
-        if quantity is None:
-            values, unit = self.table[name], None
-        else:
-            parts = [np.zeros(0)] * (1 + quantity.is_vector)
-            heads = [column.name for column in quantity.columns(self.mechanism, parts, sizes=False)]
-            columns, unit = [self.table[head] for head in heads], quantity.unit(self.mechanism).text
-            values = columns[0] + 1j * columns[1] if quantity.is_vector else columns[0]
+        # of a vector its size, if it has one, and its components
+        columns = [column for column in self.table.columns if column.symbol == name] or [self.table.column(name)]
+        values = columns[0].values if len(columns) == 1 else columns[-2].values + 1j * columns[-1].values
         shown = values.reshape(-1, self.over.positions) if self.over.designs.keys else values
-        return shown if unit is None else Values.of(shown, unit)
+        return Values.of(shown, columns[0].unit) if columns[0].unit else shown
 
     @cached_property
     def table(self) -> Table:
         """A row for each position: the asked quantities in the scene's units, degrees for angles, and its status."""
-        if self.found.arrays is not None:
-            return self.over.base.table_of(self.found.arrays, self.rows, 0, self.rows)
-        if self.found.table is not None:
-            return self.found.table
-        return table_of_csv(self.found.files[0], self.over.head)
+        if isinstance(self.content, Table):
+            return self.content
+        if isinstance(self.content, Path):
+            return table_of_csv(self.content, self.over.head)
+        return self.over.base.table(self.rows, 0, self.rows, self.content)
 
     @cached_property
     def designs(self) -> Table | None:
         """Over designs a row for each: replaced values, status, strokes, K, least transmission angles."""
         from graphkin.study.sweeps import designs_table
 
-        return designs_table(self.over, self.found.outcomes) if self.over.designs.keys else None
+        return designs_table(self.over, self.by_design) if self.over.designs.keys else None
 
     @cached_property
     def turn(self) -> TurnStudy | None:
@@ -172,7 +175,7 @@ class Swept(OfScene, Result):
             data["designs"] = {
                 "keys": list(self.over.designs.keys), "count": len(self.over.designs), "outcomes": dict(self.outcomes)
             }
-        data["files"] = [str(p) for p in self.found.files]
+        data["files"] = [str(p) for p in self.written]
         return data
 
     @cached_property
@@ -254,8 +257,8 @@ class Swept(OfScene, Result):
             )
             solved = Phrase("designs solved", designs=len(self.over.designs), outcomes=outcomes)
             lines.append(say(solved, self.language))
-        if self.found.damaged:
-            lines.append(say(Phrase("pieces damaged", pieces=self.found.damaged), self.language))
+        if self.damaged:
+            lines.append(say(Phrase("pieces damaged", pieces=self.damaged), self.language))
         lines.append(say(Phrase("positions solved", solved=self.good, positions=self.rows), self.language))
         return "\n".join(lines)
 
@@ -336,7 +339,7 @@ def sweep(
     """
     from graphkin.solver import structure_of
     from graphkin.study.designs import designs_of
-    from graphkin.study.sweeps import Found, Sweep, collect, write_tables
+    from graphkin.study.sweeps import Sweep, at_once, collect, write_tables
 
     known_words(formats, language, text=text, known_formats=CHART_FORMATS)
     require_callable("progress", progress)
@@ -380,22 +383,21 @@ def sweep(
     if out is None:
         if over.numbers > IN_MEMORY:
             raise CallError.of("sweep", "rows", "give a folder out or o", number=over.rows)
-        arrays = None if made.keys else over.base.arrays(positions)
-        if arrays is not None:
-            good = int(np.count_nonzero(arrays[1]))
-            return Swept(over, Found(good, arrays=arrays), spoken, elsewhere, on_paper)
+        quickly = at_once(over)
+        if quickly is not None:
+            return Swept(over, *quickly, spoken, elsewhere, on_paper)
     if not made.keys and over.base.engine is None and not moves_by_law(given):
         _ = over.base.reach  # a start that cannot be assembled
     through = cluster(as_text("scheduler", scheduler)) if scheduler is not None else executor
     try:
         with Workers(through, workers if over.long else None) as working:
             if out is None:
-                return Swept(over, collect(over, working, progress), spoken, elsewhere, on_paper)
-            tables = write_tables(over, path_of(out), working, have("pyarrow"), progress)
+                return Swept(over, *collect(over, working, progress), spoken, elsewhere, on_paper)
+            files, outcomes, damaged = write_tables(over, path_of(out), working, have("pyarrow"), progress)
     finally:
         if scheduler is not None and through is not None:
             through.shutdown()
-    swept = Swept(over, tables, spoken, elsewhere, on_paper, list(tables.files))
+    swept = Swept(over, files[0], outcomes, spoken, elsewhere, on_paper, damaged, files, [*files])
     if not made.keys:
         swept.paths.extend(swept.write_figures(out, formats, text))
     return swept

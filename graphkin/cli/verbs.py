@@ -298,11 +298,10 @@ def sweep(given: Given) -> None:
             sweeping, out=target, designs=_replaced(given.set or ()), designs_file=given.designs, progress=progress,
             workers=None if given.scheduler else processes(given.workers),
         )  # fmt: skip
-    outcomes = swept.found.outcomes
-    wrong = bool(outcomes) and all(outcome.status == "wrong scene" for outcome in outcomes)
+    outcomes = swept.by_design
+    wrong = all(outcome.status == "wrong scene" for outcome in outcomes)
     if given.json and not swept.ok:
-        row = None if outcomes else swept.over.base.table(swept.over.positions, 0, 1)
-        status, why = (row["status"][0], row["why"][0]) if row else (outcomes[0].status, outcomes[0].why)
+        status, why = outcomes[0].status, outcomes[0].why
         print_json(failed("scene" if wrong else status, [Problem(swept.mechanism.name, why)], swept.data))
     elif given.json:
         print_json(swept.data)

@@ -96,25 +96,13 @@ class FollowedDesign:
         except CallError:  # a redundant link is none of its
             return None
 
-    def arrays(self, n: int) -> Arrays | None:
-        """The arrays of all n positions at once, if the mechanism can be prepared; very many by compiled code."""
-        if self.engine is None:
-            return None
-        return self.engine.sweep(n, fast=pays(n))
-
-    def parts(self, columns: Array) -> Parts:
-        """The quantities of the table from the columns of the prepared mechanism, 0 where they are rounding alone."""
-        engine = self.engine
-        assert engine is not None
-        settled_columns = map(settled, columns, engine.residues)
-        by_name = dict(zip(engine.names, settled_columns, strict=True))
-        ends = {True: (".x", ".y"), False: ("",)}
-        return tuple(tuple(by_name[w.name + e] for e in ends[w.is_vector]) for w in self.watched)
-
-    def table(self, n: int, first: int, last: int) -> Table:
-        """Positions ``first`` to ``last`` (not included) of n: driver values, quantities, status and reason."""
-        if self.engine is not None:
-            return self.table_of(self.engine.columns(self.reach.grid(n, first, last).values), n, first, last)
+    def table(self, n: int, first: int, last: int, arrays: Arrays | None = None) -> Table:
+        """Positions ``first`` to ``last`` (not included) of n: driver values, quantities, status and reason;
+        ``arrays`` if the prepared mechanism gave them already."""
+        if arrays is None and self.engine is not None:
+            arrays = self.engine.columns(self.reach.grid(n, first, last).values)
+        if arrays is not None:
+            return self._table_of(arrays, n, first, last)
         times = np.array(moments(self.scene, n)[first:last]) if moves_by_law(self.scene) else None
         if times is not None:
             motion = over_time(self.structure, times)
@@ -125,12 +113,16 @@ class FollowedDesign:
             motion = forces_of(motion).known_motion
         return self._rows(first, motion.values, parts, motion.status, motion.why, times)
 
-    def table_of(self, arrays: Arrays, n: int, first: int, last: int) -> Table:
-        """The table of a prepared mechanism's results at positions ``first`` to ``last`` of n."""
-        (columns, ok), rows = arrays, last - first
+    def _table_of(self, arrays: Arrays, n: int, first: int, last: int) -> Table:
+        """The table of a prepared mechanism's results, 0 where they are rounding alone."""
+        (columns, ok), rows, engine = arrays, last - first, self.engine
+        assert engine is not None
         values = np.repeat(self.reach.start[None], rows, axis=0)
         values[:, 0] = self.reach.grid(n, first, last).values
-        parts, without = self.parts(columns), np.flatnonzero(~ok)
+        by_name = dict(zip(engine.names, map(settled, columns, engine.residues), strict=True))
+        parts = tuple(tuple(by_name[w.name + e] for e in ((".x", ".y") if w.is_vector else ("",)))
+                      for w in self.watched)  # fmt: skip
+        without = np.flatnonzero(~ok)
         if not len(without):
             return self._rows(first, values, parts, ["ok"], [""])
         status, why = np.full(rows, "ok", object), np.full(rows, "", object)
@@ -176,23 +168,6 @@ class Outcome:
     why: str
     cells: Mapping[str, float | str | None]
     good: int
-
-
-@dataclass(frozen=True)
-class Found:
-    """The result of a sweep: the positions that are ok, and over designs the outcome of each.
-
-    arrays : the quantities of the table, if a prepared mechanism computed all of them at once
-    table : in memory; None if it was written into files, or is made of ``arrays``
-    damaged : damaged pieces of an earlier run, which were made again
-    """
-
-    good: int
-    outcomes: tuple[Outcome, ...] = ()
-    arrays: Arrays | None = None
-    table: Table | None = None
-    files: tuple[Path, ...] = ()
-    damaged: int = 0
 
 
 @dataclass(frozen=True)
@@ -347,16 +322,20 @@ def _rows(
         status, why = design
         return sweep.base.blank(first, last, status, why), Outcome(number, status, why, {}, 0)
     n = sweep.positions
-    table = design.table(n, first, last) if arrays is None else design.table_of(arrays, n, first, last)
-    bad = np.flatnonzero(table["status"] != "ok")
-    status, why = (table["status"][bad[0]], table["why"][bad[0]]) if len(bad) else ("ok", "")
-    cells: dict[str, float | str | None] = {}
+    table, cells = design.table(n, first, last, arrays), dict[str, float | str | None]()
     if sweep.designs.keys and first == 0:
         from graphkin.study.turn import study_turn
         from graphkin.study.turn_data import design_row
 
         cells = design_row(study_turn(design.reach, everything=False))
-    return table, Outcome(number, status, why, cells, len(table) - len(bad))
+    return table, _outcome(number, table, cells)
+
+
+def _outcome(number: int, table: Table, cells: Mapping[str, float | str | None]) -> Outcome:
+    """The outcome of the rows of a design, by the first without values."""
+    bad = np.flatnonzero(table["status"] != "ok")
+    status, why = (table["status"][bad[0]], table["why"][bad[0]]) if len(bad) else ("ok", "")
+    return Outcome(number, status, why, cells, len(table) - len(bad))
 
 
 def _followed(sweep: Sweep, values: tuple[Value, ...]) -> FollowedDesign | tuple[str, str]:
@@ -387,25 +366,43 @@ def _with_design(table: Table, keys: Sequence[str], number: int, values: Sequenc
     return Table((Column("design", np.full(n, number + 1)), *replaced, *table.columns), ("design", "position"))
 
 
-def collect(sweep: Sweep, workers: Workers, progress: Progress | None = None) -> Found:
-    """A whole sweep in memory."""
+def at_once(sweep: Sweep) -> tuple[Table | Arrays, tuple[Outcome, ...]] | None:
+    """All positions of a scene that can be prepared, very many by compiled code: the arrays of which its table is made
+    when it is read, or the table where the solver has to say why there is nothing.  None for others."""
+    design, n = sweep.base, sweep.positions
+    if sweep.designs.keys or design.engine is None:
+        return None
+    arrays = design.engine.sweep(n, fast=pays(n))
+    if arrays[1].all():
+        return arrays, (Outcome(0, "ok", "", {}, n),)
+    table = design.table(n, 0, n, arrays)
+    return table, _joined(sweep, [_outcome(0, table, {})])
+
+
+def collect(sweep: Sweep, workers: Workers, progress: Progress | None = None) -> tuple[Table, tuple[Outcome, ...]]:
+    """The table of a whole sweep in memory, and the outcome of each of its designs."""
     tables, outcomes = list[Table](), list[Outcome]()
     for table, ends in workers.results(made, ((sweep.piece(k),) for k in range(sweep.pieces))):
         tables.append(table)
         outcomes += ends
         _count(sweep, len(tables), progress)
-    return replace(_joined(sweep, outcomes), table=Table.joined(tables))
+    return Table.joined(tables), _joined(sweep, outcomes)
 
 
 def write_tables(
     sweep: Sweep, folder: Path, workers: Workers, parquet: bool = False, progress: Progress | None = None
-) -> Found:
+) -> tuple[tuple[Path, ...], tuple[Outcome, ...], int]:
     """Make the missing pieces of a sweep and write its tables into a folder; they appear whole or not at all.
 
     Parameters
     ----------
     parquet : whether table.parquet is written too
     progress : called with the number of finished rows and of all
+
+    Returns
+    -------
+    The files, table.csv first; the outcome of each design; the number of damaged pieces of an earlier run, which were
+    made again
 
     Raises
     ------
@@ -425,15 +422,17 @@ def write_tables(
             for k, (number, (text, outcomes)) in enumerate(zip(missing, results, strict=True), 1):
                 points.save(number, {"outcomes": [asdict(o) for o in outcomes]}, text)
                 _count(sweep, len(finished) + k, progress)
-            return replace(_merged(sweep, points, folder, parquet), damaged=damaged)
+            return *_merged(sweep, points, folder, parquet), damaged
     except OSError as error:
         raise CallError.of(str(folder), "cannot be written", "give another folder with o",
                            reason=from_others(error.strerror or str(error))) from None
 
 
-def _merged(sweep: Sweep, points: Checkpoints, folder: Path, parquet: bool) -> Found:
+def _merged(
+    sweep: Sweep, points: Checkpoints, folder: Path, parquet: bool
+) -> tuple[tuple[Path, ...], tuple[Outcome, ...]]:
     """All pieces in their order as tables in the folder of results; the pieces are removed."""
-    outcomes = list[Outcome]()
+    of_pieces = list[Outcome]()
     files = [folder / "table.csv"]
     with whole_file(files[0], points.place) as out:
         sweep.head.write_csv(out)
@@ -442,18 +441,18 @@ def _merged(sweep: Sweep, points: Checkpoints, folder: Path, parquet: bool) -> F
                 wanted = "run the same command again; the disk may be failing"
                 raise CallError.of(str(points.place), "a piece was damaged while the table was", wanted)
             piece.copy(out)
-            outcomes += [Outcome(**o) for o in piece.facts["outcomes"]]
-    swept = _joined(sweep, outcomes)
+            of_pieces += [Outcome(**o) for o in piece.facts["outcomes"]]
+    outcomes = _joined(sweep, of_pieces)
     if sweep.designs.keys:
         files.append(folder / "designs.csv")
         with whole_file(files[-1], points.place) as out:
-            designs_table(sweep, swept.outcomes).write_csv(out)
+            designs_table(sweep, outcomes).write_csv(out)
     if parquet:
         files.append(folder / "table.parquet")
         with whole_file(files[-1], points.place) as out:
             parquet_of_csv(files[0], sweep.head, out)
     points.close()
-    return replace(swept, files=tuple(files))
+    return tuple(files), outcomes
 
 
 def _count(sweep: Sweep, done: int, progress: Progress | None) -> None:
@@ -461,8 +460,8 @@ def _count(sweep: Sweep, done: int, progress: Progress | None) -> None:
         progress(min(sweep.rows, round(sweep.rows * done / sweep.pieces)), sweep.rows)
 
 
-def _joined(sweep: Sweep, outcomes: Sequence[Outcome]) -> Found:
-    """The result of a sweep from its pieces in order: a design is "ok", "partly" so (some positions failed), or has the
+def _joined(sweep: Sweep, outcomes: Sequence[Outcome]) -> tuple[Outcome, ...]:
+    """The outcome of each design from its pieces in order: it is "ok", "partly" so (some positions failed), or has the
     status of the first that failed."""
     whole = []
     for design, pieces in groupby(outcomes, lambda outcome: outcome.design):
@@ -471,7 +470,7 @@ def _joined(sweep: Sweep, outcomes: Sequence[Outcome]) -> Found:
         said = next((o for o in parts if o.why), parts[0])
         status = "ok" if good == sweep.positions else "partly" if good else said.status
         whole.append(Outcome(design, status, said.why, parts[0].cells, good))
-    return Found(sum(o.good for o in whole), tuple(whole) if sweep.designs.keys else ())
+    return tuple(whole)
 
 
 def designs_table(sweep: Sweep, outcomes: Sequence[Outcome]) -> Table:

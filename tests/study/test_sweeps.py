@@ -25,7 +25,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.study import sweeps
 from graphkin.study.designs import designs_of
 from graphkin.study.quantities import Quantity
-from graphkin.study.sweeps import Found, Sweep, collect, write_tables
+from graphkin.study.sweeps import Outcome, Sweep, collect, write_tables
 
 
 @pytest.fixture
@@ -41,7 +41,7 @@ def run(
     processes: int | None = None,
     parquet: bool = False,
     progress: Progress | None = None,
-) -> Found:
+) -> tuple[tuple[Path, ...], tuple[Outcome, ...], int]:
     with Workers(executor, processes) as workers:
         return write_tables(sweep, folder, workers, parquet, progress)
 
@@ -107,9 +107,8 @@ def test_another_executor_gives_the_same_bytes(plan: Sweep, whole: Path, tmp_pat
 def test_processes_give_the_same_bytes_in_files_and_in_memory(plan: Sweep, whole: Path, tmp_path: Path) -> None:
     with Workers(processes=2) as workers:
         write_tables(plan, tmp_path / "b", workers)
-        table = collect(plan, workers).table
+        table = collect(plan, workers)[0]
     assert prints(whole) == prints(tmp_path / "b")
-    assert table is not None
     assert (whole / "table.csv").read_text() == table.csv()
 
 
@@ -156,8 +155,8 @@ def test_a_damaged_piece_is_made_again_and_told(plan: Sweep, whole: Path, tmp_pa
     text = piece.read_bytes()
     piece.write_bytes(text[:-3] + (b"7" if text[-3:-2] != b"7" else b"8") + text[-2:])
     rest = Synchronous()
-    found = run(plan, tmp_path / "b", rest)
-    assert (3, 1, prints(whole)) == (rest.given, found.damaged, prints(tmp_path / "b"))
+    _, _, damaged = run(plan, tmp_path / "b", rest)
+    assert (3, 1, prints(whole)) == (rest.given, damaged, prints(tmp_path / "b"))
 
 
 def test_an_interrupted_sweep_shows_no_table(plan: Sweep, tmp_path: Path) -> None:
@@ -222,8 +221,7 @@ def test_a_dask_cluster_that_loses_a_worker_gives_the_same_bytes(plan: Sweep, wh
 
 def test_a_sweep_in_memory_is_the_one_in_the_file(plan: Sweep, whole: Path) -> None:
     with Workers() as workers:
-        table = collect(plan, workers).table
-    assert table is not None
+        table = collect(plan, workers)[0]
     assert (whole / "table.csv").read_text() == table.csv()
 
 
