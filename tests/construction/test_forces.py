@@ -452,3 +452,15 @@ def test_the_link_of_a_pin_bears_the_force_of_a_circular_slot_as_it_is_drawn(of)
     on_link = forces[f"F_0/{of}"] - forces[f"F_{of}/g"] + forces[f"Fi_{of}"] + forces[f"G_{of}"]
     assert 0 == pytest.approx(abs(on_link), abs=1e-9)
     assert (True, []) == judged(owned("g", of))
+
+
+@pytest.mark.parametrize(("slot", "of"), [("g", "1"), ("s", "1"), ("g", "4"), ("s", "4")])
+def test_a_guest_of_a_hinge_is_cut_free_before_its_host_whose_force_is_that_of_one_pair(slot, of):
+    (state,) = forces_on(drawn(owned(slot, of))).states
+    (polygon,) = next(group for group in state.groups if group.links == (of,)).polygons
+    assert [f"F_0/{of}"] == [str(vector.symbol) for vector in polygon if not vector.known]
+
+
+@pytest.mark.parametrize("scene", [owned("g"), owned("s"), owned("g", "4"), owned("s", "4")])
+def test_forces_of_hosts_and_guests_are_those_of_the_solver(scene):
+    assert (True, []) == judged(scene)

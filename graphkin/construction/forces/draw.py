@@ -81,10 +81,9 @@ def _drawn(sheet: Sheet, hand: Instrument, per_mm: float) -> ForceSheet:
 
 def _state(held: Sheet, hand: Instrument, per_mm: float, known: tuple[ForceVector, ...]) -> ForceState:
     """All forces, from the known loads."""
-    structure = held.structure
     cut, groups = CutFree(DrawnPosition(held), hand, per_mm), []
     cut.push(*known)
-    for element in reversed(force_groups(structure)):
+    for element in force_groups(cut.drawn):
         balances = {driver.key: cut.drawn.balance(driver) for driver in element.drivers}
         if isinstance(element, Driven):
             groups.append(at_driver(cut, element, balances[element.driver.key]))

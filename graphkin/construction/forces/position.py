@@ -11,7 +11,7 @@ together are the force alone, on a line at the distance h = M / F from the centr
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -195,7 +195,21 @@ class DrawnPosition:
         return end + turning * (at - start) * (scales.length / scales.acceleration)
 
 
-def force_groups(structure: Structure) -> tuple[Element, ...]:
+def force_groups(drawn: DrawnPosition) -> Sequence[Element]:
+    """The groups in the order in which they are cut free, each after all that hang on it; and the guests at a hinge
+    before their host where they can be, since the host's force there is then that of one pair, not the sum of several.
+    """
+    left, ordered = [*reversed(_balanced_groups(drawn.structure))], list[Element]()
+    hosted = [both for hosts in drawn.hosts.values() for both in hosts.items()]
+    while left:
+        free = [e for e in left if all(e is other or other.outside.isdisjoint(e.members) for other in left)]
+        waiting = {host for guest, host in hosted for e in left if guest in e.members and host not in e.members}
+        ordered.append(next((e for e in free if waiting.isdisjoint(e.members)), free[0]))
+        left.remove(ordered[-1])
+    return ordered
+
+
+def _balanced_groups(structure: Structure) -> tuple[Element, ...]:
     """The groups of the mechanism, in the order of solution, were it driven where it is balanced: a force or a moment
     there leaves so many equations to each group as it has unknown forces.
 
