@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 Array = NDArray[Any]
 SECTIONS = 64
 LEAST_SECTIONS = 16
+MOST_DIVISIONS = 100
 NARROW = 1e-11
 """A least value is flat: its place has no more digits."""
 SAME_VALUE = 1e-12
@@ -45,6 +46,31 @@ def last_true(
         if abs(high - low) <= max(within, 4e-16 * max(1.0, abs(high))) or (at[i], at[i + 1]) == (low, high):
             return float(low)
         low, high = float(at[i]), float(at[i + 1])
+
+
+def zero_between(function: Callable[[float], float], low: float, high: float) -> float:
+    """The zero of a function, which takes long, between two places at which it has opposite senses; or the place on the
+    way there at which it has no value (nan).
+
+    By proportional division, the value of an end halved that stays for the second time (regula falsi, Illinois variant;
+    Dowell and Jarratt, BIT 11, 1971).
+    """
+    kept, value_kept, other, value = low, function(low), high, function(high)
+    stayed: float | None = None
+    for _ in range(MOST_DIVISIONS):
+        share = value_kept - value
+        at = (value_kept * other - value * kept) / share if share else (kept + other) / 2
+        if not min(kept, other) < at < max(kept, other):
+            at = (kept + other) / 2
+        value_there = function(at)
+        narrow = abs(other - kept) <= 4e-16 * max(abs(kept), abs(other), 1.0)
+        if value_there == 0.0 or np.isnan(value_there) or narrow:
+            break
+        if (value_there > 0.0) == (value_kept > 0.0):
+            kept, value_kept, other = other, value, kept
+        value_kept /= 2.0 if kept == stayed else 1.0
+        stayed, other, value = kept, at, value_there
+    return at
 
 
 def changes(holds: Callable[[Array], Array], grid: Array, within: float = 0.0) -> list[float]:

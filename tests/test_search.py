@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from graphkin.search import FIRST_PIECES, changes, intervals, last_true, least_value, resolve
+from graphkin.search import FIRST_PIECES, changes, intervals, last_true, least_value, resolve, zero_between
 
 pytestmark = pytest.mark.quick
 
@@ -170,3 +170,18 @@ def test_a_flat_extreme_where_a_turn_begins_is_found_once() -> None:
 def test_an_extreme_where_two_pieces_meet_is_found_beside_values_that_may_be_off() -> None:
     pieces = resolve(lambda t: ((3.0 - np.cos(t))[:, None], np.full((len(t), 1), 2e-8)), 0.0, 2 * np.pi, periodic=True)
     assert [0.0, np.pi] == pytest.approx(sorted(turn.place % (2 * np.pi) for turn in pieces.turns(0)), abs=1e-6)
+
+
+@pytest.mark.parametrize("ends", [(0.0, 3.0), (3.0, 0.0)])
+def test_a_zero_between_two_places_has_all_digits(ends: tuple[float, float]) -> None:
+    assert pytest.approx(np.sqrt(2.0), rel=4e-16) == zero_between(lambda x: x**9 - np.sqrt(2.0) ** 9, *ends)
+
+
+def test_a_bent_function_is_looked_at_few_times_for_its_zero() -> None:
+    places: list[float] = []
+    zero_between(lambda x: places.append(x) or np.expm1(5.0 * (x - 0.3)), 0.0, 1.0)  # type: ignore[func-returns-value]
+    assert 15 >= len(places)
+
+
+def test_the_search_for_a_zero_ends_where_a_function_has_no_value() -> None:
+    assert 0.4 < zero_between(lambda x: np.nan if 0.4 < x < 0.6 else x - 0.5, 0.0, 1.0) < 0.6

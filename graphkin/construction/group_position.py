@@ -25,7 +25,7 @@ from itertools import chain, pairwise, product
 import numpy as np
 
 from graphkin.construction.instruments import EXACT
-from graphkin.construction.links_on_paper import Pace, PlacedLinks, Steps, drive, meet, walk
+from graphkin.construction.links_on_paper import PlacedLinks, Steps, drive, meet, walk
 from graphkin.construction.proportional_division import divide, shares
 from graphkin.construction.reduced_mechanism import ReducedMechanism, best_first, drawn_near, fitted
 from graphkin.construction.steps import Bar, CompassArc, Missed, Step, Stroke, TrialCurve, TrialPositions, TrialRow
@@ -33,7 +33,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Pose, Poses
 from graphkin.scene.model import Driver
 from graphkin.scene.symbol import Symbol
-from graphkin.search import last_true
+from graphkin.search import last_true, zero_between
 from graphkin.structure import Driven, Dyad
 from graphkin.words import Phrase
 
@@ -41,7 +41,7 @@ POINTS = 7  # trial positions drawn
 BETWEEN = 6  # parts into which the curve between two of them is divided
 AWAY = 0.35  # of the trial driver (rad, or the mechanism's size): how far the first trial is from the last
 AGAIN = 2  # times that a trial drawing is drawn which does not close by hands that err
-AT_ONCE = Pace(1.0, 1.0, math.inf, math.inf, 1.0 / 16)  # by which links known already are moved to where hands put them
+SHORTEST = 1.0 / 16  # part of the way by which links known already are moved to where hands put them, at least
 BEFORE = 0.45  # part of the trial positions that lie before the place sought; so that none falls on it
 DIVISIONS, UNSEEN = 4, 0.02  # divisions at most, until so little (mm, degrees) is missed
 STEP = 0.06  # from trial to trial of several drivers (rad, or the mechanism's size), as many parts of it before
@@ -133,7 +133,7 @@ def _fit(known: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> dict[st
         return None if fit is None else {**fit, **there.poses}
 
     start = {**{name: guess[name] for name in reduced.group.members}, **there.poses}
-    *_, (part, found) = (0.0, start), *walk(near, start, 0.0, 1.0, AT_ONCE)
+    *_, (part, found) = (0.0, start), *walk(near, start, 0.0, 1.0, 1.0, SHORTEST)
     if part < 1.0:
         raise _refused(reduced, Phrase("no trial position closes this group here"))
     return {name: pose for name, pose in found.items() if name in reduced.group.members}
@@ -404,8 +404,7 @@ def _closed_between(
     gap: Callable[[float], float], one: tuple[float, float], two: tuple[float, float]
 ) -> float | None:
     """The trial value at which a gap closes between two values with their gaps, nan for those that cannot be drawn;
-    None where it does not close.  By proportional division, with halving where that is slow (regula falsi, Illinois
-    variant)."""
+    None where it does not close."""
     (a, fa), (b, fb) = (two, one) if math.isnan(one[1]) else (one, two)
     if math.isnan(fb) and not math.isnan(fa):  # up to the last that can be drawn
         b = last_true(lambda values: np.array([not math.isnan(gap(float(value))) for value in values]), a, b, 2)
@@ -413,23 +412,7 @@ def _closed_between(
     # nan compares false; a gap that leaps has passed half a turn, not zero
     if not fa * fb <= 0.0 or abs(fa - fb) > 1.0:
         return None
-    side = 0
-    for _ in range(100):
-        c = (fa * b - fb * a) / (fa - fb) if fa != fb else (a + b) / 2
-        if not min(a, b) < c < max(a, b):
-            c = (a + b) / 2
-        fc = gap(c)
-        if fc == 0.0 or math.isnan(fc) or abs(b - a) <= 4e-16 * max(abs(a), abs(b), 1.0):
-            return c
-        if (fc > 0) == (fb > 0):
-            b, fb = c, fc
-            fa = fa / 2 if side == -1 else fa
-            side = -1
-        else:
-            a, fa = c, fc
-            fb = fb / 2 if side == 1 else fb
-            side = 1
-    return c
+    return zero_between(gap, a, b)
 
 
 def _gaps(reduced: ReducedMechanism, known: PlacedLinks, values: Sequence[float]) -> dict[Branch, list[float]]:

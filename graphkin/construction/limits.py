@@ -15,7 +15,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from graphkin.construction.instruments import Instrument
-from graphkin.construction.links_on_paper import Pace, moved, travel, walk
+from graphkin.construction.links_on_paper import moved, travel, walk
 from graphkin.construction.position import Assembly, assembly_at, found_near, place, poses_at
 from graphkin.construction.reduced_mechanism import Choices
 from graphkin.construction.scales import Scales
@@ -78,13 +78,13 @@ class TurnOfCrank:
         start = LimitPosition(values[driver.key], {name: pose for name, pose in poses.items() if name in placed})
         turn = cls(structure, elements, values, Choices(structure, elements), (start,))
         end = start.value + math.tau
-        pace = Pace(STEP, STEP, SURPRISE, AT_FIRST, SMALLEST * STEP)
 
         def near(value: float, guess: Poses, _: Poses) -> Poses | None:
             here = turn.near(value, guess)
             return None if here is None else here.poses
 
-        positions = [start, *(LimitPosition(*at) for at in walk(near, start.poses, start.value, end, pace))]
+        steps = walk(near, start.poses, start.value, end, STEP, SMALLEST * STEP, SURPRISE, at_first=AT_FIRST)
+        positions = [start, *(LimitPosition(*at) for at in steps)]
         if positions[-1].value < end:
             raise Unsolvable("no whole turn", _short(why, driver.link, positions[-1].value))
         if moved(start.poses, positions[-1].poses) > CLOSED:

@@ -517,21 +517,10 @@ def assembled(
 # -- from one position to another --------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Pace:
-    """The pace of following a motion: its longest and its first step, the allowed distance of a link from its expected
-    place (in the size of the mechanism; and at the first step), and the step below which the motion ends."""
-
-    longest: float
-    first: float
-    surprise: float
-    at_first: float
-    shortest: float
-
-
 def walk(
-    near: Callable[[float, Poses, Poses], Poses | None], start: Poses, begin: float, end: float, pace: Pace
-) -> Iterator[tuple[float, Poses]]:
+    near: Callable[[float, Poses, Poses], Poses | None], start: Poses, begin: float, end: float, longest: float,
+    shortest: float, surprise: float = math.inf, first: float = 0.0, at_first: float = 0.0,
+) -> Iterator[tuple[float, Poses]]:  # fmt: skip
     """The positions from one to another, each followed from its predecessor; they end with the motion.
 
     Parameters
@@ -539,17 +528,21 @@ def walk(
     near : function of a place of the path, a guess and the position before to the position there; None where the links
         do not fit
     begin, end : places of the path
+    longest, shortest, first : the longest step, that below which the motion ends, and the first (the longest if 0)
+    surprise, at_first : the allowed distance of a link from its expected place, in the size of the mechanism, and at
+        the first step (the same if 0)
     """
     before, at, t = start, start, begin
-    step = last = pace.first
+    step = last = first or longest
     while t < end:
-        step = min(step, pace.longest, end - t)
+        step = min(step, longest, end - t)
         going = t > begin
         guess = _ahead(before, at, step / last) if going else at
         found = near(t + step, guess, at)
-        if found is None or moved(guess, found) > (pace.surprise + 0.3 * moved(at, found) if going else pace.at_first):
+        allowed = surprise if going else at_first or surprise
+        if found is None or moved(guess, found) > allowed + (0.3 * moved(at, found) if going else 0.0):
             step /= 2
-            if step < pace.shortest:
+            if step < shortest:
                 return
             continue
         before, at, t, last = at, found, (end if step >= end - t else t + step), step

@@ -19,7 +19,6 @@ from graphkin.construction.group_position import all_fits, each_assembly, place_
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import (
     Intersection,
-    Pace,
     PlacedLinks,
     Steps,
     assemble,
@@ -287,8 +286,6 @@ def moved_to(
         target = dict(zip((d.key for d in scene.drivers), way, strict=True))
         length = max(abs(target[d.key] - own[d.key]) / d.span(scene.size) for d in scene.drivers)
         longest = 1.0 / max(1, math.ceil(length / (STEP if choices.of else LONG_STEP)))
-        # nothing says yet where the links go: the first step is small
-        pace = Pace(longest, longest / 64, SURPRISE, SURPRISE, longest / 1e10)
 
         def at(part: float, target: Mapping[str, float] = target) -> dict[str, float]:
             return {k: own[k] + part * (target[k] - own[k]) for k in own}
@@ -296,7 +293,9 @@ def moved_to(
         def near(part: float, guess: Poses, there: Poses, at: Callable[[float], dict[str, float]] = at) -> Poses | None:
             return found_near(choices, elements, at(part), guess, there)
 
-        part, found = [(0.0, poses), *walk(near, poses, 0.0, 1.0, pace)][-1]
+        # nothing says yet where the links go: the first step is small
+        steps = walk(near, poses, 0.0, 1.0, longest, longest / 1e10, SURPRISE, longest / 64)
+        part, found = [(0.0, poses), *steps][-1]
         if part == 1.0:
             return dict(found)
         limits.append(at(part))
