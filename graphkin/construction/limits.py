@@ -17,7 +17,7 @@ from numpy.polynomial import chebyshev
 from graphkin.construction.instruments import Instrument
 from graphkin.construction.links_on_paper import moved, travel, walk
 from graphkin.construction.position import Assembly, assembly_at, found_near, place, poses_at
-from graphkin.construction.reduced_mechanism import Choices
+from graphkin.construction.reduced_mechanism import PlacedElements
 from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import LimitPosition, Limits
 from graphkin.errors import Problem, Unsolvable
@@ -47,13 +47,11 @@ class TurnOfCrank:
     """Positions over a whole turn of the first driver, each followed from the one before, on paper of the mechanism's
     size.
 
-    ``elements`` are the placed elements, ``values`` the driver values at the start (rad, m).
+    ``values`` are the driver values at the start (rad, m).
     """
 
-    structure: Structure
-    elements: Sequence[Element]
+    placed: PlacedElements
     values: Mapping[str, float]
-    choices: Choices
     positions: tuple[LimitPosition, ...]
 
     @classmethod
@@ -74,9 +72,9 @@ class TurnOfCrank:
         if not driver.turns:
             raise Unsolvable("no whole turn", Problem(why, "belongs to a whole turn but the driver",
                                                       "ask for s_ theta_ or d_ at single"))
-        placed = {structure.scene.frame.name, *(n for e in elements for n in e.members)}
-        start = LimitPosition(values[driver.key], {name: pose for name, pose in poses.items() if name in placed})
-        turn = cls(structure, elements, values, Choices(structure, elements), (start,))
+        links = {structure.scene.frame.name, *(n for e in elements for n in e.members)}
+        start = LimitPosition(values[driver.key], {name: pose for name, pose in poses.items() if name in links})
+        turn = cls(PlacedElements(structure, elements), values, (start,))
         end = start.value + math.tau
 
         def near(value: float, guess: Poses, _: Poses) -> Poses | None:
@@ -93,8 +91,8 @@ class TurnOfCrank:
 
     def near(self, value: float, guess: Poses) -> LimitPosition | None:
         """The position at a crank's value, near its expected place; None where the links do not fit there."""
-        values = {**self.values, self.structure.scene.drivers[0].key: value}
-        poses = found_near(self.choices, self.elements, values, guess, self.positions[0].poses)
+        values = {**self.values, self.placed.structure.scene.drivers[0].key: value}
+        poses = found_near(self.placed, values, guess, self.positions[0].poses)
         return None if poses is None else LimitPosition(value, poses)
 
     def limits(self, output: Pair | str, why: str) -> Limits:
@@ -129,13 +127,13 @@ class TurnOfCrank:
     def _refined(self, output: Pair | str, k: int, roughly: float) -> tuple[LimitPosition, float]:
         """The extreme of a curve through the positions about the k-th."""
         here = self.positions[k]
-        middle, half = here.value, 2 * STEP
+        middle, half, crank = here.value, 2 * STEP, self.placed.structure.scene.drivers[0].key
         for _ in range(24):
             heights = []
             for at in middle + half * _NODES:
                 near = self.near(float(at), here.poses)
                 if near is None:
-                    raise Unsolvable("no whole turn", _short(str(output), self.structure.scene.drivers[0].key, at))
+                    raise Unsolvable("no whole turn", _short(str(output), crank, at))
                 here = near
                 heights.append(_along(output, here, roughly))
             c = _FIT @ np.array(heights)
@@ -202,7 +200,7 @@ def _follower_limits(scene: Mechanism, asked: Sequence[Symbol], values: Mapping[
         ends = []
         for lift in (cam.law.least, cam.law.greatest):
             value = cam.leaves(lift, -1 if driver.rate < 0.0 else 1)
-            poses = poses_at(Choices(structure, structure.elements), {**values, driver.key: value})
+            poses = poses_at(PlacedElements(structure, structure.elements), {**values, driver.key: value})
             ends.append(LimitPosition(value, poses))
         backwards = isinstance(cam.motion, SwingingFollower) and cam.motion.side < 0
         low, high = ends[::-1] if backwards else ends

@@ -24,7 +24,7 @@ from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import PlacedLinks, reading, stuck, travel
 from graphkin.construction.polygons import AS_DRAWN, RATE, OwnValues, Polygons, draw_asked
 from graphkin.construction.position import Assembly, assembly_at, cams_in_place, own_position, place
-from graphkin.construction.reduced_mechanism import Choices
+from graphkin.construction.reduced_mechanism import PlacedElements
 from graphkin.construction.scales import Room, Scales, chosen_scales
 from graphkin.construction.sheet import Board, GroupWay, Limits, Sheet, without_residues
 from graphkin.construction.steps import ORDERS, Order, Step
@@ -597,7 +597,7 @@ def own_assembly(
     """
     taken: list[Inversion] = []
 
-    def of_group(_: Choices, paper: PlacedLinks, group: LargerGroup) -> Poses:
+    def of_group(paper: PlacedLinks, group: LargerGroup) -> Poses:
         parts = [element for element in group.parts if element in elements]
         found = list(_ways(paper, parts, [v for v in inversions if v.triangle in group.triangles]))
         if not found:
@@ -607,7 +607,7 @@ def own_assembly(
         taken.extend(triangles)
         return poses
 
-    paper = own_position(Choices(structure, ()), elements, of_group)
+    paper = own_position(PlacedElements(structure, elements), of_group)
     return taken, Assembly(paper.values, paper.poses)
 
 

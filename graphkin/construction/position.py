@@ -13,6 +13,7 @@ import cmath
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from itertools import combinations
 
 from graphkin.construction.group_position import all_fits, each_assembly, place_by_trial, trial_steps
@@ -36,15 +37,7 @@ from graphkin.construction.links_on_paper import (
     travel,
     walk,
 )
-from graphkin.construction.reduced_mechanism import (
-    Choices,
-    ReducedMechanism,
-    best_reduced,
-    best_trial,
-    closed_from,
-    fitted,
-    standing,
-)
+from graphkin.construction.reduced_mechanism import PlacedElements, ReducedMechanism, closed_from, fitted
 from graphkin.construction.sheet import Board
 from graphkin.construction.steps import FINDS_A_POINT, Mark, Reason, Step
 from graphkin.errors import Unsolvable
@@ -206,15 +199,15 @@ def assembly_at(
         fit at these values, or the motion does not reach them, with the limit in the message; "dead point"
     SceneError : a group has several assemblies and no sketch chooses
     """
-    scene, choices = structure.scene, Choices(structure, elements)
+    scene, placed = structure.scene, PlacedElements(structure, elements)
     at_start = all(values[d.key] == d.values[0] for d in scene.drivers)
-    there = choices.at_start if at_start else choices
+    there = placed.at_start if at_start else placed
     if near is None:
-        poses = poses_at(choices, values)
+        poses = poses_at(placed, values)
     else:
         poses, before = near.poses, {key: near.values[key] for key in values}
         if values != before:
-            poses = moved_to(choices, elements, before, values, poses)
+            poses = moved_to(placed, before, values, poses)
     starts = {d.key: d.values[0] for d in there.structure.scene.drivers if d.key not in values}
     paper = start_board(structure, 1.0 / scene.size, {**values, **starts})
     branches: dict[int, int] = {}
@@ -223,8 +216,11 @@ def assembly_at(
         if isinstance(element, Dyad):
             branches[i] = meet(paper, element).nearest(poses) or 0
         elif isinstance(element, LargerGroup):
-            stands = at_start and bool(element.rolling)  # as the problem gives it
-            best = (standing if stands else best_reduced)(there if stands else choices, element, paper, poses)
+            if at_start and element.rolling:  # as the problem gives it
+                best = placed.standing(element, paper, poses)
+            else:
+                drawing = placed.best(element, paper, poses)
+                best = None if drawing is None else drawing.reduced
             if best is None:
                 raise stuck("dead point", element.links, "every trial drawing is at a dead point")
             reduced[element] = best.rolled_from(poses, paper.mm)
@@ -234,12 +230,12 @@ def assembly_at(
     return Assembly({**values, **starts, **rolled}, poses, branches, reduced)
 
 
-def poses_at(choices: Choices, values: Mapping[str, float]) -> Poses:
+def poses_at(placed: PlacedElements, values: Mapping[str, float]) -> Poses:
     """The poses of some elements' links at driver values (rad, m), on paper of the mechanism's size, followed from the
     scene's own position; errors as for `assembly_at`."""
-    own = {d.key: d.values[0] for d in choices.structure.scene.drivers}
-    poses = own_position(choices.at_start, choices.elements).poses
-    return poses if values == own else moved_to(choices, choices.elements, own, values, poses)
+    own = {d.key: d.values[0] for d in placed.structure.scene.drivers}
+    poses = own_position(placed.at_start).poses
+    return poses if values == own else moved_to(placed, own, values, poses)
 
 
 def cams_in_place(
@@ -259,7 +255,7 @@ def cams_in_place(
     scene, mm = structure.scene, 1.0 / structure.scene.size
     moving = leading(structure, [cam.link for cam in scene.cams])
     elements = [e for i, e in enumerate(structure.elements) if i in moving or e in needed(structure, asked)]
-    poses = poses_at(Choices(structure, elements), values)
+    poses = poses_at(PlacedElements(structure, elements), values)
     rolling = {n for g in scene.gears for n in g.wheels} | {n for c in scene.contacts if c.rolling for n in c.links}
     starts = {**scene.starts, **{name: cmath.phase(poses[name].axis) for name in rolling & poses.keys()}}
     starts |= {s.key: travel(s, poses, mm) / mm for s in structure.slides if rolling and poses.keys() >= {*s.links}}
@@ -271,7 +267,7 @@ def cams_in_place(
 
 
 def moved_to(
-    choices: Choices, elements: Sequence[Element], own: Mapping[str, float], values: Mapping[str, float], poses: Poses
+    placed: PlacedElements, own: Mapping[str, float], values: Mapping[str, float], poses: Poses
 ) -> dict[str, Pose]:
     """All links at driver values, followed from their poses at others (``own``), on paper of the mechanism's size.
 
@@ -279,35 +275,35 @@ def moved_to(
     ------
     Unsolvable : "not assembled": the motion does not reach the values; the message gives the limit
     """
-    scene = choices.structure.scene
+    scene = placed.structure.scene
     first, goal = [own[d.key] for d in scene.drivers], [values[d.key] for d in scene.drivers]
     limits: list[Mapping[str, float]] = []
-    for way in ways(scene.drivers, first, goal, choices.structure.rolls):
+    for way in ways(scene.drivers, first, goal, placed.structure.rolls):
         target = dict(zip((d.key for d in scene.drivers), way, strict=True))
         length = max(abs(target[d.key] - own[d.key]) / d.span(scene.size) for d in scene.drivers)
-        longest = 1.0 / max(1, math.ceil(length / (STEP if choices.of else LONG_STEP)))
+        longest = 1.0 / max(1, math.ceil(length / (STEP if placed.of else LONG_STEP)))
 
         def at(part: float, target: Mapping[str, float] = target) -> dict[str, float]:
             return {k: own[k] + part * (target[k] - own[k]) for k in own}
 
         def near(part: float, guess: Poses, there: Poses, at: Callable[[float], dict[str, float]] = at) -> Poses | None:
-            return found_near(choices, elements, at(part), guess, there)
+            return found_near(placed, at(part), guess, there)
 
         # nothing says yet where the links go: the first step is small
         steps = walk(near, poses, 0.0, 1.0, longest, longest / 1e10, SURPRISE, longest / 64)
-        part, found = [(0.0, poses), *steps][-1]
+        part, reached = [(0.0, poses), *steps][-1]
         if part == 1.0:
-            return dict(found)
+            return dict(reached)
         limits.append(at(part))
     raise Unsolvable("not assembled", out_of_reach(scene, dict(zip(own, goal, strict=True)), limits))
 
 
 def found_near(
-    choices: Choices, elements: Sequence[Element], values: Mapping[str, float], guess: Poses, start: Poses | None = None
+    placed: PlacedElements, values: Mapping[str, float], guess: Poses, start: Poses | None = None
 ) -> dict[str, Pose] | None:
     """All links of the elements at driver values, near a guessed position, on paper of the mechanism's size; None where
     they do not fit nearby.  Rolling links are followed from ``start``."""
-    structure = choices.structure
+    structure = placed.structure
     ground = structure.scene.frame.name
     values = structure.followed(values)
     paper = PlacedLinks(structure.links, 1.0 / structure.scene.size, values, {ground: Pose(0j, 1 + 0j)})
@@ -316,55 +312,54 @@ def found_near(
     def choose(_: int, element: Dyad | LargerGroup) -> Poses | None:
         if isinstance(element, Dyad):
             return met_near(paper, element, guess)
-        trial = best_trial(choices, element, paper, guess)
-        if trial is not None and element.rolling:
-            return fitted(choices.last[element].rolled_from(from_there, paper.mm), paper, guess)
-        return None if trial is None else closed_from(trial, paper, guess)
+        drawing = placed.best(element, paper, guess)
+        if drawing is not None and element.rolling:
+            return fitted(placed.last[element].rolled_from(from_there, paper.mm), paper, guess)
+        return None if drawing is None else closed_from(drawing, paper, guess)
 
     def rolled(driver: Rolled) -> float:
         return rolled_near(structure, paper, driver, from_there, guess)
 
-    return dict(paper.poses) if assembled(paper, elements, choose, rolled) else None
+    return dict(paper.poses) if assembled(paper, placed.elements, choose, rolled) else None
 
 
 # -- the scene's own position ------------------------------------------------------------------------------------------
 
 
 def own_position(
-    choices: Choices, elements: Sequence[Element],
-    of_group: Callable[[Choices, PlacedLinks, LargerGroup], Poses] | None = None,
-) -> PlacedLinks:  # fmt: skip
+    placed: PlacedElements, of_group: Callable[[PlacedLinks, LargerGroup], Poses] | None = None
+) -> PlacedLinks:
     """The links of some elements at the scene's own driver values, on paper of its size.
 
     Parameters
     ----------
     of_group : function that chooses the assembly of a larger group; by trial positions if None
     """
-    structure, of_group = choices.structure, of_group or _group_by_sketch
+    structure, of_group = placed.structure, of_group or partial(_group_by_sketch, placed)
     values = {d.key: d.values[0] for d in structure.scene.drivers}
     paper = start_board(structure, 1.0 / structure.scene.size, values)
-    wanted = {n for element in elements for n in element.members}
+    wanted = {n for element in placed.elements for n in element.members}
 
     def choose(_: int, element: Dyad | LargerGroup) -> Poses:
         if isinstance(element, Dyad):
             return meant(structure, paper, element)
-        return of_group(choices, paper, element)
+        return of_group(paper, element)
 
     here = [element for element in structure.elements if wanted.intersection(element.members)]
     assembled(paper, here, choose, lambda driver: driver.start)
     return paper
 
 
-def _group_by_sketch(choices: Choices, paper: PlacedLinks, group: LargerGroup) -> Poses:
+def _group_by_sketch(placed: PlacedElements, paper: PlacedLinks, group: LargerGroup) -> Poses:
     """The scene's assembly of a larger group: the sketched one, improved until it fits; where the sketch does not give
     it, the fitting one nearest to the sketch."""
-    structure = choices.structure
-    sketched = list(_fits_by_sketch(choices, paper, group))
+    structure = placed.structure
+    sketched = list(_fits_by_sketch(placed, paper, group))
     fits = [fit for fit in sketched[-1:] if _is_told(structure, paper, fit)]
     if not fits:
         # by several trial drivers: what one passes over at its dead point another sees
         by_driver: dict[tuple[str, ...], ReducedMechanism] = {}
-        for reduced in choices.of[group]:
+        for reduced in placed.of[group]:
             by_driver.setdefault(tuple(d.key for d in reduced.trial), reduced)
         some = list(by_driver.values())[:TRIALS]
         fits = [fit for reduced in some for fit in all_fits(reduced, paper)] + sketched
@@ -375,16 +370,16 @@ def _group_by_sketch(choices: Choices, paper: PlacedLinks, group: LargerGroup) -
     return found[pick(structure.scene, group.links, candidates, None)]
 
 
-def _fits_by_sketch(choices: Choices, paper: PlacedLinks, group: LargerGroup) -> Iterator[dict[str, Pose]]:
+def _fits_by_sketch(placed: PlacedElements, paper: PlacedLinks, group: LargerGroup) -> Iterator[dict[str, Pose]]:
     """Positions of a group near its sketch, up to the first that agrees with it: drawn at trial values of the sketch,
     in the assembly nearest to it, and improved until they fit."""
-    structure = choices.structure
+    structure = placed.structure
     told, rough = {**structure.scene.sketch, **structure.scene.drawn}, sketched_poses(structure, group, paper)
 
     def off(drawn: PlacedLinks) -> float:
         return added_up(abs(z - told[p]) for p, z in paper.fresh(drawn.poses).items() if p in told)
 
-    for reduced in choices.of[group]:
+    for reduced in placed.of[group]:
         if not rough.keys() >= {name for driver in reduced.trial for name in driver.links}:
             continue
         values = reduced.values(rough, paper.mm)

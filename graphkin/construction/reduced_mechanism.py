@@ -170,21 +170,17 @@ def _removable(structure: Structure, group: LargerGroup, driven: set[str]) -> It
         if name in touching:
             continue  # what stands for its contacts, and the block of its pin or slot, would hang on nothing
         # what later groups hang on it hangs on it still when it is put back
-        joined = ((p, _joined_at(structure, group, p, name)) for p, names in structure.hinges.items() if name in names)
-        ends = tuple((point, link) for point, link in joined if link)
+        ends = []
+        for point, names in structure.hinges.items():
+            others = {n for p in group.pairs if p.turns and p.point == point for n in p.links} - {name}
+            ends += [(point, n) for n in names if n in others and name in names][:1]
         slides = tuple(s for s in structure.slides if name in s.links and s in group.pairs)
         if (name in driven and not slides) or any(s.key in keys for s in slides):
             continue
         if (len(ends), len(slides)) in ((2, 0), (1, 1), (0, 2)):
-            yield RemovedConstraint(name, ends, slides)
+            yield RemovedConstraint(name, tuple(ends), slides)
     for driver in group.drivers:
         yield RemovedConstraint("", slides=() if driver.turns else (structure.slide(driver.key),), driver=driver)
-
-
-def _joined_at(structure: Structure, group: LargerGroup, point: str, name: str) -> str:
-    """The link to which a hinge joins a link of a group: of the group, or known before; "" without one."""
-    others = {n for p in group.pairs if p.turns and p.point == point for n in p.links} - {name}
-    return next((n for n in structure.hinges[point] if n in others), "")
 
 
 def _instead(drivers: Sequence[Driver], removed: Sequence[RemovedConstraint]) -> dict[str, Driver]:
@@ -353,8 +349,14 @@ class RemovedConstraint:
 # -- trial drawings ----------------------------------------------------------------------------------------------------
 
 
-class Choices:
-    """The reduced mechanisms of each larger group of a mechanism, and the present choice among them."""
+class PlacedElements:
+    """Elements of a mechanism that are placed on paper, and for each larger group among them the reduced mechanisms by
+    whose trial drawings it is found, and the last that served.
+
+    Raises
+    ------
+    Unsolvable : "not drawn": no constraints of a group can be left out so that only dyads remain
+    """
 
     def __init__(self, structure: Structure, elements: Sequence[Element]) -> None:
         self.structure, self.elements = structure, elements
@@ -364,14 +366,14 @@ class Choices:
         self._further: dict[LargerGroup, list[ReducedMechanism]] = {}
 
     @cached_property
-    def at_start(self) -> Choices:
-        """The choices of the mechanism at the scene's own position, with the starts of links that move each other by
-        rolling; these choices themselves without such links."""
+    def at_start(self) -> PlacedElements:
+        """The elements of the mechanism at the scene's own position, with the starts of links that move each other by
+        rolling; these themselves without such links."""
         if not any(group.starts for group in self.structure.larger_groups):
             return self
         there = started(self.structure)
         wanted = {n for element in self.elements for n in element.members}
-        return Choices(there, [e for e in there.elements if wanted.intersection(e.members)])
+        return PlacedElements(there, [e for e in there.elements if wanted.intersection(e.members)])
 
     def further(self, group: LargerGroup) -> list[ReducedMechanism]:
         """The reduced mechanisms with more constraints removed than necessary, for positions at which the others are at
@@ -384,9 +386,54 @@ class Choices:
                 self._further[group] = []
         return self._further[group]
 
+    def best(self, group: LargerGroup, known: PlacedLinks, guess: Poses) -> TrialDrawing | None:
+        """The trial drawing of a group by the reduced mechanism that finds it best near a guess, which becomes the last
+        that served; None where all are at dead points."""
+        last = self.last.get(group)
+        best = trial_drawing(last.rolled_from(guess, known.mm), known, guess) if last is not None else None
+        if best is not None and best.quality > GOOD / 2:
+            return best
+        best = _best_of(self.of[group], known, guess)
+        if best is None or best.quality < POOR:
+            further = _best_of(self.further(group), known, guess)
+            if further is not None and (best is None or further.quality > best.quality):
+                best = further
+        if best is not None:
+            self.last[group] = best.reduced
+        return best
+
+    def standing(self, group: LargerGroup, known: PlacedLinks, guess: Poses) -> ReducedMechanism | None:
+        """The reduced mechanism of a group whose links move each other by rolling, at the scene's own position: its
+        parts by the elements ``at_start``.  None where all are at dead points."""
+        there = self.at_start
+        removed: list[RemovedConstraint] = []
+        trial: list[Driver] = []
+        drawn: list[Driven | Dyad] = []
+        held: dict[str, tuple[str, float]] = {}
+        before = replace(known, poses=dict(known.poses))
+        mine = [e for e in there.structure.elements if set(e.members) <= set(group.members)]
+        for k, element in enumerate(mine):
+            if isinstance(element, LargerGroup):
+                # what later ones hang on is not left out
+                wanted = {name for later in mine[k + 1 :] for name in later.outside}
+                few_or_more = (there.of[element], there.further(element))
+                served = ([r for r in some if wanted.isdisjoint(x.left_out for x in r.removed)] for some in few_or_more)
+                drawings = (_best_of(some, before, guess) for some in served)
+                best = next((drawing for drawing in drawings if drawing is not None), None)
+                if best is None:
+                    return None
+                removed += best.reduced.removed
+                trial += best.reduced.trial
+                drawn += best.reduced.elements
+                held.update(best.reduced.held)
+            else:
+                drawn.append(element)
+            before.poses.update({name: guess[name] for name in element.members})
+        return ReducedMechanism(there.structure, tuple(removed), tuple(trial), group, tuple(drawn), held=held)
+
 
 @dataclass(frozen=True)
-class _Tried:
+class TrialDrawing:
     """A trial drawing of a larger group: the trial values, the drawing, its gaps, their change with the values, and the
     quality with which it finds the group (0: not at all)."""
 
@@ -398,29 +445,29 @@ class _Tried:
     quality: float
 
 
-def _tried(
+def trial_drawing(
     reduced: ReducedMechanism, known: PlacedLinks, guess: Poses, values: Sequence[float] | None = None
-) -> _Tried | None:
+) -> TrialDrawing | None:
     """A trial drawing near a guess, with its quality: a small gap should mean a small error of every link, and no link
     should move much more than the trial driver."""
     at = np.array(reduced.values(guess, known.mm) if values is None else values)
-    one = drawn_near(reduced, known, guess, at)
-    if one is None:
+    drawn = drawn_near(reduced, known, guess, at)
+    if drawn is None:
         return None
-    group = {n: pose for n, pose in one.poses.items() if n in reduced.group.members}
-    gap = np.array(reduced.gaps(one))
+    group = {n: pose for n, pose in drawn.poses.items() if n in reduced.group.members}
+    gap = np.array(reduced.gaps(drawn))
     quality, slopes, each = 1.0, [], []
     size = known.mm * reduced.structure.scene.size
     for step in NUDGE * np.eye(len(at)):
-        two = drawn_near(reduced, known, guess, at + step)
-        if two is None:
+        nudged = drawn_near(reduced, known, guess, at + step)
+        if nudged is None:
             return None
-        slopes.append((np.array(reduced.gaps(two)) - gap) / NUDGE)
-        grown = max(moved(group, two.poses, size), 1e-12) / NUDGE
+        slopes.append((np.array(reduced.gaps(nudged)) - gap) / NUDGE)
+        grown = max(moved(group, nudged.poses, size), 1e-12) / NUDGE
         each.append(slopes[-1] / grown)
         quality = min(quality, 2.0 / grown)
     least = float(np.linalg.svd(np.array(each), compute_uv=False)[-1]) if len(at) > 1 else abs(float(each[0][0]))
-    return _Tried(reduced, at, one, gap, np.array(slopes).T, quality * least)
+    return TrialDrawing(reduced, at, drawn, gap, np.array(slopes).T, quality * least)
 
 
 def fitted(
@@ -431,13 +478,13 @@ def fitted(
     if not reduced.trial:  # everything stands as it is given
         drawn = drawn_near(reduced, known, guess, ())
         return None if drawn is None else reduced.put_back(drawn)
-    start = _tried(reduced, known, guess, values)
+    start = trial_drawing(reduced, known, guess, values)
     return None if start is None else closed_from(start, known, guess)
 
 
-def closed_from(start: _Tried, known: PlacedLinks, guess: Poses) -> dict[str, Pose] | None:
+def closed_from(start: TrialDrawing, known: PlacedLinks, guess: Poses) -> dict[str, Pose] | None:
     """``fitted``, beginning with a trial drawing."""
-    reduced, at, one, gap, slope = start.reduced, start.at, start.drawn, start.gap, start.slope
+    reduced, at, drawn, gap, slope = start.reduced, start.at, start.drawn, start.gap, start.slope
     for _ in range(ROUNDS):
         try:
             step = np.linalg.solve(slope, -gap)
@@ -445,19 +492,19 @@ def closed_from(start: _Tried, known: PlacedLinks, guess: Poses) -> dict[str, Po
             break
         if not np.abs(step).max() <= 1.0:
             break  # nowhere near, or nothing but rounding is left
-        two = drawn_near(reduced, known, guess, at + step)
-        if two is None:
+        following = drawn_near(reduced, known, guess, at + step)
+        if following is None:
             break
-        new = np.array(reduced.gaps(two))
-        if np.abs(new).max() >= np.abs(gap).max() and np.abs(gap).max() < FIT:
-            return reduced.put_back(one)
+        left = np.array(reduced.gaps(following))
+        if np.abs(left).max() >= np.abs(gap).max() and np.abs(gap).max() < FIT:
+            return reduced.put_back(drawn)
         if not step.any():
             break
-        slope = slope + np.outer(new - gap - slope @ step, step) / (step @ step)
-        at, one, gap = at + step, two, new
+        slope = slope + np.outer(left - gap - slope @ step, step) / (step @ step)
+        at, drawn, gap = at + step, following, left
         if not gap.any():
             break
-    return reduced.put_back(one) if np.abs(gap).max() < FIT else None
+    return reduced.put_back(drawn) if np.abs(gap).max() < FIT else None
 
 
 def drawn_near(
@@ -473,32 +520,11 @@ def drawn_near(
     return paper if assembled(paper, reduced.elements, choose) else None
 
 
-def best_reduced(choices: Choices, group: LargerGroup, known: PlacedLinks, guess: Poses) -> ReducedMechanism | None:
-    """A reduced mechanism that finds the group well; None where all are at dead points."""
-    return None if best_trial(choices, group, known, guess) is None else choices.last[group]
-
-
-def best_trial(choices: Choices, group: LargerGroup, known: PlacedLinks, guess: Poses) -> _Tried | None:
-    """The trial drawing by the best reduced mechanism, which becomes the last choice."""
-    last = choices.last.get(group)
-    best = _tried(last.rolled_from(guess, known.mm), known, guess) if last is not None else None
-    if best is not None and best.quality > GOOD / 2:
-        return best
-    best = _best_of(choices.of[group], known, guess)
-    if best is None or best.quality < POOR:
-        further = _best_of(choices.further(group), known, guess)
-        if further is not None and (best is None or further.quality > best.quality):
-            best = further
-    if best is not None:
-        choices.last[group] = best.reduced
-    return best
-
-
-def _best_of(candidates: Sequence[ReducedMechanism], known: PlacedLinks, guess: Poses) -> _Tried | None:
+def _best_of(candidates: Sequence[ReducedMechanism], known: PlacedLinks, guess: Poses) -> TrialDrawing | None:
     """The trial drawing that finds the group best, or the first that finds it well; None if none can be drawn."""
-    best: _Tried | None = None
+    best: TrialDrawing | None = None
     for reduced in candidates:
-        now = _tried(reduced.rolled_from(guess, known.mm), known, guess)
+        now = trial_drawing(reduced.rolled_from(guess, known.mm), known, guess)
         if now is not None and now.quality > (0.0 if best is None else best.quality):
             best = now
             if now.quality > GOOD:
@@ -511,37 +537,8 @@ def best_first(
 ) -> Iterator[ReducedMechanism]:
     """The reduced mechanisms that can be drawn, the best first; those with the fewest constraints removed before the
     others."""
-    choices = Choices(structure, [group])
-    for some in (choices.of[group], choices.further(group)):
-        tried = (_tried(reduced.rolled_from(guess, known.mm), known, guess) for reduced in some)
-        for one in sorted(filter(None, tried), key=lambda one: -one.quality):
-            yield one.reduced
-
-
-def standing(choices: Choices, group: LargerGroup, known: PlacedLinks, guess: Poses) -> ReducedMechanism | None:
-    """A group whose links move each other by rolling, at the scene's own position; ``choices`` belong to the mechanism
-    with drivers in place of rolling.  None where all are at dead points."""
-    removed: list[RemovedConstraint] = []
-    trial: list[Driver] = []
-    drawn: list[Driven | Dyad] = []
-    held: dict[str, tuple[str, float]] = {}
-    before = replace(known, poses=dict(known.poses))
-    mine = [e for e in choices.structure.elements if set(e.members) <= set(group.members)]
-    for k, element in enumerate(mine):
-        if isinstance(element, LargerGroup):
-            # what later ones hang on is not left out
-            wanted = {name for later in mine[k + 1 :] for name in later.outside}
-            few_or_more = (choices.of[element], choices.further(element))
-            served = ([r for r in some if wanted.isdisjoint(x.left_out for x in r.removed)] for some in few_or_more)
-            found = (_best_of(some, before, guess) for some in served)
-            best = next((one for one in found if one is not None), None)
-            if best is None:
-                return None
-            removed += best.reduced.removed
-            trial += best.reduced.trial
-            drawn += best.reduced.elements
-            held.update(best.reduced.held)
-        else:
-            drawn.append(element)
-        before.poses.update({name: guess[name] for name in element.members})
-    return ReducedMechanism(choices.structure, tuple(removed), tuple(trial), group, tuple(drawn), held=held)
+    placed = PlacedElements(structure, [group])
+    for some in (placed.of[group], placed.further(group)):
+        tried = (trial_drawing(reduced.rolled_from(guess, known.mm), known, guess) for reduced in some)
+        for drawing in sorted(filter(None, tried), key=lambda drawing: -drawing.quality):
+            yield drawing.reduced
