@@ -312,8 +312,7 @@ def centres(
     known_words(formats, language, convention, known_languages=ON_SHEETS)
     given = as_scene(scene)
     given, values = placed(given, at)
-    from graphkin.solver import as_drawn
-    from graphkin.solver.values import growing
+    from graphkin.solver.values import as_drawn, growing
 
     motion = solved_here(given, values)
     found = found_centres(motion.structure, values)

@@ -105,7 +105,7 @@ class Checked(OfScene, Result):
     def data(self) -> dict[str, Json]:
         """The object that ``graphkin check --json`` prints: scene units, readings with sign."""
         scene, construction, rows = self.mechanism, self._construction, []
-        others, ok, scales = self._by_other_ways, self.ok, self.scales
+        scales, others, ok = self.scales, self._by_other_ways, self.ok
         for row in self.report.rows:
             unit = row.symbol.unit(scene.units, radians=True)
             ways = {way: float(unit.of(values[row.symbol])) for way, values in others.items() if row.symbol in values}
@@ -138,15 +138,9 @@ class Checked(OfScene, Result):
 
     @property
     def scales(self) -> dict[str, float]:
-        """The scales, the value of one mm on paper: mm, and scene units per second and second squared."""
-        scales, unit = self.report.scales, self.mechanism.units.rates.metres
-        of = {
-            "length": scales.length * 1e3,
-            "velocity": scales.velocity / unit,
-            "acceleration": scales.acceleration / unit,
-            **({"force": scales.force / self.mechanism.units.newtons} if scales.force else {}),
-        }
-        return {name: float(f"{scale:.12g}") for name, scale in of.items()}  # without the noise of units
+        """The scales, the value of one mm on paper, as `Scales.shown`."""
+        units = self.mechanism.units
+        return self.report.scales.shown(units.rates.metres, units.newtons)
 
     @cached_property
     def centres(self) -> Centres:
@@ -161,7 +155,7 @@ class Checked(OfScene, Result):
         load), and on the drawing at the contacts, which is this drawing where pins slide in straight slots; sizes of
         vectors, SI.
         """
-        symbols = [row.symbol for row in self.report.rows]
+        symbols = [row.reading.symbol for row in self.report.rows]
         velocities = {
             s: self.centres.velocity(s) for s in symbols if s.kind in ("v", "omega") and not s.at
         }
@@ -226,13 +220,12 @@ def check(
 def checked(what: Plan, motion: Motion, hand: Instrument, at_contacts: bool = True) -> Checked:
     """Draw a plan and compare all its readings with the solver at the same position; sliding contacts also at the
     contact itself, by the same hands on another sheet."""
-    from graphkin.solver import as_drawn
-    from graphkin.solver.values import exact_values, forces_here
+    from graphkin.solver.values import as_drawn, exact_values, forces_here
 
     other, again = what.at_contacts() if at_contacts else None, hand if hand is EXACT else deepcopy(hand)
+    sheet = execute(what, hand)
     exact = as_drawn(motion, what.structure)
     value = exact_values(exact, what.asked)
-    sheet = execute(what, hand)
     scale, lost, forces = 0.0, 0.0, None
     if sheet.has_forces:
         from graphkin.construction.forces import forces_on

@@ -201,7 +201,9 @@ def compare(
     """
     pairs = [(r, exact(r.symbol)) for r in readings]
     row, lost = partial(_row, sheet, predicted), rounding or (lambda symbol: Lost())
-    by_scope = {"force": _forces(sheet, pairs, row, lost), "motion": _motion(sheet, pairs, row, rounding)}
+    by_scope = {"motion": _motion(sheet, pairs, row, rounding)}
+    if any(reading.symbol.scope == "force" for reading in readings):
+        by_scope["force"] = _forces(sheet, pairs, row, lost)
 
     def place(reading: Reading, value: Value) -> Compared:
         """A length is judged by the size of the mechanism, an angle by a radian, a number by itself."""
@@ -285,7 +287,8 @@ def _largest(sheet: Sheet, pairs: Sequence[tuple[Reading, complex | float]]) -> 
     diagrams: tuple[DiagramName, ...] = ("velocity", "acceleration")
     for order in diagrams:
         # vectors that only lead to the readings asked for belong to the diagram too
-        spans = [(s, abs(v.span) * sheet.scales.of(order)) for s, v in sheet.vectors(order).items()]
+        scale = sheet.scales.of(order)
+        spans = [(s, abs(v.span) * scale) for s, v in sheet.vectors(order).items()]
         sizes.setdefault((order, True), []).extend(spans)
         # a rate that is zero comes from a vector divided by a length
         vectors = sizes[order, True]

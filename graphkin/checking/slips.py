@@ -28,9 +28,9 @@ from graphkin.plane import added_up, unit
 from graphkin.scene.model import LinkMass, Loading, LoadOn, Mechanism, PlacedLink
 from graphkin.scene.pairs import PlacedGear
 from graphkin.scene.symbol import PointRef, Symbol, Value
-from graphkin.solver import Motion, as_drawn, solve
+from graphkin.solver import Motion, solve
 from graphkin.solver.forces import forces_of
-from graphkin.solver.values import exact_values, senses_along, value_of
+from graphkin.solver.values import as_drawn, exact_values, senses_along, value_of
 from graphkin.words import Phrase
 
 NOTHING = 1e-9  # of the greatest value of its sort: what is smaller is zero

@@ -99,10 +99,9 @@ class Task:
     @cached_property
     def left_out(self) -> tuple[Phrase, ...]:
         """The elements that no asked quantity needs."""
-        wanted = needed(self.opened, self.asked)
         placed = {n for e in self.elements for n in e.members}
         pushed = {n for e in self.drawn["acceleration"] for n in e.members}
-        gone = {n for e in self.opened.elements if e not in wanted for n in e.members}
+        gone = {n for e in self.opened.elements if e not in self.elements for n in e.members}
         without = {"left out elements": gone, "left out accelerations": placed - pushed}
         names = [link.name for link in self.structure.scene.links]
         told = {key: [name for name in names if name in links] for key, links in without.items()}
@@ -164,7 +163,7 @@ def finished(task: Task, polygons: Polygons) -> Sheet:
     draw_asked(polygons, task.asked)
     board, limits = polygons.board, task.limits
     groups: dict[LargerGroup, GroupWay] = {}
-    for group in needed(task.structure, task.asked):
+    for group in needed(task.structure, task.asked) if task.structure.larger_groups else ():
         if isinstance(group, LargerGroup):
             by_points = group in polygons.plans and not polygons.plans[group].tried
             groups[group] = "special points" if by_points else "superposition"
@@ -333,6 +332,8 @@ class Plan(Task):
 
     def _touching(self) -> Plan | None:
         """The task with its sliding contacts drawn themselves, if it has any."""
+        if not self.structure.scene.contacts:
+            return None
         touching = {e for e in self.elements if not isinstance(e, Driven) and contacts_of(self.structure, e)}
         if not touching:
             return None
@@ -371,9 +372,10 @@ def _plan(
     """The plan for a mechanism without cams."""
     scene = structure.scene
     opened = opened_at_triangles(structure) if structure.larger_groups else structure
-    if any(isinstance(e, LargerGroup) for e in needed(opened, asked)):
-        opened = structure  # groups that remain are found by trial, driven triangles with them
     elements = tuple(needed(opened, asked))
+    if opened is not structure and any(isinstance(e, LargerGroup) for e in elements):
+        # groups that remain are found by trial, driven triangles with them
+        opened, elements = structure, tuple(needed(structure, asked))
     own = {d.key: d.values[0] for d in scene.drivers}
     values = own | {key: value for key, value in (at or {}).items() if key in own}
     triangles: tuple[Inversion, ...] = ()

@@ -32,7 +32,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
 from graphkin.solver.pose import Array
-from graphkin.solver.values import exact_values, forces_here
+from graphkin.solver.values import as_drawn, exact_values, forces_here
 from graphkin.structure import Structure
 from graphkin.words import Phrase
 
@@ -192,7 +192,7 @@ def lesson_of(what: Plan, motion: Motion, language: str, convention: str) -> Les
 
 def compared(sheet: Sheet, motion: Motion, language: str, convention: str, asked: tuple[Symbol, ...]) -> Lesson:
     """The lesson of a sheet, its readings compared with the motion; without tolerances of a pencil."""
-    motion = solver.as_drawn(motion, sheet.structure)
+    motion = as_drawn(motion, sheet.structure)
     exact = exact_values(motion, asked)
     scale, lost = (force_scale(sheet), float(forces_here(motion).bound[0][0])) if sheet.has_forces else (0.0, 0.0)
     rounding = rounding_of(motion, lost)

@@ -24,14 +24,14 @@ from graphkin.solver.driver_range import DriverRange, motion_of, range_from, ran
 from graphkin.solver.drivers import goal_values, own_values
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import Motion, Sliding, listed_points, own_slides
-from graphkin.solver.pose import Array, Drive, Pose, aimed, rest
+from graphkin.solver.pose import Array, Drive, rest
 from graphkin.solver.sentences import assembly_words
 from graphkin.structure import Structure, part_of
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, Wording, listed
 
 __all__ = [
-    "DriverRange", "Motion", "Sliding", "as_drawn", "driver_range", "listed_points", "over_time", "own_slides", "solve",
+    "DriverRange", "Motion", "Sliding", "driver_range", "listed_points", "over_time", "own_slides", "solve",
     "solved_here", "structure_of", "sweep_in_blocks",
 ]  # fmt: skip
 
@@ -70,13 +70,12 @@ def solve(
         ``at`` names no driver, ``sweep`` is less than 1
     """
     structure = structure_of(scene)
-    goal = goal_values(structure.scene, at)
     if sweep is not None and sweep < 1:
         raise CallError.of("sweep", "positions of number", "give 1 or more", number=sweep)
-    start = _start(structure, goal, sweep)
+    start = _start(structure, at, sweep)
     if isinstance(start, Motion):
         return start
-    modes, passed = start
+    goal, modes, passed = start
     if sweep is not None:
         return range_from(structure, modes, goal).sweep(sweep)
     drive, here = Drive.at(structure, goal[None]), {i: f[None] for i, f in modes.items()}
@@ -114,30 +113,29 @@ def solved_here(
 def sweep_in_blocks(scene: Mechanism | Structure, at: Mapping[str, float] | None, sweep: int) -> Iterator[Motion]:
     """``solve`` of a sweep a block of positions at a time: no more of it is in memory."""
     structure = structure_of(scene)
-    goal = goal_values(structure.scene, at)
-    start = _start(structure, goal, sweep)
+    start = _start(structure, at, sweep)
     if isinstance(start, Motion):
         yield start
     else:
-        yield from range_from(structure, start[0], goal).sweep_in_blocks(sweep)
+        yield from range_from(structure, start[1], start[0]).sweep_in_blocks(sweep)
 
 
 def _start(
-    structure: Structure, goal: Array, sweep: int | None
-) -> tuple[Mapping[int, Array], tuple[ChangePoint, ...]] | Motion:
-    """The assembly mode of each group at driver values, and the change points on the path to them; where they are not
-    reached a motion with the reason."""
+    structure: Structure, at: Mapping[str, float] | None, sweep: int | None
+) -> tuple[Array, Mapping[int, Array], tuple[ChangePoint, ...]] | Motion:
+    """The driver values asked for, the assembly mode of each group there, and the change points on the path to them;
+    where they are not reached a motion with the reason."""
+    own, goal = own_values(structure.scene), goal_values(structure.scene, at)
     try:
         modes = choose_modes(structure)
     except Unsolvable as stop:
         return _nowhere(structure, goal, sweep, stop.status, stop.reason)
-    own = own_values(structure.scene)
     if np.array_equal(own, goal):
-        return modes, ()
+        return goal, modes, ()
     path = way_to(structure, modes, goal)
     if path.limit is not None:
         return _nowhere(structure, goal, sweep, "not assembled", stopped_why(structure, modes, own, path))
-    return path.last_modes, path.change_points
+    return goal, path.last_modes, path.change_points
 
 
 def _nowhere(structure: Structure, goal: Array, sweep: int | None, status: str, why: Wording) -> Motion:
@@ -158,34 +156,6 @@ def _nowhere(structure: Structure, goal: Array, sweep: int | None, status: str, 
     accuracy = Accuracy(structure, poses, Drive.at(structure, values), np.zeros((n, 0)), nothing, nothing, nothing)
     return Motion(structure, values, np.full(n, status), (why,) * n, poses, lambda: unknown, accuracy,
                   partial(range_of, structure))  # fmt: skip
-
-
-def as_drawn(motion: Motion, structure: Structure) -> Motion:
-    """A motion at one position, with the blocks and points of the replacing mechanism; itself where no mechanism
-    replaces it."""
-    if len(motion.scene.drivers) < len(structure.scene.drivers):  # solved for what leads to the asked alone
-        structure = structure_of(part_of(structure, motion.scene.question.find))
-    if structure.scene.instead_of is None and structure.links.keys() == motion.structure.links.keys():
-        return motion
-    poses = dict(motion.poses)
-    for slide in structure.slides:
-        if slide.a in poses or slide.pin is None or not poses.keys() >= {slide.of, slide.b}:
-            continue  # a slide of the scene's own, or nothing asks for it
-        at = poses[slide.of].fixed(structure.links[slide.of].points[slide.pin])
-        guide = poses[slide.b]
-        turn = np.asarray(guide.u * slide.guide.direction)
-        poses[slide.a] = Pose(at.z, turn, at.v, guide.omega, at.a, guide.alpha)
-    for slot in structure.scene.slots:
-        if slot.bar in poses or slot.bar not in structure.links or slot.on not in poses:
-            continue
-        held = [n for n in structure.hinges.get(slot.point, ()) if n != slot.bar and n in poses]
-        if not held:
-            continue  # nothing asks for it
-        holder = held[0]
-        start = poses[slot.on].fixed(structure.links[slot.on].points[slot.centre])
-        end = poses[holder].fixed(structure.links[holder].points[slot.point])
-        poses[slot.bar] = aimed(start, end)
-    return replace(motion, structure=structure, poses=poses)
 
 
 # -- the motion at moments in time, where drivers move by laws: their rates change from one moment to the --------------

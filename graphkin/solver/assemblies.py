@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -14,7 +14,7 @@ from graphkin.solver.constraints import Constraints, solve_all
 from graphkin.solver.driver_path import TOUCH, Path, assembled
 from graphkin.solver.drivers import own_values
 from graphkin.solver.dyads import DyadSolution
-from graphkin.solver.engine import SINGULAR, State, positions
+from graphkin.solver.engine import SINGULAR, State, new_places, own_position
 from graphkin.solver.pose import Array, Drive, Pose
 from graphkin.solver.quantities import Posed
 from graphkin.solver.sentences import driver_text
@@ -73,20 +73,19 @@ def choose_modes(structure: Structure, turned: Collection[int] = (), upto: int |
     Unsolvable
         the mechanism cannot be assembled here ("not assembled"), or stands in a dead point ("dead point")
     """
-    drive = Drive.at(structure, own_values(structure.scene)[None])
     modes: dict[int, Array] = {}
     start: Mapping[str, Pose] = {}
     known: dict[int, float] = {}  # of the formulas of the groups before
     for i, element in enumerate(structure.elements[:upto]):
         if isinstance(element, Dyad):
-            modes[i], known = _choose_sign(structure, i, element, drive, modes, known, i in turned)
+            modes[i], known = _choose_sign(structure, i, element, modes, known, i in turned)
         elif isinstance(element, Driven):
             if element.rolled is not None:
-                state = positions(structure, drive, {k: f[None] for k, f in modes.items()}, i, rates=False)
+                state = own_position(structure, modes, i)
                 own = [reading(structure, state.poses, coordinate)[0] for coordinate, _ in element.rolled.factors]
                 modes[i] = np.repeat(own, 2)
             if structure.scene.drawn:  # one place alone, which must be the drawn one
-                state = positions(structure, drive, {k: f[None] for k, f in modes.items()}, i + 1, rates=False)
+                state = own_position(structure, modes, i + 1)
                 pick(structure.scene, (element.link,), [new_places(structure, i, (element.link,), state.poses)], 0)
         elif isinstance(element, LargerGroup) and element.rolling:
             from graphkin.solver.larger_groups import mode_of
@@ -94,8 +93,7 @@ def choose_modes(structure: Structure, turned: Collection[int] = (), upto: int |
             start = start or _started(structure)
             modes[i] = mode_of(structure, element, start)
         elif isinstance(element, LargerGroup):
-            state = positions(structure, drive, {k: f[None] for k, f in modes.items()}, i, rates=False)
-            modes[i] = _choose_place(structure, i, element, drive, state.poses)
+            modes[i] = _choose_place(structure, i, element, own_position(structure, modes, i))
     return modes
 
 
@@ -104,8 +102,7 @@ def _started(structure: Structure) -> Mapping[str, Pose]:
     from graphkin.solver.larger_groups import GroupSolved
 
     there = started(structure)
-    drive, modes = Drive.at(there, own_values(there.scene)[None]), choose_modes(there)
-    state = positions(there, drive, {k: f[None] for k, f in modes.items()}, rates=False)
+    state = own_position(there, choose_modes(there))
     for i, group in state.groups.items():
         dead = group.condition[0] * SINGULAR > 1 if isinstance(group, GroupSolved) else (
             abs(group.sine[0]) < state.singular[0])  # fmt: skip
@@ -117,17 +114,14 @@ def _started(structure: Structure) -> Mapping[str, Pose]:
 
 
 def _choose_sign(
-    structure: Structure, i: int, dyad: Dyad, drive: Drive, modes: Mapping[int, Array], known: Mapping[int, float],
-    turned: bool,
-) -> tuple[Array, dict[int, float]]:  # fmt: skip
+    structure: Structure, i: int, dyad: Dyad, modes: Mapping[int, Array], known: Mapping[int, float], turned: bool
+) -> tuple[Array, dict[int, float]]:
     """The sign of a dyad, and the numbers of all formulas up to it with that sign, from the numbers up to the element
     before."""
     scene = structure.scene
-    states: list[State] = []
     both = dict(known), dict(known)
-    for sign, own in zip((1.0, -1.0), both, strict=True):
-        given = {**{k: f[None] for k, f in modes.items()}, i: np.array([sign])}
-        states.append(positions(structure, drive, given, i + 1, rates=False, known=own))
+    states = [own_position(structure, {**modes, i: np.array(sign)}, i + 1, numbers)
+              for sign, numbers in zip((1.0, -1.0), both, strict=True)]  # fmt: skip
     solved = states[0].groups[i]
     assert isinstance(solved, DyadSolution)
     links = dyad.links or dyad.members  # what stands for two contacts of one link has no link of the file
@@ -142,7 +136,7 @@ def _choose_sign(
             Problem(
                 named_with_contact(structure, dyad),
                 Phrase("they do not reach each other in the"),
-                _other_way(structure, i, drive, modes) or _nearest(structure, i, drive, modes),
+                _other_way(structure, i, modes) or _nearest(structure, i, modes),
             ),
         )
     if not abs(solved.sine[0]) >= states[0].singular[0]:
@@ -152,7 +146,7 @@ def _choose_sign(
     return np.array((1.0, -1.0)[index]), both[index]
 
 
-def _other_way(structure: Structure, i: int, drive: Drive, modes: Mapping[int, Array]) -> Wording:
+def _other_way(structure: Structure, i: int, modes: Mapping[int, Array]) -> Wording:
     """The assembly of an earlier dyad with which all elements up to group ``i`` can be assembled, in words; "" where no
     single dyad is enough."""
     for k in reversed(range(i)):
@@ -161,9 +155,8 @@ def _other_way(structure: Structure, i: int, drive: Drive, modes: Mapping[int, A
             return ""  # where a larger group lies would be another question
         if not isinstance(dyad, Dyad) or dyad.is_two_lines:
             continue
-        given = {n: f[None] for n, f in modes.items()} | {i: np.ones(1)}
-        now = new_places(structure, k, dyad.links, positions(structure, drive, given, i, rates=False).poses)
-        state = positions(structure, drive, given | {k: -given[k]}, i + 1, rates=False)
+        now = new_places(structure, k, dyad.links, own_position(structure, modes, i).poses)
+        state = own_position(structure, {**modes, k: -modes[k], i: np.array(1.0)}, i + 1)
         met = [g.discriminant[0] >= -TOUCH for g in state.groups.values() if isinstance(g, DyadSolution)]
         places = new_places(structure, k, dyad.links, state.poses)
         if all(met) and places:
@@ -175,14 +168,15 @@ def _other_way(structure: Structure, i: int, drive: Drive, modes: Mapping[int, A
     return ""
 
 
-def _nearest(structure: Structure, i: int, drive: Drive, modes: Mapping[int, Array]) -> Wording:
+def _nearest(structure: Structure, i: int, modes: Mapping[int, Array]) -> Wording:
     """The nearest value of the first driver at which all elements up to group ``i`` can be assembled."""
     if not all(e.explicit for e in structure.elements[:i]):
         return ""
-    first, value = structure.scene.drivers[0], float(drive.value[0, 0])
+    first, own = structure.scene.drivers[0], own_values(structure.scene)
+    value = float(own[0])
     wide = np.pi if first.turns else 2 * structure.scene.size
     signs = {j: float(mode) for j, mode in modes.items()} | {i: 1.0}
-    found = assembled(Path.of_driver(structure, drive.value[0]), [*signs], value - wide, value + wide, signs)
+    found = assembled(Path.of_driver(structure, own), [*signs], value - wide, value + wide, signs)
     ends = [end for _, stretch in found for end in (stretch.low, stretch.high)]
     if not ends:
         return Phrase("no value of the driver assembles them with")
@@ -190,24 +184,10 @@ def _nearest(structure: Structure, i: int, drive: Drive, modes: Mapping[int, Arr
     return Phrase("the nearest position where they do is at", key=first.key, driver=near)
 
 
-def new_places(structure: Structure, i: int, links: Sequence[str], poses: Mapping[str, Pose]) -> dict[str, complex]:
-    """The places of the points that only this group has placed."""
-    before = {structure.scene.frame.name}
-    for element in structure.elements[:i]:
-        before.update(element.members)
-    known = {p for name in before for p in structure.links[name].points}
-    found: dict[str, complex] = {}
-    for name in links:
-        pose = poses[name]
-        for point, place in structure.links[name].points.items():
-            if point not in known:
-                found[point] = complex(np.ravel(pose.z + pose.u * place)[0])
-    return found
-
-
-def _choose_place(structure: Structure, i: int, group: LargerGroup, drive: Drive, known: Mapping[str, Pose]) -> Array:
-    """All assemblies of a larger group by Newton's method from many starts, and the scene's own one."""
-    drive = drive.followed(structure)
+def _choose_place(structure: Structure, i: int, group: LargerGroup, before: State) -> Array:
+    """All assemblies of a larger group by Newton's method from many starts, and the scene's own one; ``before`` is the
+    mechanism up to it."""
+    drive, known = before.drive, before.poses
     found = _assemblies(structure, group, drive, known)
     if not len(found):
         raise Unsolvable("not assembled", Problem(Phrase("links", links=', '.join(group.links)),

@@ -477,7 +477,7 @@ def motion_of(
     good, why : the positions that the motion reaches, shape (n,), and the reason for the others
     extended : False keeps 16 digits everywhere, without reasons
     """
-    n = len(drive)
+    n = len(good)
     if n > BLOCK:
         blocks = (slice(first, min(first + BLOCK, n)) for first in range(0, n, BLOCK))
         own = (({i: f[rows] if np.ndim(f) and len(f) == n else f for i, f in modes.items()}, rows) for rows in blocks)

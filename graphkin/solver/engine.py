@@ -172,7 +172,7 @@ class State:
 
 def positions(
     structure: Structure,
-    drive: Drive,
+    drive: Drive | None,
     modes: Mapping[int, Array],
     upto: int | None = None,
     rates: bool = True,
@@ -183,6 +183,7 @@ def positions(
 
     Parameters
     ----------
+    drive : of the drivers; None for the scene's own position
     modes : the assembly of each group, by its place among the elements: for a dyad the sign, shape (n,); for a larger
         group the poses from which Newton's method starts, shape (n, members, 3)
     upto : solve only the elements before this one
@@ -201,6 +202,29 @@ def positions(
         return run.state(len(structure.elements) if upto is None else upto, whole=known is None)
 
 
+def own_position(
+    structure: Structure, modes: Mapping[int, Array], upto: int | None = None, known: dict[int, float] | None = None
+) -> State:
+    """The mechanism at the scene's own position, without rates; ``modes`` are those of one position, the other
+    parameters as for ``positions``."""
+    return positions(structure, None, {i: mode[None] for i, mode in modes.items()}, upto, rates=False, known=known)
+
+
+def new_places(structure: Structure, i: int, links: Sequence[str], poses: Mapping[str, Pose]) -> dict[str, complex]:
+    """The places of the points that only this group has placed."""
+    before = {structure.scene.frame.name}
+    for element in structure.elements[:i]:
+        before.update(element.members)
+    known = {p for name in before for p in structure.links[name].points}
+    found: dict[str, complex] = {}
+    for name in links:
+        pose = poses[name]
+        for point, place in structure.links[name].points.items():
+            if point not in known:
+                found[point] = complex(np.ravel(pose.z + pose.u * place)[0])
+    return found
+
+
 def group_at(structure: Structure, drive: Drive, modes: Mapping[int, Array], which: int) -> GroupSolved:
     """A larger group alone, by its index among the elements, with its rates; see ``positions``."""
     with np.errstate(all="ignore"):
@@ -215,20 +239,29 @@ class _Run:
     def __init__(
         self,
         structure: Structure,
-        drive: Drive,
+        drive: Drive | None,
         modes: Mapping[int, Array],
         rates: bool,
         extended: bool = True,
         known: dict[int, float] | None = None,
     ) -> None:
-        drive = drive.followed(structure)
+        drive = (Drive.at(structure) if drive is None else drive).followed(structure)
         self.structure, self.drive, self.modes = structure, drive, modes
         self.rates, self.extended = rates, extended
         self.known: dict[int, float] | None = {} if known is None else known
         self.n = len(drive)
         self.clusters: dict[int, GroupSolved] = {}
         self.slack: list[Array] = []
-        self.given = self._drivers()
+        self.frame = rest()
+        self.given: dict[Name, Array] = {}
+        for k, driver in enumerate(structure.drivers):
+            value = drive.value[:, k]
+            if driver.turns:
+                u = turned(value)
+                self.given["cos", k], self.given["sin", k] = u.real, u.imag
+            else:
+                self.given["travel", k] = value
+        self.given |= {("sign", i): np.broadcast_to(modes[i], (self.n,)) for i in modes if i in structure.dyads}
         self.rates_of: dict[Name, float] = {}
         """Rates at the first position: where they change they are given as the values are."""
         self.varying: frozenset[Name] = frozenset()
@@ -241,20 +274,6 @@ class _Run:
         names = [("second", k) for k in range(drive.value.shape[1])]
         moving = (name in self.varying or bool(self.rates_of.get(name)) for name in names)
         self.dimensioned = program_of(structure, tuple(moving))
-
-    def _drivers(self) -> dict[Name, Array]:
-        given: dict[Name, Array] = {}
-        for k, driver in enumerate(self.structure.drivers):
-            value = self.drive.value[:, k]
-            if driver.turns:
-                u = turned(value)
-                given["cos", k], given["sin", k] = u.real, u.imag
-            else:
-                given["travel", k] = value
-        for i, mode in self.modes.items():
-            if i in self.structure.dyads:
-                given["sign", i] = np.broadcast_to(mode, (self.n,))
-        return given
 
     def follow(self, upto: int) -> None:
         """Solve the elements without formulas: larger groups, cams by their law, rolling links."""
@@ -280,7 +299,7 @@ class _Run:
         asked += [getattr(program.groups[i], p) for i in dyads for p in parts]
         columns = self._values((first, upto, self.rates), asked)
         values = iter(columns)
-        poses = {self.structure.scene.frame.name: rest()}
+        poses = {self.structure.scene.frame.name: self.frame}
         poses |= {n: _pose(dict(zip(fields, values, strict=False))) for n in names}
         groups: dict[int, DyadSolution | GroupSolved] = dict(self.clusters)
         for i in dyads:
@@ -363,7 +382,7 @@ class _Run:
         known = [n for n in self.structure.links if n in group.outside and n != self.structure.scene.frame.name]
         values = iter(self._values(("known", i), [getattr(program.poses[n], f) for n in known for f in FIELDS]))
         poses = {n: _pose(dict(zip(FIELDS, values, strict=False))) for n in known}
-        poses[self.structure.scene.frame.name] = rest()
+        poses[self.structure.scene.frame.name] = self.frame
         solved = solve_group(self.structure, group, poses, self.drive, np.asarray(self.modes[i]), self.rates)
         self.clusters[i] = solved
         self.slack.append(solved.rolling_residuals)
@@ -434,8 +453,7 @@ def discriminant_of(
     drive : positions whose driver values are taken as decimals; the scene's own if None
     """
     known = {**{j: mode for j, mode in modes.items() if j < i}, i: np.ones(1)}
-    own = np.array([[d.values[0] for d in structure.scene.drivers]])
-    run = _Run(structure, drive or Drive.at(structure, own), known, False)
+    run = _Run(structure, drive, known, False)
     program = run.dimensioned.program
     return run._extended(program.code(("closing", i), [program.groups[i].discriminant]))
 

@@ -18,12 +18,12 @@ import numpy as np
 from graphkin.errors import GraphkinError, Problem, Unsolvable
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef
-from graphkin.solver.assemblies import choose_modes, new_places
+from graphkin.solver.assemblies import choose_modes
 from graphkin.solver.cams import meeting_followers
 from graphkin.solver.dead_points import SAME, DeadPoint, dead_points, singular
 from graphkin.solver.driver_path import MOST_GROUPS, not_tried
 from graphkin.solver.drivers import meant_value, own_values, working
-from graphkin.solver.engine import SINGULAR, State, positions
+from graphkin.solver.engine import SINGULAR, State, new_places, own_position, positions
 from graphkin.solver.pose import Drive
 from graphkin.solver.quantities import Posed
 from graphkin.solver.redundant import Fit, fit
@@ -56,9 +56,9 @@ def structure_of(scene: Mechanism | Structure) -> Structure:
             raise
         raise Unsolvable("mobility", *stop.problems, found) from None
     if any(d.dead_point and not d.dead_point.exact for d in scene.drivers):
-
         structure = from_dead_point(structure)
-    structure = with_sensible_slots(structure)
+    if structure.slides:
+        structure = with_sensible_slots(structure)
     if any(d.given_speed for d in scene.drivers):
         return at_given_speed(structure)
     return structure
@@ -178,8 +178,7 @@ def _reached(structure: Structure, turned: Collection[int]) -> State | None:
         modes = choose_modes(structure, turned, last)
     except GraphkinError:
         return None
-    drive = Drive.at(structure, own_values(structure.scene)[None])
-    return positions(structure, drive, {i: f[None] for i, f in modes.items()}, last, rates=False)
+    return own_position(structure, modes, last)
 
 
 STANDS = 1e-9  # of the size a radian: a point that moves by less stands still

@@ -279,11 +279,11 @@ class Drive:
     second: Array
 
     @classmethod
-    def at(cls, structure: Structure, value: Array) -> Drive:
-        """The drivers at these values, with the rates of the scene."""
+    def at(cls, structure: Structure, value: Array | None = None) -> Drive:
+        """The drivers at these values, or at the one position of the scene itself, with the rates of the scene."""
         given = np.array([d.values for d in structure.scene.drivers]).reshape(-1, 3)
-        shape = value.shape
-        return cls(value, np.broadcast_to(given[:, 1], shape), np.broadcast_to(given[:, 2], shape))
+        value = given[None, :, 0] if value is None else value
+        return cls(value, np.broadcast_to(given[:, 1], value.shape), np.broadcast_to(given[:, 2], value.shape))
 
     def __len__(self) -> int:
         return len(self.value)

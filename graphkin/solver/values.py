@@ -31,8 +31,8 @@ from graphkin.solver.driver_range import DriverRange, range_of
 from graphkin.solver.forces import Action, Forces, actions, balances, forces_of, without_line
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import Motion, contact_motion, listed_points, own_slides, pitch_point
-from graphkin.solver.pose import Array
-from graphkin.structure import Dyad, LargerGroup
+from graphkin.solver.pose import Array, Pose, aimed
+from graphkin.structure import Dyad, LargerGroup, Structure, part_of
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, Wording, say
 
@@ -167,6 +167,35 @@ def _of_cams(motion: Motion) -> Motion:
         return motion
     structure = structure_of(whole)
     return replace(motion, structure=structure)
+
+
+def as_drawn(motion: Motion, structure: Structure) -> Motion:
+    """A motion at one position, with the blocks and points of the replacing mechanism; itself where no mechanism
+    replaces it."""
+    solved = motion.structure.scene
+    if len(solved.drivers) < len(structure.scene.drivers):  # solved for what leads to the asked alone
+        structure = structure_of(part_of(structure, solved.question.find))
+    if structure.scene.instead_of is None and structure.links.keys() == motion.structure.links.keys():
+        return motion
+    poses = dict(motion.poses)
+    for slide in structure.slides:
+        if slide.a in poses or slide.pin is None or not poses.keys() >= {slide.of, slide.b}:
+            continue  # a slide of the scene's own, or nothing asks for it
+        at = poses[slide.of].fixed(structure.links[slide.of].points[slide.pin])
+        guide = poses[slide.b]
+        turn = np.asarray(guide.u * slide.guide.direction)
+        poses[slide.a] = Pose(at.z, turn, at.v, guide.omega, at.a, guide.alpha)
+    for slot in structure.scene.slots:
+        if slot.bar in poses or slot.bar not in structure.links or slot.on not in poses:
+            continue
+        held = [n for n in structure.hinges.get(slot.point, ()) if n != slot.bar and n in poses]
+        if not held:
+            continue  # nothing asks for it
+        holder = held[0]
+        start = poses[slot.on].fixed(structure.links[slot.on].points[slot.centre])
+        end = poses[holder].fixed(structure.links[holder].points[slot.point])
+        poses[slot.bar] = aimed(start, end)
+    return replace(motion, structure=structure, poses=poses)
 
 
 def _arm(moving: Motion, forces: Forces, of: Symbol) -> float:
