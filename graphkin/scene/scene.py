@@ -11,7 +11,6 @@ import re
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from html import escape
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import Path
@@ -346,6 +345,8 @@ class Scene(SceneTables):
         return f"<Scene {self.name}: {len(self.links)} moving links>"
 
     def _repr_html_(self) -> str:
+        from html import escape
+
         return f"<pre>{escape(toml_text(self.to_dict()))}</pre>"
 
 

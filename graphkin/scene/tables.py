@@ -20,15 +20,17 @@ import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, fields, replace
 from difflib import get_close_matches
-from functools import cache, cached_property
+from functools import cache
 from numbers import Integral, Real
 from typing import (
+    TYPE_CHECKING,
     Annotated,
     Any,
     ClassVar,
     Generic,
     Literal,
     NamedTuple,
+    Self,
     TypeVar,
     dataclass_transform,
     get_args,
@@ -36,13 +38,22 @@ from typing import (
     get_type_hints,
 )
 
-from pydantic import PlainValidator, Tag, TypeAdapter, ValidationError
+from pydantic import Tag, TypeAdapter, ValidationError
+from pydantic_core.core_schema import no_info_plain_validator_function
 
 from graphkin.errors import Problem, SceneError, did_you_mean
 from graphkin.files import Json, OwnTables, Tables
 from graphkin.words import Phrase, Wording, area, from_others, say
 
+if TYPE_CHECKING:
+    from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+    from pydantic.json_schema import JsonSchemaValue
+    from pydantic_core.core_schema import CoreSchema
+
 AnyTable = TypeVar("AnyTable", bound="FileTable")
+
+TABLE = "$table"
+"""The key of a schema at which a table inside another is named."""
 
 # -- tables and keys ---------------------------------------------------------------------------------------------------
 
@@ -51,6 +62,25 @@ class FileTable:
     """A table of a scene file."""
 
     __pydantic_config__: ClassVar = {"extra": "forbid", "defer_build": True}
+
+    @classmethod
+    @cache
+    def _rules(cls) -> TypeAdapter[Self]:
+        """The rules of the table by its annotations, made once."""
+        return TypeAdapter(cls)
+
+    @classmethod
+    def __get_pydantic_core_schema__(cls, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """The rules of a whole file; of a table inside it they are made when a file has such a table, since most files
+        have few of them."""
+        if handler.field_name is None:
+            return handler(source)
+        return no_info_plain_validator_function(lambda value: cls._rules().validate_python(value))
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, rules: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        """The schema of a whole file; of a table inside it the name (see `Form.schema`)."""
+        return handler(rules) if rules["type"] == "dataclass" else {TABLE: cls.__name__}
 
 
 def key(
@@ -338,10 +368,6 @@ class Form(Generic[AnyTable]):
     def __init__(self, whole: type[AnyTable], title: str, needed: str = "") -> None:
         self.whole, self.title, self.needed = whole, title, needed
 
-    @cached_property
-    def _rules(self) -> TypeAdapter[AnyTable]:
-        return _rules(self.whole, _when_met())
-
     def checked(self, raw: OwnTables) -> tuple[AnyTable, list[Problem], frozenset[KeyPath]]:
         """Check the form of a file.  Returns its valid part, the problems, and the paths of the entries taken out.
 
@@ -352,7 +378,7 @@ class Form(Generic[AnyTable]):
         gone: set[KeyPath] = set()
         for _ in range(ROUNDS):
             try:
-                return self._rules.validate_python(raw), list(problems.values()), frozenset(gone)
+                return self.whole._rules().validate_python(raw), list(problems.values()), frozenset(gone)
             except ValidationError as error:
                 errors = error.errors(include_url=False)
             for item in sorted(errors, key=lambda e: e["type"] != UNKNOWN):
@@ -393,14 +419,19 @@ class Form(Generic[AnyTable]):
 
     def schema(self) -> dict[str, Json]:
         """The JSON schema (draft 2020-12) of such a file, for editors that complete and check TOML."""
-        made = _without_null(_rules(self.whole, {}).json_schema(by_alias=True))
-        assert isinstance(made, dict)
-        tables: Mapping[str, Any] = {self.whole.__name__: made, **made["$defs"]}
-        for table, node in tables.items():
+        known = {table.__name__: table for table in FileTable.__subclasses__()}
+        tables, met = dict[str, Any](), [self.whole.__name__]
+        while met:
+            if (table := met.pop()) in tables:
+                continue
+            node: Any = _as_toml(known[table]._rules().json_schema(by_alias=True), met)
             for name, entry in node["properties"].items():
-                if said := as_sentence(say(meaning(table, name))):
+                if said := as_sentence(say(meaning(known[table], name))):
                     entry["description"] = said
-        return {"$schema": "https://json-schema.org/draft/2020-12/schema", **made, "title": self.title}
+            tables[table] = node
+        whole = tables.pop(self.whole.__name__)
+        head = {"$schema": "https://json-schema.org/draft/2020-12/schema", "$defs": dict(sorted(tables.items()))}
+        return {**head, **whole, "title": self.title}
 
     def _meant(self, loc: KeyPath, raw: OwnTables) -> str | None:
         """The key that a misspelt one stands for, where it is near and not written as well, or both are tables."""
@@ -665,24 +696,6 @@ def _name_rule(ctx: Tables) -> Wording:
 # -- rules from types --------------------------------------------------------------------------------------------------
 
 
-def _rules(table: type[AnyTable], others: Mapping[str, object]) -> TypeAdapter[AnyTable]:
-    """The rules of a table by its annotations, in which ``others`` go before the tables of the same names."""
-    made = TypeAdapter(table)
-    made.rebuild(_types_namespace={**vars(sys.modules[table.__module__]), **others})
-    return made
-
-
-@cache
-def _when_met() -> Mapping[str, object]:
-    """Every table by its name; its rules are made when a file has such a table, since most files have few of them."""
-    return {table.__name__: Annotated[Any, _when_asked(table)] for table in FileTable.__subclasses__()}
-
-
-def _when_asked(table: type[FileTable]) -> PlainValidator:
-    rules = cache(lambda: _rules(table, _when_met()))
-    return PlainValidator(lambda value: rules().validate_python(value))
-
-
 def _within(kind: object, loc: KeyPath) -> type[FileTable] | None:
     """The table at ``loc`` inside of a value of a kind; of several kinds that of the tag, or the first that has it."""
     if isinstance(kind, type) and issubclass(kind, FileTable):
@@ -700,16 +713,22 @@ def _within(kind: object, loc: KeyPath) -> type[FileTable] | None:
     return next((table for part in get_args(kind) if (table := _within(part, loc)) is not None), None)
 
 
-def _without_null(node: Json) -> Json:
-    """TOML has no null: a key that may be left out keeps the type it has when it is written."""
+def _as_toml(node: Json, met: list[str]) -> Json:
+    """A schema with references to its tables, whose names are added to ``met``.  TOML has no null: a key that may be
+    left out keeps the type it has when it is written."""
     if isinstance(node, list):
-        return [_without_null(item) for item in node]
+        return [_as_toml(item, met) for item in node]
     if not isinstance(node, dict):
         return node
-    out = {k: _without_null(v) for k, v in node.items() if not (k == "default" and v is None)}
+    out = {k: _as_toml(v, met) for k, v in node.items() if not (k == "default" and v is None)}
+    if table := out.pop(TABLE, ""):
+        met.append(str(table))
+        out = {"$ref": f"#/$defs/{table}", **out}
     kinds = out.get("anyOf")
     if isinstance(kinds, list) and {"type": "null"} in kinds:
         rest = [kind for kind in kinds if kind != {"type": "null"}]
         del out["anyOf"]
         out = {**rest[0], **out} if len(rest) == 1 and isinstance(rest[0], dict) else {**out, "anyOf": rest}
+    if "$ref" in out:  # the table has its own title
+        out.pop("title", None)
     return out

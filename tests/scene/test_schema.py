@@ -7,7 +7,7 @@ import tomllib
 import pytest
 
 from graphkin.scene import library, library_text, schema
-from graphkin.scene.scene_tables import SCENE
+from graphkin.scene.scene_tables import SCENE, SceneTables
 
 from .scenes import FOUR_BAR, SIX_BAR, changed
 
@@ -78,6 +78,11 @@ def test_every_key_is_described_or_has_its_choices() -> None:
     silent = [key for table in tables for key, entry in table["properties"].items()
               if not {"description", "enum", "$ref"} & entry.keys()]
     assert silent == []
+
+
+def test_the_rules_of_a_table_inside_a_file_are_not_made_before_a_file_has_it() -> None:
+    # the form of all tables takes longer than a four-bar's solution
+    assert 1 == str(SceneTables._rules().core_schema).count("'type': 'dataclass'")
 
 
 def test_no_key_may_be_null() -> None:
