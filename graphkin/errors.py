@@ -6,7 +6,7 @@ Text for the terminal, the notebook and the tests is made here and nowhere else.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Self
 
@@ -74,10 +74,12 @@ def _shortened(text: str) -> str:
 
 
 class GraphkinError(Exception):
-    """The base of all errors that graphkin raises on purpose.  ``problems`` holds the facts."""
+    """The base of all errors that graphkin raises on purpose.  ``problems`` holds the facts, ``answer`` what a program
+    reads beside them."""
 
     exit_code = 2
     status = "wrong"
+    answer: Mapping[str, object] = {}
 
     def __init__(self, *problems: Problem) -> None:
         self.problems = problems

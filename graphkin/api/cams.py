@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -243,6 +243,8 @@ class Cams(OfScene, Result):
     ``result["1"]`` is the cam of link 1.
     """
 
+    table_file = "cam.csv"
+
     mechanism: Mechanism
     made: tuple[CamMade, ...]
     discs: tuple[DiscCam, ...] = ()
@@ -320,10 +322,6 @@ class Cams(OfScene, Result):
         spoken = self.language or self.mechanism.question.sheet.language
         return {"cam" if i == 0 else f"cam-{made.cam.link}": made.figure(spoken) for i, made in enumerate(self.made)}
 
-    @property
-    def tables(self) -> Mapping[str, Table]:
-        return {"cam.csv": self.table}
-
     def pages(self, formats: Sequence[str], text: str = "glyphs") -> dict[str, bytes]:
         """The figures of cams by their law, and with the format "dxf" each profile true to size (profile-LINK.dxf).
         Raises CallError."""
@@ -379,8 +377,5 @@ def cam(
     discs = disc_cams(structure_of(given))
     if not given.cams and not discs:
         raise CallError.of(given.name or "scene", "has no cam", "a cam is told by its law in")
-    made = Cams(given, cam_made(given), discs, float(step), language)
-    if out is not None:
-        made.write(out, formats)
-    return made
+    return Cams(given, cam_made(given), discs, float(step), language).written(out, formats)
 

@@ -106,6 +106,8 @@ class Centred(OfScene, Result):
     to each other.  ``moving`` is the motion that has the same centres where the mechanism rests.
     """
 
+    table_file = "centres.csv"
+
     centres: Centres
     motion: Motion
     language: str | None = None
@@ -244,10 +246,6 @@ class Centred(OfScene, Result):
         """``figure`` ("centres"), and its further pages ("centres-2")."""
         return {"centres": self.figure, **{f"centres-{n}": page for n, page in enumerate(self.figure.further, 2)}}
 
-    @property
-    def tables(self) -> Mapping[str, Table]:
-        return {"centres.csv": self.table}
-
     def write(
         self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",), text: str = "glyphs",
         motion: bool = False,
@@ -310,8 +308,7 @@ def centres(
     2.63374
     """
     known_words(formats, language, convention, known_languages=ON_SHEETS)
-    given = as_scene(scene)
-    given, values = placed(given, at)
+    given, values = placed(as_scene(scene), at)
     from graphkin.solver.values import as_drawn, growing
 
     motion = solved_here(given, values)
@@ -319,10 +316,7 @@ def centres(
     rests = not any(pose.omega[0] or pose.v[0] for pose in motion.poses.values())
     moving = as_drawn(growing(motion), found.sheet.structure) if rests else None
     drawn = as_drawn(motion, found.sheet.structure)
-    centred = Centred(found, drawn, language, convention, moving)
-    if out is not None:
-        centred.write(out, formats)
-    return centred
+    return Centred(found, drawn, language, convention, moving).written(out, formats)
 
 
 # -- centrodes ---------------------------------------------------------------------------------------------------------
@@ -330,6 +324,8 @@ def centres(
 @dataclass(frozen=True, repr=False, eq=False)
 class Centroded(OfScene, Result):
     """The fixed and the moving centrode of a link, and the path of a point of it (complex arrays over the turn, m)."""
+
+    table_file = "centrode.csv"
 
     centres: Centres
     motion: Motion
@@ -390,10 +386,6 @@ class Centroded(OfScene, Result):
     def figures(self) -> Mapping[str, Drawing]:
         return {"centrode": self.figure}
 
-    @property
-    def tables(self) -> Mapping[str, Table]:
-        return {"centrode.csv": self.table}
-
     def __repr__(self) -> str:
         return f"<Centroded {self.mechanism.name}: link {self.link}>"
 
@@ -426,16 +418,13 @@ def centrodes(
     from graphkin.study.centrodes import steady, turning_centrodes
 
     known_words(formats, language, convention, known_languages=ON_SHEETS)
-    given = as_scene(scene)
-    given, values = placed(given, at)
+    given, values = placed(as_scene(scene), at)
     _check_names(given, link, point)
     solved_here(given, values)
     given = steady(given)
     motion, curves = turning_centrodes(given, values, link)
-    centroded = Centroded(found_centres(given, values), motion, curves, link, point, language, convention)
-    if out is not None:
-        centroded.write(out, formats)
-    return centroded
+    found = found_centres(given, values)
+    return Centroded(found, motion, curves, link, point, language, convention).written(out, formats)
 
 
 def _check_names(scene: Mechanism, link: str, point: str) -> None:

@@ -45,6 +45,8 @@ class Checked(OfScene, Result):
     are drawn by the same hands, None where there is neither mass nor load, or no force is asked for.
     """
 
+    table_file = "readings.csv"
+
     sheet: Sheet
     report: Report
     advice: Advice | None = None
@@ -96,10 +98,6 @@ class Checked(OfScene, Result):
             cells = {**shown, "unit": row.symbol.unit(units).text}
             rows.append([cells.get(key) for key in _FORMS])
         return Table.of(list(_FORMS), rows, list(_FORMS.values()))
-
-    @property
-    def tables(self) -> Mapping[str, Table]:
-        return {"readings.csv": self.table}
 
     @cached_property
     def data(self) -> dict[str, Json]:

@@ -210,10 +210,8 @@ def course_design(
     drawn = [(r.student.name, r.student.id, r.student.scheme, f"{r.values.driver:.9g}") for r in lines]
     blank = answers_template(asked, given.units, "en", drawn, "variant", "at in a class")
     content["answers_template.csv"] = blank.harmless().csv().encode("utf-8-sig")
-    result = CourseDesigns(given, tuple(lines), asked, content, agrees, "pdf" not in formats or can_typeset())
-    if out is not None:
-        result.write(out)
-    return result
+    typeset = "pdf" not in formats or can_typeset()
+    return CourseDesigns(given, tuple(lines), asked, content, agrees, typeset).written(out)
 
 
 def _stem(k: int, count: int, who: Student) -> str:

@@ -290,7 +290,4 @@ def design(
     hand: Instrument = EXACT if instrument == "exact" else cad() if instrument == "cad" else pencil(tools, seed)
     sheet = construct(given.task, scale, hand)
     rows = compare_lengths(sheet, synthesis.lengths, hand, tools)
-    made = Designed(given, synthesis, sheet, rows, language)
-    if out is not None:
-        made.write(out, formats)
-    return made
+    return Designed(given, synthesis, sheet, rows, language).written(out, formats)

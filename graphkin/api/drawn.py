@@ -296,10 +296,9 @@ def draw(
     what = plan(structure, values, asked_here(asked))
     whole = with_elsewhere(checked(what, motion, hand), asked, seed)
     places = tuple(as_list("beside", beside, Phrase("give names of positions or driver values 1")))
-    drawn = Drawn(whole, what, motion, wanted, seed, language, convention, driver, places, figures is not None)
-    if out is not None:
-        drawn.write(out, formats)
-    return drawn
+    by_name = figures is not None
+    drawn = Drawn(whole, what, motion, wanted, seed, language, convention, driver, places, by_name)
+    return drawn.written(out, formats)
 
 
 MARKS = ("theta", "stroke", "K", "gamma")

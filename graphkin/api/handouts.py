@@ -200,11 +200,9 @@ def handout(
     wishes = given.question.sheet
     lesson = lesson_of(what, motion, language or wishes.language, convention or wishes.convention)
     question = question_of(lesson, what, motion, given.name) if platforms else None
-    made = Handout(lesson, values, tuple(dict.fromkeys(formats)), count, progress, question, platforms,
-                   tuple(symbol for symbol in asked if symbol.at))
-    if out is not None:
-        made.write(out)
-    return made
+    elsewhere = tuple(symbol for symbol in asked if symbol.at)
+    kinds = tuple(dict.fromkeys(formats))
+    return Handout(lesson, values, kinds, count, progress, question, platforms, elsewhere).written(out)
 
 
 def papers_of(

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
 
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import Json
@@ -122,6 +122,8 @@ class Result(Tabled):
 
     figure_formats: ClassVar[Sequence[str]] = ("svg", "pdf", "png", "dxf")
     """What its figures can be written as."""
+    table_file: ClassVar[str] = ""
+    """The name of the file of its table; "" if this is not written, or elsewhere."""
 
     @property
     @abstractmethod
@@ -146,7 +148,7 @@ class Result(Tabled):
     @property
     def tables(self) -> Mapping[str, Table]:
         """The tables that it writes, by the names of their files."""
-        return {}
+        return {self.table_file: self.table} if self.table_file else {}
 
     @property
     def files(self) -> Mapping[str, bytes | Iterable[bytes]]:
@@ -175,6 +177,12 @@ class Result(Tabled):
         paths = write_files(target, pages)
         paths += [table.write(target / name) for name, table in self.tables.items()]
         return paths + write_files(target, self.files)
+
+    def written(self, folder: str | os.PathLike[str] | None, formats: Sequence[str] = ("svg",)) -> Self:
+        """Itself, after it was written into a folder, if one is given."""
+        if folder is not None:
+            self.write(folder, formats)
+        return self
 
     def pages(self, formats: Sequence[str], text: str = "glyphs") -> dict[str, bytes]:
         """The files of its figures; in PDF further pages of a figure are in its file.  Raises CallError."""

@@ -55,6 +55,8 @@ class Solved(OfScene, Result):
     part : the positions of a sweep to which it is limited
     """
 
+    table_file = "solution.csv"
+
     structure: Structure
     values: Mapping[str, float] | None
     count: int | None
@@ -232,10 +234,6 @@ class Solved(OfScene, Result):
     def ok(self) -> bool:
         """Whether at least one position is solved."""
         return any(block.motion.ok.any() for block in self.blocks())
-
-    @property
-    def tables(self) -> Mapping[str, Table]:
-        return {"solution.csv": self.table}
 
     @property
     def files(self) -> Mapping[str, Iterable[bytes]]:

@@ -30,10 +30,6 @@ class _Charted(Result):
 
     figure_formats = CHART_FORMATS
 
-    @property
-    def tables(self) -> Mapping[str, Table]:
-        return {f"{self.name}.csv": self.table}
-
     def _repr_html_(self) -> str:
         return "".join(f"<figure>{f._repr_svg_()}<figcaption>{html.escape(f.title)}</figcaption></figure>"
                        for f in self.figures.values())  # fmt: skip
@@ -43,7 +39,7 @@ class _Charted(Result):
 class SpeedAccuracy(_Charted):
     """The cost of each method for a position, and its error: measured in one run on this machine."""
 
-    name = "speed-accuracy"
+    name, table_file = "speed-accuracy", "speed-accuracy.csv"
     race: Race
     language: str
 
@@ -108,17 +104,14 @@ def speed_accuracy(
     repeats = whole_number("repeats", repeats, 1, 1000)
     known_words(language=language)
     _ = out is None or path_of(out)  # what is wrong with it is said before minutes of work
-    measured = SpeedAccuracy(race(given, repeats), language or given.question.sheet.language)
-    if out is not None:
-        measured.write(out)
-    return measured
+    return SpeedAccuracy(race(given, repeats), language or given.question.sheet.language).written(out)
 
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Stability(_Charted):
     """The error of each method against the distance from each kind of singular position, with fitted slopes."""
 
-    name = "stability"
+    name, table_file = "stability", "stability.csv"
     singularities: tuple[Singularity, ...]
     language: str
 
@@ -185,7 +178,4 @@ def stability(
     samples = whole_number("samples", samples, 1, 100)
     known_words(language=language)
     _ = out is None or path_of(out)
-    measured = Stability(run_singularities(wanted, samples), language)
-    if out is not None:
-        measured.write(out)
-    return measured
+    return Stability(run_singularities(wanted, samples), language).written(out)

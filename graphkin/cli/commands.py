@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Annotated, TextIO
 import typer
 
 from graphkin import __version__
-from graphkin.cli.output import Answered, asked_languages, complain, failed, print_json
+from graphkin.cli.output import asked_languages, complain, print_failed
 from graphkin.errors import GraphkinError, Problem
 from graphkin.words import Phrase, from_others
 
@@ -163,13 +163,9 @@ def _run(interrupted: Callable[[int, FrameType | None], object] | None) -> str |
         return int(app(standalone_mode=False) or 0)
     except SystemExit as end:
         return end.code
-    except Answered as told:
-        complain(*told.error.problems)
-        print_json(told.answer)
-        return told.error.exit_code
     except GraphkinError as error:
         complain(*error.problems)
-        _print_problems(error.status, error.problems)
+        print_failed(error.status, error.problems, error.answer)
         return error.exit_code
     except typer.Abort:
         return 1
@@ -181,20 +177,10 @@ def _run(interrupted: Callable[[int, FrameType | None], object] | None) -> str |
             error.show()  # type: ignore[attr-defined]
         else:
             complain(said)
-        _print_problems("call", [Problem(_called(), said)])
+        called = ["graphkin", *(word for word in sys.argv[1:2] if word in COMMANDS)]
+        print_failed("call", [Problem(" ".join(called), said)], {})
         return 2
     return 0
-
-
-def _called() -> str:
-    """The command that was called, as far as its name."""
-    return " ".join(["graphkin", *(word for word in sys.argv[1:2] if word in COMMANDS)])
-
-
-def _print_problems(status: str, problems: Sequence[Problem]) -> None:
-    """What is wrong, for a program that asked for JSON."""
-    if "--json" in sys.argv[1:]:
-        print_json(failed(status, problems))
 
 
 def _leave() -> None:

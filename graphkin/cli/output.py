@@ -97,41 +97,26 @@ def _show_table(heads: Sequence[str], rows: Sequence[Sequence[str]], right: tupl
     Console().print(table)
 
 
-class Answered(Exception):
-    """What cannot be solved, with what is printed for a program before it ends the command."""
-
-    def __init__(self, error: Unsolvable, answer: Mapping[str, object]) -> None:
-        super().__init__(str(error))
-        self.error, self.answer = error, answer
-
-
 @contextmanager
-def unsolvable_as_json(
-    wanted: bool, answer: Mapping[str, object] | Callable[[Unsolvable], Mapping[str, object]]
-) -> Iterator[None]:
+def answering(answer: Mapping[str, object] | Callable[[Unsolvable], Mapping[str, object]]) -> Iterator[None]:
     """Give an answer to a program also where the mechanism cannot be solved.
 
     Parameters
     ----------
     answer : what it says beside ok, status, reason and problems; or a function that makes all of it but these
-
-    Raises
-    ------
-    Answered : instead of Unsolvable, where a program reads the answer
     """
     try:
         yield
     except Unsolvable as error:
-        if not wanted:
-            raise
-        told = answer(error) if callable(answer) else {**answer, "status": error.status, "why": error.why}
-        raise Answered(error, failed(error.status, error.problems, told)) from None
+        error.answer = answer(error) if callable(answer) else {**answer, "status": error.status, "why": error.why}
+        raise
 
 
-def failed(status: str, problems: Iterable[Problem], answer: Mapping[str, object] | None = None) -> dict[str, object]:
-    """What a program reads of a command that failed, after what there is of its answer."""
-    told = [problem.data for problem in problems]
-    return {**(answer or {}), "ok": False, "status": status, "problems": told}
+def print_failed(status: str, problems: Iterable[Problem], answer: Mapping[str, object]) -> None:
+    """What a program that asked for JSON reads of a command that failed, after what there is of its answer."""
+    if "--json" in sys.argv[1:]:
+        told = [problem.data for problem in problems]
+        print_json({**answer, "ok": False, "status": status, "problems": told})
 
 
 def finish(given: Given, result: Result, paths: Iterable[Path] = (), files: bool = False) -> None:

@@ -15,9 +15,10 @@ import typer
 
 from graphkin.cli.options import Given, command, named_numbers, processes, split_words
 from graphkin.cli.output import (
+    answering,
     complain,
-    failed,
     finish,
+    print_failed,
     print_json,
     print_paths,
     print_table,
@@ -25,7 +26,6 @@ from graphkin.cli.output import (
     short_bar,
     tell,
     tell_unused,
-    unsolvable_as_json,
 )
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.words import Phrase, class_of, from_others, languages, listed, say, word
@@ -51,7 +51,7 @@ def check(given: Given) -> None:
     from graphkin.api.checked import check as checking
 
     known_words(language=given.lang, convention=given.convention, instrument=given.instrument)
-    with unsolvable_as_json(given.json, UNCHECKED):
+    with answering(UNCHECKED):
         checked = given.call(checking)
     language = given.lang or checked.mechanism.question.sheet.language
     if given.out is not None:
@@ -103,7 +103,7 @@ def draw(given: Given) -> None:
     from graphkin.api.drawn import draw as drawing
 
     known_words(given.formats, text=given.text)
-    with unsolvable_as_json(given.json, UNCHECKED):
+    with answering(UNCHECKED):
         drawn = given.call(drawing)
         paths = drawn.write(given.out, given.formats, given.text)
     complain(*(Problem(f"figure {name}", why) for name, why in drawn.not_drawn.items()))
@@ -161,7 +161,7 @@ def centres(given: Given) -> None:
         rolled = given.call(centrodes, link=given.centrode)
         finish(given, rolled, rolled.write(given.out, given.formats, given.text), files=True)
         return
-    with unsolvable_as_json(given.json, {"links": [], "centres": {}, "ok": False}):
+    with answering({"links": [], "centres": {}, "ok": False}):
         found = given.call(finding)
     none_wanted = given.json and given.out is None
     paths = [] if none_wanted else found.write(given.out, given.formats, given.text, given.motion)
@@ -177,7 +177,7 @@ def centres(given: Given) -> None:
 def design(given: Given) -> None:
     """Find the lengths of a mechanism for what it shall do: drawn, measured, checked; write it as a scene."""
     from graphkin.api.designed import design as designing
-    with unsolvable_as_json(given.json, {"ok": False, "status": "", "why": "", "lengths": {}, "readings": []}):
+    with answering({"ok": False, "status": "", "why": "", "lengths": {}, "readings": []}):
         designed = given.call(designing)
         paths = designed.write(given.out, given.formats)
     if given.speaks:
@@ -205,7 +205,7 @@ def cam(given: Given) -> None:
     """Cams drawn by inversion: pressure angles, curvature, undercutting, profile as CSV and DXF; discs measured."""
     from graphkin.api.cams import cam as looking
 
-    with unsolvable_as_json(given.json, {"ok": False, "status": "", "why": "", "cams": {}}):
+    with answering({"ok": False, "status": "", "why": "", "cams": {}}):
         found = given.call(looking)
         paths = found.write(given.out, given.formats)
     if given.speaks:
@@ -230,14 +230,14 @@ def solve(given: Given) -> None:
 
     known_words(language=given.lang, convention=given.convention, instrument=given.instrument)
     values = given.values
-    with unsolvable_as_json(given.json, lambda error: refused(given.scene, values, error)):
+    with answering(lambda error: refused(given.scene, values, error)):
         solved = given.call(solving)
     if given.out is not None:
         write_files(given.out, {"solution.json": solved.json()})
     drawn = solved.loops(given.lang) if given.loops and solved.ok else None
     if given.json and not solved.ok:
         problem = Problem(solved.mechanism.name, solved.said)
-        print_json(failed(str(solved.first.motion.status[0]), [problem], solved.data))
+        print_failed(str(solved.first.motion.status[0]), [problem], solved.data)
     elif given.json and drawn:
         print_json({**solved.data, "loops": drawn.data})
     elif given.json:
@@ -291,7 +291,7 @@ def sweep(given: Given) -> None:
     target = given.out if given.out is not None else Path(mechanism_of(given.scene).name)
     leave_undocumented()
     with (
-        unsolvable_as_json(given.json, {}),
+        answering({}),
         progress_bar(given.speaks, target) as progress,
     ):
         swept = given.call(
@@ -302,7 +302,7 @@ def sweep(given: Given) -> None:
     wrong = all(outcome.status == "wrong scene" for outcome in outcomes)
     if given.json and not swept.ok:
         status, why = outcomes[0].status, outcomes[0].why
-        print_json(failed("scene" if wrong else status, [Problem(swept.mechanism.name, why)], swept.data))
+        print_failed("scene" if wrong else status, [Problem(swept.mechanism.name, why)], swept.data)
     elif given.json:
         print_json(swept.data)
     elif not given.quiet:
@@ -540,7 +540,7 @@ def explain(given: Given) -> None:
 
     explained = given.call(explaining)
     if given.json and not explained.ok:
-        print_json(failed(explained.status, [Problem(explained.mechanism.name, explained.why)], explained.data))
+        print_failed(explained.status, [Problem(explained.mechanism.name, explained.why)], explained.data)
     elif given.json:
         print_json(explained.data)
     elif not given.quiet:
