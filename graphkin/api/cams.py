@@ -377,5 +377,5 @@ def cam(
     discs = disc_cams(structure_of(given))
     if not given.cams and not discs:
         raise CallError.of(given.name or "scene", "has no cam", "a cam is told by its law in")
-    return Cams(given, cam_made(given), discs, float(step), language).written(out, formats)
+    return Cams(given, cam_made(given), discs, float(step), language).saved(out, formats)
 

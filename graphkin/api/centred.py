@@ -316,7 +316,7 @@ def centres(
     rests = not any(pose.omega[0] or pose.v[0] for pose in motion.poses.values())
     moving = as_drawn(growing(motion), found.sheet.structure) if rests else None
     drawn = as_drawn(motion, found.sheet.structure)
-    return Centred(found, drawn, language, convention, moving).written(out, formats)
+    return Centred(found, drawn, language, convention, moving).saved(out, formats)
 
 
 # -- centrodes ---------------------------------------------------------------------------------------------------------
@@ -424,7 +424,7 @@ def centrodes(
     given = steady(given)
     motion, curves = turning_centrodes(given, values, link)
     found = found_centres(given, values)
-    return Centroded(found, motion, curves, link, point, language, convention).written(out, formats)
+    return Centroded(found, motion, curves, link, point, language, convention).saved(out, formats)
 
 
 def _check_names(scene: Mechanism, link: str, point: str) -> None:

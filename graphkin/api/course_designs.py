@@ -211,7 +211,7 @@ def course_design(
     blank = answers_template(asked, given.units, "en", drawn, "variant", "at in a class")
     content["answers_template.csv"] = blank.harmless().csv().encode("utf-8-sig")
     typeset = "pdf" not in formats or can_typeset()
-    return CourseDesigns(given, tuple(lines), asked, content, agrees, typeset).written(out)
+    return CourseDesigns(given, tuple(lines), asked, content, agrees, typeset).saved(out)
 
 
 def _stem(k: int, count: int, who: Student) -> str:

@@ -290,4 +290,4 @@ def design(
     hand: Instrument = EXACT if instrument == "exact" else cad() if instrument == "cad" else pencil(tools, seed)
     sheet = construct(given.task, scale, hand)
     rows = compare_lengths(sheet, synthesis.lengths, hand, tools)
-    return Designed(given, synthesis, sheet, rows, language).written(out, formats)
+    return Designed(given, synthesis, sheet, rows, language).saved(out, formats)

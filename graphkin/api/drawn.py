@@ -298,7 +298,7 @@ def draw(
     places = tuple(as_list("beside", beside, Phrase("give names of positions or driver values 1")))
     by_name = figures is not None
     drawn = Drawn(whole, what, motion, wanted, seed, language, convention, driver, places, by_name)
-    return drawn.written(out, formats)
+    return drawn.saved(out, formats)
 
 
 MARKS = ("theta", "stroke", "K", "gamma")

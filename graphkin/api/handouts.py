@@ -202,7 +202,7 @@ def handout(
     question = question_of(lesson, what, motion, given.name) if platforms else None
     elsewhere = tuple(symbol for symbol in asked if symbol.at)
     kinds = tuple(dict.fromkeys(formats))
-    return Handout(lesson, values, kinds, count, progress, question, platforms, elsewhere).written(out)
+    return Handout(lesson, values, kinds, count, progress, question, platforms, elsewhere).saved(out)
 
 
 def papers_of(

@@ -178,7 +178,7 @@ class Result(Tabled):
         paths += [table.write(target / name) for name, table in self.tables.items()]
         return paths + write_files(target, self.files)
 
-    def written(self, folder: str | os.PathLike[str] | None, formats: Sequence[str] = ("svg",)) -> Self:
+    def saved(self, folder: str | os.PathLike[str] | None, formats: Sequence[str] = ("svg",)) -> Self:
         """Itself, after it was written into a folder, if one is given."""
         if folder is not None:
             self.write(folder, formats)

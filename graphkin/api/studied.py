@@ -104,7 +104,7 @@ def speed_accuracy(
     repeats = whole_number("repeats", repeats, 1, 1000)
     known_words(language=language)
     _ = out is None or path_of(out)  # what is wrong with it is said before minutes of work
-    return SpeedAccuracy(race(given, repeats), language or given.question.sheet.language).written(out)
+    return SpeedAccuracy(race(given, repeats), language or given.question.sheet.language).saved(out)
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -178,4 +178,4 @@ def stability(
     samples = whole_number("samples", samples, 1, 100)
     known_words(language=language)
     _ = out is None or path_of(out)
-    return Stability(run_singularities(wanted, samples), language).written(out)
+    return Stability(run_singularities(wanted, samples), language).saved(out)
