@@ -581,8 +581,8 @@ def _wrong_part(structure: Structure, unknowns: list[list[Unknown]], given: Mapp
 
 
 def _loose_ends(structure: Structure) -> Iterator[Problem]:
-    """The reasons why a mechanism has more freedom than was meant, by name: points that join nothing, links that hang
-    on one pin; none where all links hang together.
+    """The reasons why a mechanism has more freedom than was meant, by name: points that join nothing, links that one
+    pair alone holds and no driver moves; none where all links hang together.
 
     The commonest cause is a slip of the hand, a name written in two ways; the next a roller, whose own turning moves
     nothing else.
@@ -593,10 +593,13 @@ def _loose_ends(structure: Structure) -> Iterator[Problem]:
     held = {*hinges, *(cam.name_of_point for cam in structure.cams), *(s.pin for s in structure.slides if s.slot)}
     free = {link.name: [p for p in link.bar if p not in held] for link in moving}
     lonely = [p for points in free.values() for p in points]
+    driven = {name for driver in scene.drivers for name in driver.links}
     for link in moving:
         joints = [p for p, names in hinges.items() if link.name in names]
         joints += [s.key for s in structure.slides if link.name in s.links]
         joints += [cam.key for cam in structure.cams if link.name in (cam.link, cam.follower)]
+        joints += [contact.name for contact in scene.contacts if contact.rolling and link.name in contact.links]
+        joints += [gear.name for gear in scene.gears if link.name in (*gear.wheels, gear.carrier)]
         where, ends = f"links.{link.name}", free[link.name]
         if len(joints) >= 2:
             continue
@@ -606,9 +609,13 @@ def _loose_ends(structure: Structure) -> Iterator[Problem]:
             hangs: Wording = Phrase("so that it hangs on one joint alone", joint=joints[0]) if joints else ""
             yield Problem(where, "no other link has its point",
                           meant if like else Phrase("write the same name in the link that"), point=point, link=hangs)
-        if not ends and len(joints) == 1 and structure.mobility.value > len(scene.drivers):
-            yield Problem(where, "it hangs on alone and turns there freely", "join it to another link too or leave",
-                          joints=joints[0])
+        if not ends and len(joints) == 1 and link.name not in driven and structure.mobility.value > len(scene.drivers):
+            if joints[0] in hinges:
+                yield Problem(where, "it hangs on alone and turns there freely", "join it to another link too or leave",
+                              joints=joints[0])
+            else:
+                yield Problem(where, "holds it alone so that it moves", "join it to another link too or drive",
+                              pair=joints[0])
         if not ends and not joints:
             yield Problem(where, "nothing holds it", "name a point of another link or a")
 

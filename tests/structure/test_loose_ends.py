@@ -55,3 +55,38 @@ def test_the_own_turning_of_a_roller_is_named() -> None:
 def test_a_link_that_hangs_on_one_pin_is_named() -> None:
     (text,) = said(four_bar(links={"4": {"points": ["B", "E"], "length": 40}}))
     assert text.startswith("links.4: no other link has its point E, so that it hangs on B alone")
+
+
+def test_a_slide_that_nothing_else_joins_is_said_to_move_not_to_turn() -> None:
+    loose = four_bar(frame={"points": {"A": [0, 0], "D": [400, 0]}, "guides": {"k": {"through": [0, 90], "angle": 0}}},
+                     links={"4": {"on": "0.k"}})  # fmt: skip
+    assert ["links.4: 4/0 alone holds it, so that it moves freely; join it to another link too, or drive it"] == said(loose)
+
+
+def train(driven: str, *gears: dict[str, Any]) -> dict[str, Any]:
+    """Wheels 1 and 4 about O and wheel 3 on the arm 2, of which one is driven."""
+    links = {"1": {"points": ["O"]}, "2": {"points": ["O", "P"], "length": 45}, "3": {"points": ["P"]}}
+    return {
+        "frame": {"points": {"O": [0, 0]}},
+        "links": links | {"4": {"points": ["O"]}},
+        "gears": {f"g{k}": gear for k, gear in enumerate(gears)},
+        "driver": {"link": driven, "angle": 0, "omega": 1},
+    }
+
+
+def test_wheels_that_mesh_do_not_turn_freely() -> None:
+    sun, ring = {"between": ["1", "3"], "teeth": [20, 25]}, {"between": ["3", "4"], "teeth": [25, -70]}
+    assert [] == said(train("2", sun, ring))
+
+
+def test_a_driven_link_does_not_turn_freely_and_a_wheel_that_meshes_with_none_does() -> None:
+    (text,) = said(train("1", {"between": ["1", "3"], "teeth": [20, 25]}))
+    assert text.startswith("links.4: it hangs on O alone")
+
+
+def test_a_wheel_that_rolls_does_not_turn_freely() -> None:
+    wheel = {"points": ["P"], "discs": {"k": {"centre": "P", "r": 10}}}
+    rail = {"points": {"O": [0, 0]}, "guides": {"f": {"through": [0, -55], "angle": 0}}}
+    scene = train("2") | {"frame": rail, "contacts": {"K": {"between": ["3.k", "0.f"], "rolling": True}}}
+    scene["links"]["3"] = wheel
+    assert ["links.1", "links.4"] == [text.partition(":")[0] for text in said(scene)]
