@@ -133,7 +133,7 @@ class Unsolvable(GraphkinError):
     @property
     def reason(self) -> Wording:
         """The reason as a phrase of one line."""
-        said: Wording = joined("two sentences", (problem.sentence for problem in self.problems))
+        said: Wording = joined("problem after problem", (problem.sentence for problem in self.problems))
         return said
 
 

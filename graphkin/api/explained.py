@@ -147,23 +147,30 @@ def _place(z: complex, scene: Mechanism) -> str:
 
 
 def _links(scene: Mechanism) -> Iterator[Phrase]:
-    fixed = ", ".join(f"{p} {_place(z, scene)}" for p, z in scene.frame.points.items()) or "-"
-    yield Phrase("explained frame", link=scene.frame.name, points=fixed)
+    fixed = ", ".join(f"{p} {_place(z, scene)}" for p, z in scene.frame.points.items())
+    bare = Phrase("explained bare frame", link=scene.frame.name)
+    yield Phrase("explained frame", link=scene.frame.name, points=fixed) if fixed else bare
     yield from _outlines(scene.frame, scene)
-    for link in scene.links:
+    blocks = {slot.bar: slot for slot in scene.slots if slot.block}
+    replacing = {slot.bar for slot in scene.slots if not slot.block}
+    for link in (link for link in scene.links if link.name not in replacing):
         own = link.bar
         if len(own) == 2:
             length = _number((link.length or 0.0) / scene.units.metres)
             yield Phrase("explained bar", link=link.name, bar="".join(own), length=length, unit=scene.units.length)
-        elif any(s.link == link.name for s in scene.slidings):
-            yield Phrase("explained block", link=link.name, point=own[0] if own else "-")
+        elif link.name in blocks or any(s.link == link.name for s in scene.slidings):
+            block = Phrase("explained block without point", link=link.name)
+            yield Phrase("explained block", link=link.name, point=own[0]) if own else block
         elif own and any(cam.link == link.name for cam in scene.cams):
             yield Phrase("explained cam link", link=link.name, point=own[0])
         elif own and any(link.name in gear.wheels for gear in scene.gears):
             yield Phrase("explained wheel", link=link.name, point=own[0])
+        elif own and link.discs:
+            yield Phrase("explained disc link", link=link.name, point=own[0])
         else:
             yield Phrase("explained ray", link=link.name, point=own[0] if own else "-")
-        further = [f"{p} {_place(z, scene)}" for p, z in link.points.items() if p not in own]
+        centre = {blocks[link.name].centre} if link.name in blocks else set()
+        further = [f"{p} {_place(z, scene)}" for p, z in link.points.items() if p not in {*own, *centre}]
         if further:
             yield Phrase("explained further", link=link.name, points=", ".join(further))
         yield from _outlines(link, scene)
@@ -180,12 +187,17 @@ def _outlines(link: PlacedLink, scene: Mechanism) -> Iterator[Phrase]:
         if name:
             place, angle = _place(guide.through, scene), _degrees(guide.direction)
             yield Phrase("explained guide", guide=f"{link.name}.{name}", place=place, angle=angle)
+    for name, slot in {slot.name: slot for slot in scene.slots if slot.on == link.name}.items():
+        radius = _number(slot.radius / scene.units.metres)
+        guide = f"{link.name}.{name}"
+        yield Phrase("explained circle", guide=guide, centre=slot.centre, radius=radius, unit=scene.units.length)
 
 
 def _joints(scene: Mechanism) -> Iterator[Phrase]:
     counted = {scene.frame.name, *(link.name for link in scene.links if not link.redundant)}
+    curved = {(slot.bar, point) for slot in scene.slots for point in ({slot.centre} if slot.block else scene.holders)}
     for point, holders in scene.holders.items():
-        own = [name for name in holders if name in counted]
+        own = [name for name in holders if name in counted and (name, point) not in curved]
         if len(own) > 1:
             if len(own) == 2:
                 yield Phrase("explained turning", point=point, links=", ".join(own))
@@ -193,7 +205,13 @@ def _joints(scene: Mechanism) -> Iterator[Phrase]:
                 yield Phrase("explained turnings", point=point, links=", ".join(own), number=len(own) - 1)
     for pair in scene.slidings:
         guide = _guide_name(scene, pair.on, pair.guide)
-        yield Phrase("explained sliding", link=pair.link, guide=guide, point=pair.pin or "-", angle=_degrees(pair.turn))
+        along = Phrase("explained sliding without point", link=pair.link, guide=guide, angle=_degrees(pair.turn))
+        pinned = Phrase("explained sliding", link=pair.link, guide=guide, point=pair.point, angle=_degrees(pair.turn))
+        yield pinned if pair.pin else along
+    for slot in scene.slots:
+        key = "explained circular block" if slot.block else "explained circular slot"
+        link, guide = slot.bar if slot.block else slot.of, f"{slot.on}.{slot.name}"
+        yield Phrase(key, point=slot.point, link=link, guide=guide, centre=slot.centre, bar=slot.bar)
     for pin in scene.pins:
         yield Phrase("explained slot", point=pin.point, link=pin.of, guide=_guide_name(scene, pin.on, pin.guide))
     for contact in scene.contacts:

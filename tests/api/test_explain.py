@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 import graphkin
@@ -89,3 +91,47 @@ def test_forces_are_asked_too_where_something_loads_the_mechanism():
     loaded = graphkin.read("four-bar-coupler-point").to_dict() | {"loads": {"P": {"on": "3", "moment": 2}}}
     assert "all velocities, accelerations and forces" in graphkin.explain(loaded).text
     assert "all velocities and accelerations" in graphkin.explain("four-bar-coupler-point").text
+
+
+CIRCULAR: dict[str, Any] = {
+    "frame": {"points": {"A": [0, 0], "M": [60, 0]}, "guides": {"s": {"centre": "M", "r": 80}}},
+    "links": {"1": {"points": ["A", "B"], "length": 30}, "2": {"points": ["B", "C"], "length": 90}},
+    "driver": {"link": "1", "angle": 70, "omega": 3},
+    "sketch": {"C": [60, 80]},
+}
+
+
+def test_a_pin_in_a_circular_slot_is_told_as_such_with_the_bar_that_stands_in_its_place() -> None:
+    data = graphkin.explain(CIRCULAR | {"pins": {"C": {"of": "2", "in": "0.s"}}}).data
+    assert "it has the circular slot 0.s about M, of radius 80 mm" in data["links"]
+    assert [
+        "A joins the links 0, 1: a turning pair",
+        "B joins the links 1, 2: a turning pair",
+        "the pin C of link 2 runs in the circular slot 0.s about M: a higher pair; "
+        "bar s from M to C stands in its place",
+    ] == data["joints"]
+    assert ["F = 3·2 - 2·2 - 1 = 1: as many as there are drivers"] == data["mobility"]
+
+
+def test_a_block_in_a_circular_slot_is_a_block_and_its_centre_joins_nothing() -> None:
+    scene = CIRCULAR | {"links": CIRCULAR["links"] | {"3": {"points": ["C"], "on": "0.s"}}}
+    data = graphkin.explain(scene).data
+    assert "link 3 is a block with the point C" in data["links"]
+    assert [
+        "A joins the links 0, 1: a turning pair",
+        "B joins the links 1, 2: a turning pair",
+        "C joins the links 2, 3: a turning pair",
+        "link 3 slides with its point C in the circular slot 0.s, and so turns about M: counted as a turning pair",
+    ] == data["joints"]
+
+
+def test_no_dash_stands_for_a_point_that_is_not_there() -> None:
+    scenes = ("wheel-on-rail", "scotch-yoke", "cam-eccentric-flat-slider", "oldham-coupling")
+    said = [text for name in scenes for part in ("links", "joints") for text in graphkin.explain(name).data[part]]
+    assert [] == [text for text in said if " - " in f"{text.replace(',', '')} "]
+
+
+def test_all_that_is_wrong_stands_in_sentences_of_their_own() -> None:
+    links = CIRCULAR["links"] | {"4": {"points": ["B"]}, "5": {"points": ["B"]}}
+    why = str(graphkin.explain(CIRCULAR | {"links": links}).why)
+    assert "as many drivers. links." in why

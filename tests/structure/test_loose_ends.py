@@ -58,9 +58,9 @@ def test_a_link_that_hangs_on_one_pin_is_named() -> None:
 
 
 def test_a_slide_that_nothing_else_joins_is_said_to_move_not_to_turn() -> None:
-    loose = four_bar(frame={"points": {"A": [0, 0], "D": [400, 0]}, "guides": {"k": {"through": [0, 90], "angle": 0}}},
-                     links={"4": {"on": "0.k"}})  # fmt: skip
-    assert ["links.4: 4/0 alone holds it, so that it moves freely; join it to another link too, or drive it"] == said(loose)
+    frame = {"points": {"A": [0, 0], "D": [400, 0]}, "guides": {"k": {"through": [0, 90], "angle": 0}}}
+    (text,) = said(four_bar(frame=frame, links={"4": {"on": "0.k"}}))
+    assert "links.4: 4/0 alone holds it, so that it moves freely; join it to another link too, or drive it" == text
 
 
 def train(driven: str, *gears: dict[str, Any]) -> dict[str, Any]:
