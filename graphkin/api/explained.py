@@ -189,8 +189,8 @@ def _outlines(link: PlacedLink, scene: Mechanism) -> Iterator[Phrase]:
             yield Phrase("explained guide", guide=f"{link.name}.{name}", place=place, angle=angle)
     for name, slot in {slot.name: slot for slot in scene.slots if slot.on == link.name}.items():
         radius = _number(slot.radius / scene.units.metres)
-        guide = f"{link.name}.{name}"
-        yield Phrase("explained circle", guide=guide, centre=slot.centre, radius=radius, unit=scene.units.length)
+        curve = {"guide": f"{link.name}.{name}", "centre": slot.centre, "radius": radius}
+        yield Phrase("explained circle", **curve, unit=scene.units.length)
 
 
 def _joints(scene: Mechanism) -> Iterator[Phrase]:

@@ -228,9 +228,9 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
     if turn.not_searched:
         lines.append("  " + say(Phrase("not looked for", links=", ".join(turn.not_searched)), language))
     for loop in turn.loops:
-        turning = say(Phrase("turns fully", links=", ".join(loop.turns) or "–"), language)
+        turning = semicolon + say(Phrase("turns fully", links=", ".join(loop.turns)), language) if loop.turns else ""
         head = f"{word('basic mechanism', language)} {', '.join(loop.links)}{colon}"
-        lines.append(f"{head}{word(loop.name, language)}{semicolon}{turning}")
+        lines.append(f"{head}{word(loop.name, language)}{turning}")
     for output in turn.outputs:
         lines += _output(turn, output, language)
     for least in turn.transmission:

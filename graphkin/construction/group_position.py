@@ -181,7 +181,8 @@ def _by_hand(
     for change in step * np.eye(len(values)):
         low, high = (drawn_near(reduced, exact, poses, values + sign * change) for sign in (-1, 1))
         if low is None or high is None:
-            raise Unsolvable("dead point", Problem("trial", "the trial drawing is at a dead point"))
+            where = Phrase("links", links=", ".join(reduced.group.links))
+            raise Unsolvable("dead point", Problem(where, "the trial drawing is at a dead point"))
         slopes.append((np.array(reduced.gaps(high)) - np.array(reduced.gaps(low))) / (2 * step))
     return np.array(gaps), np.array(slopes).T
 

@@ -246,7 +246,21 @@ def _dead_why(structure: Structure, i: int, values: Array, modes: Mapping[int, A
     end = Phrase("the velocity is not unique here the motion") if branch else Phrase("a rate is infinite here")
     if not isinstance(solved, GroupSolved):
         where = _where(structure, i, values, modes)
+        if branch and _stands_alone(structure, i, values, modes):
+            end = Phrase("they assemble here and nowhere beside")
     return Phrase("stand at a dead point", links=links, ending=ending, end=end, place=where)
+
+
+def _stands_alone(structure: Structure, i: int, values: Array, modes: Mapping[int, Array]) -> bool:
+    """Whether dyad ``i`` assembles at a value of the only driver, but not a hundredth (rad, of the size) beside it."""
+    driver, one = structure.scene.drivers[0], np.ones((2, 1))
+    if len(values) > 1:
+        return False
+    beside = values + BESIDE * driver.span(structure.scene.size) * np.array([[-1.0], [1.0]])
+    there = {j: np.repeat(f, 2, axis=0) for j, f in modes.items()}
+    solved = positions(structure, Drive(beside, one, 0 * one), there, i + 1, rates=False).groups[i]
+    assert isinstance(solved, DyadSolution)
+    return bool(np.all(np.asarray(solved.discriminant) < -OPEN))
 
 
 def _fold_where(structure: Structure, solved: GroupSolved, values: Array) -> Wording:

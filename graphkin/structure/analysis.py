@@ -577,7 +577,8 @@ def _wrong_part(structure: Structure, unknowns: list[list[Unknown]], given: Mapp
     if loop:
         wanted = Phrase("links slide on each other in a closed", loop=', '.join(loop))
     held = names(u for i in over for u in unknowns[i])
-    return Problem("mobility", "links held too much links left free", wanted, names=held, other=names(free))
+    where = Phrase("status mobility")
+    return Problem(where, "links held too much links left free", wanted, names=held, other=names(free))
 
 
 def _loose_ends(structure: Structure) -> Iterator[Problem]:

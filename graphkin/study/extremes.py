@@ -180,13 +180,17 @@ class CurveParameter:
         return parameter[(parameter > low + margin) & (parameter < high - margin)]
 
 
+BESIDE_NOUGHT = 5e-8
+"""Angles (rad) that rounding leaves beside a whole turn, where two assemblies meet."""
+
+
 def driver_value(reach: DriverRange, offset: float) -> float:
     """Value of the first driver at an offset; an angle of a driver that turns fully within a turn from 0 on."""
     value = float(reach.value(np.array(offset)))
     if reach.full and reach.driver.turns:
         whole = 2 * np.pi * reach.turns
         value = value % whole
-        value -= whole if whole - value < 1e-9 else 0.0
+        value = 0.0 if min(value, whole - value) < BESIDE_NOUGHT else value
     return 0.0 if abs(value) < NOTHING else value
 
 

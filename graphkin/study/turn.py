@@ -195,6 +195,9 @@ def four_bar_class(crank: float, coupler: float, rocker: float, frame: float) ->
     """Grashof's class of a four-bar, whether it is a Grashof linkage, and those of "crank" and "rocker" (the two links
     pivoted to the frame) that turn fully.
 
+    At a change point each of the shortest bars turns fully against the bars beside it: both pivoted links do where the
+    frame is one of them.  A bar as long as the three others together leaves no motion.
+
     >>> four_bar_class(150, 500, 300, 400)
     ('crank-rocker', True, ('crank',))
     """
@@ -203,8 +206,10 @@ def four_bar_class(crank: float, coupler: float, rocker: float, frame: float) ->
     excess = 2 * (shortest + longest) - added_up(lengths.values())
     if abs(excess) <= EQUAL * longest:
         short = [k for k, v in lengths.items() if v <= shortest + EQUAL * longest]
-        turning = {"crank", "rocker"} if len(short) > 1 or short == ["frame"] else set(short) & {"crank", "rocker"}
-        return "change point", True, tuple(k for k in ("crank", "rocker") if k in turning)
+        turning = ("crank", "rocker") if "frame" in short else tuple(k for k in ("crank", "rocker") if k in short)
+        return "change point", True, turning
+    if excess > 0 and 2 * longest - added_up(lengths.values()) >= -EQUAL * longest:
+        return "stretched four-bar", False, ()
     if excess > 0:
         return "triple-rocker", False, ()
     short_one = min(lengths, key=lambda k: lengths[k])
@@ -254,9 +259,11 @@ def _slider_crank_named(lengths: dict[str, float], links: tuple[str, ...]) -> Ba
 
 def _guide_bar(lengths: dict[str, float], crank: str, bar: str, links: tuple[str, ...]) -> BasicLoop:
     r, d, e = lengths["crank"], lengths["centres"], lengths["offset"]
+    equal = EQUAL * max(r, d, e)
     turns: tuple[str, ...] = (crank,)
-    if abs(abs(r - d) - e) <= EQUAL * max(r, d, e):
-        name = "guide bar at a change point"
+    if abs(abs(r - d) - e) <= equal:
+        # a pivot of the bar within the crank's circle, or on it, lets the bar go round too
+        name, turns = "guide bar at a change point", (crank, bar) if r - d >= -equal else (crank,)
     elif r - d > e:
         name, turns = "rotating guide bar (Whitworth)", (crank, bar)
     elif d - r > e:

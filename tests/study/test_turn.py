@@ -16,7 +16,7 @@ from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import driver_range
 from graphkin.study.quantities import Quantity
-from graphkin.study.turn import Output, TurnStudy, study_turn
+from graphkin.study.turn import Output, TurnStudy, four_bar_class, study_turn
 from graphkin.study.turn_data import to_json
 from tests import scenes
 from tests.mechanisms import random_scene, redriven
@@ -142,6 +142,46 @@ FOUR_BAR = scenes.four_bar(150, 500, 300, 400)
 def test_class_of_a_four_bar(lengths: tuple[float, ...], name: str, turning: tuple[str, ...]) -> None:
     loop = study_turn(driver_range(mechanism_of(scenes.four_bar(*lengths))), everything=False).loops[0]
     assert (loop.name, loop.turns) == (name, turning)
+
+
+@pytest.mark.parametrize(
+    ("lengths", "turning"),
+    [
+        ((150, 150, 400, 400), ("crank",)),  # the rocker would need BD = 0 to go round
+        ((400, 150, 150, 400), ("rocker",)),
+        ((150, 400, 400, 150), ("crank", "rocker")),
+        ((400, 400, 150, 150), ("crank", "rocker")),
+        ((150, 150, 150, 150), ("crank", "rocker")),
+    ],
+)
+def test_of_a_kite_the_short_bars_turn_fully_against_their_neighbours(
+    lengths: tuple[float, ...], turning: tuple[str, ...]
+) -> None:
+    assert ("change point", True, turning) == four_bar_class(*lengths)
+
+
+def test_a_bar_as_long_as_the_others_together_leaves_no_motion() -> None:
+    assert "stretched four-bar" == four_bar_class(150, 200, 50, 400)[0]
+
+
+@pytest.mark.parametrize(
+    ("centres", "offset", "turning"), [(100, 50, ("1", "3")), (200, 50, ("1",)), (150, 0, ("1", "3"))]
+)
+def test_a_guide_bar_at_a_change_point_goes_round_unless_its_pivot_lies_outside_the_crank_s_circle(
+    centres: float, offset: float, turning: tuple[str, ...]
+) -> None:
+    scene = {
+        "frame": {"points": {"A": [0, 0], "D": [centres, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 150},
+            "2": {"points": ["B"], "on": "3.s"},
+            "3": {"points": ["D", "C"], "length": 400, "guides": {"s": {"through": [0, offset], "angle": 0}}},
+        },
+        "driver": {"link": "1", "angle": 60, "omega": 1},
+    }
+    turn = study_turn(driver_range(mechanism_of(scene)))
+    assert ("guide bar at a change point", turning) == (turn.loops[0].name, turn.loops[0].turns)
+    assert ("3" not in turning) == (turn.outputs[0].stroke is not None)
 
 
 @pytest.mark.parametrize(
