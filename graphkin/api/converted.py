@@ -104,7 +104,7 @@ def convert(source: SceneLike, *, lossy: bool = False, out: str | os.PathLike[st
         bodies = Bodies(given.question.title) if ending == ".toml" else _bodies(given)
     text = toml_text(scene.to_dict()) if ending == ".toml" else write_bodies(bodies, ending)
     _all_kept(bodies, lossy)
-    made = Converted(scene, ending, text, (*bodies.lost, *bodies.left))
+    made = Converted(scene, ending, text, tuple(map(str, (*bodies.lost, *bodies.left))))
     if target is not None:
         write_files(target.parent, {target.name: text.encode()})
     return made
@@ -113,9 +113,8 @@ def convert(source: SceneLike, *, lossy: bool = False, out: str | os.PathLike[st
 def _all_kept(bodies: Bodies, lossy: bool) -> None:
     """Raises CallError naming the parts that move, drive or load and would be lost."""
     if bodies.lost and not lossy:
-        raise CallError(
-            *(Problem(t, Phrase("would be lost"), Phrase("with lossy lossy true it is left out")) for t in bodies.lost)
-        )
+        said = "would be lost", "with lossy lossy true it is left out"
+        raise CallError(*(Problem(part, *said) for part in bodies.lost))
 
 
 def _is_file(path: str) -> bool:
@@ -155,7 +154,7 @@ def _bodies(scene: Mechanism) -> Bodies:
     for pair in scene.slides:
         body = pair.of or pair.link
         if pair.pin is None:
-            made.lost.append(f"slide of {body} on {pair.on} (link {body} has no point)")
+            made.lost.append(Phrase("lost slide without point", link=body, on=pair.on))
             continue
         line = scene.by_name[pair.on].guides[pair.guide]
         origin, turn = poses[pair.on]
@@ -163,21 +162,22 @@ def _bodies(scene: Mechanism) -> Bodies:
         made.slides.append(
             BodySlide(_name(scene, body), pair.pin, _name(scene, pair.on), through, angle, bool(pair.of))
         )
-    made.lost += [f"cam {cam.link} with its follower {cam.follower}" for cam in scene.cams]
-    made.lost += [f"contact {c.name} of {' and '.join(c.links)}" for c in scene.contacts]
-    made.lost += [f"gears {g.name} of {' and '.join(g.wheels)}" for g in scene.gears]
-    made.lost += [f"link {link.name} (it is redundant)" for link in scene.links if link.redundant]
-    made.lost += [f"mass of {mass.link}" for mass in scene.loading.masses]
-    made.lost += [f"load {load.name}" for load in scene.loading.loads]
-    made.lost += [f"spring {spring.name}" for spring in scene.loading.springs]
+    made.lost += [Phrase("lost cam", link=cam.link, follower=cam.follower) for cam in scene.cams]
+    made.lost += [Phrase("lost contact", name=c.name, first=c.one, second=c.two) for c in scene.contacts]
+    made.lost += [Phrase("lost gears", name=g.name, first=g.wheels[0], second=g.wheels[1]) for g in scene.gears]
+    made.lost += [Phrase("lost redundant link", link=link.name) for link in scene.links if link.redundant]
+    made.lost += [Phrase("lost mass", link=mass.link) for mass in scene.loading.masses]
+    made.lost += [Phrase("lost load", name=load.name) for load in scene.loading.loads]
+    made.lost += [Phrase("lost spring", name=spring.name) for spring in scene.loading.springs]
     for driver in scene.drivers:
         if driver.law is not None:
-            made.lost.append(f"law of driver {driver.key}")
+            made.lost.append(Phrase("lost law", name=driver.key))
         if driver.turns_about(scene.frame.name):
             made.drives.append(BodyDrive(driver.link, driver.rate))
-            made.left += [f"acceleration of {driver.link}"] if driver.second and driver.law is None else []
+            if driver.second and driver.law is None:
+                made.left.append(Phrase("lost acceleration", link=driver.link))
         else:
-            made.lost.append(f"driver {driver.key}")
+            made.lost.append(Phrase("lost driver", name=driver.key))
     return made
 
 

@@ -54,10 +54,6 @@ def read_bodies(source: str) -> Bodies:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
         text = data.decode("latin-1")
-    return _read_text(text, title, kind)
-
-
-def _read_text(text: str, title: str, kind: str) -> Bodies:
     if kind == ".linkage2" or text.lstrip().startswith("<linkage2"):
         return read_linkage2(text, title)
     if kind == ".json":

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 
 from graphkin.errors import CallError
 from graphkin.files import Json
-from graphkin.words import Phrase
+from graphkin.words import Phrase, Wording
 
 FRAME = "0"
 FARTHEST = 1e12
@@ -54,14 +54,16 @@ class Bodies:
     slides: list[BodySlide] = field(default_factory=list)
     drives: list[BodyDrive] = field(default_factory=list)
     unit: str = "mm"
-    left: list[str] = field(default_factory=list)
-    lost: list[str] = field(default_factory=list)
+    left: list[Wording] = field(default_factory=list)
+    lost: list[Wording] = field(default_factory=list)
     names: dict[str, str] = field(default_factory=dict)
 
     def point(self, name: str, place: complex, key: str = "") -> str:
         """Add a point under a name that a scene may have, which is returned; ``key`` is its name in the file, where
         that differs."""
-        made = _fresh(_point_name(name), self.places)
+        kept = re.sub(r"[^A-Za-z0-9]", "", name)[:30]
+        kept = kept[:1].upper() + kept[1:]
+        made = _fresh(kept if kept[:1].isalpha() else f"P{kept}", self.places)
         if not abs(place) <= FARTHEST:
             where = Phrase("point", point=made)
             raise CallError.of(where, "lies at", "its coordinates are finite numbers", place=place)
@@ -75,17 +77,22 @@ class Bodies:
     def body(self, name: str, keys: Iterable[str]) -> str:
         """Add a body under a name that a scene may have, which is returned; points of the frame are collected.  Keys of
         no point are left out."""
-        made = FRAME if name == FRAME else _fresh(_link_name(name), {*self.bodies, FRAME})
+        kept = re.sub(r"[^A-Za-z0-9]", "", name)[:30] or "L"
+        made = FRAME if name == FRAME else _fresh(kept, {*self.bodies, FRAME})
         points = self.bodies.setdefault(made, [])
         points += [p for p in dict.fromkeys(self.names[k] for k in keys if k in self.names) if p not in points]
         return made
+
+    def having(self, point: str) -> list[str]:
+        """The bodies that have a point."""
+        return [name for name, points in self.bodies.items() if point in points]
 
     def holder(self, keys: Iterable[str], but: str | None = None) -> str | None:
         """The first body with these points, except one."""
         points = {self.names[key] for key in keys}
         return next((name for name, held in self.bodies.items() if name != but and points <= {*held}), None)
 
-    def slide_on(self, key: str, line: tuple[str, str], otherwise: str) -> None:
+    def slide_on(self, key: str, line: tuple[str, str], otherwise: Wording) -> None:
         """Add a pin at a point that runs on the line through two others; where no body has these, ``otherwise`` is
         noted as lost."""
         on = self.holder(line)
@@ -96,7 +103,7 @@ class Bodies:
         start, end = map(self.place, line)
         self.slides.append(BodySlide(body, self.names[key], on, start, cmath.phase(end - start), turns=True))
 
-    def turn(self, keys: Iterable[str], rate: float, otherwise: str = "") -> None:
+    def turn(self, keys: Iterable[str], rate: float, otherwise: Wording = "") -> None:
         """Let the body with these points turn at a rate (rad/s); where no moving body has them, ``otherwise`` is noted
         as lost."""
         body = self.holder(keys, but=FRAME)
@@ -131,7 +138,7 @@ class Bodies:
                 pins[line.point] = {"of": line.body, "in": ref}
             else:
                 links[line.body] |= self._on(line, ref, links[line.body])
-        joints = {p for p in self.places if sum(p in points for points in self.bodies.values()) > 1}
+        joints = {point for point in self.places if len(self.having(point)) > 1}
         joints |= {line.point for line in self.slides}
         fixed = self.bodies.get(FRAME, [])
         sketch = {p: _pair(z) for p, z in self.places.items() if p in joints and p not in fixed}
@@ -154,14 +161,14 @@ class Bodies:
         for slide in self.slides:
             block = slide.body
             alone = [s for s in self.slides if s.body == block] == [slide] and len(self.bodies[block]) == 1
-            others = [n for n, points in made.bodies.items() if n not in (block, slide.on) and slide.point in points]
+            others = [name for name in made.having(slide.point) if name not in (block, slide.on)]
             if slide.turns:
                 made.slides.append(slide)
             elif alone and others and block not in guides | driven:
                 made.slides.append(replace(slide, body=others[0], turns=True))
                 del made.bodies[block]
             else:
-                self.lost.append(f"slide of {block} on {slide.on} (it keeps its angle)")
+                self.lost.append(Phrase("lost slide at angle", link=block, on=slide.on))
         size = max((abs(a - b) for a in self.places.values() for b in self.places.values()), default=0.0) or 1.0
         for k, slide in enumerate(made.slides):
             along, points = cmath.rect(size, slide.angle), made.bodies.setdefault(slide.on, [])
@@ -174,14 +181,14 @@ class Bodies:
         points."""
         for name in [n for n, points in self.bodies.items() if not points and n != FRAME]:
             del self.bodies[name]
-            self.lost += [f"slide of {s.body} on {s.on}" for s in self.slides if name in (s.body, s.on)]
+            self.lost += [Phrase("lost slide", link=s.body, on=s.on) for s in self.slides if name in (s.body, s.on)]
             self.slides = [s for s in self.slides if name not in (s.body, s.on)]
         sliding = {s.body for s in self.slides} | {s.on for s in self.slides}
         for name, points in list(self.bodies.items()):
             if name != FRAME and len(points) == 1 and name not in sliding:
                 del self.bodies[name]
-                self.left.append(f"link {name} (it has one point only)")
-        self.lost += [f"driver of {d.body}" for d in self.drives if d.body not in self.bodies]
+                self.left.append(Phrase("lost point of one", link=name))
+        self.lost += [Phrase("lost driver of", link=d.body) for d in self.drives if d.body not in self.bodies]
         self.drives = [d for d in self.drives if d.body in self.bodies]
 
     def _lines(self) -> tuple[dict[str, dict[str, BodySlide]], list[tuple[BodySlide, str]]]:
@@ -270,16 +277,6 @@ def _degrees(angle: float) -> float:
     turned = math.degrees(math.remainder(angle, math.tau))
     near = round(turned)
     return float(near) if abs(turned - near) < 1e-12 * max(1.0, abs(turned)) else number(turned)
-
-
-def _point_name(name: str) -> str:
-    kept = re.sub(r"[^A-Za-z0-9]", "", name)[:30]
-    kept = kept[:1].upper() + kept[1:]
-    return kept if kept[:1].isalpha() else f"P{kept}"
-
-
-def _link_name(name: str) -> str:
-    return re.sub(r"[^A-Za-z0-9]", "", name)[:30] or "L"
 
 
 def _fresh(name: str, taken: Iterable[str]) -> str:

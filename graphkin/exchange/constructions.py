@@ -28,7 +28,7 @@ from graphkin.errors import CallError
 from graphkin.exchange.bodies import FRAME, Bodies
 from graphkin.files import Tables
 from graphkin.plane import cross_arcs
-from graphkin.words import Phrase
+from graphkin.words import Phrase, Wording
 
 STEP = math.tau / 360
 """rad: what a driver of pylinkage turns in a step, where nothing is said; a step is taken for a second."""
@@ -51,7 +51,7 @@ class _Construction:
     made: Bodies
     moving: set[str] = field(default_factory=set)
     bars: list[list[str]] = field(default_factory=list)
-    slid: list[tuple[str, tuple[str, str], str]] = field(default_factory=list)
+    slid: list[tuple[str, tuple[str, str], Wording]] = field(default_factory=list)
     driven: list[tuple[str, str, float]] = field(default_factory=list)
 
     def bodies(self, frame: Sequence[str]) -> Bodies:
@@ -120,7 +120,7 @@ def read_geogebra(data: bytes, title: str) -> Bodies:
     points = made.made.names
     frame = [p for p in points if p not in made.moving and p in used]
     for label in [p for p in points if p not in used]:
-        made.made.left.append(f"point {label} (nothing holds it)")
+        made.made.left.append(Phrase("lost point", name=label))
         del made.made.places[points[label]]
     return made.bodies(frame)
 
@@ -133,7 +133,7 @@ def _follow(
     out, points = got[0] if got else "", made.made.names
 
     def slide(point: str, line: str) -> None:
-        made.slid.append((point, lines[line], f"point {point} on {line} (no link has that line)"))
+        made.slid.append((point, lines[line], Phrase("lost point on line", name=point, line=line)))
 
     if name == "Circle" and len(given) == 2 and given[0] in points:
         circles[out] = given[0]
@@ -161,7 +161,7 @@ def _follow(
                 elif curve in lines:
                     slide(point, curve)
                 else:
-                    made.made.lost.append(f"curve {curve} through {point}")
+                    made.made.lost.append(Phrase("lost curve", curve=curve, point=point))
     elif name == "Midpoint" and len(given) == 2 and set(given) <= set(points) and out in points:
         made.moving.add(out)
         made.bars += [[*given, out]]
@@ -238,9 +238,9 @@ def construct_linkage(bodies: Bodies, joints: Sequence[Tables]) -> None:
             line = second, refer(joint["joint2"])
             bodies.point(label, here)
             made.bars.append([first, label])
-            made.slid.append((label, line, f"joint {label} (its line belongs to no link)"))
+            made.slid.append((label, line, Phrase("lost joint line", name=label)))
         else:
-            bodies.lost.append(f"joint {label} of the kind {joint['type']}")
+            bodies.lost.append(Phrase("lost joint kind", name=label, kind=joint["type"]))
             continue
         made.moving.add(label)
     made.bodies(list(dict.fromkeys(fixed)))

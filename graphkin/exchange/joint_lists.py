@@ -25,6 +25,8 @@ from graphkin.words import Phrase
 DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"
 UNITS = ("in", "cm", "m")
 MOST_DIGITS = 12
+HALF_A_THOUSANDTH = 6e-4
+"""rad, with some room: the rounding of an angle in an address."""
 INPUT_SPEED = 1.0
 """rad/s, where a table or an expression says none."""
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
@@ -167,15 +169,15 @@ def read_address(text: str, title: str) -> Bodies:
             blocks.append(ends)
         else:
             links[cells[0][2:]] = made.body(cells[1] or cells[0][2:], ends)
-    made.lost += [f"force {piece.split(',')[2]}" for piece in sections[2] if piece.count(",") > 5]
+    made.lost += [Phrase("lost force", name=piece.split(",")[2]) for piece in sections[2] if piece.count(",") > 5]
     held = {key for ends in blocks for key in ends}
     loose = [j for key, j in joints.items() if j.slides and key not in held]
-    made.lost += [f"slider {j.name or j.id} (no block has it)" for j in loose]
+    made.lost += [Phrase("lost slider", name=j.name or j.id) for j in loose]
     for ends in blocks:
         _block(made, ends, joints, links, sliding)
     for key, joint in joints.items():
         if joint.driven and not joint.slides:
-            lost = f"input at {joint.name or key} (it is no pivot of the frame)"
+            lost = Phrase("lost input at", name=joint.name or key)
             if joint.grounded:
                 made.turn((key,), turning, lost)
             else:
@@ -204,26 +206,21 @@ def _block(made: Bodies, ends: list[str], joints: dict[str, _SharedJoint], links
     line = next((joints[k] for k in ends if k in joints and joints[k].slides), None)
     pin = next((joints[k] for k in ends if k in joints and not joints[k].slides), None)
     if line is None or pin is None or not (line.grounded or line.carrier in links):
-        made.lost.append(f"block {''.join(ends)} (it slides on nothing)")
+        made.lost.append(Phrase("lost block on nothing", name="".join(ends)))
         return
     angle, through, on = line.angle, line.place, FRAME
     if not line.grounded:
         start, end = map(made.place, line.ends)
         angle, through, on = cmath.phase(end - start), start, links[line.carrier]
-    else:
-        angle = _exact(angle)
+    else:  # in thousandths of a radian: it is taken for the whole degrees that it may be
+        whole = math.radians(round(math.degrees(angle)))
+        angle = whole if abs(whole - angle) <= HALF_A_THOUSANDTH else angle
     point = made.names[pin.id]
-    holders = [n for n, points in made.bodies.items() if n not in (FRAME, on) and point in points]
+    holders = [name for name in made.having(point) if name not in (FRAME, on)]
     block = holders[0] if pin.welded and holders else made.body("".join(ends), [pin.id])
     made.slides.append(BodySlide(block, point, on, through, angle))
     if line.driven:
         made.drives.append(BodyDrive(block, rate, point))
-
-
-def _exact(angle: float) -> float:
-    """An angle rounded to a thousandth of a radian, taken for the whole degrees that it may be."""
-    near = math.radians(round(math.degrees(angle)))
-    return near if abs(near - angle) <= 6e-4 else angle
 
 
 # -- pyslvs ------------------------------------------------------------------------------------------------------------
@@ -255,7 +252,7 @@ def read_pyslvs(text: str, title: str) -> Bodies:
         pairs = _first_crank(made)
     for base, drive in pairs:
         ends = [points[int(k)] for k in (base, drive) if int(k) < len(points)]
-        lost = f"input from {base} to {drive} (no link has both)"
+        lost = Phrase("lost input from", base=base, drive=drive)
         if len(ends) == 2:
             made.turn(ends, INPUT_SPEED, lost)
         else:
@@ -294,7 +291,7 @@ def write_pyslvs(bodies: Bodies) -> str:
         joints.append(f"J[{kind}{turned}, P[{number(place.real)!r}, {number(place.imag)!r}], L[{links}]]")
 
     for point, place in bodies.places.items():
-        holders = [n for n, points in bodies.bodies.items() if point in points]
+        holders = bodies.having(point)
         slot = next((s for s in bodies.slides if s.point == point and s.turns), None)
         kept = [s for s in bodies.slides if s.point == point and not s.turns]
         if slot is not None:
@@ -303,9 +300,9 @@ def write_pyslvs(bodies: Bodies) -> str:
             joint("R", place, holders)
         for slide in kept:
             joint("P", place, [slide.on, slide.body], slide.angle)
-    bodies.left += [f"unit of length {bodies.unit}"] if bodies.unit != "mm" else []
+    bodies.left += [Phrase("lost unit", unit=bodies.unit)] if bodies.unit != "mm" else []
     text = "M[" + ", ".join(joints) + "]\n"
     driven = {drive.body for drive in read_pyslvs(text, bodies.title).drives}  # it names no input
-    bodies.lost += [f"driver of {drive.body}" for drive in bodies.drives if f"link{drive.body}" not in driven]
-    bodies.left += [f"speed of {drive.body}" for drive in bodies.drives]
+    bodies.lost += [Phrase("lost driver of", link=d.body) for d in bodies.drives if f"link{d.body}" not in driven]
+    bodies.left += [Phrase("lost speed", link=drive.body) for drive in bodies.drives]
     return text

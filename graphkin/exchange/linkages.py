@@ -45,14 +45,14 @@ def read_linkage2(text: str, title: str) -> Bodies:
         if key in used:
             made.point(node.get("name") or f"C{key}", complex(_number(node, "x"), _number(node, "y")), key)
         else:
-            made.left.append(f"connector {node.get('name') or key} (no link has it)")
+            made.left.append(Phrase("lost connector", name=node.get("name") or key))
     made.body(FRAME, [key for key, node in nodes.items() if node.get("anchor") == "true"])
     names: dict[str, list[str]] = {}
     for element in elements:
         keys = [c.get("id", "") for c in element if c.tag == "connector" and c.get("id") in made.names]
         label = element.get("name") or f"L{element.get('id', '')}"
         if element.get("gear") == "true":
-            made.lost.append(f"gear {label}")
+            made.lost.append(Phrase("lost gear", name=label))
         if all(nodes[k].get("anchor") == "true" for k in keys) and keys:
             continue  # part of the frame
         if element.get("actuator") == "true" and len(keys) == 2:
@@ -61,8 +61,10 @@ def read_linkage2(text: str, title: str) -> Bodies:
         name = made.body(label, keys)
         for key in keys:
             names.setdefault(key, []).append(name)
-    made.lost += [f"{r.get('type', 'gears')} ratio" for ratios in root if ratios.tag == "ratios" for r in ratios]
-    made.lost += [f"fastening of {n.get('name') or n.get('id')}" for n in (*nodes.values(), *elements) if _fastened(n)]
+    ratios = (ratio for table in root if table.tag == "ratios" for ratio in table)
+    made.lost += [Phrase("lost ratio", kind=ratio.get("type", "gears")) for ratio in ratios]
+    fastened = (node for node in (*nodes.values(), *elements) if _fastened(node))
+    made.lost += [Phrase("lost fastening", name=node.get("name") or node.get("id")) for node in fastened]
     for key, node in nodes.items():
         if node.get("slider") == "true" and key in made.names:
             holders = names.get(key, []) or [FRAME] * (node.get("anchor") == "true")
@@ -70,7 +72,7 @@ def read_linkage2(text: str, title: str) -> Bodies:
         if node.get("anchor") == "true" and node.get("input") == "true":
             turned = names.get(key, [])
             if not turned:
-                made.lost.append(f"motor at {node.get('name') or key} (no link turns about it)")
+                made.lost.append(Phrase("lost motor", name=node.get("name") or key))
             else:
                 made.drives.append(BodyDrive(turned[0], _number(node, "rpm", RPM) * math.tau / 60))
     return made
@@ -97,21 +99,21 @@ def _slider(made: Bodies, node: ElementTree.Element, holders: list[str], names: 
     limits = [c.get("id", "") for c in node if c.tag == "slidelimit"][:2]
     label = node.get("name") or node.get("id")
     if len(limits) < 2 or any(k not in made.names for k in limits) or not holders:
-        made.lost.append(f"slider {label} (it has no two limits)")
+        made.lost.append(Phrase("lost slider limits", name=label))
         return
     if _number(node, "slideradius"):
-        made.lost.append(f"slider {label} (its slot is round)")
+        made.lost.append(Phrase("lost slider round", name=label))
         return
     start, end = map(made.place, limits)
     fixed = all(made.names[k] in made.bodies[FRAME] for k in limits)
     shared = [n for n in names.get(limits[0], []) if n in names.get(limits[1], [])]
     if not fixed and not shared:
-        made.lost.append(f"slider {label} (its limits lie on two links)")
+        made.lost.append(Phrase("lost slider on two", name=label))
         return
     point = made.names[node.get("id", "")]
     on = FRAME if fixed else shared[0]
     if point in made.bodies.get(on, []):
-        made.lost.append(f"slider {label} (it is a point of the link that guides it)")
+        made.lost.append(Phrase("lost slider of guide", name=label))
         return
     made.slides.append(BodySlide(holders[0], point, on, start, cmath.phase(end - start), turns=True))
 
@@ -136,9 +138,9 @@ def write_linkage2(bodies: Bodies) -> str:
     motors: dict[str, float] = {}
     for drive in bodies.drives:
         pivot = next((p for p in bodies.bodies.get(drive.body, ()) if p in fixed), "")
-        turning = [name for name, points in bodies.bodies.items() if pivot in points and name != FRAME]
+        turning = [name for name in bodies.having(pivot) if name != FRAME]
         if drive.point or turning != [drive.body]:  # a motor stands at a pivot, and turns what there is about it
-            bodies.lost.append(f"driver of {drive.body}")
+            bodies.lost.append(Phrase("lost driver of", link=drive.body))
         else:
             motors[pivot] = drive.rate * 60 / math.tau
     ends: dict[str, list[str]] = {}
@@ -216,15 +218,15 @@ def _mechanism(made: Bodies, data: Tables) -> None:
         if "driver" in str(link.get("type")):
             made.drives.append(BodyDrive(name, float(link.get("angular_velocity", STEP))))
             if link["type"] == "arc_driver":
-                made.left.append(f"ends of the arc of {name}")
+                made.left.append(Phrase("lost arc ends", link=name))
     for key, joint in sliding.items():
         line = complex(*map(float, joint.get("line_point", (0, 0))))
         axis = complex(*map(float, joint.get("axis", (1, 0))))
-        holders = [n for n, keys in made.bodies.items() if n != FRAME and made.names[key] in keys]
+        holders = [name for name in made.having(made.names[key]) if name != FRAME]
         if holders:
             made.slides.append(BodySlide(holders[0], made.names[key], FRAME, line, cmath.phase(axis), turns=True))
         else:
-            made.lost.append(f"slide of joint {key} (no link has it)")
+            made.lost.append(Phrase("lost slide of joint", name=key))
 
 
 def write_pylinkage(bodies: Bodies) -> str:
@@ -240,23 +242,23 @@ def write_pylinkage(bodies: Bodies) -> str:
             joints.append(at | {"type": "ground" if point in fixed else "revolute"})
             continue
         if slide.on != FRAME:
-            bodies.lost.append(f"slide of {slide.body} on {slide.on} (its line moves)")
+            bodies.lost.append(Phrase("lost slide on moving line", link=slide.body, on=slide.on))
         axis = cmath.rect(1.0, slide.angle)
         line = [number(slide.through.real), number(slide.through.imag)]
         at |= {"type": "prismatic", "axis": [axis.real, axis.imag]}
         joints.append(at | {"line_point": line, "slide_distance": 0})
     pivots = [p for p in bodies.places if p in fixed]
     links: list[OwnTables] = [{"id": "ground", "type": "ground", "joints": pivots}]
-    bodies.left += [f"unit of length {bodies.unit}"] if bodies.unit != "mm" else []
+    bodies.left += [Phrase("lost unit", unit=bodies.unit)] if bodies.unit != "mm" else []
     driven = {d.body: d for d in bodies.drives if not d.point}
-    bodies.lost += [f"driver of {d.body}" for d in bodies.drives if d.point]
+    bodies.lost += [Phrase("lost driver of", link=d.body) for d in bodies.drives if d.point]
     for name, points in bodies.bodies.items():
         if name == FRAME or (len(points) < 2 and name not in driven):
             continue
         link: OwnTables = {"id": name, "type": "link", "joints": points}
         pivot = next((p for p in points if p in fixed), None)
         if name in driven and (pivot is None or len(points) < 2):
-            bodies.lost.append(f"driver of {name} (it has no two points)")
+            bodies.lost.append(Phrase("lost driver of no bar", link=name))
         elif name in driven and pivot is not None:
             crank = next(bodies.places[p] - bodies.places[pivot] for p in points if p != pivot)
             link |= {"type": "driver", "motor_joint": pivot, "angular_velocity": number(driven[name].rate),

@@ -323,9 +323,15 @@ BY_LAW = WHITWORTH | {"driver": {"link": "1", "time": 0.1, "law": {"from": 0, "t
 def test_what_moves_or_loads_is_only_lost_where_that_is_asked_for(scene, ending: str, lost: list[str], tmp_path: Path):
     with pytest.raises(CallError) as stop:
         convert(scene, out=tmp_path / f"a{ending}")
-    assert lost == [problem.where for problem in stop.value.problems]
+    assert lost == [str(problem.where) for problem in stop.value.problems]
     assert [] == list(tmp_path.iterdir())
     assert set(lost) <= set(convert(scene, out=tmp_path / f"a{ending}", lossy=True).left)
+
+
+def test_what_would_be_lost_is_told_in_the_reader_s_language(tmp_path: Path):
+    with pytest.raises(CallError) as stop:
+        convert(LOADED, out=tmp_path / "a.pyslvs")
+    assert "构件 1 的质量：会丢失；加 --lossy（lossy=True）则略去" == stop.value.text("zh").partition("\n")[0]
 
 
 def test_an_angular_acceleration_is_named_where_it_is_left_out(tmp_path: Path):
