@@ -122,7 +122,8 @@ def given_lengths(scene: Mechanism, letters: Letters) -> list[tuple[str, str]]:
             found.append((letters.length(link.bar), link.length / scene.units.metres))
         found += _further(link, scene, letters)
     metres = scene.units.metres
-    found += [(f"r_{{{d.name}}}", abs(d.radius) / metres) for link in (*scene.links, scene.frame) for d in link.discs]
+    discs = (disc for link in (*scene.links, scene.frame) for disc in link.discs.items())
+    found += [(f"r_{{{name}}}", abs(disc.r) / metres) for name, disc in discs]
     least = NO_LENGTH * scene.size / metres
     return [(name, written(as_given(length))) for name, length in found if length > least]
 
@@ -245,10 +246,7 @@ def off_its_guide(scene: Mechanism, link: PlacedLink) -> list[str]:
 def used_guides(scene: Mechanism, link: PlacedLink) -> list[PlacedGuide]:
     """The guides of a link besides its own axis that are used by a slide or a contact."""
     used = {guide for on, guide in _ridden(scene) if on == link.name}
-    used |= {
-        c.guide for c in scene.contacts
-        for body, disc in zip(c.links, c.discs, strict=True) if body == link.name and disc is None
-    }  # fmt: skip
+    used |= {contact.guide for contact in scene.contacts if contact.face == link.name}
     return [guide for name, guide in link.guides.items() if name and name in used]
 
 

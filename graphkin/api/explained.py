@@ -180,9 +180,9 @@ def _links(scene: Mechanism) -> Iterator[Phrase]:
 
 def _outlines(link: PlacedLink, scene: Mechanism) -> Iterator[Phrase]:
     """The discs and the guides of a link."""
-    for disc in link.discs:
-        radius = _number(disc.radius / scene.units.metres)
-        yield Phrase("explained disc", disc=disc.name, centre=disc.centre, radius=radius, unit=scene.units.length)
+    for name, disc in link.discs.items():
+        radius = _number(disc.r / scene.units.metres)
+        yield Phrase("explained disc", disc=name, centre=disc.centre, radius=radius, unit=scene.units.length)
     for name, guide in link.guides.items():
         if name:
             place, angle = _place(guide.through, scene), _degrees(guide.direction)
@@ -215,7 +215,8 @@ def _joints(scene: Mechanism) -> Iterator[Phrase]:
     for pin in scene.pins:
         yield Phrase("explained slot", point=pin.point, link=pin.of, guide=_guide_name(scene, pin.on, pin.guide))
     for contact in scene.contacts:
-        sides = [f"{d.link}.{d.name}" if d else _guide_name(scene, contact.face, contact.guide) for d in contact.discs]
+        sides = [f"{link}.{name}" if disc else _guide_name(scene, link, name)
+                 for link, name, disc in zip(contact.links, contact.outlines, contact.discs, strict=True)]
         rolling = "explained held rolling" if contact.carrier else "explained rolling"
         key = rolling if contact.rolling else "explained contact"
         yield Phrase(key, contact=contact.name, first=sides[0], second=sides[1], carrier=contact.carrier)

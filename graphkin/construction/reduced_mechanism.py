@@ -208,8 +208,8 @@ def _trials(structure: Structure, group: LargerGroup, gone: set[str], known: set
     first, since their links are laid off."""
     rolling = {relation.name for relation in group.rolling}
     for contact in structure.scene.contacts:
-        if contact.name in rolling and contact.flat and {contact.round[0].link, contact.block} <= set(group.members):
-            yield Driver(contact.round[0].link, contact.block, 0.0, 0.0, 0.0)
+        if contact.name in rolling and contact.flat and {*contact.round_links, contact.block} <= set(group.members):
+            yield Driver(contact.round_links[0], contact.block, 0.0, 0.0, 0.0)
     driven = {d.key for d in structure.scene.drivers}
     blocks = {s.key for s in structure.slides if s.slot}
     pairs = [p for p in group.pairs if gone.isdisjoint(p.links)]

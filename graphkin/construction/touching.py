@@ -62,16 +62,17 @@ class Touching:
             means: Literal["slides", "rolls", "meshes"] = "slides"
             if pair.rolling:
                 means = "meshes" if pair.carrier else "rolls"
-            centres = {d.link: (d.centre, self.place(d.link, d.centre)) for d in pair.round}
-            first = centres[pair.round[0].link][1]
+            centres = {link: (disc.centre, self.place(link, disc.centre))
+                       for link, disc in zip(pair.round_links, pair.round, strict=True)}  # fmt: skip
+            first, *second = (place for _, place in centres.values())
             if pair.flat:
                 guide = self.scene.by_name[pair.face].guides[pair.guide]
                 normal = self.poses[pair.face].axis * guide.direction * pair.normal_to_face
-                at = first - normal * pair.round[0].radius * self.mm
+                at = first - normal * pair.round[0].r * self.mm
                 return Touch(pair.name, pair.links, at, normal, means, centres)
             first_disc, second_disc = pair.round
-            line = centres[second_disc.link][1] - first
-            at = first + line * (first_disc.radius / (first_disc.radius + second_disc.radius))
+            line = second[0] - first
+            at = first + line * (first_disc.r / (first_disc.r + second_disc.r))
             return Touch(pair.name, pair.links, at, line / abs(line), means, centres)
         axes = zip(pair.wheels, pair.axes, strict=True)
         centres = {wheel: (letter, self.place(pair.carrier, letter)) for wheel, letter in axes if letter}
@@ -141,7 +142,7 @@ class Touching:
         circles = [(c, abs(radius)) for wheel, c, radius in self.pitch_circles() if wheel in names]
         for link in (self.scene.frame, *self.scene.links):
             if link.name in names:
-                circles += [(self.place(link.name, d.centre), abs(d.radius) * self.mm) for d in link.discs]
+                circles += [(self.place(link.name, d.centre), abs(d.r) * self.mm) for d in link.discs.values()]
         return [centre + radius * side for centre, radius in circles for side in (1, 1j, -1, -1j)]
 
 

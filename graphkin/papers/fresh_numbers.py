@@ -310,7 +310,7 @@ def _radii(scene: Mechanism, made: OwnTables, free: Callable[[KeyPath], bool]) -
             continue
         one, two = made["contacts"][contact.name]["between"]
         radii = [_disc(made, ref) for ref in (one, two)]
-        signs = [math.copysign(1.0, disc.radius) for disc in contact.round]
+        signs = [math.copysign(1.0, disc.r) for disc in contact.round]
         centres = (contact.round[0].centre, contact.round[1].centre)
         here = _axle_key(made, contact.carrier, centres)
         if here is None or not free(here):

@@ -107,7 +107,7 @@ def asked_of(scene: Mechanism) -> tuple[Symbol, ...]:
             inside = [p for p in last.pairs if {p.a, p.b} <= set(last.members)]
             joints = (*reversed(inside), *(p for p in last.pairs if p not in inside))
         names = [p.point or p.pin for p in joints]
-        known = {*scene.frame.points, *(d.centre for k in scene.links if k.name in driven for d in k.discs)}
+        known = {*scene.frame.points, *(d.centre for k in scene.links if k.name in driven for d in k.discs.values())}
         rolled = {e.link for e in structure.driven if any(d.rolls for d in e.drivers)}
         known |= {p for k in scene.links if k.name in rolled for p in k.points}
         moving = next((n for n in names if n and n not in known), None)

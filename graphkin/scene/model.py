@@ -18,12 +18,20 @@ from graphkin.scene.pairs import (
     CircularSlot,
     LawCam,
     PlacedContact,
-    PlacedDisc,
     PlacedGear,
     PlacedGuide,
     SlidingPair,
 )
-from graphkin.scene.scene_tables import Flywheel, LoadPhase, Positions, SceneTables, SheetWishes, Vary, no_position
+from graphkin.scene.scene_tables import (
+    Disc,
+    Flywheel,
+    LoadPhase,
+    Positions,
+    SceneTables,
+    SheetWishes,
+    Vary,
+    no_position,
+)
 from graphkin.scene.symbol import Printed, Symbol
 from graphkin.scene.tables import Measure, Unit, Units
 
@@ -140,7 +148,7 @@ class PlacedLink:
 
     ``points`` maps names to places (m), the own points first, in the order of the file.
     ``bar`` are the 0, 1 or 2 names in the file's ``points`` key that give the own axes.
-    ``guides`` always holds "" (the own x axis).  ``discs`` are its round outlines.
+    ``guides`` always holds "" (the own x axis).  ``discs`` are its round outlines (m).
     """
 
     name: str
@@ -148,7 +156,7 @@ class PlacedLink:
     bar: tuple[str, ...]
     guides: Mapping[str, PlacedGuide]
     redundant: bool = False
-    discs: tuple[PlacedDisc, ...] = ()
+    discs: Mapping[str, Disc] = field(default_factory=dict)
 
     @property
     def length(self) -> float | None:
@@ -437,7 +445,7 @@ class Mechanism:
         spans += [abs(z - w) for z in self.drawn.values() for w in fixed]
         spans += [abs(d.value) for d in self.drivers if not d.turns]
         spans += [cam.base for cam in self.cams]
-        spans += [abs(disc.radius) for c in self.contacts for disc in c.round]
+        spans += [abs(disc.r) for c in self.contacts for disc in c.round]
         return max(spans, default=0.0) or self.units.metres
 
 

@@ -20,6 +20,7 @@ from typing import ClassVar, NamedTuple
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Values
 from graphkin.scene.laws import FollowerLaw, Lift
+from graphkin.scene.scene_tables import Disc
 from graphkin.scene.tables import Units
 from graphkin.words import Phrase
 
@@ -94,30 +95,21 @@ class CircularSlot:
 
 
 @dataclass(frozen=True)
-class PlacedDisc:
-    """A round outline of link ``link`` about its point ``centre``; ``radius`` (m) is negative for a hollow one."""
-
-    link: str
-    name: str
-    centre: str
-    radius: float
-
-
-@dataclass(frozen=True)
 class PlacedContact:
     """Two outlines that touch in ``name``.
 
-    ``one`` and ``two`` are the links in the order of the file.  ``discs`` are their outlines, None for the side that
-    has the flat face, whose ``guide`` it is; radii bear the signs with which they meet (inside: the larger is hollow).
-    ``left`` tells on which side of the guide the disc lies.  ``carrier`` is the link that holds both centres of a
-    rolling pair, "" where no link does.  ``again`` marks a further contact of the same centre with the same link.
+    ``one`` and ``two`` are the links in the order of the file, ``outlines`` the names of a disc or a guide of each.
+    ``discs`` are the discs (m), None for the side that has the flat face; their radii have the signs with which they
+    meet (inside: the larger is hollow).  ``left`` tells on which side of the guide the disc lies.  ``carrier`` is the
+    link that holds both centres of a rolling pair, "" where no link does.  ``again`` marks a further contact of the
+    same centre with the same link.
     """
 
     name: str
     one: str
     two: str
-    discs: tuple[PlacedDisc | None, PlacedDisc | None]
-    guide: str
+    outlines: tuple[str, str]
+    discs: tuple[Disc | None, Disc | None]
     left: bool
     rolling: bool
     carrier: str = ""
@@ -134,9 +126,19 @@ class PlacedContact:
         return None in self.discs
 
     @property
-    def round(self) -> tuple[PlacedDisc, ...]:
+    def round(self) -> tuple[Disc, ...]:
         """The discs."""
         return tuple(d for d in self.discs if d is not None)
+
+    @property
+    def round_links(self) -> tuple[str, ...]:
+        """The links of the discs."""
+        return tuple(link for link, disc in zip(self.links, self.discs, strict=True) if disc is not None)
+
+    @property
+    def guide(self) -> str:
+        """The guide that is the flat face, "" where there is none."""
+        return self.outlines[self.discs.index(None)] if self.flat else ""
 
     @property
     def face(self) -> str:

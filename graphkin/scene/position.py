@@ -16,8 +16,8 @@ from graphkin.errors import Problem, did_you_mean
 from graphkin.plane import cross, cross_arcs, degrees, direction, dot
 from graphkin.scene.bodies import Reading, references
 from graphkin.scene.model import Driver, PlacedLink
-from graphkin.scene.pairs import PlacedContact, PlacedDisc, PlacedGuide, SlidingPair
-from graphkin.scene.scene_tables import Compass, Guide, Link, Polar
+from graphkin.scene.pairs import PlacedContact, PlacedGuide, SlidingPair
+from graphkin.scene.scene_tables import Compass, Disc, Guide, Link, Polar
 from graphkin.scene.tables import in_si
 from graphkin.words import Phrase, joined
 
@@ -249,12 +249,12 @@ class StatedPosition:
         if body.origin is None:
             body.origin, self.news = origin, True
 
-    def placed(self, name: str, discs: Mapping[tuple[str, str], PlacedDisc], link: Link | None) -> PlacedLink:
+    def placed(self, name: str, discs: Mapping[tuple[str, str], Disc], link: Link | None) -> PlacedLink:
         """A link with everything in its own axes, in the order of the file; the frame where no table is given."""
         body = self.bodies[name]
         points = dict.fromkeys((*body.own, *link.at)) if link else body.local
         guides = {guide: body.guides[guide] for guide in ("", *body.rails)}
-        outlines = tuple(disc for disc in discs.values() if disc.link == name)
+        outlines = {disc_name: disc for (of, disc_name), disc in discs.items() if of == name}
         redundant = link is not None and link.redundant
         return PlacedLink(name, {p: body.local[p] for p in points}, body.own, guides, redundant, outlines)
 
@@ -629,14 +629,14 @@ def check_contacts(contacts: Iterable[PlacedContact], position: StatedPosition) 
         if len(known) < len(c.round):
             continue
         if not c.flat:
-            distance, wanted = abs(known[1] - known[0]), abs(c.round[0].radius + c.round[1].radius)
+            distance, wanted = abs(known[1] - known[0]), abs(c.round[0].r + c.round[1].r)
             key = "puts the centres apart"
         else:
             body, guide = position.bodies[c.face], position.bodies[c.face].guides.get(c.guide)
             local = body.in_own_axes(known[0])
             if guide is None or local is None:
                 continue
-            distance, wanted = dot(local - guide.through, guide.direction * c.normal_to_face), c.round[0].radius
+            distance, wanted = dot(local - guide.through, guide.direction * c.normal_to_face), c.round[0].r
             key = "puts the centre to the left of the face" if c.left else "puts the centre to the right of the face"
         if abs(distance - wanted) > position.tolerance:
             drawn = Phrase(key, distance=position.number(distance), given=position.number(wanted))

@@ -15,14 +15,13 @@ from graphkin.scene.laws import FollowerLaw, LiftPiece, form_of
 from graphkin.scene.pairs import (
     LawCam,
     PlacedContact,
-    PlacedDisc,
     PlacedGear,
     PlacedGuide,
     SlidingFollower,
     SlidingPair,
     SwingingFollower,
 )
-from graphkin.scene.scene_tables import Cam, Contact, Gear, LawPiece
+from graphkin.scene.scene_tables import Cam, Contact, Disc, Gear, LawPiece
 from graphkin.scene.tables import in_si
 from graphkin.words import Phrase, joined
 
@@ -32,13 +31,13 @@ AGREE = 1e-6
 
 # -- contacts ----------------------------------------------------------------------------------------------------------
 
-Discs = Mapping[tuple[str, str], PlacedDisc]
-"""Round outlines by link and name."""
+Discs = Mapping[tuple[str, str], Disc]
+"""Round outlines (m) by link and name."""
 
 
-def discs_of(reading: Reading) -> dict[tuple[str, str], PlacedDisc]:
-    """Every round outline by its link and its name; their problems are noted."""
-    discs: dict[tuple[str, str], PlacedDisc] = {}
+def discs_of(reading: Reading) -> dict[tuple[str, str], Disc]:
+    """Every round outline (m) by its link and its name; their problems are noted."""
+    discs: dict[tuple[str, str], Disc] = {}
     for where, link, body in reading.bodies:
         for name, disc in body.discs.items():
             here = f"{where}.discs.{name}"
@@ -49,12 +48,12 @@ def discs_of(reading: Reading) -> dict[tuple[str, str], PlacedDisc]:
             if disc.r == 0:
                 reading.say(f"{here}.r", "found 0", "write a radius a negative one is a")
             else:
-                discs[link, name] = PlacedDisc(link, name, disc.centre, disc.r * reading.metres)
+                discs[link, name] = in_si(disc, reading.units)
     return discs
 
 
-Side = tuple[str, PlacedDisc | None, str]
-"""A side of a contact: its link, and its disc or the name of its guide."""
+Side = tuple[str, str, Disc | None]
+"""A side of a contact: its link, the name of its disc or its guide, and the disc (m)."""
 
 
 def contacts_of(reading: Reading, discs: Discs) -> tuple[PlacedContact, ...]:
@@ -89,9 +88,9 @@ def _side(where: str, ref: str, reading: Reading, discs: Discs) -> Side | None:
     lost = reading.lost_names("links", link, "discs") | (reading.lost_names("frame", "discs") if frame else set())
     if part in outlines or part in lost:
         disc = discs.get((link, part))
-        return (link, disc, "") if disc else None  # what is wrong with it is told already
+        return (link, part, disc) if disc else None  # what is wrong with it is told already
     if not part or part in reading.guides.get(link, ()):
-        return link, None, part
+        return link, part, None
     known = [*outlines, *reading.guides.get(link, ())]
     unknown = Phrase("write it in links. discs or links. guides", link=link, other=link)
     reading.say(where, "link has no disc and no guide", did_you_mean(part, known) if known else unknown, link=link,
@@ -105,49 +104,50 @@ def _contact_problems(where: str, contact: Contact, first: Side, second: Side) -
     if first[0] == second[0]:
         yield Problem(between, "are outlines of the same link", "name two links", refs=refs, link=first[0])
         return
-    discs = [disc for _, disc, _ in (first, second) if disc is not None]
+    discs = [(link, name, disc.r) for link, name, disc in (first, second) if disc is not None]
     if not discs:
         yield Problem(between, "are two guides", "one of them at least is a disc", refs=refs)
         return
     if len(discs) == 1:
         if contact.side in ("outside", "inside"):
             yield Problem(side, "found with a flat face", "a face has a left and a right", side=contact.side)
-        if discs[0].radius < 0:
-            yield Problem(between, "is hollow", "no flat face touches a hollow outline", link=discs[0].link,
-                          disc=discs[0].name)
+        link, name, radius = discs[0]
+        if radius < 0:
+            yield Problem(between, "is hollow", "no flat face touches a hollow outline", link=link, disc=name)
         return
     if contact.side in ("left", "right"):
         yield Problem(side, "found with two discs", "two discs touch outside or inside", side=contact.side)
-    r1, r2 = (disc.radius for disc in discs)
-    hollow = [d for d in discs if d.radius < 0]
+    r1, r2 = (radius for *_, radius in discs)
+    hollow = [(link, name) for link, name, radius in discs if radius < 0]
     if len(hollow) == 2:
         yield Problem(between, "are both hollow", "one of them has a positive radius", refs=refs)
     elif contact.side == "outside" and hollow:
         yield Problem(side, "found outside with a hollow outline", "leave side out or write inside")
     elif hollow and r1 + r2 >= 0:
         yield Problem(between, "the hollow outline is no larger than what", "its radius must be the larger one",
-                      link=hollow[0].link, hollow=hollow[0].name)
+                      link=hollow[0][0], hollow=hollow[0][1])
     elif contact.side == "inside" and abs(r1) == abs(r2):
         yield Problem(side, "both radii are equal", "inside one must be smaller than the other")
 
 
 def _contact(name: str, contact: Contact, side: Side, other_side: Side, reading: Reading) -> PlacedContact:
     """A contact of two sides, radii with the signs with which they meet."""
-    (link, first, guide), (other, second, other_guide) = side, other_side
+    (link, name_on_link, first), (other, name_on_other, second) = side, other_side
     carrier = ""
     if first and second:
-        if contact.side == "inside" and first.radius > 0 and second.radius > 0:
-            if first.radius > second.radius:
-                first = replace(first, radius=-first.radius)
+        if contact.side == "inside" and first.r > 0 and second.r > 0:
+            if first.r > second.r:
+                first = replace(first, r=-first.r)
             else:
-                second = replace(second, radius=-second.radius)
+                second = replace(second, r=-second.r)
         if contact.rolling:
             both = {first.centre, second.centre}
             others = [n for n, points in reading.points.items() if n not in (link, other) and both <= {*points}]
             others.sort(key=lambda n: n != reading.frame.name)
             carrier = others[0] if others else ""
     left = contact.side != "right"
-    return PlacedContact(name, link, other, (first, second), guide or other_guide, left, contact.rolling, carrier)
+    outlines = name_on_link, name_on_other
+    return PlacedContact(name, link, other, outlines, (first, second), left, contact.rolling, carrier)
 
 
 # -- gears -------------------------------------------------------------------------------------------------------------
@@ -237,8 +237,8 @@ def wrong_distances(
         if not c.flat and c.carrier:
             first, second = c.round
             held = abs(points[c.carrier][second.centre] - points[c.carrier][first.centre])
-            wanted = abs(first.radius + second.radius)
-            if abs(held - wanted) > AGREE * max(abs(first.radius), abs(second.radius)):
+            wanted = abs(first.r + second.r)
+            if abs(held - wanted) > AGREE * max(abs(first.r), abs(second.r)):
                 apart = {"held": f"{held / reading.metres:.10g}", "wanted": f"{wanted / reading.metres:.10g}"}
                 reading.say(where, Phrase("link holds the centres apart the radii make", carrier=c.carrier, **apart),
                             "correct a radius or the distance")

@@ -112,10 +112,10 @@ def _measured(reach: DriverRange, contact: PlacedContact, side: int, of: str) ->
     touch = reach.motion(np.array([ends.low_offset, ends.high_offset])).position(contact.name)
     near, far = np.abs(touch - scene.frame.points[axis])
     return DiscCam(
-        contact.name, link, follower, abs(abs(disc.radius) - off),
-        None if other is None else abs(abs(disc.radius + other.radius) - off),
+        contact.name, link, follower, abs(abs(disc.r) - off),
+        None if other is None else abs(abs(disc.r + other.r) - off),
         ends.stroke, swings, offset, _greatest(reach, contact, follower), None if math.isnan(here) else float(here),
-        ends.low if near <= far else ends.high, (place, abs(disc.radius)),
+        ends.low if near <= far else ends.high, (place, abs(disc.r)),
     )  # fmt: skip
 
 

@@ -321,13 +321,8 @@ class ContactMotion:
 def contact_motion(motion: Motion, contact: PlacedContact) -> ContactMotion:
     """Place, normal, slip and pressure angles of a contact."""
     place = motion.position(contact.name)
-    if contact.discs[0] is not None:
-        disc = contact.discs[0]
-        normal = (place - motion.position(disc.centre, disc.link)) / disc.radius
-    else:
-        assert contact.discs[1] is not None
-        disc = contact.discs[1]
-        normal = (motion.position(disc.centre, disc.link) - place) / disc.radius
+    disc, link = contact.round[0], contact.round_links[0]
+    normal = (place - motion.position(disc.centre, link)) / (disc.r if link == contact.one else -disc.r)
     with np.errstate(invalid="ignore"):  # of positions that are none
         normal = normal / np.abs(normal)
     one, two = (motion.velocity(contact.name, link) for link in contact.links)

@@ -21,7 +21,8 @@ from dataclasses import replace
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Poses, cross, unit
 from graphkin.scene.model import Mechanism, PlacedLink
-from graphkin.scene.pairs import CircularSlot, PlacedContact, PlacedDisc, PlacedGuide, SlidingPair, SwingingFollower
+from graphkin.scene.pairs import CircularSlot, PlacedContact, PlacedGuide, SlidingPair, SwingingFollower
+from graphkin.scene.scene_tables import Disc
 from graphkin.structure.model import OWN_AXIS, Mobility, Pair, Structure
 from graphkin.words import Phrase
 
@@ -32,19 +33,19 @@ def replacing_link(contact: PlacedContact, links: Mapping[str, PlacedLink]) -> t
     disc = contact.round[0]
     if contact.flat:
         face = links[contact.face].guides[contact.guide]
-        along = replace(face, through=face.through + contact.normal_to_face * face.direction * disc.radius)
-        places = {disc.centre: 0j, contact.name: -contact.normal_to_face * disc.radius}
+        along = replace(face, through=face.through + contact.normal_to_face * face.direction * disc.r)
+        places = {disc.centre: 0j, contact.name: -contact.normal_to_face * disc.r}
         block = PlacedLink(contact.block, places, (disc.centre,), OWN_AXIS)
-        return block, Pair(contact.block, contact.block, contact.face, along, 1 + 0j, disc.centre, disc.link)
+        (of,) = contact.round_links
+        return block, Pair(contact.block, contact.block, contact.face, along, 1 + 0j, disc.centre, of)
     other = contact.round[1]
-    part = disc.radius / (disc.radius + other.radius)
+    part = disc.r / (disc.r + other.r)
     if contact.carrier:
         held = links[contact.carrier]
         a, b = held.points[disc.centre], held.points[other.centre]
         return replace(held, points={**held.points, contact.name: a + (b - a) * part}), None
-    far = abs(disc.radius + other.radius)
-    at = far * disc.radius / (disc.radius + other.radius)
-    places = {disc.centre: 0j, other.centre: complex(far), contact.name: complex(at)}
+    far = abs(disc.r + other.r)
+    places = {disc.centre: 0j, other.centre: complex(far), contact.name: complex(far * disc.r / (disc.r + other.r))}
     return PlacedLink(contact.block, places, (disc.centre, other.centre), OWN_AXIS), None
 
 
@@ -143,9 +144,10 @@ def cams_replaced(scene: Mechanism, poses: Poses, values: Mapping[str, float], b
             face = _guide(follower, "f", -(0.0 if touches else radius) / turned, 1j / turned, 0.0)
             links[cam.follower] = replace(follower, guides={**follower.guides, face.name: face})
             if touches:
-                disc = PlacedDisc(cam.link, point, point, radius)
-                name = next(letters)
-                contacts.append(PlacedContact(name, cam.link, cam.follower, (disc, None), face.name, True, False))
+                outlines, discs = (point, face.name), (Disc(point, radius), None)
+                contacts.append(
+                    PlacedContact(next(letters), cam.link, cam.follower, outlines, discs, left=True, rolling=False)
+                )
             else:
                 pins.append(SlidingPair.of_pin(point, cam.link, cam.follower, face.name))
             continue

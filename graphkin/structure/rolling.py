@@ -58,12 +58,12 @@ def meshes_of(
     for contact in contacts:
         if contact.rolling and contact.flat:
             (disc,) = contact.round
-            r = Fraction(-disc.radius if contact.left else disc.radius)
-            axes, wheels = (disc.centre, ""), (disc.link, contact.face)
+            r = Fraction(-disc.r if contact.left else disc.r)
+            axes, wheels = (disc.centre, ""), (contact.round_links[0], contact.face)
             meshes.append(Mesh(contact.name, wheels, contact.block, axes, (r, None), contact.block, -1))
         elif contact.rolling:
             first, second = contact.round
-            parts = Fraction(first.radius), Fraction(second.radius)
+            parts = Fraction(first.r), Fraction(second.r)
             carrier = contact.carrier or contact.block
             meshes.append(Mesh(contact.name, contact.links, carrier, (first.centre, second.centre), parts))
     for gear in gears:

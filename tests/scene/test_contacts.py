@@ -90,7 +90,7 @@ def test_a_scene_with_contacts_reads_as_it_was_written():
 
 def test_contacts_can_be_changed_by_key():
     smaller = read("disc-on-disc").replace("links.1.discs.k.r", 30)
-    assert 0.03 == smaller.mechanism.contacts[0].round[0].radius
+    assert 0.03 == smaller.mechanism.contacts[0].round[0].r
 
 
 def test_a_contact_that_cannot_be_made_is_named():

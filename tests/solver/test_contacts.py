@@ -63,6 +63,15 @@ def test_a_flat_face_that_slides_moves_as_a_scotch_yoke():
     assert np.zeros(36) == pytest.approx(turn["pressure_2"], abs=1e-9)
 
 
+def test_the_normal_of_a_contact_points_out_of_the_body_that_the_file_names_first() -> None:
+    disc_first = read("cam-eccentric-flat-slider")
+    face_first = disc_first.replace("contacts.K.between", ["2.f", "1.k"])
+    out_of_disc, out_of_face = (
+        complex(*solve(scene).data["positions"][0]["contacts"]["K"]["normal"]) for scene in (disc_first, face_first)
+    )
+    assert -out_of_disc == pytest.approx(out_of_face, rel=1e-12)
+
+
 @pytest.mark.parametrize("scene", ["cam-eccentric-flat-rocker", "cam-eccentric-flat-slider", "disc-on-disc"])
 def test_a_contact_is_a_higher_pair_and_its_replacement_leaves_the_mobility(scene):
     structure = analyse(mechanism_of(scene))

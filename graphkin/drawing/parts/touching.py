@@ -41,17 +41,18 @@ def outlines_of(here: MechanismOnPaper, link: str, replaced: bool = False) -> li
     ``replaced`` only rolling ones: bars and blocks replace the others."""
     if link not in here.sheet.poses:
         return []
-    rolling = {d for contact in here.scene.contacts if contact.rolling for d in contact.round if d.link == link}
+    rolling = {name for contact in here.scene.contacts if contact.rolling
+               for of, name in zip(contact.links, contact.outlines, strict=True) if of == link}
     links, colour = _on_paper(here), here.colour(link)
     parts: list[Primitive] = []
-    for disc in here.scene.by_name[link].discs:
-        if replaced and disc not in rolling:
+    for name, disc in here.scene.by_name[link].discs.items():
+        if replaced and name not in rolling:
             continue
         centre = links.place(link, disc.centre)
-        radius = abs(disc.radius) * links.mm
+        radius = abs(disc.r) * links.mm
         parts += _outline(on_page(centre), radius, strokes.LINK.coloured(colour))
-        if link == here.ground or disc.radius < 0:
-            parts += _ring(centre, radius, disc.radius < 0, colour)
+        if link == here.ground or disc.r < 0:
+            parts += _ring(centre, radius, disc.r < 0, colour)
     return parts
 
 
@@ -114,7 +115,8 @@ def within_round_body(here: MechanismOnPaper, link: str) -> complex | None:
     links = _on_paper(here)
     rounds = [(centre, radius) for wheel, centre, radius in links.pitch_circles() if wheel == link]
     if link in here.sheet.poses:
-        rounds += [(links.place(link, d.centre), d.radius * links.mm) for d in here.scene.by_name[link].discs]
+        discs = here.scene.by_name[link].discs.values()
+        rounds += [(links.place(link, disc.centre), disc.r * links.mm) for disc in discs]
     if not rounds:
         return None
     centre, radius = max(rounds, key=lambda each: abs(each[1]))
@@ -173,7 +175,7 @@ def replacing_links(here: MechanismOnPaper, clear: float = 0.0) -> tuple[Primiti
         if contact.rolling:
             continue
         colour = here.colour(contact.block)
-        spots = [touch.centres[disc.link][1] for disc in contact.round]
+        spots = [touch.centres[link][1] for link in contact.round_links]
         if contact.flat:
             along = 1j * touch.normal
             drawn += symbols.block(on_page(spots[0]), phase(along), colour)
