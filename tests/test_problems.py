@@ -151,9 +151,9 @@ def test_in_both_languages_the_english_lines_stand_first(broken):
 
 
 @pytest.mark.parametrize(("status", "said", "call"), [
-    (3, "原动件 1/4 位于 270 mm：不能装配：构件 2, 3 在 1/4 = 200 mm 处到达运动的尽头；运动范围从 -200 mm 到 200 mm",
+    (3, "原动件 1/4 位于 270 mm：不能装配：构件 2、3 在 1/4 = 200 mm 处到达运动的尽头；运动范围从 -200 mm 到 200 mm",
      ("check", "elliptic-trammel", "--at", "270")),
-    (3, "原动件 1 位于 170°：不能装配：构件 4, 5 在 1 = 58.99728087° 处到达运动的尽头；"
+    (3, "原动件 1 位于 170°：不能装配：构件 4、5 在 1 = 58.99728087° 处到达运动的尽头；"
         "运动范围从 -58.99728087° 到 58.99728087°",
      ("check", "sixbar-AE70", "--at", "170")),
     (2, "sweep：0 个位置；请给 1 到 10000000 之间的整数", ("solve", "elliptic-trammel", "--sweep", "0")),
@@ -209,7 +209,7 @@ def test_what_cannot_be_solved_is_told_in_chinese_beside_the_results_too(tmp_pat
     solved = run("solve", "sixbar-AE70", "--at", "100", "--lang", "zh")
     swept = run("sweep", "sixbar-420rpm", "--set", "links.2.length=0.01,0.34", "-o", str(tmp_path), "--lang", "zh")
     assert (3, 0) == (solved.returncode, swept.returncode)
-    assert "\n不能装配：构件 4, 5" in solved.stdout
+    assert "\n不能装配：构件 4、5" in solved.stdout
     assert "2 个方案：1 不能装配, 1 可解\n" in swept.stdout
     assert [None, None] == [ENGLISH_WORDS.search(one.stdout.replace(str(tmp_path), "")) for one in (solved, swept)]
 

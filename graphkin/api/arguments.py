@@ -23,7 +23,7 @@ from graphkin.scene.scene import SceneLike, mechanism_of
 from graphkin.scene.scene_tables import Convention
 from graphkin.scene.symbol import Symbol
 from graphkin.structure.assembly import ChangePoint
-from graphkin.words import BOTH, LANGUAGES, Phrase, Wording, from_others
+from graphkin.words import BOTH, LANGUAGES, Phrase, Wording, from_others, links_named
 
 if TYPE_CHECKING:
     from graphkin.construction import Instrument
@@ -257,7 +257,7 @@ def passed_words(scene: Mechanism, passed: Iterable[ChangePoint]) -> list[Phrase
     for links in dict.fromkeys(point.links for point in passed):
         at = [zip(scene.drivers, point.values, strict=True) for point in passed if point.links == links]
         places = (", ".join(f"{d.key} = {scene.unit_of(d).said(v)}" for d, v in values) for values in at)
-        said.append(Phrase("passed change point", links=", ".join(links), places="; ".join(dict.fromkeys(places))))
+        said.append(Phrase("passed change point", links=links_named(links), places="; ".join(dict.fromkeys(places))))
     return said
 
 

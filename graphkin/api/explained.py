@@ -20,7 +20,7 @@ from graphkin.scene.force_names import forces_named
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
 from graphkin.scene.pairs import PlacedGuide
 from graphkin.scene.scene import SceneLike
-from graphkin.structure import LargerGroup, Structure, mobility_of
+from graphkin.structure import LargerGroup, Structure, group_named, mobility_of
 from graphkin.table import Table
 from graphkin.words import Phrase, Wording, class_of, sense_of, word
 
@@ -266,16 +266,15 @@ def _driver(scene: Mechanism, driver: Driver) -> Phrase:
 def _groups(structure: Structure, scene: Mechanism) -> Iterator[Phrase]:
     """The groups in the order of solution, and the assembly of each, if it can be drawn; the points that were sketched
     for it."""
-    assembly: dict[str, Phrase] = {}
+    assembly: dict[Phrase, Phrase] = {}
     with suppress(GraphkinError):  # the position cannot be had: solve says why
         assembly = dict(execute(plan(structure, None, ()), EXACT).assembly)
     for group in structure.groups:
-        links = ", ".join(group.links)
         larger = Phrase("explained group kind" if group.order > 2 else "explained rolling kind")
-        kind = larger if isinstance(group, LargerGroup) else group.kind
-        yield Phrase("explained group", links=links, kind=kind, order=class_of(group.order))
-        if links in assembly:
-            yield Phrase("explained assembly", assembly=assembly[links])
+        kind, named = larger if isinstance(group, LargerGroup) else group.kind, group_named(group)
+        yield Phrase("explained group", links=named, kind=kind, order=class_of(group.order))
+        if named in assembly:
+            yield Phrase("explained assembly", assembly=assembly[named])
     pointed = [p for p in structure.scene.sketch if p not in scene.sketch]
     if pointed:
         yield Phrase("explained pointed", points=", ".join(pointed))

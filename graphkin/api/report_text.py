@@ -15,7 +15,7 @@ from graphkin.construction.sheet import Equation, Sheet
 from graphkin.construction.steps import Term, plain_in
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import Mechanism
-from graphkin.words import Phrase, about, as_plain, rich_text, say, word
+from graphkin.words import Phrase, about, as_plain, links_named, rich_text, say, word
 from graphkin.words.symbols import plain_words
 from graphkin.words.written import MOST, amount
 
@@ -40,8 +40,9 @@ def report_text(checked: Checked, language: str) -> str:
     lines.append(f"F = 3·{count.links} - 2·{count.lower} - {count.higher} = {count.value}")
     drivers = [f"{d.key}: {scene.unit_of(d).said(sheet.drivers[d.key])}" for d in scene.drivers]
     lines.append(f"{word('driver', language)}{colon}{', '.join(drivers)}")
-    for links, phrase in sheet.assembly.items():
-        lines.append(f"{word('group', language)} {links}{colon}{plain_said(phrase, language)}")
+    for group, assembly in sheet.assembly.items():
+        of = say(Phrase("group of links", links=group), language)
+        lines.append(f"{of}{colon}{plain_said(assembly, language)}")
     lines += [say(said, language) for said in passed_words(scene, checked.passed)]
     unit, scales = scene.units.rates.length, checked.scales
     lines += [
@@ -226,7 +227,7 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
         between = _between(scene, other.low, other.high, other.open_low, other.open_high)
         lines.append("  " + say(Phrase("also assembles", assembly=between), language))
     if turn.not_searched:
-        lines.append("  " + say(Phrase("not looked for", links=", ".join(turn.not_searched)), language))
+        lines.append("  " + say(Phrase("not looked for", links=links_named(turn.not_searched)), language))
     for loop in turn.loops:
         turning = semicolon + say(Phrase("turns fully", links=", ".join(loop.turns)), language) if loop.turns else ""
         head = f"{word('basic mechanism', language)} {', '.join(loop.links)}{colon}"

@@ -28,7 +28,7 @@ from graphkin.cli.output import (
     tell_unused,
 )
 from graphkin.errors import CallError, Problem, did_you_mean
-from graphkin.words import Phrase, class_of, from_others, languages, listed, say, word
+from graphkin.words import Phrase, class_of, from_others, languages, say, word
 
 if TYPE_CHECKING:
     from graphkin.api.checked import Checked
@@ -255,16 +255,16 @@ def solve(given: Given) -> None:
 def _print_solution(solved: Solved, lang: str | None) -> None:
     from graphkin.api.arguments import passed_words
     from graphkin.api.solution_text import solution_tables
+    from graphkin.structure import group_named
     scene, blocks = solved.mechanism, solved.blocks()
     head: Mapping[str, Any] = solved.head
     first = next(blocks)
     language = lang or scene.question.sheet.language
     tell(f"{scene.question.title_in(language)}   F = {head['mobility']}")
-    for group, assembly in zip(head["groups"], first.motion.assembly, strict=True):
-        links, order = listed(group["links"]), class_of(group["class"])
-        larger = Phrase("solved larger group", links=links, order=order, assembly=assembly)
-        dyad = Phrase("solved group", links=links, kind=group["kind"], order=order, assembly=assembly)
-        tell(say(dyad if group["class"] == 2 else larger, language))
+    for group, assembly in zip(first.motion.structure.groups, first.motion.assembly, strict=True):
+        gaps = {"links": group_named(group), "order": class_of(group.order), "assembly": assembly}
+        larger = Phrase("solved larger group", **gaps)
+        tell(say(Phrase("solved group", kind=group.kind, **gaps) if group.order == 2 else larger, language))
     for said in passed_words(scene, first.motion.passed):
         tell(say(said, language))
     for some in (first, *blocks):

@@ -53,7 +53,8 @@ from graphkin.plane import added_up, dot, unit
 from graphkin.scene.model import Driver
 from graphkin.scene.pairs import LawCam
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Pair, Rolled, driver_pair
+from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Pair, Rolled, driver_pair, group_named
+from graphkin.words import links_named
 from graphkin.words.written import MOST, figures, on_paper
 
 LETTERS = tuple("SQTUVWXYZ") + tuple(f"S{i}" for i in range(1, 30))  # of special points
@@ -74,7 +75,7 @@ def draw_element(plot: Polygons, order: Order, element: Element) -> None:
             chain = _graph_of(plot, element).equation(plot.ends["velocity"])
             if chain is None:
                 # every dyad has an equation with two unknowns, but its points must be apart on the sheet
-                raise stuck("not drawn", element.links, "points of theirs fall together on any sheet")
+                raise stuck("not drawn", group_named(element), "points of theirs fall together on any sheet")
             plot.chains[element] = chain
         known_turns(plot, order, element)
         draw_equation(plot, order, element, plot.chains[element])
@@ -141,7 +142,7 @@ def _travel_rate(plot: Polygons, order: Order, key: str) -> float | None:
         return None
     point = slide.pin or next(iter(plot.links[slide.a].points), "")
     if not point:
-        raise stuck("not drawn", (slide.a, slide.b), "no point of the sliding link is drawn")
+        raise stuck("not drawn", links_named((slide.a, slide.b)), "no point of the sliding link is drawn")
     along = plot.paper.poses[slide.b].axis * slide.guide.direction
     slip = plot.end(order, node(plot.links, point, slide.a)) - plot.end(order, node(plot.links, point, slide.b))
     return dot(slip, along) * plot.per[order]
@@ -191,7 +192,7 @@ def _take(plot: Polygons, order: Order, group: LargerGroup, plans: Iterable[Grou
         if MUCH_BETTER * best[0] >= len(found.tried) ** 0.5:
             break  # none can be so much better
     if best is None or not best[0]:
-        raise stuck("dead point", group.links, "no drawing tells how this group moves here")
+        raise stuck("dead point", group_named(group), "no drawing tells how this group moves here")
     plot.plans[group] = best[1]
     _draw_by(plot, order, group, best[1])
 
@@ -596,7 +597,7 @@ class Trials:
             plot.do(Step("trial", "polygon", order, tuple(strokes), data=told))
         shared = [ref for ref in ends[0] if all(ref in end for end in ends)]
         places = [[end[ref] for ref in shared] for end in ends]
-        plot.board.notice(order, "magnified", ", ".join(self.group.links), size=magnified(places, apart))
+        plot.board.notice(order, "magnified", group_named(self.group), size=magnified(places, apart))
         found = self._as_noted(rates, apart)
         edges = [edge for edge, _ in plan.open_ends]
         closing = tuple(edge.link or (edge.slide.key if edge.slide else "") for edge in edges)

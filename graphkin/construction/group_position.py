@@ -34,7 +34,7 @@ from graphkin.plane import Pose, Poses
 from graphkin.scene.model import Driver
 from graphkin.scene.symbol import Symbol
 from graphkin.search import last_true, zero_between
-from graphkin.structure import Driven, Dyad
+from graphkin.structure import Driven, Dyad, group_named
 from graphkin.words import Phrase
 
 POINTS = 7  # trial positions drawn
@@ -140,7 +140,7 @@ def _fit(known: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> dict[st
 
 
 def _refused(reduced: ReducedMechanism, found: Phrase) -> Unsolvable:
-    return Unsolvable("not assembled", Problem(Phrase("links", links=", ".join(reduced.group.links)), found))
+    return Unsolvable("not assembled", Problem(group_named(reduced.group), found))
 
 
 def _between(one: Pose, two: Pose, part: float) -> Pose:
@@ -205,7 +205,8 @@ def _trial_positions(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses
         if r.left_out and r.slides and any(r.left_out in d.links for d in angles)
     )  # fmt: skip
     driven, left_out = tuple(d.key for d in reduced.trial), tuple(n for n in reduced.left_out if n not in rolling)
-    told = TrialPositions(reduced.group.links, driven, left_out, point, POINTS, rolling, instead)
+    group = reduced.group
+    told = TrialPositions(group.links, group_named(group), driven, left_out, point, POINTS, rolling, instead)
     if tried:
         told = _measured(told, known, reduced, poses, tried[:: BETWEEN if alone else 1])
     return Step("trial", "positions", strokes=strokes, data=told)

@@ -470,9 +470,9 @@ def meant(structure: Structure, paper: PlacedLinks, dyad: Dyad) -> Poses:
     return intersection.poses[pick(structure.scene, dyad.links, candidates, 0)]
 
 
-def stuck(status: str, links: Iterable[str], said: str) -> Unsolvable:
+def stuck(status: str, subject: Phrase, said: str) -> Unsolvable:
     """The error of links that cannot be placed or drawn, by the key of its phrase."""
-    return Unsolvable(status, Problem(Phrase("links", links=", ".join(links)), Phrase(said)))
+    return Unsolvable(status, Problem(subject, Phrase(said)))
 
 
 Choose = Callable[[int, Dyad | LargerGroup], Poses | None]

@@ -42,6 +42,7 @@ from graphkin.structure import (
     LargerGroup,
     Structure,
     analyse,
+    group_named,
     needed,
     pick,
     pins_on_circles,
@@ -603,7 +604,7 @@ def own_assembly(
         parts = [element for element in group.parts if element in elements]
         found = list(_ways(paper, parts, [v for v in inversions if v.triangle in group.triangles]))
         if not found:
-            raise stuck("not assembled", group.links, "no assembly of the group fits together here")
+            raise stuck("not assembled", group_named(group), "no assembly of the group fits together here")
         index = pick(structure.scene, group.links, [paper.fresh(poses) for _, _, poses in found], None)
         triangles, paper.values, poses = found[index]
         taken.extend(triangles)

@@ -52,12 +52,13 @@ from graphkin.structure import (
     Structure,
     analyse,
     cams_replaced,
+    group_named,
     leading,
     needed,
     pick,
 )
 from graphkin.structure.assembly import out_of_reach, ways
-from graphkin.words import Phrase
+from graphkin.words import Phrase, links_named
 
 TRIALS = 3  # trial drivers used, one after the other, to find all assemblies
 TWINS = 1e-6  # of the size: as near as this places are the same
@@ -104,7 +105,7 @@ def place(
     """
     paper, so_far = (start_board(structure, mm, assembly.values, hand) for hand in (instrument, EXACT))
     frame, met = structure.scene.frame, dict[Element, tuple[Intersection, int]]()
-    placed = [(instrument.acts, frame.name)]
+    placed = [(instrument.acts, Phrase("placing", links=links_named([frame.name])))]
     named = set(frame.points)
     done = 0 if board is None else len(board.causes)
     if board is not None:
@@ -124,8 +125,7 @@ def place(
     for element in assemble(paper, elements, chosen):
         if board is None:
             continue
-        links = element.link if isinstance(element, Driven) else ", ".join(element.links)
-        placed.append((instrument.acts, links))
+        placed.append((instrument.acts, Phrase("placing", links=group_named(element))))
         if isinstance(element, Driven):
             _, steps = drive(so_far, element)
         elif isinstance(element, LargerGroup):
@@ -135,21 +135,21 @@ def place(
         _record(board, paper, element, steps, named)
         so_far.poses.update({name: paper.poses[name] for name in element.members})
     if board is not None:
-        board.causes[done:] = [(acts, Phrase("placing", links=links)) for acts, links in placed]
+        board.causes[done:] = placed
     return paper
 
 
 def _dyad_steps(board: Board, paper: PlacedLinks, dyad: Dyad, intersection: Intersection, index: int) -> Steps:
     """The steps of a dyad's loci; on the board the words for its assembly, and the remarks on its accuracy."""
-    links, one, two = ", ".join(dyad.links), dyad.outer_first, dyad.outer_second
-    of = dyad.inner.point if dyad.inner.turns else Phrase("links", links=links)
+    whose, one, two = group_named(dyad), dyad.outer_first, dyad.outer_second
+    of = dyad.inner.point if dyad.inner.turns else whose
     board.notice("mechanism", "sharp crossing", of, size=intersection.sharpness)
     if not dyad.inner.turns and one.turns and two.turns:
         apart = abs(paper.point(one.b, one.point) - paper.point(two.b, two.point))
-        board.notice("mechanism", "short arm", links, one.point, two.point, size=apart)
+        board.notice("mechanism", "short arm", whose, one.point, two.point, size=apart)
     which = "one assembly" if dyad.is_two_lines else f"{dyad.kind} {index}"
     first, inner, last = (pair.key for pair in dyad.pairs)
-    board.assembly[links] = Phrase(which, first=first, inner=inner, last=last)
+    board.assembly[whose] = Phrase(which, first=first, inner=inner, last=last)
     return intersection.steps(index)
 
 
@@ -222,7 +222,7 @@ def assembly_at(
                 drawing = placed.best(element, paper, poses)
                 best = None if drawing is None else drawing.reduced
             if best is None:
-                raise stuck("dead point", element.links, "every trial drawing is at a dead point")
+                raise stuck("dead point", group_named(element), "every trial drawing is at a dead point")
             reduced[element] = best.rolled_from(poses, paper.mm)
         paper.poses.update({name: poses[name] for name in element.members})
     rolling = [e.driver for e in elements if isinstance(e, Driven) and isinstance(e.driver, Rolled)]
@@ -364,7 +364,7 @@ def _group_by_sketch(placed: PlacedElements, paper: PlacedLinks, group: LargerGr
         some = list(by_driver.values())[:TRIALS]
         fits = [fit for reduced in some for fit in all_fits(reduced, paper)] + sketched
     if not fits:
-        raise stuck("not assembled", group.links, "no trial position closes this group here")
+        raise stuck("not assembled", group_named(group), "no trial position closes this group here")
     found = _without_twins(structure, paper, group, fits)
     candidates = [paper.fresh(poses) for poses in found]
     return found[pick(structure.scene, group.links, candidates, None)]

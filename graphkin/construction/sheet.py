@@ -35,7 +35,7 @@ from graphkin.plane import Pose, cross, cross_lines
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene_tables import DIAGRAMS, Diagram
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import leading, links_for
+from graphkin.structure import group_named, leading, links_for
 from graphkin.structure.model import Element, LargerGroup, Structure
 from graphkin.words import Phrase, gaps_of
 
@@ -218,7 +218,7 @@ class Sheet:
     alpha: Mapping[str, Rate]
     steps: tuple[Step, ...]
     equations: tuple[Equation, ...]
-    assembly: Mapping[str, Phrase]
+    assembly: Mapping[Phrase, Phrase]
     noticed: tuple[Remark, ...] = ()
     causes: tuple[tuple[int, Cause], ...] = ()
     left_out: tuple[Phrase, ...] = ()
@@ -468,7 +468,10 @@ def _residues(sheet: Sheet) -> set[Symbol]:
     )
     # the largest vector that leads to one (mm), and how sharp the crossings are
     fastest, pushed = (greatest_before(structure, mm.items()) for mm in (velocity, acceleration))
-    crossings = [(r.diagram, _crossing(r), 1.0 / max(r.size, 1e-9)) for r in sheet.noticed if r.key == "sharp crossing"]
+    crossings = [
+        (r.diagram, _crossing(structure, r), 1.0 / max(r.size, 1e-9))
+        for r in sheet.noticed if r.key == "sharp crossing"
+    ]  # fmt: skip
     sharp_before, sharp = (
         greatest_before(structure, ((symbol, lean) for diagram, symbol, lean in crossings if diagram in diagrams))
         for diagrams in (("mechanism", "velocity"), ("mechanism", "velocity", "acceleration"))
@@ -502,11 +505,12 @@ def _residues(sheet: Sheet) -> set[Symbol]:
     return zero
 
 
-def _crossing(remark: Remark) -> Symbol:
-    """The quantity that a crossing finds: its own, or the velocity of a point or of links."""
+def _crossing(structure: Structure, remark: Remark) -> Symbol:
+    """The quantity that a crossing finds: its own, or the velocity of a point or of a group."""
     (of,) = remark.of
     if isinstance(of, Phrase):
-        return Symbol("omega", link=str(of.gaps["links"]).split(", ")[0])
+        group = next(g for g in structure.groups if group_named(g) == of)
+        return Symbol("omega", link=(group.links or group.members)[0])
     return of if isinstance(of, Symbol) else Symbol("v", PointRef(of))
 
 
@@ -518,7 +522,8 @@ class Board:
     """Steps in order, and the readings; the only value in this room that grows.
 
     ``readings`` are the lengths (mm) that erring hands have read, as in `Sheet`, for every later use; ``assembly`` are
-    the words for the assembly of each group, and ``held_still`` the steps drawn separately with a link held still.
+    the words for the assembly of each group by its name, and ``held_still`` the steps drawn separately with a link held
+    still.
     """
 
     instrument: Instrument
@@ -527,7 +532,7 @@ class Board:
     noticed: list[Remark] = field(default_factory=list)
     causes: list[tuple[int, Cause]] = field(default_factory=list)  # acts of the hand up to which each step reaches
     readings: dict[Symbol | frozenset[str], float] = field(default_factory=dict)
-    assembly: dict[str, Phrase] = field(default_factory=dict)
+    assembly: dict[Phrase, Phrase] = field(default_factory=dict)
     held_still: list[Step] = field(default_factory=list)
 
     def again(self, hand: Instrument) -> Board:

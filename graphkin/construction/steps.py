@@ -512,10 +512,11 @@ TrialRow: TypeAlias = tuple[tuple[float, ...], tuple[float, ...]]
 
 @dataclass(frozen=True)
 class TrialPositions(OnPaper):
-    """A group placed by trial: ``driven`` names the moved quantities, ``left_out`` the link (or driver) left out until
-    it fits, ``rolling`` the contacts or gears at which the rolling must fit that since the scene's own position,
-    ``point`` the free point whose trial curve is drawn ("" for none), in ``count`` trial positions.  ``instead`` are
-    left-out driven blocks, each with the link that is driven in its place and the block's angle from it (rad).
+    """A group of ``links``, ``group`` in words, placed by trial: ``driven`` names the moved quantities, ``left_out``
+    the link (or driver) left out until it fits, ``rolling`` the contacts or gears at which the rolling must fit that
+    since the scene's own position, ``point`` the free point whose trial curve is drawn ("" for none), in ``count``
+    trial positions. ``instead`` are left-out driven blocks, each with the link that is driven in its place and the
+    block's angle from it (rad).
 
     ``moved`` and ``missed`` are measured in the ``trials``: angles from a link ("" for the x axis) and travels, in
     degrees and mm on paper; empty if none could be drawn.  ``divided`` are positions by proportional division, in
@@ -526,6 +527,7 @@ class TrialPositions(OnPaper):
     """
 
     links: tuple[str, ...]
+    group: Phrase
     driven: tuple[str, ...]
     left_out: tuple[str, ...]
     point: str

@@ -29,7 +29,7 @@ from graphkin.solver.quantities import Posed
 from graphkin.solver.redundant import Fit, fit
 from graphkin.solver.sentences import driver_text
 from graphkin.structure import Driven, Dyad, LargerGroup, Structure, analyse, mobility_of
-from graphkin.words import Phrase, Wording, clauses, listed
+from graphkin.words import Phrase, Wording, clauses, links_named, listed
 
 NEARBY = 0.01
 
@@ -249,7 +249,7 @@ def from_dead_point(structure: Structure) -> Structure:
         key = "no dead point at which the motion begins" if side > 0 else "no dead point at which the motion ends"
         wanted = [Phrase("change the sign of the distance or give"), *others]
         if missing := not_tried(structure):
-            behind = ", ".join(name for links in missing for name in links)
+            behind = links_named([name for links in missing for name in links])
             wanted.append(Phrase("links were not looked at", links=behind, most=MOST_GROUPS))
         raise Unsolvable("dead point", Problem(what, Phrase(key), clauses(wanted)))
     if dead.near is None and len(found) > 1:

@@ -15,7 +15,7 @@ from graphkin.scene.pairs import SlidingPair
 from graphkin.solver.pose import Array, ErrorBound, Pose, aimed, rest
 from graphkin.structure import Structure
 from graphkin.structure.model import slide_pair
-from graphkin.words import Phrase
+from graphkin.words import Phrase, links_named
 
 FITS = 1e-9
 MOVED = 4.0
@@ -68,8 +68,7 @@ def redundant_poses(
             if found is not None:
                 break
         else:
-            names = ", ".join(link.name for link in waiting)
-            raise Unsolvable("mobility", Problem(Phrase("links", links=names),
+            raise Unsolvable("mobility", Problem(links_named([link.name for link in waiting]),
                                                  "redundant but nothing holds both ends of them"))
         waiting.remove(link)
         bad = ok & ~found.fits_within(bound)

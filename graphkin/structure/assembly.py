@@ -53,7 +53,7 @@ def pick(
     if default is None:
         places = (", ".join(f"{p} = {shown(z)}" for p, z in candidate.items()) for candidate in candidates)
         rows = "\n".join(f"  sketch = {{ {row} }}" for row in places)
-        raise SceneError.of(Phrase("links", links=', '.join(links)), "this group has assemblies here and no sketch",
+        raise SceneError.of(links_named(links), "this group has assemblies here and no sketch",
                             "paste one of these at the head of the file", count=len(candidates), rows=rows)
     return default
 

@@ -17,7 +17,7 @@ from graphkin.plane import added_up
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
 from graphkin.scene.pairs import LawCam, PlacedGuide, SlidingPair
 from graphkin.scene.symbol import Symbol, centre_links
-from graphkin.words import Phrase
+from graphkin.words import Phrase, about, joined, links_named, listed
 
 NO_GUIDE = PlacedGuide("", 0j, 0j)
 """Where a pair has no direction in which it slides: it turns."""
@@ -382,13 +382,26 @@ class Structure:
         return next(s for s in self.slides if s.key == key)
 
 
+def group_named(group: Element) -> Phrase:
+    """The members of a group in words: its links of the file, and what stands in it for pins in slots and for contacts:
+    ``links 2, 3``, ``link 2 and the block at B``, ``the blocks at P``."""
+    blocks = [name.split("/")[0] for name in group.members if "/" in name]
+    parts = [links_named(group.links)] if group.links else []
+    if blocks:
+        parts.append(Phrase(about("blocks at points", blocks), points=listed([*dict.fromkeys(blocks)])))
+    bars = (name for name in group.members if name not in group.links and "/" not in name)
+    named: Phrase = joined("one and other", (*parts, *(Phrase("bar of name", bar=bar) for bar in bars)))
+    return named
+
+
 def named_with_contact(structure: Structure, dyad: Dyad) -> Phrase:
-    """The links of a group, and the contact that one of them replaces: ``contact K of links 1, 2``."""
+    """The links and blocks of a group in words; where one of them replaces a contact, that: ``contact K of links 1,
+    2``."""
     inside = {n for body in dyad.bodies for n in body.links}
     contact = next((c for c in structure.scene.contacts if not c.carrier and c.block in inside), None)
     if contact is not None:
         return Phrase("contact of links", contact=contact.name, links=', '.join(contact.links))
-    return Phrase("links", links=", ".join(dyad.links))
+    return group_named(dyad)
 
 
 N = TypeVar("N", bound=Hashable)

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 import graphkin
+from graphkin.api.report_text import report_text
 from graphkin.scene.scene import toml_text
 
 from ..command import run
 
 pytestmark = pytest.mark.quick
+CONTRACT = Path(__file__).parent.parent / "validation" / "contract"
 
 
 def test_a_six_bar_is_explained_joint_by_joint() -> None:
@@ -30,6 +33,31 @@ def test_a_six_bar_is_explained_joint_by_joint() -> None:
     assert data["groups"][:2] == [
         "links 2, 3: RPR, class II", "its assembly: B on the positive side of the guide of 2/3"
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("name", "group"),
+    [
+        ("geneva-step", "link 2 and the block at B: RPR, class II"),
+        ("disc-on-disc", "link 2 and the bar OB: RRR, class II"),
+        (str(CONTRACT / "trammel-on-pins.toml"), "link 2 and the blocks at B, C: a larger group, class III"),
+        (str(CONTRACT / "pin-in-two-guides.toml"), "the blocks at P: PRP, class II"),
+    ],
+)
+def test_a_group_is_named_with_what_stands_in_it_for_pins_and_contacts(name: str, group: str) -> None:
+    assert group == graphkin.explain(name).data["groups"][0]
+
+
+@pytest.mark.parametrize(
+    ("language", "group"), [("en", "the blocks at P: PRP, class II; "), ("zh", "P 处各滑块：Ⅱ级杆组 PRP；")]
+)
+def test_a_group_without_a_link_of_the_file_is_solved_by_name(language: str, group: str) -> None:
+    assert group in run("solve", str(CONTRACT / "pin-in-two-guides.toml"), "--lang", language).stdout
+
+
+@pytest.mark.parametrize(("language", "group"), [("en", "Group of the blocks at P: "), ("zh", "由P 处各滑块 组成的杆组：")])
+def test_a_group_without_a_link_of_the_file_stands_in_the_report(language: str, group: str) -> None:
+    assert group in report_text(graphkin.check(str(CONTRACT / "pin-in-two-guides.toml")), language)
 
 
 @pytest.mark.parametrize("name", ["double-butterfly", "oldham-coupling", "hydraulic-cylinder", "hit16-double-guide"])

@@ -134,10 +134,10 @@ def test_a_wheel_that_follows_is_no_driver() -> None:
     ("name", "links"),
     [
         ("cam-offset-roller", "links 2, OB: RRP"),
-        ("cam-flat-face", "links 2, block of O: RPP"),
-        ("cam-eccentric-flat-rocker", "links 2, block of O: RPR"),
-        ("disc-on-disc", "links 2, OB: RRR"),
-        ("geneva-step", "links 2, block of B: RPR"),
+        ("cam-flat-face", "link 2 and the block at O: RPP"),
+        ("cam-eccentric-flat-rocker", "link 2 and the block at O: RPR"),
+        ("disc-on-disc", "link 2 and the bar OB: RRR"),
+        ("geneva-step", "link 2 and the block at B: RPR"),
     ],
 )
 def test_a_dyad_has_two_links_that_of_the_replacement_among_them(name: str, links: str) -> None:

@@ -251,7 +251,7 @@ def test_where_two_assemblies_meet_on_the_way_is_told(at: float, places: list[fl
 
 
 def test_a_report_says_which_branch_was_kept_and_how_to_ask_for_the_other() -> None:
-    said = "links 2, 3: at 1 = 180° their two assemblies meet; the motion was kept smooth through it."
+    said = "links 2, 3: at 1 = 180° two assemblies meet; the motion was kept smooth through it."
     assert said in report_text(graphkin.check(_parallelogram(), at=200), "en")
     assert "在 1 = 180° 处两种装配形式重合" in report_text(graphkin.check(_parallelogram(), at=200), "zh")
 

@@ -27,7 +27,7 @@ from graphkin.drawing.text import plain, rich, symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import dot
 from graphkin.scene.pairs import LawCam
-from graphkin.structure import Driven, Dyad, Element, LargerGroup, Pair, Structure, replacement_told
+from graphkin.structure import Driven, Dyad, Element, LargerGroup, Pair, Structure, group_named, replacement_told
 from graphkin.words import Phrase, class_of, languages, say
 
 DIAGRAM = (96.0, 84.0)  # mm, room of the numbered diagram
@@ -166,13 +166,8 @@ def _told(sheet: Sheet, element: Element, language: str) -> str:
     """A driver with its reference link, a link that follows the drivers, or a group with its joints."""
     if not isinstance(element, Driven):
         inner, outer = _joints(element)
-        blocks = {name: Phrase("structure block", points=points) for name, points in _blocks(sheet).items()}
-        links = [
-            say(blocks.get(name, name), language)
-            for name in (*element.links, *(n for n in element.members if n not in element.links))
-        ]
         group = Phrase(
-            "structure group", links=", ".join(links), order=class_of(element.order),
+            "structure group", links=group_named(element), order=class_of(element.order),
             kind="" if isinstance(element, LargerGroup) else f" {element.kind}",
             inner=", ".join(p.key for p in inner), outer=", ".join(p.key for p in outer),
         )  # fmt: skip
@@ -186,11 +181,6 @@ def _told(sheet: Sheet, element: Element, language: str) -> str:
     if other == sheet.scene.frame.name:
         return say(Phrase("structure driver", link=element.link), language)
     return say(Phrase("structure driver on link", link=element.link, base=other), language)
-
-
-def _blocks(sheet: Sheet) -> dict[str, str]:
-    """The pins in slots, by the names of the blocks that replace them."""
-    return {slide.a: slide.pin for slide in sheet.structure.slides if slide.slot and slide.pin}
 
 
 def _joints(element: Element) -> tuple[list[Pair], list[Pair]]:
