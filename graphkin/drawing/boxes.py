@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from graphkin.account.given import drivers
 from graphkin.account.headings import facts, figure_title, punctuation, term, titles
 from graphkin.account.notation import Letters, letters_of, scale_statement
+from graphkin.account.spoken import spoken_words
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName
 from graphkin.drawing.box import Box
@@ -226,7 +227,7 @@ def page(
 
     Parameters
     ----------
-    said : the figure in words, for readers who do not see it
+    said : the figure in words, symbols between dollar signs, read aloud to those who do not see it
     language : "en", "zh" or "both"
     """
     top = margin + head.height + (GAP if head.height else 0.0)
@@ -234,9 +235,9 @@ def page(
     end = max(top + body.height, height - after)
     parts = body.moved(complex(margin, top)), head.moved(complex(margin, margin)), low.moved(complex(margin, end))
     width = max(block.width for block in (head, body, low)) + 2 * margin
-    return Drawing(
-        width, end + after, layer_groups(joined(parts)), title, said, languages(language)[0], dict(metadata)
-    )  # fmt: skip
+    first = languages(language)[0]
+    desc = spoken_words(said, first)
+    return Drawing(width, end + after, layer_groups(joined(parts)), title, desc, first, dict(metadata))
 
 
 def without_titles(children: tuple[Primitive, ...]) -> tuple[Primitive, ...]:

@@ -92,8 +92,10 @@ def replacement_told(structure: Structure) -> tuple[Phrase, ...]:
         else:
             said.append(Phrase("structure contact", **names, bar=contact.block))
     said += [Phrase("structure gear", first=g.wheels[0], second=g.wheels[1], gear=g.name) for g in scene.gears]
-    if scene.cams or sliding:
-        more = len(sliding) + len(scene.whole.pins) + len(scene.cams)  # links, each with two lower pairs
+    slots = [slot for slot in scene.whole.slots if not slot.block]
+    if scene.cams or sliding or slots:
+        # links, each with two lower pairs
+        more = len(sliding) + len(slots) + len(scene.whole.pins) + len(scene.cams)
         after = Mobility(m.links + more, m.lower + 2 * more, m.higher - more)
         numbers = {"links": after.links, "lower": after.lower, "higher": after.higher, "mobility": after.value}
         said.append(Phrase("structure replaced", **numbers))

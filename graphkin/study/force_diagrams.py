@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from graphkin.account.spoken import spoken_words
 from graphkin.drawing import Box, chart
 from graphkin.drawing.ink.primitives import Stroke
 from graphkin.scene.force_names import forces_named
@@ -259,7 +260,7 @@ def flywheel_page(reach: DriverRange, study: FlywheelStudy, language: str) -> ch
     return chart.ChartPage(
         charts.WIDTH, MOMENT_TOP + MOMENT_TALL + ENERGY_GAP + ENERGY_LOW + 20.0, paint,
         title=f"{title}: {charts.title_of(scene, language)}", lang=language,
-        desc=word("list semicolon", language).join(facts).replace("$", ""),
+        desc=spoken_words(word("list semicolon", language).join(facts), language),
         metadata={"scene": scene.name, "units": moment, "flywheel": study.link},
     )  # fmt: skip
 

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.account.notation import per_mm
+from graphkin.account.spoken import spoken_words
 from graphkin.checking.readings import read_off
 from graphkin.construction import Sheet, draft
 from graphkin.construction.scales import next_of_series
@@ -296,7 +297,7 @@ def chords_page(chords: Chords, reach: DriverRange, language: str) -> ChartPage:
 
     return ChartPage(
         WIDTH, end + 22.0, paint, f"{title.replace('$', '')}: {title_of(scene, language)}",
-        " ".join(fact.replace("$", "") for fact in facts), language,
+        spoken_words(" ".join(facts), language), language,
         {"scene": scene.name, "units": scene.units.length, "given": str(chords.given), "result": str(chords.result),
          "pole": chords.pole, "scales": {"given": per_y, "time": chords.per_x, "result": per_found}},
     )  # fmt: skip

@@ -41,6 +41,12 @@ def test_the_mobility_stands_there_in_numbers(shaper: ET.Element) -> None:
     assert "moving links n = 5, lower pairs 7, higher pairs 0" in words(shaper)
 
 
+def test_an_index_is_read_aloud_without_its_markup(shaper: ET.Element) -> None:
+    described = shaper.findtext("{http://www.w3.org/2000/svg}desc")
+    assert described is not None
+    assert described.startswith("F = 3 n − 2 p L − p H = 3 · 5 − 2 · 7 = 1. ")
+
+
 def test_each_group_tells_its_kind_class_and_joints(shaper: ET.Element) -> None:
     assert "links 5, 6: RRP class II, inner C, outer B, 6/1" in words(shaper)
 

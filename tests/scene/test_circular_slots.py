@@ -67,6 +67,13 @@ def test_a_pin_in_one_counts_as_a_higher_pair() -> None:
     assert (2, 2, 1, 1) == (count.links, count.lower, count.higher, count.value)
 
 
+def test_the_structure_tells_it_and_the_mobility_after_its_replacement() -> None:
+    figure = graphkin.draw(with_pin(), figures=["structure"]).figures["structure"].content("svg").decode()
+    assert "pin C in a circular slot of link 0 is a higher pair, replaced by link s, the bar MC" in figure
+    assert "F = 3 · 3 − 2 · 4 − 0 = 1" in figure
+    assert 'id="badge-C-0"' in figure
+
+
 def test_the_own_axis_of_a_block_lies_along_the_slot_turned_by_angle_on() -> None:
     def axis(scene: dict[str, Any]) -> complex:
         return cmath.rect(1.0, graphkin.solve(scene).data["positions"][0]["links"]["3"]["angle"])

@@ -107,7 +107,7 @@ def positions_figure(shown: Shown, *, language: str | None = None, convention: s
         box.height + 2 * ROOM, lambda room: with_labels(moved_piece(whole, room.centre - box.centre), room))
     return page.drawing(
         page.term("positions"), column(page.prose(lines, 3.0), figure, gap=GAP), page.scale("mechanism"),
-        title="positions", said=". ".join(text.replace("$", "") for text in (page.term("positions"), *lines)),
+        title="positions", said=". ".join((page.term("positions"), *lines)),
     )  # fmt: skip
 
 

@@ -58,7 +58,7 @@ def structure_figure(
     body = column(row(diagram, column(*told), gap=BESIDE), *apart, gap=4.0)
     return page_.drawing(
         page_.term("structure"), body, None, title="structure",
-        said=". ".join(text.replace("$", "") for text, _ in counted),
+        said=". ".join(text for text, _ in counted),
     )  # fmt: skip
 
 
@@ -84,6 +84,7 @@ def _diagram(sheet: Sheet, letters: Letters, spoken: str, panel: Box) -> Piece:
             labels.append(Label.of(rich(f"{count} − 1", 2.4, bold=True), on_page(here.places[point]), f"badge-{point}",
                                    colour=strokes.GREY, rank=1))
     pairs = [(f"{pin.point}-{pin.on}", pin.point) for pin in sheet.scene.whole.pins]
+    pairs += [(f"{slot.point}-{slot.on}", slot.point) for slot in sheet.scene.whole.slots if not slot.block]
     pairs += [(c.name, c.name) for c in sheet.scene.contacts if c.carrier or not c.rolling]
     higher = [(name, here.places[point]) for name, point in pairs if point in here.places]
     for name, place in (*higher, *((cam.cam.link, cam.contact) for cam in here.cams)):
@@ -119,6 +120,9 @@ def _counted(structure: Structure, spoken: str) -> list[tuple[str, bool]]:
                 lines.append((say(hinge, each), False))
         for pin in structure.scene.whole.pins:
             lines.append((say(Phrase("structure high pair", point=pin.point, link=pin.on), each), False))
+        for slot in (s for s in structure.scene.whole.slots if not s.block):
+            bar = {"name": slot.bar, "bar": slot.centre + slot.point}
+            lines.append((say(Phrase("structure circular slot", point=slot.point, link=slot.on, **bar), each), False))
         for cam in structure.scene.cams:
             lines.append((say(Phrase("structure cam", cam=cam.link, follower=cam.follower), each), False))
             if cam.roller:
