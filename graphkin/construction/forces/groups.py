@@ -29,7 +29,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, cross, cross_lines, dot, unit
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Driven, DrivenJoint, Dyad, LargerGroup, Pair
-from graphkin.words import Phrase
+from graphkin.words import links_named
 
 NORMAL, TANGENT = "n-n", "t-t"
 """The common normal and tangent of what touches, by name as a guide."""
@@ -39,7 +39,7 @@ SINGULAR = 1e-13
 
 def _dead_point(links: Sequence[str]) -> Unsolvable:
     """The error for parallel lines that should close a polygon."""
-    return Unsolvable("dead point", Problem(Phrase("links", links=", ".join(links)),
+    return Unsolvable("dead point", Problem(links_named(links),
                                             "the balance does no work in this position or",
                                             "move the driver off this position"))
 
