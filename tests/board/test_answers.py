@@ -124,7 +124,7 @@ def test_where_the_mechanism_does_not_reach_its_last_position_is_drawn_and_the_r
         found = answer(Desk(), {**quick, "quick": moving})
         assert "不能装配" in found["limit"]
         assert "not assembled" not in found["limit"]
-    assert "构件 4, 5" in found["range"]["why"]
+    assert "构件 4、5" in found["range"]["why"]
 
 
 @pytest.mark.parametrize(("chinese", "question"), [
