@@ -290,16 +290,14 @@ class ForceAccount:
             yield ForceStep("couples", Phrase(key, links=_links(equation.links), moment=name), work, (symbol,))
 
     def _in_numbers(self, equation: MomentEquation, name: str) -> list[Wording]:
-        """The arms of a moment equation as measured on the mechanism, and the equation; ``name`` is the name of its
-        unknown."""
-        of = [*((self.name(t.symbol), t.arm) for t in equation.terms), (name, equation.unknown.arm)]
+        """The arms of a moment equation as measured on the mechanism, the forces without one, and the equation as
+        ``ΣM_C = F_G5 x 0.0488 m ... = 0, F^t_R45 = -10.7 N``; ``name`` is the name of its unknown."""
+        of = [*((self.name(t.symbol), t.arm) for t in with_moments(equation)), (name, equation.unknown.arm)]
         arms = [f"{force} {written(on_paper(abs(arm)))} mm" for force, arm in of if arm is not None]
         scale = Neutral(f"× {amount(self.sheet.scales.length, 12)} m/mm")
-        measured = [Phrase("force arms", arms=Neutral(",  ".join(arms)), scale=scale)] if arms else []
-        return [*measured, self._equation(equation, name)]
-
-    def _equation(self, equation: MomentEquation, name: str) -> str:
-        """``ΣM_C = 0: F_G5 x 0.0488 m ... = 0, F^t_R45 = -10.7 N``."""
+        told: list[Wording] = [Phrase("force arms", arms=Neutral(",  ".join(arms)), scale=scale)] if arms else []
+        through = [self.name(t.symbol) for t in equation.terms if t not in with_moments(equation)]
+        told += [Phrase("force no arm", forces=listed(through))] if through else []
         scene, point = self.sheet.scene, equation.about
         point = f"({point})" if point in scene.by_name and point not in scene.holders else point
         terms, arm, total = balance(self.sheet, equation)
@@ -309,7 +307,7 @@ class ForceAccount:
         whole += f" {'−' if turned or (arm and total < 0) else '+'} {name}" + (f"·{written(arm)}" if arm else "")
         value = number(float(abs(total) if arm else -total if turned else total), MOST) if total else "0"
         unit = scene.units.force + ("" if arm else "·m")
-        return f"$ΣM_{{{point}}}$ = {whole.strip().removeprefix('+ ')} = 0;  {name} = {value} {unit}"
+        return [*told, f"$ΣM_{{{point}}}$ = {whole.strip().removeprefix('+ ')} = 0;  {name} = {value} {unit}"]
 
     def read_off(self, state: ForceState, group: ForceGroup) -> dict[Symbol, str]:
         """``F_R45 = 43.33 mm x 200 N/mm = 8666.4 N``, for each force that was found here."""
@@ -438,6 +436,11 @@ Balance: TypeAlias = tuple[tuple[tuple[str, tuple[str, ...]], ...], str, Decimal
 unknown ("" where it is a couple), and what the others give for it (in the file's force, or that times m)."""
 
 
+def with_moments(equation: MomentEquation) -> list[MomentTerm]:
+    """The terms of a moment equation but for forces whose lines go through its point."""
+    return [term for term in equation.terms if term.arm is None or abs(term.arm) > SAME]
+
+
 def balance(sheet: Sheet, equation: MomentEquation) -> Balance:
     """The equation with the figures of its arms, at last of its forces, that it needs to give the drawn value; its
     result is true as written."""
@@ -451,7 +454,7 @@ def _balance(sheet: Sheet, equation: MomentEquation, carried: int, of_forces: in
         return "" if term.arm is None else amount(abs(term.arm) * sheet.scales.length, carried)
 
     terms = []
-    for term in equation.terms:
+    for term in with_moments(equation):
         # a force has its sense from its arm, a couple from itself
         size = amount(abs(term.size) / sheet.scene.units.newtons, of_forces)
         turn = term.size if term.arm is None else term.arm
