@@ -3,23 +3,29 @@ scheme, a slip for each student, the slips in each quantity."""
 
 from __future__ import annotations
 
-import math
 import os
-from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
-from numbers import Real
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from graphkin import solver
-from graphkin.api.answers import Answers, AnswersLike, Cell, as_answers
 from graphkin.api.arguments import At, as_scene, driver_values, known_words, placed
 from graphkin.api.results import OfScene, Result, named
+from graphkin.checking.answers import Answers, AnswersLike, as_answers, stated_answers, with_signs
 from graphkin.checking.audit import judge, judge_table, with_gaps
-from graphkin.checking.report import Known
+from graphkin.checking.grading import (
+    JudgedValue,
+    Person,
+    Scheme,
+    people_of,
+    quantities_of,
+    rows_of,
+    scheme_of,
+    verdicts_of,
+)
 from graphkin.checking.scans import JudgedScan, judge_scans
 from graphkin.checking.slip_likelihood import Judged
 from graphkin.checking.slips import Evidence, ValuesElsewhere
@@ -27,11 +33,9 @@ from graphkin.checking.uncertainty import predict
 from graphkin.construction import execute, plan
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.files import Json, path_of
-from graphkin.plane import added_up
-from graphkin.scene.asked import spelling_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
-from graphkin.scene.symbol import Printed, Symbol, Value
+from graphkin.scene.symbol import Symbol, Value
 from graphkin.solver import Motion, driver_range, solved_here, structure_of
 from graphkin.solver.values import exact_values, value_of
 from graphkin.words import Phrase, say, word
@@ -43,50 +47,6 @@ POSITIONS = 72
 MOST_DRAWN = 6  # rows of a table that are drawn each
 MOST_LOOPS = 24  # rows of a table of which wrong angles are told with the gaps of their loops
 
-FULL = ("right", "within drafting accuracy", "right from own values")
-PARTS = ("equations", "drawing", "values")
-COUNTED = (*FULL, "wrong", "missing", "not readable")
-Person = tuple[Answers, tuple[Judged, ...]]
-
-
-@dataclass(frozen=True, repr=False)
-class JudgedValue(Known):
-    """A stated value with its verdict, in the file's units.
-
-    exact : the value for comparison: signed where it has a sense, a complex number against two components, else the
-        size of the vector
-    deviation : the relative deviation; None where the exact value is 0
-    bound : the error of a pencil drawing
-    looks_like : the slip that explains a wrong value, in words; "" where none is known
-    follows_from : earlier wrong values of the same person from which it follows
-    """
-
-    printed: Value
-    exact: Value
-    deviation: float | None
-    verdict: str
-    bound: float
-    looks_like: str
-    follows_from: tuple[Symbol, ...]
-
-    @classmethod
-    def of(cls, scene: Mechanism, judged: Judged, language: str) -> JudgedValue:
-        """A judged value (SI) in the units of its scene."""
-        symbol = judged.printed.symbol
-        unit = symbol.unit(scene.units)
-        return cls(
-            symbol, unit.text, unit.of(judged.printed.value), unit.of(judged.exact), judged.deviation, judged.verdict,
-            unit.of(judged.bound), "" if judged.looks_like is None else say(judged.looks_like, language),
-            judged.follows_from,
-        )  # fmt: skip
-
-    def _values(self) -> tuple[tuple[str, Value | None], ...]:
-        return ("printed", self.printed), ("exact", self.exact)
-
-    def _words(self) -> tuple[str, ...]:
-        return self.verdict, self.looks_like
-
-
 @dataclass(frozen=True, repr=False, eq=False)
 class Audited(OfScene, Result):
     """The values of each person with their verdicts; of a scene's ``[printed]`` values the person is "".
@@ -96,7 +56,7 @@ class Audited(OfScene, Result):
     """
 
     mechanism: Mechanism
-    people: tuple[tuple[Answers, tuple[Judged, ...]], ...]
+    people: tuple[Person, ...]
     language: str = "en"
     unused: tuple[str, ...] = ()
     scheme: Scheme | None = None
@@ -108,7 +68,7 @@ class Audited(OfScene, Result):
         if not all(scan.ok for scan in self.scans):
             return False
         wrong = {"wrong", "right from own values", "not readable"}
-        return not any(wrong & set(_verdicts(who, judged).values()) for who, judged in self.people)
+        return not any(wrong & set(verdicts_of(who, judged).values()) for who, judged in self.people)
 
     @cached_property
     def data(self) -> dict[str, Json]:
@@ -119,30 +79,13 @@ class Audited(OfScene, Result):
             said["people"] = list(people_of(self.people, self.scheme, "en"))
             said["quantities"] = list(quantities_of(self.people, "en"))
         if self.scans:
-            said["scans"] = {scan.diagram: self._scan(scan) for scan in self.scans}
+            said["scans"] = {scan.diagram: scan.data for scan in self.scans}
         return {**said, **({"unused": list(self.unused)} if self.unused else {})}
-
-    def _scan(self, judged: JudgedScan) -> dict[str, Json]:
-        lines: list[dict[str, Json]] = [
-            {
-                "line": line.name, "on_paper_mm": abs(line.read), "exact_mm": abs(line.exact),
-                "turned_deg": math.degrees(line.turned), "ok": line.ok, "said": say(line.said, "en"),
-            }
-            for line in judged.lines
-        ]  # fmt: skip
-        return {"ok": judged.ok, "off": judged.off.name if judged.off else None, "lines": lines}
 
     @property
     def scan_lines(self) -> list[str]:
         """The sentences on the scans, in the language of the call."""
-        said = []
-        for judged in self.scans:
-            said.append(f"{word(f'scan of {judged.diagram}', self.language)}{word('colon', self.language)}")
-            said += [f"  {line.name}: {say(line.said, self.language)}" for line in judged.lines]
-            off = judged.off
-            end = Phrase("scan right") if off is None else Phrase("scan off", line=off.name, slip=off.said)
-            said.append("  " + say(end, self.language))
-        return said
+        return [line for scan in self.scans for line in scan.sentences(self.language)]
 
     @property
     def is_class(self) -> bool:
@@ -291,10 +234,14 @@ def audit(
     known_words(language=language)
     if answers is None and not given.question.stated and not given.question.scans:
         raise CallError.of("printed", "the scene has no printed values", "write them in printed or give answers as")
-    scans = _scanned(given, at) if given.question.scans and answers is None else ()
+    scans: tuple[JudgedScan, ...] = ()
+    if given.question.scans and answers is None:
+        standing, values = placed(given, at)
+        solved_here(standing, values)  # a position that cannot be had
+        scans = judge_scans(execute(plan(standing, values, ())))
     scheme = scheme_of(given, grading)
-    people, unused = (_stated(given), ()) if answers is None else as_answers(given, answers)
-    people = _with_signs(people)
+    people, unused = (stated_answers(given), ()) if answers is None else as_answers(given, answers)
+    people = with_signs(people)
     asked = list(dict.fromkeys(p.symbol for who in people for p in who.values if not p.symbol.at))
     problems = _problems(given, people, variants)
 
@@ -304,13 +251,15 @@ def audit(
         return evidence_at(problems[variant], asked, at if place is None else place, own)
 
     table = [who for who in people if not who.variant and (who.by == "computation" or who.at is not None)]
-    if len(table) <= MOST_DRAWN and all(who.by == "drawing" for who in table):
-        judged = tuple((who, judge(case(who.at, who.variant), who.values) if who.values else ()) for who in people)
-    else:
-        rows = dict(zip(map(id, table), judged_table(given, table, at, case), strict=True))
-        judged = tuple(
-            (who, rows[id(who)] if id(who) in rows else judge(case(who.at, who.variant), who.values)) for who in people
-        )
+    few = len(table) <= MOST_DRAWN and all(who.by == "drawing" for who in table)
+    rows = {} if few else dict(zip(map(id, table), judged_table(given, table, at, case), strict=True))
+
+    def of(who: Answers) -> tuple[Judged, ...]:
+        if id(who) in rows or not who.values:
+            return rows.get(id(who), ())
+        return judge(case(who.at, who.variant), who.values)
+
+    judged = tuple((who, of(who)) for who in people)
     opened = [(who, own) for who, own in judged if any(
         j.verdict == "wrong" and j.printed.symbol.kind in ("theta", "s") for j in own)]  # fmt: skip
     told = {id(who): with_gaps(case(who.at, who.variant), own) for who, own in opened[:MOST_LOOPS]}
@@ -319,13 +268,6 @@ def audit(
 
 
 # -- what values are held against --------------------------------------------------------------------------------------
-
-
-def _scanned(scene: Mechanism, at: At) -> tuple[JudgedScan, ...]:
-    """The scans of a scene, compared with the exact drawing."""
-    given, values = placed(scene, at)
-    solved_here(given, values)
-    return judge_scans(execute(plan(given, values, ())))
 
 
 def _problems(
@@ -366,69 +308,32 @@ def _others_values(problems: Mapping[str, Mechanism], own: str) -> ValuesElsewhe
     """Exact values of the other problems of a set, by their names."""
     @cache
     def values(symbol: Symbol) -> tuple[tuple[str, Value], ...]:
-        others: list[tuple[str, Value]] = []
-        for name, scene in problems.items():
-            if name and scene is not problems[own]:
-                value = exact_values(solver.solve(scene), [symbol])(symbol)
-                others.append((name, value))
-        return tuple(others)
+        others = [(name, scene) for name, scene in problems.items() if name and scene is not problems[own]]
+        return tuple((name, exact_values(solver.solve(scene), [symbol])(symbol)) for name, scene in others)
 
     return values
-
-
-def _with_signs(people: Sequence[Answers]) -> tuple[Answers, ...]:
-    """The answers with the numbers of a column signed where one of them has a written sign."""
-    signed = {
-        (who.person, who.variant, who.by, p.symbol)
-        for who in people for p in who.values if p.shows_sign and p.direction is None and not p.lines
-    }  # fmt: skip
-    if not signed:
-        return tuple(people)
-
-    def told(who: Answers, cell: Cell) -> Cell:
-        if not isinstance(cell, Printed):
-            return cell
-        return replace(cell, signed=(who.person, who.variant, who.by, cell.symbol) in signed)
-
-    return tuple(replace(who, cells={s: told(who, cell) for s, cell in who.cells.items()}) for who in people)
-
-
-def _stated(scene: Mechanism) -> tuple[Answers, ...]:
-    """The values stated in a scene's own tables, a row for each position."""
-    answers: list[Answers] = []
-    for own in scene.question.stated:
-        if own.file:
-            rows, _ = as_answers(scene, own.file)
-            answers += [replace(row, person="", by=own.by) for row in rows]
-            continue
-        for place in dict.fromkeys(symbol.at for symbol in own.values):
-            there = (replace(p, symbol=s.here) for s, p in own.values.items() if s.at == place)
-            answers.append(Answers("", place or own.at, {p.symbol: p for p in there}, own.by))
-    return tuple(answers)
-
-
-def _over_places(scene: Mechanism, table: Sequence[Answers], at: At) -> Motion:
-    """The exact motion at the positions of some answers."""
-    reach = driver_range(structure_of(scene))
-    driver = scene.drivers[0]
-    places = [(driver_values(scene, at if who.at is None else who.at) or {}).get(driver.key) for who in table]
-    here = driver.values[0]
-    motion = reach.motion(reach.offsets(np.array([here if place is None else place for place in places])))
-    if not motion.ok.all():
-        k = int(np.argmin(motion.ok))
-        where = Phrase("driver at", key=driver.key, where=scene.unit_of(driver).said(float(motion.values[k, 0])))
-        raise Unsolvable(str(motion.status[k]), Problem(where, motion.said(k)))
-    return motion
 
 
 def judged_table(
     scene: Mechanism, table: Sequence[Answers], at: At, case: Callable[[float | str | None], Evidence]
 ) -> list[tuple[Judged, ...]]:
-    """Rows of a table: all positions solved at once, judged by their digits."""
+    """Rows of a table: all positions solved at once, judged by their digits.  Raises Unsolvable for a position that is
+    not reached."""
     turning = {p.symbol for who in table for p in who.values if p.symbol.scope in ("turn", "cycle")}
     value = exact_values(solved_here(scene, None), tuple(turning))
-    motion = _over_places(scene, table, at)
-    names = [_named(scene, who.at, motion.values[row, 0]) for row, who in enumerate(table)]
+    reach, driver = driver_range(structure_of(scene)), scene.drivers[0]
+    places = [(driver_values(scene, at if who.at is None else who.at) or {}).get(driver.key) for who in table]
+    here = driver.values[0]
+    motion = reach.motion(reach.offsets(np.array([here if place is None else place for place in places])))
+    shown = [scene.unit_of(driver).said(float(stands)) for stands in motion.values[:, 0]]
+    if not motion.ok.all():
+        k = int(np.argmin(motion.ok))
+        where = Phrase("driver at", key=driver.key, where=shown[k])
+        raise Unsolvable(str(motion.status[k]), Problem(where, motion.said(k)))
+    names = [
+        who.at if isinstance(who.at, str) else f"{driver.key} = {stands}"
+        for who, stands in zip(table, shown, strict=True)
+    ]
     return judge_table(
         motion, [(who.values, who.by) for who in table], {s: float(value(s).real) for s in turning}, names,
         lambda row: case(table[row].at),
@@ -473,165 +378,3 @@ def _elsewhere(scene: Mechanism, values: dict[str, float] | None) -> ValuesElsew
         return rows
 
     return table
-
-
-def _named(scene: Mechanism, at: float | str | None, value: float) -> str:
-    """The name of a table's row: its position's name, or the driver's value."""
-    driver = scene.drivers[0]
-    return at if isinstance(at, str) else f"{driver.key} = {scene.unit_of(driver).said(float(value))}"
-
-
-# -- points, and what a class did --------------------------------------------------------------------------------------
-
-
-Scheme = Mapping[str | Symbol, float]
-"""Points for each part that is marked by hand, for all "values" together, and for single ones."""
-
-
-def scheme_of(scene: Mechanism, given: Mapping[str, float] | None) -> Scheme | None:
-    """The scheme of a call, or else of the scene (``[grading]``); None without a scheme.
-
-    Raises CallError for a name that is neither a part nor a quantity of the scene, and for points below 0.
-    """
-    weights = given if given is not None else scene.question.grading
-    if not isinstance(weights, Mapping):
-        raise CallError.of("grading", "found value", "give points by parts and symbols drawing 30",
-                           value=f'{weights!r:.60}')
-    if not weights:
-        return None
-    spelling = spelling_of(scene)
-    scheme: dict[str | Symbol, float] = {}
-    problems = []
-    for name, weight in weights.items():
-        symbol = spelling.symbol(str(name))
-        if isinstance(weight, bool) or not isinstance(weight, Real) or not 0 <= weight < 1e6:
-            problems.append(Problem(f"grading {name}", "found value", "give points 0 or more", value=f"{weight!r:.40}"))
-        elif name in PARTS:
-            scheme[str(name)] = float(weight)
-        elif symbol is not None:
-            scheme[symbol] = float(weight)
-        else:
-            problems.append(Problem(f"grading {name}", "is no part and no quantity of the", "or a symbol such as v_d",
-                                    names=', '.join(PARTS)))
-    if problems:
-        raise CallError(*problems)
-    return scheme
-
-
-def people_of(people: Sequence[Person], scheme: Scheme | None, language: str) -> Iterator[dict[str, Any]]:
-    """For each person: the verdicts counted, the main slip, and with a scheme the points.
-
-    The main slip is the first: values that follow from it are no slips.
-    """
-    for who, judged in people:
-        slip = next((j.looks_like for j in judged if j.verdict == "wrong" and j.looks_like is not None), None)
-        row: dict[str, Json] = {"person": who.person}
-        row |= {k: v for k, v in (("id", who.id), ("variant", who.variant), ("at", who.at)) if v not in ("", None)}
-        row |= _counted(_verdicts(who, judged).values())
-        if slip is not None:
-            row["slip"] = say(slip, language)
-        if scheme is not None:
-            row |= _points_of(who, judged, scheme)
-        yield row
-
-
-def _points_of(who: Answers, judged: Sequence[Judged], scheme: Scheme) -> dict[str, Json]:
-    """Points by part, their sum, and the greatest possible sum; a part without a mark yet is None and not counted."""
-    alike = sum(symbol not in scheme for symbol in who.cells)  # these share what is given for all values
-
-    def worth(symbol: Symbol) -> float:
-        return scheme[symbol] if symbol in scheme else scheme.get("values", 0.0) / alike
-
-    good = [j.printed.symbol for j in judged if j.verdict in FULL]
-    values = added_up(map(worth, good))
-    most = added_up(map(worth, who.cells))
-    points: dict[str, float | None] = {"values": values}
-    total = values
-    for part in ("equations", "drawing"):
-        if part in scheme:
-            mark = who.marks.get(part)
-            points[part] = own = None if mark is None else min(max(mark, 0.0), scheme[part])
-            if own is not None:
-                total += own
-                most += scheme[part]
-    return {"points": {k: None if v is None else round(v, 4) for k, v in points.items()},
-            "total": round(total, 4), "of": round(most, 4)}  # fmt: skip
-
-
-def _verdicts(who: Answers, judged: Sequence[Judged]) -> dict[Symbol, str]:
-    """The verdict on each cell; a cell without a value is "missing" or "not readable"."""
-    unread = {s: "missing" if cell is None else "not readable" for s, cell in who.cells.items()}
-    return unread | {j.printed.symbol: j.verdict for j in judged}
-
-
-def _counted(verdicts: Iterable[str]) -> dict[str, Json]:
-    """The count of each verdict."""
-    counts = Counter(verdicts)
-    return {verdict: counts[verdict] for verdict in COUNTED}
-
-
-def quantities_of(people: Sequence[Person], language: str) -> Iterator[dict[str, Json]]:
-    """For each quantity: the verdicts of the class counted, and the commonest slip with its count."""
-    verdicts = [_verdicts(who, judged) for who, judged in people]
-    for symbol in dict.fromkeys(symbol for values in verdicts for symbol in values):
-        values = [j for _, judged in people for j in judged if j.printed.symbol == symbol]
-        slips: Counter[Phrase] = Counter(j.looks_like for j in values if j.verdict == "wrong" and j.looks_like)
-        row: dict[str, Json] = {"symbol": str(symbol), **_counted(of[symbol] for of in verdicts if symbol in of)}
-        if slips:
-            phrase, made = slips.most_common(1)[0]
-            row |= {"commonest_slip": say(phrase, language), "made_by": made}
-        yield row
-
-
-Row = dict[str, Json]
-"""A value as JSON: what was written, what is exact, the verdict, and why."""
-
-
-def rows_of(scene: Mechanism, who: Answers, judged: Sequence[Judged], language: str) -> Iterator[Row]:
-    """The rows of one person, answered or not."""
-    lead: Row = {k: v for k, v in (("person", who.person), ("id", who.id), ("variant", who.variant)) if v}
-    lead |= {"at": who.at} if who.at is not None else {}
-    values = {value.printed.symbol: _value(scene, value, language) for value in judged}
-    for symbol, cell in who.cells.items():
-        yield lead | (values[symbol] if symbol in values else _unread(scene, symbol, cell, language))
-
-
-def _unread(scene: Mechanism, symbol: Symbol, cell: Cell, language: str) -> Row:
-    text, why = cell if isinstance(cell, tuple) else ("", None)
-    row: Row = {
-        "symbol": str(symbol), "written": text, "printed": None, "exact": None, "unit": symbol.unit(scene.units).text,
-        "deviation_pct": None,
-    }  # fmt: skip
-    if why is None:
-        return row | {"verdict": "missing", "why": "no answer"}
-    return row | {"verdict": "not readable", "why": say(why, language)}
-
-
-def _value(scene: Mechanism, judged: Judged, language: str) -> Row:
-    value = JudgedValue.of(scene, judged, language)
-    row: Row = {
-        "symbol": str(value.symbol), "written": judged.printed.text, "printed": _plain(value.printed),
-        "exact": _plain(value.exact), "unit": value.unit,
-        "deviation_pct": None if value.deviation is None else 100 * value.deviation,
-    }  # fmt: skip
-    if value.deviation is None:
-        row["why"] = "the exact value is zero"
-    row["verdict"] = value.verdict if value.verdict != "not judged" else None
-    row["bound"] = _plain(value.bound) if math.isfinite(value.bound) else None
-    if value.verdict == "not judged":
-        row["why"] = say(Phrase("nothing to judge by"), language)
-    if value.looks_like:
-        row["looks_like"] = value.looks_like
-    if judged.gap is not None:
-        row["loop_gap"] = {"loop": judged.gap[0], "gap": _plain(judged.gap[1] / scene.units.metres)}
-    if value.follows_from:
-        row["follows_from"] = [str(s) for s in value.follows_from]
-    return row
-
-
-def _plain(value: Value) -> float | list[float]:
-    """A number, or the components of a vector, 0 for a component that cancels."""
-    if isinstance(value, complex):
-        parts = (v if abs(v) > 1e-12 * abs(value) else 0.0 for v in (value.real, value.imag))
-        return [float(f"{v:.12g}") + 0.0 for v in parts]
-    return float(f"{value:.12g}") + 0.0

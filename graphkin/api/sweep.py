@@ -42,7 +42,7 @@ from graphkin.words import Phrase, say, word
 if TYPE_CHECKING:
     import xarray
 
-    from graphkin.api.answers import AnswersLike
+    from graphkin.checking.answers import AnswersLike
     from graphkin.drawing import Drawing
     from graphkin.drawing.chart import ChartPage
     from graphkin.study.graphical import Chords, Way
@@ -414,7 +414,7 @@ def _over_time_alone(**wishes: object) -> None:
 def _elsewhere(scene: Mechanism, measured: AnswersLike) -> dict[Quantity, list[tuple[float, float]]]:
     """Values measured elsewhere, each with the first driver's value (rad, m): SI, of a vector its size, or, where the
     column has signs, its place along the guide on which it lies."""
-    from graphkin.api.answers import as_answers
+    from graphkin.checking.answers import as_answers
     from graphkin.solver import solve
     from graphkin.solver.values import senses_along
     from graphkin.study.quantities import Quantity

@@ -16,8 +16,9 @@ from itertools import combinations
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName
 from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.files import Json
 from graphkin.scene.model import PlacedScan
-from graphkin.words import Phrase
+from graphkin.words import Phrase, say, word
 
 POLE = "pole"
 SAME = 1e-9
@@ -100,6 +101,25 @@ class JudgedScan:
         """The wrong line from which the others follow; None where all are right."""
         wrong = [line for line in self.lines if not line.ok]
         return next((line for line in wrong if line.breaks_a_rule), wrong[0] if wrong else None)
+
+    @property
+    def data(self) -> dict[str, Json]:
+        """Plain data: lengths in mm, angles in degrees."""
+        lines: list[dict[str, Json]] = [
+            {
+                "line": line.name, "on_paper_mm": abs(line.read), "exact_mm": abs(line.exact),
+                "turned_deg": math.degrees(line.turned), "ok": line.ok, "said": say(line.said, "en"),
+            }
+            for line in self.lines
+        ]  # fmt: skip
+        return {"ok": self.ok, "off": self.off.name if self.off else None, "lines": lines}
+
+    def sentences(self, language: str) -> list[str]:
+        """The sentences on it: a head, one on each line, and the result."""
+        end = Phrase("scan right") if self.off is None else Phrase("scan off", line=self.off.name, slip=self.off.said)
+        lines = [f"  {line.name}: {say(line.said, language)}" for line in self.lines]
+        head = f"{word(f'scan of {self.diagram}', language)}{word('colon', language)}"
+        return [head, *lines, f"  {say(end, language)}"]
 
 
 def judge_scans(sheet: Sheet, diagram: DiagramName | None = None) -> tuple[JudgedScan, ...]:

@@ -5,12 +5,11 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
-from graphkin.api.arguments import asked_symbols
 from graphkin.errors import CallError, Problem
-from graphkin.scene.asked import spelling_of
+from graphkin.scene.asked import quantity_of, spelling_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.spelling import is_blank, plain_text, read_cell, read_way, unit_factor
 from graphkin.scene.symbol import KINDS, Printed, Symbol, Unreadable
@@ -92,6 +91,37 @@ def as_answers(scene: Mechanism, given: AnswersLike) -> tuple[tuple[Answers, ...
     return _answers(scene, table_of(given), str(given), {})
 
 
+def stated_answers(scene: Mechanism) -> tuple[Answers, ...]:
+    """The values stated in a scene's own tables, a row for each position."""
+    answers: list[Answers] = []
+    for own in scene.question.stated:
+        if own.file:
+            rows, _ = as_answers(scene, own.file)
+            answers += [replace(row, person="", by=own.by) for row in rows]
+            continue
+        for place in dict.fromkeys(symbol.at for symbol in own.values):
+            there = (replace(p, symbol=s.here) for s, p in own.values.items() if s.at == place)
+            answers.append(Answers("", place or own.at, {p.symbol: p for p in there}, own.by))
+    return tuple(answers)
+
+
+def with_signs(people: Sequence[Answers]) -> tuple[Answers, ...]:
+    """The answers with the numbers of a column signed where one of them has a written sign."""
+    signed = {
+        (who.person, who.variant, who.by, p.symbol)
+        for who in people for p in who.values if p.shows_sign and p.direction is None and not p.lines
+    }  # fmt: skip
+    if not signed:
+        return tuple(people)
+
+    def told(who: Answers, cell: Cell) -> Cell:
+        if not isinstance(cell, Printed):
+            return cell
+        return replace(cell, signed=(who.person, who.variant, who.by, cell.symbol) in signed)
+
+    return tuple(replace(who, cells={s: told(who, cell) for s, cell in who.cells.items()}) for who in people)
+
+
 def _answers(
     scene: Mechanism, sheet: Rows, name: str, silent: Mapping[int, frozenset[str]]
 ) -> tuple[tuple[Answers, ...], tuple[str, ...]]:
@@ -152,7 +182,8 @@ def _columns(
     ways: dict[int, Symbol] = {}
     roles: dict[Role, int] = {}
     for i, head in enumerate(heads):
-        role, where = _role(head), Phrase("column", name=name, head=head)
+        plain, where = plain_text(head).lower().strip(), Phrase("column", name=name, head=head)
+        role = next((role for role, names in _OTHER_COLUMNS.items() if plain in names), None)
         if role is not None and role not in roles:
             roles[role] = i
             continue
@@ -176,17 +207,9 @@ def _columns(
     return values, ways, roles
 
 
-def _role(head: str) -> Role | None:
-    plain = plain_text(head).lower().strip()
-    return next((role for role, names in _OTHER_COLUMNS.items() if plain in names), None)
-
-
 def _unknown(scene: Mechanism, text: str, where: Wording) -> list[Problem]:
-    try:
-        asked_symbols(scene, [text])
-    except CallError as error:
-        return [Problem(where, p.found, p.wanted) for p in error.problems]
-    return []
+    known = quantity_of("", text, scene)
+    return [] if isinstance(known, Symbol) else [Problem(where, p.found, p.wanted) for p in known]
 
 
 def _mark(text: str) -> float | None:
