@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -26,21 +25,18 @@ from graphkin.api.cams import cam_table
 from graphkin.api.checked import Checked, checked, with_elsewhere
 from graphkin.api.report_text import report_text
 from graphkin.api.results import OfScene, Result
-from graphkin.checking.readings import read_off
 from graphkin.construction import EXACT, Plan, execute, plan
-from graphkin.construction.limits import TurnOfCrank
-from graphkin.construction.sheet import LimitPosition, Sheet
+from graphkin.construction.sheet import Sheet
 from graphkin.drawing.figures import figure_kinds
-from graphkin.drawing.figures.positions import Shown
-from graphkin.errors import CallError, GraphkinError, Unsolvable, as_list, unfit
+from graphkin.drawing.figures.positions import shown_positions
+from graphkin.errors import CallError, Unsolvable, as_list, unfit
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import solved_here
-from graphkin.structure import Dyad, Structure
+from graphkin.structure import Structure
 from graphkin.structure.analysis import driven_by
-from graphkin.structure.transmission import joint_of_dyad
 from graphkin.table import Table
 from graphkin.words import Phrase, Wording, languages
 
@@ -299,134 +295,6 @@ def draw(
     by_name = figures is not None
     drawn = Drawn(whole, what, motion, wanted, seed, language, convention, driver, places, by_name)
     return drawn.saved(out, formats)
-
-
-MARKS = ("theta", "stroke", "K", "gamma")
-NARROWER = 40  # times that a place is halved in
-
-
-def shown_positions(what: Plan, values: Mapping[str, float]) -> Shown:
-    """The positions that a scene's ``[positions]`` show; without them the limit positions.
-
-    Parameters
-    ----------
-    what : the plan of the scene's own position
-    values : the named positions, the first driver's value (rad, m) at each
-
-    Raises
-    ------
-    Unsolvable : a named position that cannot be assembled or reached
-    """
-    structure, scene = what.structure, what.structure.scene
-    own = execute(what)
-    positions = scene.question.positions
-    show, marks = (positions.show, positions.marks) if positions else (("limits",), MARKS)
-    key = scene.drivers[0].key
-    names = [n for n in values if n in show or ("all" in show and n in _numbered(scene))]
-
-    def drawn(value: float) -> Sheet:
-        return execute(plan(structure, {**own.drivers, key: value}, ())).at(own.scales)
-
-    numbered = {name: drawn(values[name]) for name in names}
-    limits: dict[str, tuple[Sheet, Sheet]] = {}
-    without: dict[Symbol, Wording] = {}
-    measured: dict[tuple[str, str], float] = {}
-    if "limits" in show:
-        for output in _outputs(scene, structure):
-            kinds = ("stroke" if "/" in output else "swing", "K", "theta_lag")
-            asked = tuple(Symbol.parse(f"{kind}_{output}") for kind in kinds)
-            try:
-                turned = execute(plan(structure, own.drivers, asked)).at(own.scales)
-            except Unsolvable as stop:  # no whole turn, or an output that turns on and on
-                without[asked[0]] = stop.problems[0].found
-                continue
-            found = turned.limits[output]
-            limits[output] = drawn(found.low.value), drawn(found.high.value)
-            for reading in read_off(turned):
-                if reading.symbol in asked:
-                    measured[reading.symbol.kind, output] = float(reading.value.real)
-            break
-    turn = _turn(structure, own)
-    least = _least(structure, turn, drawn) if turn and "gamma" in marks else None
-    return Shown(own, limits, numbered, least, _paths(structure, turn, own) if turn else {}, measured, tuple(marks),
-                 {} if limits else without)  # fmt: skip
-
-
-def _numbered(scene: Mechanism) -> tuple[str, ...]:
-    positions = scene.question.positions
-    return positions.names[: positions.count] if positions else ()
-
-
-def _outputs(scene: Mechanism, structure: Structure) -> list[str]:
-    """Outputs whose limits are shown, the likeliest first: the output of position 1, slides on the frame, rockers."""
-    frame, found = scene.frame, []
-    if scene.question.positions is not None:
-        places = (scene.question.positions.first, *scene.question.positions.also.values())
-        found += [place.stroke for place in places if place is not None and not isinstance(place, float)]
-    last = [n for g in reversed(structure.groups) for n in g.links]
-    found += [s.key for name in last for s in structure.slides if s.a == name and s.b == frame.name and not s.slot]
-    found += [name for name in last if any(p in frame.points for p in structure.links[name].points)]
-    return list(dict.fromkeys(found))
-
-
-def _turn(structure: Structure, own: Sheet) -> TurnOfCrank | None:
-    size = own.scales.length / structure.scene.size
-    poses = {name: pose.scaled(size) for name, pose in own.poses.items()}
-    if not set(structure.links) <= set(poses) or not structure.scene.drivers[0].turns:
-        return None
-    try:
-        return TurnOfCrank.of(structure, structure.elements, own.drivers, poses, "positions")
-    except GraphkinError:
-        return None
-
-
-def _paths(structure: Structure, turn: TurnOfCrank, own: Sheet) -> dict[str, list[complex]]:
-    """The paths of points of couplers, links without a pivot or a guide on the frame."""
-    frame = structure.scene.frame
-    held = {n for n, link in structure.links.items() if any(p in frame.points for p in link.points)}
-    held |= {n for s in structure.slides for n in (s.a, s.b) if frame.name in (s.a, s.b)} | {frame.name}
-    mm = structure.scene.size / own.scales.length
-    found: dict[str, list[complex]] = {}
-    for name, link in structure.links.items():
-        for point, local in link.points.items():
-            if point in structure.scene.holders and not held & set(structure.scene.holders[point]):
-                found.setdefault(point, [
-                    (one.poses[name].origin + one.poses[name].axis * local / structure.scene.size) * mm
-                    for one in turn.positions
-                ])  # fmt: skip
-    return found
-
-
-def _least(
-    structure: Structure, turn: TurnOfCrank, drawn: Callable[[float], Sheet]
-) -> tuple[Sheet, float, tuple[complex, complex, complex]] | None:
-    """The position of the least transmission angle of the last group with an inner pin."""
-    group = next((g for g in reversed(structure.groups) if isinstance(g, Dyad) and g.inner.turns), None)
-    if group is None:
-        return None
-    joint = joint_of_dyad(structure, group)
-
-    def directions(turned: LimitPosition) -> tuple[complex, complex]:
-        return joint.directions(lambda link, place: turned.poses[link].place(place / structure.scene.size))
-
-    def gamma(turned: LimitPosition) -> float:
-        first, second = directions(turned)
-        across = first.conjugate() * second
-        return math.atan2(abs(across.imag), abs(across.real))
-
-    k = min(range(len(turn.positions)), key=lambda i: gamma(turn.positions[i]))
-    best = turn.positions[k]
-    step = turn.positions[1].value - turn.positions[0].value
-    for _ in range(NARROWER):  # the least lies between its neighbours
-        step /= 2
-        near = [one for value in (best.value - step, best.value + step) if (one := turn.near(value, best.poses))]
-        best = min([best, *near], key=gamma)
-    sheet = drawn(best.value)
-    inner = group.inner
-    pose = sheet.poses[inner.a]
-    at = pose.place(structure.links[inner.a].points[inner.point] / sheet.scales.length)
-    first, second = directions(best)
-    return sheet, gamma(best), (at, -first, -second)
 
 
 def sheets_beside(

@@ -5,13 +5,16 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 from graphkin.account.headings import number
 from graphkin.account.notation import Letters
-from graphkin.construction.sheet import Sheet
+from graphkin.checking.readings import read_off
+from graphkin.construction import Plan, execute, plan
+from graphkin.construction.limits import TurnOfCrank
+from graphkin.construction.sheet import LimitPosition, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import GAP, FigurePage, column
 from graphkin.drawing.figures import Figure
@@ -39,7 +42,11 @@ from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece, ob
 from graphkin.drawing.plate import Plate
 from graphkin.drawing.text import plain, rich
 from graphkin.drawing.write.drawing import Drawing
+from graphkin.errors import GraphkinError, Unsolvable
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.structure import Dyad, Structure
+from graphkin.structure.transmission import joint_of_dyad
 from graphkin.words import Neutral, Wording
 
 ROOM = 16.0  # mm around the figure, for names
@@ -49,6 +56,8 @@ SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9)  # of an arc, where its n
 AROUND, WITHIN, SWING_RADII = (
     (1.18, 1.3, 1.5, 1.65, 1.9), (0.55, 0.4, 0.7, 0.85, 1.35, 1.5, 1.75, 2.0), (16.0, 20.0, 25.0, 31.0, 13.0)
 )
+MARKS = ("theta", "stroke", "K", "gamma")  # of a scene that says none
+NARROWER = 40  # times that a place is halved in
 NUMBERED, LIMIT, PATH = Stroke(0.18), Stroke(0.35, (3.0, 1.2)), Stroke(0.25, (4.0, 0.8, 0.5, 0.8))
 
 
@@ -73,6 +82,128 @@ class Shown:
     measured: Mapping[tuple[str, str], float]
     marks: tuple[str, ...]
     without: Mapping[Symbol, Wording] = field(default_factory=dict)
+
+
+def shown_positions(what: Plan, values: Mapping[str, float]) -> Shown:
+    """The positions that a scene's ``[positions]`` show; without them the limit positions.
+
+    Parameters
+    ----------
+    what : the plan of the scene's own position
+    values : the named positions, the first driver's value (rad, m) at each
+
+    Raises
+    ------
+    Unsolvable : a named position that cannot be assembled or reached
+    """
+    structure, scene = what.structure, what.structure.scene
+    own = execute(what)
+    positions = scene.question.positions
+    show, marks = (positions.show, positions.marks) if positions else (("limits",), MARKS)
+    every = positions.names[: positions.count] if positions and "all" in show else ()
+    key = scene.drivers[0].key
+
+    def drawn(value: float) -> Sheet:
+        return execute(plan(structure, {**own.drivers, key: value}, ())).at(own.scales)
+
+    numbered = {name: drawn(value) for name, value in values.items() if name in (*show, *every)}
+    limits: dict[str, tuple[Sheet, Sheet]] = {}
+    without: dict[Symbol, Wording] = {}
+    measured: dict[tuple[str, str], float] = {}
+    if "limits" in show:
+        for output in _outputs(scene, structure):
+            kinds = ("stroke" if "/" in output else "swing", "K", "theta_lag")
+            asked = tuple(Symbol.parse(f"{kind}_{output}") for kind in kinds)
+            try:
+                turned = execute(plan(structure, own.drivers, asked)).at(own.scales)
+            except Unsolvable as stop:  # no whole turn, or an output that turns on and on
+                without[asked[0]] = stop.problems[0].found
+                continue
+            found = turned.limits[output]
+            limits[output] = drawn(found.low.value), drawn(found.high.value)
+            for reading in read_off(turned):
+                if reading.symbol in asked:
+                    measured[reading.symbol.kind, output] = float(reading.value.real)
+            break
+    turn = _turn(structure, own)
+    least = _least(structure, turn, drawn) if turn and "gamma" in marks else None
+    return Shown(own, limits, numbered, least, _paths(structure, turn, own) if turn else {}, measured, tuple(marks),
+                 {} if limits else without)  # fmt: skip
+
+
+def _outputs(scene: Mechanism, structure: Structure) -> list[str]:
+    """Outputs whose limits are shown, the likeliest first: the output of position 1, slides on the frame, rockers."""
+    frame, found = scene.frame, []
+    if scene.question.positions is not None:
+        places = (scene.question.positions.first, *scene.question.positions.also.values())
+        found += [place.stroke for place in places if place is not None and not isinstance(place, float)]
+    last = [n for g in reversed(structure.groups) for n in g.links]
+    found += [s.key for name in last for s in structure.slides if s.a == name and s.b == frame.name and not s.slot]
+    found += [name for name in last if any(p in frame.points for p in structure.links[name].points)]
+    return list(dict.fromkeys(found))
+
+
+def _turn(structure: Structure, own: Sheet) -> TurnOfCrank | None:
+    size = own.scales.length / structure.scene.size
+    poses = {name: pose.scaled(size) for name, pose in own.poses.items()}
+    if not set(structure.links) <= set(poses) or not structure.scene.drivers[0].turns:
+        return None
+    try:
+        return TurnOfCrank.of(structure, structure.elements, own.drivers, poses, "positions")
+    except GraphkinError:
+        return None
+
+
+def _paths(structure: Structure, turn: TurnOfCrank, own: Sheet) -> dict[str, list[complex]]:
+    """The paths of points of couplers, links without a pivot or a guide on the frame."""
+    frame = structure.scene.frame
+    held = {n for n, link in structure.links.items() if any(p in frame.points for p in link.points)}
+    held |= {n for s in structure.slides for n in (s.a, s.b) if frame.name in (s.a, s.b)} | {frame.name}
+    mm = structure.scene.size / own.scales.length
+    found: dict[str, list[complex]] = {}
+    for name, link in structure.links.items():
+        for point, local in link.points.items():
+            if point in structure.scene.holders and not held & set(structure.scene.holders[point]):
+                found.setdefault(point, [
+                    (one.poses[name].origin + one.poses[name].axis * local / structure.scene.size) * mm
+                    for one in turn.positions
+                ])  # fmt: skip
+    return found
+
+
+def _least(
+    structure: Structure, turn: TurnOfCrank, drawn: Callable[[float], Sheet]
+) -> tuple[Sheet, float, tuple[complex, complex, complex]] | None:
+    """The position of the least transmission angle of the last group with an inner pin."""
+    group = next((g for g in reversed(structure.groups) if isinstance(g, Dyad) and g.inner.turns), None)
+    if group is None:
+        return None
+    joint = joint_of_dyad(structure, group)
+
+    def directions(turned: LimitPosition) -> tuple[complex, complex]:
+        return joint.directions(lambda link, place: turned.poses[link].place(place / structure.scene.size))
+
+    def gamma(turned: LimitPosition) -> float:
+        first, second = directions(turned)
+        across = first.conjugate() * second
+        return math.atan2(abs(across.imag), abs(across.real))
+
+    k = min(range(len(turn.positions)), key=lambda i: gamma(turn.positions[i]))
+    best = turn.positions[k]
+    step = turn.positions[1].value - turn.positions[0].value
+    for _ in range(NARROWER):  # the least lies between its neighbours
+        step /= 2
+        near = [one for value in (best.value - step, best.value + step) if (one := turn.near(value, best.poses))]
+        best = min([best, *near], key=gamma)
+    sheet = drawn(best.value)
+    inner = group.inner
+    pose = sheet.poses[inner.a]
+    at = pose.place(structure.links[inner.a].points[inner.point] / sheet.scales.length)
+    first, second = directions(best)
+    return sheet, gamma(best), (at, -first, -second)
+
+
+# -- the figure --------------------------------------------------------------------------------------------------------
 
 
 def positions_figure(shown: Shown, *, language: str | None = None, convention: str | None = None) -> Drawing:
