@@ -18,7 +18,7 @@ from graphkin.construction.cam_sheet import CamSheet
 from graphkin.errors import CallError, unfit
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
-from graphkin.scene.pairs import LawCam, SwingingFollower
+from graphkin.scene.pairs import LawCam
 from graphkin.scene.scene import SceneLike
 from graphkin.words import Neutral, Phrase, say
 from graphkin.words.written import true_minus
@@ -64,7 +64,7 @@ class CamMade:
 
     @property
     def _swings(self) -> bool:
-        return isinstance(self.cam.motion, SwingingFollower)
+        return self.cam.turns
 
     @property
     def _rate(self) -> float:
@@ -217,8 +217,7 @@ def cam_table(scene: Mechanism, step: float = STEP, discs: Sequence[DiscCam] = (
     degree = np.arange(count) * (360.0 / count)
     # a degree is a rotation of the law, whatever way the cam turns
     courses: list[tuple[str, bool, bool, CamAt | DiscCourse]] = [
-        (cam.link, isinstance(cam.motion, SwingingFollower), cam.flat, cam_at(cam, np.radians(degree)))
-        for cam in scene.cams
+        (cam.link, cam.turns, cam.flat, cam_at(cam, np.radians(degree))) for cam in scene.cams
     ]
     courses += [
         (disc.link, disc.swings, disc.pitch is None, disc_course(structure_of(scene), disc, np.radians(degree)))

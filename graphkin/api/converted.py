@@ -13,9 +13,9 @@ from graphkin.api.arguments import as_scene, write_files
 from graphkin.api.results import Result
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.exchange import FRAME, READ, Bodies, BodyDrive, BodySlide, is_address, read_bodies, write_bodies
-from graphkin.files import Json, Tables, path_of
+from graphkin.files import Json, path_of
 from graphkin.scene.model import Mechanism, PlacedLink
-from graphkin.scene.scene import Scene, SceneLike, safe_name, toml_text
+from graphkin.scene.scene import Scene, SceneLike, safe_name, toml_text, written
 from graphkin.table import Table
 from graphkin.words import Phrase
 
@@ -91,7 +91,7 @@ def convert(source: SceneLike, *, lossy: bool = False, out: str | os.PathLike[st
     ending = ".toml" if target is None else target.suffix.lower()
     shown = os.fspath(source) if isinstance(source, str | os.PathLike) else ""
     kind = Path(shown[:200]).suffix.lower()
-    foreign = kind in READ or "://" in shown or is_address(shown) or (kind != ".toml" and _is_file(shown))
+    foreign = kind in READ or "://" in shown or is_address(shown) or (kind != ".toml" and os.path.isfile(shown))
     if foreign:
         bodies = read_bodies(shown)
         _all_kept(bodies, lossy)
@@ -100,7 +100,7 @@ def convert(source: SceneLike, *, lossy: bool = False, out: str | os.PathLike[st
         scene = Scene.of(mapping, safe_name(bodies.title))
     else:
         given = as_scene(source)
-        scene = source if isinstance(source, Scene) else Scene.of(_written(source, given), given.name)
+        scene = source if isinstance(source, Scene) else Scene.of(written(source)[0], given.name)
         bodies = Bodies(given.question.title) if ending == ".toml" else _bodies(given)
     text = toml_text(scene.to_dict()) if ending == ".toml" else write_bodies(bodies, ending)
     _all_kept(bodies, lossy)
@@ -115,19 +115,6 @@ def _all_kept(bodies: Bodies, lossy: bool) -> None:
     if bodies.lost and not lossy:
         said = "would be lost", "with lossy lossy true it is left out"
         raise CallError(*(Problem(part, *said) for part in bodies.lost))
-
-
-def _is_file(path: str) -> bool:
-    try:
-        return Path(path).is_file()
-    except (OSError, ValueError):
-        return False
-
-
-def _written(source: SceneLike, given: Mechanism) -> Tables:
-    from graphkin.scene.scene import written
-
-    return written(source)[0] if source is not given else written(given)[0]
 
 
 def _bodies(scene: Mechanism) -> Bodies:

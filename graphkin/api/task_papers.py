@@ -43,7 +43,6 @@ from graphkin.papers.documents import accepted, labelled
 from graphkin.papers.paper import Paper
 from graphkin.papers.pdf import papers_as
 from graphkin.papers.pictures import bare_picture
-from graphkin.scene.pairs import SwingingFollower
 from graphkin.words import languages, say, word
 from graphkin.words.symbols import plain_words
 from graphkin.words.written import in_markup
@@ -181,7 +180,7 @@ def _by_sentence(spoken: Mapping[str, Sequence[str]]) -> list[Said]:
 def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str = "cam-") -> Mapping[str, bytes]:
     """Problem sheet, worked solution and key of a cam drawn by inversion, as files."""
     scene, sheet, cam = made.mechanism, made.sheet, made.cam
-    swings = isinstance(cam.motion, SwingingFollower)
+    swings = cam.turns
     results = []
     spread = predict_cam(sheet, "pencil", scene.question.sheet.tools)
     for k, (d, off) in enumerate(zip(sheet.divisions, spread, strict=True)) if not cam.flat else ():

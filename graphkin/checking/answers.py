@@ -12,7 +12,7 @@ from graphkin.errors import CallError, Problem
 from graphkin.scene.asked import quantity_of, spelling_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.spelling import is_blank, plain_text, read_cell, read_way, unit_factor
-from graphkin.scene.symbol import KINDS, Printed, Symbol, Unreadable
+from graphkin.scene.symbol import KINDS, Printed, Symbol
 from graphkin.table import Rows, table_of
 from graphkin.words import Phrase, Wording
 
@@ -168,8 +168,8 @@ def _cell(scene: Mechanism, symbol: Symbol, unit: str, text: str, ways: Sequence
     try:
         way = next((read_way(told, symbol) for told in ways if not is_blank(told)), None)
         return read_cell(text, symbol, scene.units, unit, sign, way)
-    except Unreadable as error:
-        return text, error.phrase
+    except ValueError as error:
+        return text, error.args[0]
 
 
 def _columns(

@@ -13,7 +13,7 @@ from graphkin.scene.bodies import Reading
 from graphkin.scene.force_names import force_of, no_force
 from graphkin.scene.model import Driver, Mechanism, StatedValues
 from graphkin.scene.scene_tables import Positions, StrokeStart
-from graphkin.scene.symbol import Printed, Symbol, Unreadable, centre_links, no_quantity, stated
+from graphkin.scene.symbol import Printed, Symbol, centre_links, no_quantity, stated
 from graphkin.scene.tables import Units, path_name
 from graphkin.words import Phrase
 
@@ -169,8 +169,7 @@ def _values(table: str, values: Mapping[str, Stated], reading: Reading) -> dict[
                 printed[symbol] = _printed(symbol, value, unit, reading.units)
             except ValueError as error:
                 like = "-1220 mm/s" if symbol.is_vector else "2.82 cw"
-                found = error.phrase if isinstance(error, Unreadable) else error.args[0]
-                reading.say(where, found, "write a number its digits as printed 1.0", example=like)
+                reading.say(where, error.args[0], "write a number its digits as printed 1.0", example=like)
     return printed
 
 

@@ -31,7 +31,7 @@ from graphkin.scene.scene_tables import (
     no_position,
 )
 from graphkin.scene.tables import KeyPath, Units
-from graphkin.words import Phrase, Wording, alternatives
+from graphkin.words import Phrase, Wording
 
 AnyBody = TypeVar("AnyBody", Frame, Link)
 
@@ -163,15 +163,6 @@ class Reading:
         there = [problem for problem in problems if problem is not None]
         self.problems.extend(there)
         return bool(there)
-
-    def no_pair(self, where: str, ref: str) -> Problem | None:
-        """The problem of a sliding pair, or of a link with one pair, that does not exist or may be several."""
-        known = [pair for pair in self.pairs if ref in (pair, pair.split("/")[0])]
-        if len(known) == 1 or self.is_unread(ref):
-            return None
-        if not known:
-            return Problem(where, "is no sliding pair", did_you_mean(ref, self.pairs), ref=ref)
-        return Problem(where, "may be", did_you_mean(ref, self.pairs), ref=ref, name=alternatives(known))
 
     def is_unread(self, ref: str) -> bool:
         """Whether the link of a sliding pair slides on what is not there, so that the pair is no second problem."""
@@ -371,6 +362,22 @@ def _pin_problem(
     return Problem(f"{where}.in", found, wanted)
 
 
+def check_held(reading: Reading) -> None:
+    """Note the links that no joint connects with the frame, except where a joint may have been taken out, and links
+    with a problem of their own."""
+    if reading.unsure or reading.lost_under("pins") or any(path[2:] == ("on",) for path in reading.lost):
+        return
+    bare = {problem.where for problem in reading.problems}
+    hint = Phrase("share a point with another link or slide", frame=reading.frame.name)
+    for apart in islands(reading):
+        if f"links.{apart[0]}" in bare:
+            continue
+        if len(apart) == 1:
+            reading.say(f"links.{apart[0]}", "nothing holds this link", hint)
+        else:
+            reading.say(Phrase("links", links=", ".join(apart)), "nothing joins these links to the frame", hint)
+
+
 def islands(reading: Reading) -> list[tuple[str, ...]]:
     """The sets of links that no chain of joints connects with the frame, in the order of the file.
 
@@ -406,14 +413,6 @@ def islands(reading: Reading) -> list[tuple[str, ...]]:
         if start != reading.frame.name:
             apart.append(tuple(n for n in known if n in reached))
     return apart
-
-
-def not_held(group: tuple[str, ...], frame: str) -> Problem:
-    """The problem of links that no joint connects with the frame."""
-    hint = Phrase("share a point with another link or slide", frame=frame)
-    if len(group) == 1:
-        return Problem(f"links.{group[0]}", "nothing holds this link", hint)
-    return Problem(Phrase("links", links=", ".join(group)), "nothing joins these links to the frame", hint)
 
 
 # -- carriages ---------------------------------------------------------------------------------------------------------

@@ -238,7 +238,9 @@ def _task(raw: OwnTables, problems: list[Problem]) -> DesignTask | None:
         problems.append(Problem("design.kind", "is missing", "one of", names=", ".join(KINDS)))
         return None
     if not isinstance(kind, str) or kind not in KINDS:
-        problems.append(Problem("design.kind", "found value", _kind_meant(str(kind)), value=shown(kind)))
+        near, known = did_you_mean(str(kind), KINDS), Phrase("the kinds are", names=", ".join(KINDS))
+        meant = Phrase("two sentences", first=near, second=known) if near.key == "did you mean" else known
+        problems.append(Problem("design.kind", "found value", meant, value=shown(kind)))
         return None
     wrong: tuple[Problem, ...] | list[Problem]
     try:
@@ -249,12 +251,6 @@ def _task(raw: OwnTables, problems: list[Problem]) -> DesignTask | None:
     if wrong:
         return None
     return _bar_positions(task, problems) if isinstance(task, BarPositionsTask) else task
-
-
-def _kind_meant(kind: str) -> Wording:
-    """All kinds, the nearest first."""
-    hint, known = did_you_mean(kind, KINDS), Phrase("the kinds are", names=", ".join(KINDS))
-    return Phrase("two sentences", first=hint, second=known) if hint.key == "did you mean" else known
 
 
 def _bar_positions(task: BarPositionsTask, problems: list[Problem]) -> BarPositionsTask | None:

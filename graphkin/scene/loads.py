@@ -9,12 +9,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
+from graphkin.errors import did_you_mean
 from graphkin.plane import direction
 from graphkin.scene.bodies import Reading
 from graphkin.scene.model import LinkMass, Loading, LoadOn, SpringOn
 from graphkin.scene.scene_tables import STANDARD_GRAVITY, Balance, Load, LoadPhase, Mass, Spring
 from graphkin.scene.tables import in_si
-from graphkin.words import Phrase
+from graphkin.words import Phrase, alternatives
 
 TURN = math.tau * (1 + 1e-12)
 
@@ -65,9 +66,14 @@ def _place(reading: Reading, where: str, link: str, at: str | Sequence[float]) -
 
 def _pair(reading: Reading, where: str, ref: str) -> str:
     """The key of a sliding pair, "6" standing for the one pair of link 6."""
-    if reading.wrong(reading.no_pair(where, ref)):
-        return ""
-    return next((pair for pair in reading.pairs if ref in (pair, pair.split("/")[0])), "")
+    known = [pair for pair in reading.pairs if ref in (pair, pair.split("/")[0])]
+    if len(known) != 1 and not reading.is_unread(ref):
+        meant = did_you_mean(ref, reading.pairs)
+        if known:
+            reading.say(where, "may be", meant, ref=ref, name=alternatives(known))
+        else:
+            reading.say(where, "is no sliding pair", meant, ref=ref)
+    return known[0] if known else ""
 
 
 def _mass(reading: Reading, link: str, table: Mass, g: float) -> LinkMass | None:

@@ -17,11 +17,10 @@ from graphkin.scene import position as places
 from graphkin.scene.asked import asked, at_its_position, loops_named, positions_named, stated_values
 from graphkin.scene.bodies import (
     Reading,
+    check_held,
     check_own_points,
     check_references,
     driver_tables,
-    islands,
-    not_held,
     pins_in_slots,
     sliding_pairs,
     with_bars,
@@ -78,11 +77,7 @@ def mechanism_said(file: SceneTables, name: str, problems: list[Problem], lost: 
     stated = stated_values(reading) if file.printed or file.printed_rows or file.printed_table else ()
     positions = positions_named(file.positions, reading) if file.positions else None
     loops = loops_named(reading) if file.loops else {}
-    if not reading.unsure and not reading.lost_under("pins") and not any(p[2:] == ("on",) for p in lost):
-        bare = {p.where for p in problems}
-        apart = (group for group in islands(reading) if f"links.{group[0]}" not in bare)
-        reading.wrong(*(not_held(group, reading.frame.name) for group in apart))
-
+    check_held(reading)
     driven = drives(reading)
     position = places.stated_position(reading, driven.values())
     places.check_placed_twice(position)

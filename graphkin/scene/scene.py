@@ -406,7 +406,7 @@ def written(source: SceneLike) -> tuple[OwnTables, str]:
             if "\n" in text and "=" in text:
                 raise SceneError.of(Phrase("the scene"), "found the text of a scene file instead",
                                     "save it as a file or give tomllib.loads")
-            if isinstance(source, str) and text in library() and not _is_file(text):
+            if isinstance(source, str) and text in library() and not os.path.isfile(text):
                 return parsed(library_text(text)), text
             return _beside(parsed(file_text(text)), Path(text)), Path(text).stem
     raise SceneError.of(Phrase("the scene"), "found a", "give a file the name of a scene", name=type(source).__name__)
@@ -421,13 +421,6 @@ def _beside(made: OwnTables, path: Path) -> OwnTables:
         if isinstance(table, dict) and isinstance(table.get("file"), str):
             table["file"] = str(path.parent / table["file"])
     return made
-
-
-def _is_file(path: str) -> bool:
-    try:
-        return os.path.isfile(path)
-    except ValueError:
-        return False
 
 
 def put(made: OwnTables, key: str, value: object) -> Problem | None:

@@ -314,14 +314,11 @@ class DrivenSlide(FileTable):
     time: Number | None = None
 
 
-def _form_of_driver(value: object) -> str:
-    """Whether a table drives a slide or an angle."""
-    return "<slide>" if isinstance(value, dict) and "slide" in value and "link" not in value else "<angle>"
-
-
 OneDriver = Annotated[
-    Annotated[Driver, Tag("<angle>")] | Annotated[DrivenSlide, Tag("<slide>")], Discriminator(_form_of_driver)
-]
+    Annotated[Driver, Tag("<angle>")] | Annotated[DrivenSlide, Tag("<slide>")],
+    Discriminator(lambda value: "<slide>" if isinstance(value, dict) and value.keys() & {"slide", "link"} == {"slide"}
+                  else "<angle>"),
+]  # fmt: skip
 Drivers = Annotated[
     Annotated[OneDriver, Tag("<one>")] | Annotated[List[OneDriver], Tag("<list>")],
     Discriminator(lambda value: "<list>" if isinstance(value, list) else "<one>"),

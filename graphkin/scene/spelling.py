@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphkin.plane import added_up
-from graphkin.scene.symbol import KINDS, Line, PointRef, Printed, Symbol, Unreadable, forms_of_names, stated
+from graphkin.scene.symbol import KINDS, Line, PointRef, Printed, Symbol, forms_of_names, stated
 from graphkin.scene.tables import FORCES, LENGTHS, Units
 from graphkin.words import LANGUAGES, Phrase, area
 
@@ -309,17 +309,17 @@ class Way:
 
 
 def read_way(text: str, symbol: Symbol) -> Way:
-    """The direction in a cell of a column of directions: an angle, an arrow, words.  Raises Unreadable."""
+    """The direction in a cell of a column of directions: an angle, an arrow, words.  Raises ValueError."""
     way, rest = way_in(plain_text(text), symbol)
     if symbol.is_vector and not way.says:
         bare = rest.strip(" °;,()")
         if re.fullmatch(NUMBER, bare):
             return Way(*_degrees(bare))
-        raise Unreadable(Phrase("cell no direction", cell=text[:40]))
+        raise ValueError(Phrase("cell no direction", cell=text[:40]))
     if not symbol.is_vector and not way.sense:
         if rest.strip() in ("+", "-"):
             return Way(sense=1 if rest.strip() == "+" else -1)
-        raise Unreadable(Phrase("cell no sense", cell=text[:40]))
+        raise ValueError(Phrase("cell no sense", cell=text[:40]))
     return way
 
 
@@ -500,7 +500,7 @@ def read_cell(
 
     Raises
     ------
-    Unreadable : a text that is no value of the quantity
+    ValueError : a text that is no value of the quantity; its argument is the reason as a phrase
 
     >>> read_cell("482,7 mm/s", Symbol.parse("v_B"), Units(), sign=";").value
     0.4827
@@ -524,7 +524,7 @@ def read_cell(
     if not symbol.is_vector:
         left = re.sub(r"^k\u0302?$", "", left)  # the unit vector out of the paper
     if not numbers or len(numbers) > (2 if symbol.is_vector else 1):
-        raise Unreadable(Phrase("cell more numbers" if numbers else "cell no number", cell=text.strip()[:40]))
+        raise ValueError(Phrase("cell more numbers" if numbers else "cell no number", cell=text.strip()[:40]))
     factor = symbol.unit(units).si
     for said in (left, unit):
         if said:
@@ -532,7 +532,7 @@ def read_cell(
             if found is None:
                 key = "cell no unit" if is_unit(said, units) else "cell no words"
                 measure = Phrase(f"measure {symbol.measure}")
-                raise Unreadable(Phrase(key, cell=text.strip()[:60], unit=said[:40], measure=measure))
+                raise ValueError(Phrase(key, cell=text.strip()[:60], unit=said[:40], measure=measure))
             factor = found
             break
     pointed = [_pointed(n, sign) for n in numbers]
@@ -558,7 +558,7 @@ def _bare_number() -> str:
 
 
 def _joined(text: str, symbol: Symbol) -> str:
-    """Thousands parted by a space or an apostrophe put together: ``1'220``, ``1 220.5``.  Raises Unreadable where they
+    """Thousands parted by a space or an apostrophe put together: ``1'220``, ``1 220.5``.  Raises ValueError where they
     may be two components."""
     text = re.sub(r"(?<=\d)['’](?=\d{3}(?!\d))", "", text)
     match = _SPACED.search(text)
@@ -568,7 +568,7 @@ def _joined(text: str, symbol: Symbol) -> str:
     if symbol.is_vector and text.startswith(("(", "[")):
         return text
     if symbol.is_vector:
-        raise Unreadable(Phrase("cell two components", cell=text[:40], number=whole))
+        raise ValueError(Phrase("cell two components", cell=text[:40], number=whole))
     return text[: match.start()] + whole + text[match.end() :]
 
 
@@ -580,6 +580,6 @@ def _pointed(number: str, sign: str) -> str:
     if sign == "," and _THOUSANDS.fullmatch(number):
         if number.count(",") == 1 and "." not in number:
             plain, decimal = number.replace(",", ""), number.replace(",", ".")
-            raise Unreadable(Phrase("cell two ways", cell=number[:40], plain=plain, decimal=decimal))
+            raise ValueError(Phrase("cell two ways", cell=number[:40], plain=plain, decimal=decimal))
         return number.replace(",", "")
     return number.replace(",", ".") if _DECIMAL.fullmatch(number) else number

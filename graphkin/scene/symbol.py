@@ -17,7 +17,7 @@ from decimal import Decimal, InvalidOperation
 from typing import Literal, NamedTuple
 
 from graphkin.scene.tables import Measure, Unit, Units
-from graphkin.words import Phrase, say
+from graphkin.words import Phrase
 
 Value = complex | float
 """What a quantity is: a vector of the plane, or a number."""
@@ -349,14 +349,6 @@ MOST_PARDONED = 0.01  # part of a value that rounding to one digit may take away
 SMALLEST = -300  # power of ten of a last digit that a double still holds
 
 
-class Unreadable(ValueError):
-    """A text that states no value of its quantity; ``phrase`` gives the reason in any language."""
-
-    def __init__(self, phrase: Phrase) -> None:
-        super().__init__(say(phrase))
-        self.phrase = phrase
-
-
 @dataclass(frozen=True)
 class Line:
     """A line through two points, or ``square`` to it, along which a vector is said to lie; ``directed``: from the first
@@ -437,7 +429,7 @@ def stated(symbol: Symbol, texts: Sequence[str], units: Units, unit: float | Non
 
     Raises
     ------
-    Unreadable : a text that is no number
+    ValueError : a text that is no number; its argument is the reason as a phrase
 
     >>> v = stated(Symbol.parse("v_D"), ["480.0"], Units())
     >>> v.value, v.step, v.digits
@@ -457,8 +449,8 @@ def _number(text: str) -> Decimal:
     try:
         number = Decimal(plain)
     except InvalidOperation:
-        raise Unreadable(Phrase("cell no number", cell=plain[:40])) from None
+        raise ValueError(Phrase("cell no number", cell=plain[:40])) from None
     fine = number.is_finite() and int(number.as_tuple().exponent) < SMALLEST
     if not number.is_finite() or fine or not abs(number) < Decimal("1e15") or len(plain) > 40:
-        raise Unreadable(Phrase("cell no size", cell=plain[:40]))
+        raise ValueError(Phrase("cell no size", cell=plain[:40]))
     return number

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from decimal import Decimal
 
 from graphkin.scene.model import Driver
-from graphkin.scene.pairs import LawCam, SlidingFollower
+from graphkin.scene.pairs import LawCam
 from graphkin.solver.drivers import meant, meant_direction
 from graphkin.solver.dyads import DyadSolution, Joints, PoseFormula, solve_dyad
 from graphkin.solver.expressions import Code, ExpressionGraph, Name, Real, Vec, components
@@ -96,7 +96,7 @@ class Program:
 
     def lift(self, cam: LawCam) -> tuple[Real | Vec, Real, Real]:
         """The place of a follower, and its derivatives by the angle of the cam."""
-        parts = ("slope", "bend", *(("travel",) if isinstance(cam.motion, SlidingFollower) else ("cos", "sin")))
+        parts = ("slope", "bend", *(("cos", "sin") if cam.turns else ("travel",)))
         slope, bend, *stands = (self.graph.input(("lift", cam.link, part)) for part in parts)
         return (Vec(*stands) if len(stands) == 2 else stands[0]), slope, bend
 

@@ -22,7 +22,6 @@ from graphkin.files import Json
 from graphkin.files import json_text as one_line
 from graphkin.scene.force_names import no_force
 from graphkin.scene.model import Mechanism
-from graphkin.scene.pairs import SwingingFollower
 from graphkin.scene.scene_tables import LoadPhase
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.search import changes
@@ -491,7 +490,7 @@ def _of_motion(motion: Motion, angles: Mapping[str, Array]) -> Columns:
     for cam in scene.cams:
         turn = motion.poses[cam.link]
         touching = cam_at(cam, cam_angle(cam, turn.u))
-        put("cams", cam.link, lift=touching.lift / (1.0 if isinstance(cam.motion, SwingingFollower) else metres),
+        put("cams", cam.link, lift=touching.lift / (1.0 if cam.turns else metres),
             contact=(cam.axis + touching.contact) / metres, normal=touching.normal,
             slip=slip_of(cam, touching, np.asarray(turn.omega)) / fast, pressure=touching.pressure)  # fmt: skip
     for contact in scene.contacts:

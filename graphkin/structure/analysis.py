@@ -19,7 +19,6 @@ from typing import Literal, TypeVar
 
 from graphkin.errors import CallError, NoDriver, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
-from graphkin.scene.pairs import SlidingFollower
 from graphkin.structure.model import (
     OWN_AXIS,
     Body,
@@ -147,7 +146,7 @@ def _equations(structure: Structure) -> list[set[Unknown]]:
         add((s.a, "t"), (s.b, "t"))
         add((s.a, "xy"), (s.b, "xyt"))
     for cam in structure.cams:
-        add((cam.link, "t"), (cam.follower, "xy" if isinstance(cam.motion, SlidingFollower) else "t"))
+        add((cam.link, "t"), (cam.follower, "t" if cam.turns else "xy"))
     for relation in structure.relations:
         slides = [structure.slide(name) for kind, name in relation.terms if kind == "travel"]
         add(*((name, "t") for kind, name in relation.terms if kind == "angle"),

@@ -21,7 +21,7 @@ from dataclasses import replace
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Poses, cross, unit
 from graphkin.scene.model import Mechanism, PlacedLink
-from graphkin.scene.pairs import CircularSlot, PlacedContact, PlacedGuide, SlidingPair, SwingingFollower
+from graphkin.scene.pairs import CircularSlot, PlacedContact, PlacedGuide, SlidingPair
 from graphkin.scene.scene_tables import Disc
 from graphkin.structure.model import OWN_AXIS, Mobility, Pair, Structure
 from graphkin.words import Phrase
@@ -156,7 +156,7 @@ def cams_replaced(scene: Mechanism, poses: Poses, values: Mapping[str, float], b
         tangent = course.tangent
         if abs(tangent) < SHARP * cam.base:
             raise Unsolvable("dead point", Problem(f"cams.{cam.link}", "the pitch curve has a cusp at this"))
-        point = cam.motion.tip if isinstance(cam.motion, SwingingFollower) else next(iter(follower.points), "")
+        point = cam.name_of_point or next(iter(follower.points), "")
         if not point:
             point = next(names)
             links[cam.follower] = replace(follower, points={point: 0j})

@@ -350,7 +350,7 @@ def scaled_cam(scene: Mechanism, cam: LawCam) -> CamSheet:
         return cam_sheet(cam, scene.question.sheet.length_scale * 1e-3)
     natural = cam_sheet(cam, cam.base / 50.0)
     far = [*natural.profile, *natural.pitch, *(d.point for d in natural.divisions)]
-    far += [d.line for d in natural.divisions] if isinstance(cam.motion, SwingingFollower) else []
+    far += [d.line for d in natural.divisions] if cam.turns else []
     room = CAM_PANEL[0] - 2 * PAST - 8.0, CAM_PANEL[1] - 2 * PAST - 8.0
     per = scene.units.metres
     return cam_sheet(cam, fitting_scale(Extent.around(far, 1.0), room, natural.scale / per) * per)
@@ -430,12 +430,12 @@ def _given(scene: Mechanism, cam: LawCam, language: str) -> str:
 
 def _lift(scene: Mechanism, cam: LawCam, lift: float) -> float:
     """A lift in the scene's unit, or degrees."""
-    return math.degrees(lift) if isinstance(cam.motion, SwingingFollower) else lift / scene.units.metres
+    return math.degrees(lift) if cam.turns else lift / scene.units.metres
 
 
 def _unit(scene: Mechanism, cam: LawCam) -> str:
     """The unit of a lift after a number."""
-    return "°" if isinstance(cam.motion, SwingingFollower) else f" {scene.units.length}"
+    return "°" if cam.turns else f" {scene.units.length}"
 
 
 def _diagram(scene: Mechanism, sheet: CamSheet, language: str, begun: bool = False) -> Block:
@@ -443,7 +443,7 @@ def _diagram(scene: Mechanism, sheet: CamSheet, language: str, begun: bool = Fal
     cam, law = sheet.cam, sheet.cam.law
     span, low = _lift(scene, cam, law.greatest - law.least) or 1.0, _lift(scene, cam, law.least)
     rise = (law.greatest - law.least) / sheet.scale
-    same = isinstance(cam.motion, SlidingFollower) and HIGH[0] <= rise <= HIGH[1]
+    same = not cam.turns and HIGH[0] <= rise <= HIGH[1]
     per = span / rise if same else fitting_scale(Extent(span, span), (HIGH[1], HIGH[1]), 1.0)
     left, floor = 5.0, span / per + 6.0
     origin, top = complex(left, floor), complex(left, floor - span / per)
@@ -491,7 +491,6 @@ def _diagram(scene: Mechanism, sheet: CamSheet, language: str, begun: bool = Fal
 def _cam(scene: Mechanism, sheet: CamSheet, begun: bool = False) -> Block:
     """The cam with its construction; with ``begun`` only the circles and the follower at its start."""
     plate, cam, start = Plate(), sheet.cam, sheet.divisions[0]
-    swings = isinstance(cam.motion, SwingingFollower)
     colour, other = (strokes.colour_of_link(scene, link) for link in (cam.link, cam.follower))
     far = max(abs(d.point) for d in sheet.divisions)
     shown = [] if begun else _shown(sheet)
@@ -518,9 +517,9 @@ def _cam(scene: Mechanism, sheet: CamSheet, begun: bool = False) -> Block:
     bar = strokes.LINK.coloured(other)
     follower: list[Primitive] = [Circle(on_page(start.point), sheet.roller, stroke=bar)] if cam.roller else []
     follower += [_face(sheet.divisions[0], 8.0, bar)] if cam.flat else []
-    end = start.line if swings else start.point + (far - abs(start.point) + 12.0) * start.way
+    end = start.line if cam.turns else start.point + (far - abs(start.point) + 12.0) * start.way
     follower.append(Line(on_page(start.point), on_page(end), bar))
-    if swings:
+    if cam.turns:
         follower += symbols.fixed_pivot(on_page(start.line))
     elif not cam.flat:
         follower += symbols.pin(on_page(start.point), other)
@@ -555,7 +554,7 @@ def _face(d: CamStation, half: float, stroke: Stroke) -> Line:
 
 def _ray(sheet: CamSheet, d: CamStation, far: float) -> tuple[list[Primitive], complex]:
     """The line of a division, turned back about the cam, and the place of its number."""
-    if isinstance(sheet.cam.motion, SlidingFollower):
+    if not sheet.cam.turns:
         beyond = math.sqrt(max((far + sheet.roller + PAST) ** 2 - sheet.offset**2, 0.0))
         end = d.line + beyond * d.way
         return [Line(on_page(d.line), on_page(end), THIN)], end
