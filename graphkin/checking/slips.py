@@ -21,7 +21,7 @@ import numpy as np
 from graphkin.checking.readings import read_off
 from graphkin.checking.slip_likelihood import Suspect, Suspects
 from graphkin.checking.uncertainty import Uncertainty
-from graphkin.construction import AS_DRAWN, GoneOn, OwnValues, Plan, Sheet, execute, plan
+from graphkin.construction import AS_DRAWN, OwnValues, Plan, Sheet, Stages, execute, plan
 from graphkin.construction.steps import Order, Term
 from graphkin.errors import GraphkinError
 from graphkin.plane import added_up, unit
@@ -142,8 +142,9 @@ class Evidence:
     # -- what follows from somebody's own values
 
     @cached_property
-    def _gone_on(self) -> GoneOn:
-        return GoneOn(self.plan, self.plan.scales, lambda own: _own_values(self.plan, self.sheet, own))
+    def _stages(self) -> Stages:
+        of_person = partial(_own_values, self.plan, self.sheet)
+        return Stages(self.plan, self.plan.scales, own_values=of_person)
 
     def following(self, own: Mapping[Symbol, Value], of: Symbol) -> tuple[Value, ...]:
         """The value of a symbol, drawn from the person's own values of other symbols (SI).
@@ -159,7 +160,7 @@ class Evidence:
         The value of the drawing, then for a sum of terms the sum of these
         """
         try:
-            polygons = self._gone_on.to(of, {s: v for s, v in own.items() if self.before(s, of)})
+            polygons = self._stages.to(of, {s: v for s, v in own.items() if self.before(s, of)})
         except (GraphkinError, ArithmeticError):
             return ()  # a drawing that cannot be gone on with
         if polygons is None:

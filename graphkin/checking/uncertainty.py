@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.checking.readings import read_off
-from graphkin.construction import Plan, Redrawn, Scales, Sheet, erring, nudged
+from graphkin.construction import Plan, Scales, Sheet, Stages, erring, nudged
 from graphkin.construction.instruments import Instrument
 from graphkin.construction.sheet import Reading
 from graphkin.construction.steps import Cause, Order, phrase_of
@@ -134,21 +134,21 @@ def predict(
 def _drawn_by(what: Plan, still: Instrument) -> tuple[Sheet, Drawn]:
     """A plan drawn without errors; and a function for its readings drawn by other hands, its force polygons (if any) at
     the same scale."""
-    redrawn, newtons_per_mm = Redrawn(what, what.scales, still), 0.0
-    if redrawn.sheet.has_forces:
+    stages, newtons_per_mm = Stages(what, what.scales, still), 0.0
+    if stages.sheet.has_forces:
         from graphkin.construction.forces import force_scale, forces_on
 
-        newtons_per_mm = force_scale(redrawn.sheet)
+        newtons_per_mm = force_scale(stages.sheet)
 
     def values(hand: Instrument, first: int = 0) -> Values | None:
         try:
-            sheet = redrawn.sheet if hand is still else redrawn.by(hand, first)
+            sheet = stages.sheet if hand is still else stages.by(hand, first)
             forces = forces_on(sheet, hand, newtons_per_mm) if newtons_per_mm else None
             return {r.symbol: r.value for r in read_off(sheet, (), hand, forces)}
         except (Unsolvable, ArithmeticError):
             return None
 
-    return redrawn.sheet, values
+    return stages.sheet, values
 
 
 def _samples(read: Drawn, name: str, tools: Tools, count: int = SAMPLES) -> Sequence[Values]:

@@ -5,7 +5,7 @@ solver.
 """
 
 from graphkin.construction.instruments import EXACT, Instrument, cad, erring, nudged, pencil
-from graphkin.construction.plan import GoneOn, Plan, Redrawn, draft, execute, plan
+from graphkin.construction.plan import Plan, Stages, draft, execute, plan
 from graphkin.construction.polygons import AS_DRAWN, OwnValues
 from graphkin.construction.scales import Room, Scales
 from graphkin.construction.sheet import Sheet
@@ -13,14 +13,13 @@ from graphkin.construction.sheet import Sheet
 __all__ = [
     "AS_DRAWN",
     "EXACT",
-    "GoneOn",
     "Instrument",
     "OwnValues",
     "Plan",
-    "Redrawn",
     "Room",
     "Scales",
     "Sheet",
+    "Stages",
     "cad",
     "draft",
     "erring",

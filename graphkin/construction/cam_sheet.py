@@ -13,9 +13,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from graphkin.construction.instruments import EXACT, Instrument
-from graphkin.construction.touching import CamStation, outline, station
+from graphkin.construction.touching import CamStation, station, stations
 from graphkin.plane import cross_arcs, cross_line_arc, dot, unit
-from graphkin.scene.laws import TURN
 from graphkin.scene.pairs import LawCam, SlidingFollower, SwingingFollower
 from graphkin.words import Phrase
 from graphkin.words.written import amount
@@ -72,9 +71,9 @@ def cam_sheet(cam: LawCam, scale: float) -> CamSheet:
     mm = 1.0 / scale
     # where arcs only touch, rounding may part them
     divided = tuple(division(cam, degree, mm) or station(cam, degree).scaled(mm) for degree in _degrees(cam))
-    pitch = () if cam.flat else tuple(_pitch(cam, mm))
+    pitch = () if cam.flat else tuple(here.point * mm for here in stations(cam))
     offset = abs(cam.motion.offset) * mm if isinstance(cam.motion, SlidingFollower) else 0.0
-    profile = tuple(z * mm for z in outline(cam))
+    profile = tuple(here.contact * mm for here in stations(cam))
     return CamSheet(cam, scale, divided, profile, pitch, cam.base * mm, offset, cam.roller * mm)
 
 
@@ -84,14 +83,6 @@ def _degrees(cam: LawCam) -> Iterator[float]:
         width = piece.end - piece.start
         count = min(MOST, max(FEWEST, 2 * round(width / STEP / 2))) if piece.by else 1
         yield from (piece.start + width * k / count for k in range(count))
-
-
-def _pitch(cam: LawCam, mm: float) -> Iterator[complex]:
-    for part in cam.law.parts:
-        count = max(2, math.ceil(180 * (part.end - part.start) / TURN))
-        for k in range(count + 1):
-            degree = part.start + (part.end - part.start) * k / count
-            yield station(cam, degree, part.at(degree)).point * mm
 
 
 TINY = 1e-9  # of the base radius: a line nearer to the axis passes it

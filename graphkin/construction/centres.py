@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from heapq import heappop, heappush
@@ -23,7 +23,7 @@ from typing import Literal
 
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.plan import draft
-from graphkin.construction.projective import Line, LinkMotion, Place, ProjectiveChart, product, wedge
+from graphkin.construction.projective import Line, Place, ProjectiveChart, product, wedge
 from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import Superposed
@@ -311,17 +311,18 @@ def _placed(scene: Mechanism, sheet: Sheet) -> Centres:
     return Centres(scene, sheet, poses)
 
 
-def measured(sheet: Sheet) -> dict[str, LinkMotion]:
-    """The motion of every link in the velocity polygon: one end point of it, and its angular velocity."""
-    per_mm = sheet.scales.velocity / sheet.scales.length
-    ends = sheet.ends["velocity"]
-    ground = sheet.scene.frame.name
-    motions = {ground: LinkMotion(0j, 0j, 0.0)}
+def measured(links: Centres) -> dict[str, tuple[complex, float]]:
+    """The motion of every link in the velocity polygon: the velocity of its point in the middle of the chart (mm/s on
+    paper), by one of its end points, and its angular velocity (rad/s)."""
+    sheet, ground = links.sheet, links.sheet.scene.frame.name
+    per_mm, ends = sheet.scales.velocity / sheet.scales.length, sheet.ends["velocity"]
+    motions = {ground: (0j, 0.0)}
     for name, rate in sheet.omega.items():
         points = sheet.structure.links[name].points
         for ref, end in ends.items():
             if name != ground and (ref.link == name or (not ref.link and ref.point in points)):
-                motions[name] = LinkMotion(sheet.points[PointRef(ref.point)], end * per_mm, rate.value)
+                arm = links.chart.middle - sheet.points[PointRef(ref.point)]
+                motions[name] = end * per_mm + 1j * rate.value * arm, rate.value
                 break
     return motions
 
@@ -474,7 +475,7 @@ class CircleDiagram:
                             have.add(missing)
         return have
 
-    def to_measure(self, motions: Mapping[str, LinkMotion]) -> LinkPair:
+    def to_measure(self, motions: Collection[str]) -> LinkPair:
         """The missing centre that gives most others; of links with measured motion first, then of the frame."""
         frame = self.links.scene.frame.name
 
@@ -494,13 +495,12 @@ class CircleDiagram:
 
 def _with_table(links: Centres, instrument: Instrument) -> Centres:
     """The centres of links on paper."""
-    normals, motions, chart = list(_normals(links)), measured(links.sheet), links.chart
+    normals, motions, chart = list(_normals(links)), measured(links), links.chart
     diagram = CircleDiagram.empty(links, normals)
     for centre in _permanent(links):
         if centre.pair not in diagram.table:
             diagram.take(centre)
-    strengths = (abs(chart.pole(chart.middle, m.of(chart.middle), m.omega)[1]) for m in motions.values())
-    largest = max(strengths, default=0.0)
+    largest = max((abs(chart.pole(*motion)[1]) for motion in motions.values()), default=0.0)
     number = 0
     while len(diagram.table) < len(links.pairs):
         number += 1
@@ -516,11 +516,12 @@ def _with_table(links: Centres, instrument: Instrument) -> Centres:
     return replace(links, table={pair: diagram.table[pair] for pair in links.pairs})
 
 
-def _otherwise(diagram: CircleDiagram, motions: Mapping[str, LinkMotion], largest: float) -> Centre:
+def _otherwise(diagram: CircleDiagram, motions: Mapping[str, tuple[complex, float]], largest: float) -> Centre:
     """A centre that Kennedy's theorem does not give now: the place at which two links have the same velocity.
 
     Parameters
     ----------
+    motions : as `measured`
     largest : the strongest motion of a link, beside which the relative motion of two may vanish
     """
     pair = diagram.to_measure(motions)
@@ -531,9 +532,8 @@ def _otherwise(diagram: CircleDiagram, motions: Mapping[str, LinkMotion], larges
     why = few if count < 2 else together
     if not motions.keys() >= {*pair}:
         return Centre(pair, "undetermined", why=why)
-    first, second = motions[pair[0]], motions[pair[1]]
-    chart, at = diagram.links.chart, diagram.links.chart.middle
-    place, strength = chart.pole(at, first.of(at) - second.of(at), first.omega - second.omega)
+    (velocity, omega), (other_velocity, other_omega) = motions[pair[0]], motions[pair[1]]
+    place, strength = diagram.links.chart.pole(velocity - other_velocity, omega - other_omega)
     if abs(strength) <= AT_REST * largest:
         return Centre(pair, "undetermined", why=Phrase("centre no motion", **links))
     error = MEASURED * max(1.0, SLOW * largest / abs(strength))

@@ -152,18 +152,13 @@ def _travel_rate(plot: Polygons, order: Order, key: str) -> float | None:
 
 
 def _draw_group(plot: Polygons, order: Order, group: LargerGroup) -> None:
-    """Draw a larger group in a polygon."""
+    """Draw a larger group in a polygon, by its construction, which is found first for all drawings."""
     known_turns(plot, order, group)
     _rolling_points(plot, group)
     if group in plot.plans:
         plot.contours[group] = plot.plans[group].contours
         _draw_by(plot, order, group, plot.plans[group])
-    else:
-        _draw_first(plot, order, group)
-
-
-def _draw_first(plot: Polygons, order: Order, group: LargerGroup) -> None:
-    """Find the construction of a group, and draw it."""
+        return
     plain = _plans(plot, group)
     first = next(plain, None)
     if first is None or not first.tried:
@@ -311,22 +306,17 @@ def _rolling_points(plot: Polygons, group: LargerGroup) -> dict[str, tuple[str, 
     name, pitch points by a free letter, marked on the mechanism."""
     scene = plot.structure.scene
     between = {c.name: c.links for c in scene.contacts} | {g.name: g.wheels for g in scene.gears}
-    found = {}
+    points = {}
     for name in (relation.name for relation in group.rolling):
-        of_wheels = name not in plot.touching
-        letter = plot.pitch_points.get(name) or _mark_pitch_point(plot, name) if of_wheels else name
-        found[name] = letter, between[name]
-    return found
-
-
-def _mark_pitch_point(plot: Polygons, name: str) -> str:
-    letter = plot.pitch_points[name] = _free_letters(plot)[0]
-    touch = plot.touch(name)
-    at = plot.board.instrument.point(touch.at)
-    plot.special.add(letter)
-    plot.places[letter] = at
-    plot.do(Step("mark", "pitch point", strokes=(Mark(PointRef(letter), at),), point=letter, links=touch.links))
-    return letter
+        if name not in plot.touching and name not in plot.pitch_points:
+            letter = plot.pitch_points[name] = _free_letters(plot)[0]
+            touch = plot.touch(name)
+            at = plot.places[letter] = plot.board.instrument.point(touch.at)
+            plot.special.add(letter)
+            strokes = (Mark(PointRef(letter), at),)
+            plot.do(Step("mark", "pitch point", strokes=strokes, point=letter, links=touch.links))
+        points[name] = plot.pitch_points.get(name, name), between[name]
+    return points
 
 
 def _direction(plot: Polygons, edge: RelativeMotion, places: Mapping[str, complex]) -> complex:

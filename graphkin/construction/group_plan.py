@@ -98,13 +98,6 @@ class _Search:
                     self.nodes.update(mine)
                     grown = True
 
-    def learn(self, path: Sequence[RelativeMotion]) -> None:
-        for edge in path:
-            if edge.link and edge.unknown:
-                self.known.add(edge.unknown)
-            self.nodes |= {edge.start, edge.end}
-        self.settle()
-
     # -- ways ----------------------------------------------------------------------------------------------------------
 
     def ways(self, start: PointRef, most: int, stop: Callable[[PointRef], bool]) -> Iterator[Path]:
@@ -139,7 +132,11 @@ class _Search:
     def drawn(self, move: VectorChain, path: Path) -> bool:
         """Add a move, after which a path is known."""
         self.moves.append(move)
-        self.learn(path)
+        for edge in path:
+            if edge.link and edge.unknown:
+                self.known.add(edge.unknown)
+            self.nodes |= {edge.start, edge.end}
+        self.settle()
         return True
 
     def way(self, edge: RelativeMotion) -> complex:

@@ -150,15 +150,6 @@ def carried_out(
     return polygons
 
 
-def _stages(task: Task, polygons: Polygons, hand: Instrument) -> Iterator[Polygons]:
-    """The polygons at their beginning, and after each element."""
-    yield polygons
-    for order, element in task.in_order:
-        polygons = polygons.again(hand)
-        draw_element(polygons, order, element)
-        yield polygons
-
-
 def finished(task: Task, polygons: Polygons) -> Sheet:
     """The board as a sheet, with vectors that only a question needs."""
     draw_asked(polygons, task.asked)
@@ -202,84 +193,84 @@ def finished(task: Task, polygons: Polygons) -> Sheet:
     return without_residues(sheet) if board.instrument.faultless else sheet
 
 
-class Redrawn:
-    """A plan that is drawn repeatedly by hands that err in some of their acts.
-
-    The part before the first of these acts is taken from a drawing without errors.
-    """
-
-    def __init__(self, what: Task, scales: Scales, still: Instrument) -> None:
-        self.what, self.scales = what, scales
-        begun = positioned(what, scales, still)
-        self.kept = [(still.acts, polygons) for polygons in _stages(what, begun, still)]
-        """What stood there after so many acts."""
-        self.sheet = finished(what, self.kept[-1][1].again(still))
-
-    def by(self, hand: Instrument, first: int = 0) -> Sheet:
-        """The drawing of hands that err in no act before the ``first``; readings may be taken of it, the steps of its
-        position may be missing.  Raises as `execute`."""
-        before = [(acts, polygons) for acts, polygons in self.kept if acts < first]
-        if not before:
-            begun = positioned(self.what, self.scales, hand, with_steps=False)
-        else:
-            hand.acts, kept = before[-1]
-            begun = kept.again(hand)
-        for order, element in [*self.what.in_order][max(0, len(before) - 1) :]:
-            draw_element(begun, order, element)
-        return finished(self.what, begun)
-
-
 Own = Mapping[Symbol, Value]
 
 
-class GoneOn:
-    """A plan continued from people's own values in place of drawn ones, one person after the other.
+class Stages:
+    """A plan drawn by some hands, its polygons kept after each element: from there other hands draw on that err in some
+    of their acts, and people from their own values in place of drawn ones.
 
-    ``own_values`` gives their changes.  The part before the first of them is taken from the drawing without any, and
-    the results of equal values are kept.
+    ``own_values`` gives the changes by a person's values; the results of equal values are kept.
     """
 
     KEPT = 256
 
-    def __init__(self, what: Task, scales: Scales, own_values: Callable[[Own], OwnValues]) -> None:
-        self.what, self.own_values = what, own_values
+    def __init__(
+        self, what: Task, scales: Scales, hand: Instrument = EXACT,
+        own_values: Callable[[Own], OwnValues] = lambda _: AS_DRAWN,
+    ) -> None:  # fmt: skip
+        self.what, self.scales, self.hand, self.own_values = what, scales, hand, own_values
         self.in_order = tuple(what.in_order)
-        self.kept = [*_stages(what, positioned(what, scales, with_steps=False), EXACT)]
-        """The polygons after a number of elements."""
-        self.found_by: dict[Symbol, int] = {}
-        """How many elements lead to each vector and rate; one more than there are, to what only a question asks for."""
-        for number, polygons in enumerate(self.kept[1:], 1):
-            self._note(polygons, number)
-        polygons = self.kept[-1].again(EXACT)
-        draw_asked(polygons, what.asked)
-        self._note(polygons, len(self.kept))
+        polygons = positioned(what, scales, hand)
+        self.after = [(hand.acts, polygons)]
+        """The acts of the hand, and the polygons, after a number of elements."""
+        for order, element in self.in_order:
+            polygons = polygons.again(hand)
+            draw_element(polygons, order, element)
+            self.after.append((hand.acts, polygons))
         self.others: dict[tuple[int, frozenset[tuple[Symbol, Value]]], Polygons] = {}
 
-    def _note(self, polygons: Polygons, number: int) -> None:
-        rates = [Symbol(RATE[order], link=link) for order, found in polygons.rates.items() for link in found]
-        for symbol in (*(s for drawn in polygons.drawn.values() for s in drawn), *rates):
-            self.found_by.setdefault(symbol, number)
+    @cached_property
+    def sheet(self) -> Sheet:
+        """The drawing as it was kept."""
+        return finished(self.what, self.after[-1][1].again(self.hand))
+
+    def by(self, hand: Instrument, first: int = 0) -> Sheet:
+        """The drawing of hands that err in no act before the ``first``; readings may be taken of it, the steps of its
+        position may be missing.  Raises as `execute`."""
+        before = [(acts, polygons) for acts, polygons in self.after if acts < first]
+        if not before:
+            polygons = positioned(self.what, self.scales, hand, with_steps=False)
+        else:
+            hand.acts, kept = before[-1]
+            polygons = kept.again(hand)
+        for order, element in self.in_order[max(0, len(before) - 1) :]:
+            draw_element(polygons, order, element)
+        return finished(self.what, polygons)
+
+    @cached_property
+    def found_by(self) -> Mapping[Symbol, int]:
+        """The number of elements that lead to each vector and rate; one more than there are, to what only a question
+        asks for."""
+        asked = self.after[-1][1].again(EXACT)
+        draw_asked(asked, self.what.asked)
+        numbers: dict[Symbol, int] = {}
+        for number, polygons in enumerate([*(polygons for _, polygons in self.after[1:]), asked], 1):
+            rates = [Symbol(RATE[order], link=link) for order, links in polygons.rates.items() for link in links]
+            for symbol in (*(s for drawn in polygons.drawn.values() for s in drawn), *rates):
+                numbers.setdefault(symbol, number)
+        return numbers
 
     def to(self, symbol: Symbol, own: Own) -> Polygons | None:
-        """The polygons up to a vector or rate; None where no element leads to it.  Raises as
-        `execute`."""
+        """The polygons up to a vector or rate, drawn from a person's own values; None where no element leads to it.
+        Raises as `execute`."""
         number = self.found_by.get(symbol)
         if number is None:
             return None
-        if number < len(self.kept):
-            return self._after(number, own)
-        polygons = self._after(number - 1, own).again(EXACT)
+        if number < len(self.after):
+            return self._from(number, own)
+        polygons = self._from(number - 1, own).again(EXACT)
         draw_asked(polygons, self.what.asked)
         return polygons
 
-    def _after(self, number: int, own: Own) -> Polygons:
-        """The polygons after a number of elements."""
+    def _from(self, number: int, own: Own) -> Polygons:
+        """The polygons after a number of elements, drawn from own values."""
         own = {s: value for s, value in own.items() if self.found_by.get(s, number + 1) <= number}
         if not own:
-            return self.kept[number]
+            return self.after[number][1]
         key = number, frozenset(own.items())
         if key not in self.others:
-            polygons = self._after(number - 1, own).again(EXACT)
+            polygons = self._from(number - 1, own).again(EXACT)
             polygons.own_values = self.own_values(own)
             draw_element(polygons, *self.in_order[number - 1])
             while len(self.others) >= self.KEPT:
@@ -382,7 +373,7 @@ def _plan(
     triangles: tuple[Inversion, ...] = ()
     start: Assembly | None = None
     if opened is not structure:
-        taken, start = own_assembly(structure, elements, inversions_of(structure))
+        taken, start = own_assembly(structure, elements)
         own = {**start.values}
         triangles = tuple(v.followed(own, values) for v in taken)
         values |= {v.key: v.near(own[v.key], v.value(values)) for v in triangles}
@@ -570,12 +561,6 @@ def opened_at_triangles(structure: Structure) -> Structure:
     return replace(structure, scene=replace(scene, drivers=drivers), elements=tuple(elements))
 
 
-def inversions_of(structure: Structure) -> tuple[Inversion, ...]:
-    """The driven triangles of a structure, in the drawing order of their groups."""
-    triangles = (triangle for group in structure.larger_groups if group.parts for triangle in group.triangles)
-    return tuple(Inversion(t, analyse(_held(structure.scene, t))) for t in triangles)
-
-
 def _held(scene: Mechanism, triangle: DrivenTriangle) -> Mechanism:
     """The links of a triangle alone, with the held link as the frame."""
     alone = without(scene, {link.name for link in scene.links} - {triangle.held, *triangle.links})
@@ -584,9 +569,7 @@ def _held(scene: Mechanism, triangle: DrivenTriangle) -> Mechanism:
     return replace(alone, frame=frame, links=links, drivers=(triangle.driver,), sketch={}, drawn={})
 
 
-def own_assembly(
-    structure: Structure, elements: Sequence[Element], inversions: Sequence[Inversion]
-) -> tuple[list[Inversion], Assembly]:
+def own_assembly(structure: Structure, elements: Sequence[Element]) -> tuple[list[Inversion], Assembly]:
     """The assembly of a scene with driven triangles at its own position.
 
     Returns
@@ -602,11 +585,12 @@ def own_assembly(
 
     def of_group(paper: PlacedLinks, group: LargerGroup) -> Poses:
         parts = [element for element in group.parts if element in elements]
-        found = list(_ways(paper, parts, [v for v in inversions if v.triangle in group.triangles]))
-        if not found:
+        inversions = [Inversion(t, analyse(_held(structure.scene, t))) for t in group.triangles]
+        assemblies = list(_assemblies(paper, parts, inversions))
+        if not assemblies:
             raise stuck("not assembled", group_named(group), "no assembly of the group fits together here")
-        index = pick(structure.scene, group.links, [paper.fresh(poses) for _, _, poses in found], None)
-        triangles, paper.values, poses = found[index]
+        index = pick(structure.scene, group.links, [paper.fresh(poses) for _, _, poses in assemblies], None)
+        triangles, paper.values, poses = assemblies[index]
         taken.extend(triangles)
         return poses
 
@@ -614,7 +598,7 @@ def own_assembly(
     return taken, Assembly(paper.values, paper.poses)
 
 
-def _ways(
+def _assemblies(
     paper: PlacedLinks, elements: Sequence[Driven | Dyad], inversions: Sequence[Inversion]
 ) -> Iterator[tuple[list[Inversion], Mapping[str, float], Poses]]:
     """Every assembly of the dyads of a group and of its triangles: these, the driver values with those of the

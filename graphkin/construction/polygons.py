@@ -104,7 +104,7 @@ class Polygons:
     def begin(self, ground: str) -> None:
         """Begin empty polygons with a link as the ground: its points are in the poles."""
         self.ground = ground
-        self.still = self._never_turning()
+        self.still = self.structure.turning_with(ground)  # links that can only translate
         self.seen: dict[str, Polygons] = {}  # polygons with a link of a contour held still, by that link
         fixed = dict.fromkeys(map(PointRef, self.links[ground].points), 0j)
         self.ends: dict[Order, dict[PointRef, complex]] = {order: dict(fixed) for order in ORDERS}
@@ -188,18 +188,6 @@ class Polygons:
     def fixed(self, ref: PointRef) -> bool:
         """Whether a node is a point of the frame."""
         return ref.link == self.ground or (not ref.link and ref.point in self.links[self.ground].points)
-
-    def _never_turning(self) -> set[str]:
-        """Links that slide on the frame, or on such links, and so can only translate."""
-        still = {self.ground}
-        grown = True
-        while grown:
-            grown = False
-            for s in self.structure.slides:
-                if len({s.a, s.b} & still) == 1:
-                    still |= {s.a, s.b}
-                    grown = True
-        return still
 
     def touch(self, name: str) -> Touch:
         """The place of a contact, or of the mesh of wheels."""
@@ -394,7 +382,8 @@ def draw_asked(plot: Polygons, asked: Sequence[Symbol]) -> None:
             continue
         of, to = (node(plot.links, ref.point, ref.link) if ref and ref.link else ref for ref in (symbol.of, symbol.to))
         assert of is not None
-        if not all(_reachable(plot, ref) for ref in (of, to) if ref):
+        rated = plot.rates["velocity"].keys()
+        if not all(ref.point in plot.places and rated & _holders(plot, ref) for ref in (of, to) if ref):
             continue
         tail, tip = plot.end(order, to) if to else 0j, plot.end(order, of)
         role = PARTS.get(symbol.kind) or ("relative" if to else "resultant")
@@ -417,10 +406,6 @@ def draw_asked(plot: Polygons, asked: Sequence[Symbol]) -> None:
 def _holders(plot: Polygons, ref: PointRef) -> list[str]:
     """The links that have a point, or the link of the point."""
     return [ref.link] if ref.link else [name for name, link in plot.links.items() if ref.point in link.points]
-
-
-def _reachable(plot: Polygons, ref: PointRef) -> bool:
-    return ref.point in plot.places and any(n in plot.rates["velocity"] for n in _holders(plot, ref))
 
 
 def _joining(plot: Polygons, symbol: Symbol, of: PointRef, to: PointRef) -> complex:

@@ -43,19 +43,6 @@ def normal(a: Place) -> Place:
 
 
 @dataclass(frozen=True)
-class LinkMotion:
-    """A link moves so that its point ``at`` (mm) has ``velocity`` (mm/s on paper), and turns at ``omega`` (rad/s)."""
-
-    at: complex
-    velocity: complex
-    omega: float
-
-    def of(self, z: complex) -> complex:
-        """Velocity (mm/s on paper) of the point of the link that lies at z (mm)."""
-        return self.velocity + 1j * self.omega * (z - self.at)
-
-
-@dataclass(frozen=True)
 class ProjectiveChart:
     """The sheet as seen from the middle of the mechanism: ``unit`` (mm) is half its size, so that it spans about 1."""
 
@@ -88,13 +75,13 @@ class ProjectiveChart:
         sense = -1.0 if x < 0.0 or (x == 0.0 and y < 0.0) else 1.0
         return complex(x, y) * (sense / size)
 
-    def pole(self, at: complex, velocity: complex, omega: float) -> tuple[Place, float]:
-        """The pole of the motion that gives the point ``at`` (mm) a velocity (mm/s) and turns at ``omega`` (rad/s).
-        Returns the place and the strength: 0 at rest (and then the place has no meaning).
+    def pole(self, velocity: complex, omega: float) -> tuple[Place, float]:
+        """The pole of the motion that gives the middle a velocity (mm/s) and turns at ``omega`` (rad/s).  Returns the
+        place and the strength: 0 at rest (and then the place has no meaning).
 
-        The velocity of z is i omega (z - pole): with pole = q / omega, q = omega z + i v at any z.
+        The velocity of z is i omega (z - pole): with pole = q / omega from the middle, q = i v there.
         """
-        q = omega * (at - self.middle) / self.unit + 1j * velocity / self.unit
+        q = 1j * velocity / self.unit
         strength = math.hypot(abs(q), omega)
         if strength == 0.0:
             return (0.0, 0.0, 0.0), 0.0

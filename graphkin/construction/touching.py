@@ -21,7 +21,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.pairs import LawCam, PlacedContact, PlacedGear, SlidingFollower
 
 POINTS = 180
-"""Points of an outline, those at the seams beside them."""
+"""Stations of a turn, those at the seams besides them."""
 
 
 @dataclass(frozen=True)
@@ -231,15 +231,15 @@ def station(cam: LawCam, degree: float, lift: Lift | None = None) -> CamStation:
 
 
 @lru_cache(maxsize=64)
-def outline(cam: LawCam) -> tuple[complex, ...]:
-    """The profile in the cam's own axes, point by point over a turn (m); both sides of each seam."""
-    profile: list[complex] = []
+def stations(cam: LawCam) -> tuple[CamStation, ...]:
+    """The follower turned back to many places around a turn (lengths in m); on both sides of each seam of the law."""
+    around: list[CamStation] = []
     for part in cam.law.parts:
         count = max(2, math.ceil(POINTS * (part.end - part.start) / TURN))
         for k in range(count + 1):
             degree = part.start + (part.end - part.start) * k / count
-            profile.append(station(cam, degree, part.at(degree)).contact)
-    return tuple(profile)
+            around.append(station(cam, degree, part.at(degree)))
+    return tuple(around)
 
 
 def outlines_on_paper(scene: Mechanism, poses: Mapping[str, Pose], mm: float) -> Mapping[str, tuple[complex, ...]]:
@@ -248,5 +248,5 @@ def outlines_on_paper(scene: Mechanism, poses: Mapping[str, Pose], mm: float) ->
     for cam in scene.cams:
         if cam.link in poses:
             pose = poses[cam.link]
-            outlines[cam.link] = tuple(pose.origin + pose.axis * z * mm for z in outline(cam))
+            outlines[cam.link] = tuple(pose.origin + pose.axis * at.contact * mm for at in stations(cam))
     return outlines

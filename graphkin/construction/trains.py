@@ -412,7 +412,7 @@ def rolled(
     Unsolvable : "not drawn": no plan leads to it
     """
     scene, links, (kind, name) = structure.scene, structure.links, wanted
-    alike = _alike(structure, name) if kind == "angle" else {name}
+    alike = structure.turning_with(name) if kind == "angle" else {name}
     touching = [c for c in scene.contacts if {*c.links} <= links.keys()]
     meshes = meshes_of(scene, touching, [g for g in scene.gears if {*g.wheels, g.carrier} <= links.keys()], links)
     for train in trains(meshes, scene.frame.name):
@@ -437,15 +437,6 @@ def rolled(
         return drawn, step.value, step.mm, steps
     raise Unsolvable("not drawn", Problem(Phrase("link of name", name=name),
                                           "no velocity plan leads to what rolls here"))
-
-
-def _alike(structure: Structure, name: str) -> set[str]:
-    """Links that turn alike because they slide on each other."""
-    alike, more = set[str](), {name}
-    while more:
-        alike |= more
-        more = {n for s in structure.slides if {s.a, s.b} & alike for n in (s.a, s.b)} - alike
-    return alike
 
 
 def _steps(scene: Mechanism, plan: TrainPlan) -> Iterator[Step]:

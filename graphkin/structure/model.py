@@ -377,6 +377,10 @@ class Structure:
         """Its mechanism, or the mechanism with cams that this one replaces."""
         return self if self.scene.instead_of is None else self.scene.instead_of
 
+    def turning_with(self, link: str) -> set[str]:
+        """A link, and the links that turn as it does because they slide on it, or on such links."""
+        return {*reached([link], lambda name: [slide.other(name) for slide in self.slides if name in slide.links])}
+
     def slide(self, key: str) -> Pair:
         """The sliding pair or pin in slot of that name."""
         return next(s for s in self.slides if s.key == key)

@@ -14,7 +14,7 @@ from graphkin.checking.readings import read_off
 from graphkin.checking.slips import Evidence
 from graphkin.construction import elements, execute, plan
 from graphkin.construction.instruments import EXACT, nudged
-from graphkin.construction.plan import Redrawn, positioned
+from graphkin.construction.plan import Stages, positioned
 from graphkin.construction.seen_from import contours
 from graphkin.scene import mechanism_of
 from graphkin.scene.scene_tables import Tools
@@ -182,10 +182,10 @@ def test_a_rate_seen_from_a_held_link_bears_the_name_of_that_last() -> None:
 def test_a_contour_is_drawn_again_by_hands_that_err_in_one_of_its_acts(name: str) -> None:
     scene = mechanism_of(SCENES[name])
     what, still = plan(scene, find=()), nudged("pencil", Tools())
-    redrawn = Redrawn(what, what.scales, still)
+    stages = Stages(what, what.scales, still)
     for act in range(1, still.acts + 1, 12):
         whole, gone_on = (
-            {r.symbol: r.value for r in read_off(redrawn.by(nudged("pencil", Tools(), {act: 1.0}), first))}
+            {r.symbol: r.value for r in read_off(stages.by(nudged("pencil", Tools(), {act: 1.0}), first))}
             for first in (0, act)
         )
         for symbol, value in whole.items():
