@@ -273,7 +273,7 @@ def find_centres(
     moving = _moving(scene)
     if sheet is None or moving is not scene or not set(sheet.structure.links) <= set(sheet.poses):
         sheet = draft(of if moving is scene else moving, at, (), instrument, near=None if near is None else near.sheet)
-    if scene.cams and scene.instead_of is None:
+    if scene.driving_cams:
         scene = sheet.scene  # with the pins on pitch curves and faces, which have normals
     return _with_table(_placed(scene, sheet), instrument)
 

@@ -166,8 +166,8 @@ def limits_asked(
     Unsolvable : no whole turn, or a link that has no limit positions
     CallError : an unknown sliding pair
     """
-    if structure.scene.instead_of is not None:
-        return _follower_limits(structure.scene.instead_of, asked, values)
+    if structure.scene.cams:
+        return _follower_limits(structure.scene.whole, asked, values)
     limits: dict[str, Limits] = {}
     turn: TurnOfCrank | None = None
     for symbol in asked:
@@ -214,7 +214,7 @@ def limits_on_paper(
 ) -> dict[str, Limits]:  # fmt: skip
     """Limit positions, found by exact hands on paper of the mechanism's size, drawn at a scale by any hands."""
     mm, key, found_again = 1.0 / scales.length, structure.scene.drivers[0].key, dict[str, Limits]()
-    if hand.faultless or structure.scene.instead_of is not None:
+    if hand.faultless or structure.scene.cams:
         return {pair: limits.scaled(structure.scene.size * mm) for pair, limits in found.items()}
     for pair, limits in found.items():
         drawn = []

@@ -58,8 +58,7 @@ def joints(mechanism: Mechanism) -> tuple[ForceJoint, ...]:
         found += [ForceJoint("turning", hosts.get(name, first), name, point) for name in meeting if name != first]
     found += [ForceJoint("slot" if s.of else "sliding", s.on, s.of or s.link, s.point)
               for s in mechanism.slides if {s.on, s.of or s.link} <= here]
-    if mechanism.instead_of is None:
-        found += [ForceJoint("cam", c.link, c.follower, "") for c in mechanism.cams if {c.link, c.follower} <= here]
+    found += [ForceJoint("cam", c.link, c.follower, "") for c in mechanism.driving_cams if {c.link, c.follower} <= here]
     for contact in mechanism.contacts:
         if set(contact.links) <= here:
             # where another link holds the centres apart only the force along the tangent is the contact's

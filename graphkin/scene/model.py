@@ -416,6 +416,11 @@ class Mechanism:
         known = self.question.positions.names if self.question.positions else ()
         return no_position(where, name, known)
 
+    @property
+    def driving_cams(self) -> tuple[LawCam, ...]:
+        """The cams that move their followers by their law; none where links that replace them do."""
+        return self.cams if self.instead_of is None else ()
+
     def asking(self, **changed: Any) -> Mechanism:
         """This mechanism with parts of its question changed: ``find``, the wishes of its ``sheet``, and so on."""
         return replace(self, question=replace(self.question, **changed))

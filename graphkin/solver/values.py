@@ -161,11 +161,8 @@ def _of_forces_here(motion: Motion, symbol: Symbol) -> Value:
 
 def _of_cams(motion: Motion) -> Motion:
     """The motion of the mechanism with cams itself, where another replaces it; the links move alike."""
-    whole = motion.scene.instead_of
-    if whole is None:
-        return motion
-    structure = structure_of(whole)
-    return replace(motion, structure=structure)
+    whole = motion.scene.whole
+    return motion if whole is motion.scene else replace(motion, structure=structure_of(whole))
 
 
 def as_drawn(motion: Motion, structure: Structure) -> Motion:
@@ -174,7 +171,7 @@ def as_drawn(motion: Motion, structure: Structure) -> Motion:
     solved = motion.structure.scene
     if len(solved.drivers) < len(structure.scene.drivers):  # solved for what leads to the asked alone
         structure = structure_of(part_of(structure, solved.question.find))
-    if structure.scene.instead_of is None and structure.links.keys() == motion.structure.links.keys():
+    if structure.whole is structure and structure.links.keys() == motion.structure.links.keys():
         return motion
     poses = dict(motion.poses)
     for slide in structure.slides:

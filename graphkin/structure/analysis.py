@@ -94,7 +94,7 @@ def _placed(scene: Mechanism) -> Structure:
             slides.append(slide_pair(scene, s))
     contacts = [c for c in scene.contacts if {*c.links, c.carrier} - {""} <= links.keys()]
     gears = [g for g in scene.gears if {*g.wheels, g.carrier} <= links.keys()]
-    cams = [c for c in scene.cams if scene.instead_of is None and {c.link, c.follower} <= links.keys()]
+    cams = [c for c in scene.driving_cams if {c.link, c.follower} <= links.keys()]
     for contact in contacts:
         link, slide = replacing_link(contact, links)
         links[link.name] = link

@@ -154,9 +154,7 @@ class MechanismOnPaper:
     @cached_property
     def replaced_pairs(self) -> frozenset[str]:
         """Keys of the sliding pairs that replace a cam and its follower."""
-        whole = self.scene.instead_of
-        held = self.scene.pins if whole is None else whole.pins
-        return frozenset(pin.key for pin in self.scene.pins) - {pin.key for pin in held}
+        return frozenset(pin.key for pin in self.scene.pins) - {pin.key for pin in self.scene.whole.pins}
 
     @cached_property
     def sliders(self) -> tuple[Slider, ...]:
