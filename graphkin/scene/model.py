@@ -355,6 +355,7 @@ class Mechanism:
     ``instead_of`` is the mechanism with cams that this one replaces: both have the same velocities and accelerations at
     this position.  ``starts`` give the start of rolling motions at the scene's own position: the angle of a link's own
     axis (rad), or the travel (m) of a sliding pair or of a contact by its block.
+    ``driving_cams`` move their followers by their law: none where links that replace them do.
     ``by_name`` has every link, the frame included; ``order`` the place of each in the file, the frame last; ``holders``
     for each point the links that have it, the frame first; ``size`` (m) is the largest distance given in the file.
     """
@@ -377,6 +378,7 @@ class Mechanism:
     question: Question = field(default_factory=Question)
     slidings: tuple[SlidingPair, ...] = field(init=False, repr=False, compare=False)
     pins: tuple[SlidingPair, ...] = field(init=False, repr=False, compare=False)
+    driving_cams: tuple[LawCam, ...] = field(init=False, repr=False, compare=False)
     by_name: Mapping[str, PlacedLink] = field(init=False, repr=False, compare=False)
     order: Mapping[str, int] = field(init=False, repr=False, compare=False)
     holders: Mapping[str, tuple[str, ...]] = field(init=False, repr=False, compare=False)
@@ -416,11 +418,6 @@ class Mechanism:
         known = self.question.positions.names if self.question.positions else ()
         return no_position(where, name, known)
 
-    @property
-    def driving_cams(self) -> tuple[LawCam, ...]:
-        """The cams that move their followers by their law; none where links that replace them do."""
-        return self.cams if self.instead_of is None else ()
-
     def asking(self, **changed: Any) -> Mechanism:
         """This mechanism with parts of its question changed: ``find``, the wishes of its ``sheet``, and so on."""
         return replace(self, question=replace(self.question, **changed))
@@ -436,6 +433,7 @@ class Mechanism:
             for point in link.points:
                 holders.setdefault(point, []).append(link.name)
         self.__dict__.update(
+            driving_cams=self.cams if self.instead_of is None else (),
             slidings=tuple(pair for pair in self.slides if not pair.of), pins=tuple(p for p in self.slides if p.of),
             by_name={link.name: link for link in each},
             order={link.name: i for i, link in enumerate((*self.links, self.frame))},

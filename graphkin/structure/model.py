@@ -375,7 +375,7 @@ class Structure:
     @property
     def whole(self) -> Structure | Mechanism:
         """Its mechanism, or the mechanism with cams that this one replaces."""
-        return self if self.scene.whole is self.scene else self.scene.whole
+        return self if self.scene.instead_of is None else self.scene.instead_of
 
     def turning_with(self, link: str) -> set[str]:
         """A link, and the links that turn as it does because they slide on it, or on such links."""
