@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from cmath import phase
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise, product
 from typing import TypeAlias
 
@@ -114,23 +114,20 @@ def _bars(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts | 
         if len(link.bar) < 2 and along_its_guide(scene, link):
             beside = off_its_guide(scene, link)  # dimensioned along their guide
             spans = [span for span in spans if span[1] not in beside]
-        for corner in corners:
-            parts = _corner(link, places, room, *corner)
+        for start, at, end in (corner for corner in corners if places.keys() >= {*corner}):
+            turn, first = _angle(link, start, at, end), phase(places[start] - places[at])
+            parts = _turned(room, on_page(places[at]), (first,), turn, ANGLE_RADII)
             if parts is not None:
                 yield parts
         for one, other in spans:
             if one not in places or other not in places or abs(places[one] - places[other]) < 1.0:
                 continue
-            start, end = on_page(places[one]), on_page(places[other])
+            ends = on_page(places[one]), on_page(places[other])
             value = abs(link.points[other] - link.points[one]) / here.scene.units.metres
             runs = rich(written(as_given(value)), SIZE)
-            parts = None
-            if abs(end - start) >= LEAST:
-                parts = room.take(dimension(start, end, offset, runs) for offset in OFFSETS)
-            if parts is not None:
-                yield parts
-            else:
-                yield Label.of(runs, (start, end), f"label-length-{one}{other}", rank=1, classes=("length",))
+            long = abs(ends[1] - ends[0]) >= LEAST
+            parts = room.take(dimension(*ends, offset, runs) for offset in OFFSETS) if long else None
+            yield parts or Label.of(runs, ends, f"label-length-{one}{other}", rank=1, classes=("length",))
 
 
 def _spans(link: PlacedLink, metres: float) -> tuple[list[tuple[str, str]], list[tuple[str, str, str]]]:
@@ -155,16 +152,6 @@ def _angle(link: PlacedLink, start: str, at: str, end: str) -> float:
     """From one point of a link to another about a third (rad, -pi to pi)."""
     z = link.points[at]
     return phase((link.points[end] - z) / (link.points[start] - z))
-
-
-def _corner(
-    link: PlacedLink, places: Mapping[str, complex], room: DimensionClearance, start: str, at: str, end: str
-) -> Parts | None:
-    """The angle of a link about one of its points."""
-    if not {start, at, end} <= set(places):
-        return None
-    turn = _angle(link, start, at, end)
-    return _turned(room, on_page(places[at]), (phase(places[start] - places[at]),), turn, ANGLE_RADII)
 
 
 def _turned(
@@ -428,7 +415,9 @@ def _on_link(
     if len(pairs) == 2:
         ways = [pose.axis / pair.turn for pair in pairs]
         tried.append(_guide_angle(room, pose.origin, ways[0], ways[1]))
-    elif pairs and abs(pairs[0].turn.imag) > LEVEL and _shows_its_axis(link, shown):
+    elif pairs and abs(pairs[0].turn.imag) > LEVEL and (  # its own axis is drawn: as a bar, or as a guide in use
+        len(link.bar) == 2 or any(s.slide.b == link.name and not s.slide.guide.name for s in shown)
+    ):
         tried.append(_guide_angle(room, pose.origin, pose.axis / pairs[0].turn, pose.axis))
     for guide in used_guides(scene, link):
         on = next((s for s in shown if s.slide.b == link.name and s.slide.guide.name == guide.name), None)
@@ -448,11 +437,6 @@ def _drawn_at(here: MechanismOnPaper, link: PlacedLink, corner: complex) -> bool
     shape = next((s for s in here.shapes if s.link == link.name), None)
     ends = [end for segment in (shape.segments if shape else ()) for end in segment]
     return sum(abs(end - corner) < NEAR for end in ends) > 1
-
-
-def _shows_its_axis(link: PlacedLink, shown: Sequence[Slider]) -> bool:
-    """Whether the own axis of a link is drawn: as a bar, or as a guide in use."""
-    return len(link.bar) == 2 or any(s.slide.b == link.name and not s.slide.guide.name for s in shown)
 
 
 def _guide_angle(room: DimensionClearance, at: complex, one: complex, other: complex) -> Parts | None:

@@ -100,7 +100,7 @@ def polygon_with_insets(
             if len(clearer[2]) < len(crowd):
                 here, boxes, (figure, pieces, _) = there, more, clearer
             break
-    pieces = [*(named_inset(sheet, one, letters, box) for one, box in zip(shown, boxes, strict=False)), *pieces]
+    pieces = [*(coriolis_inset(sheet, one, letters, box) for one, box in zip(shown, boxes, strict=False)), *pieces]
     around = obstacles_of(figure.drawn) + Obstacles(areas=tuple(boxes))
     keyed = {one.step for one in figure.layers["labels"] if isinstance(one, Text) and one.step is not None}
     names = {one.id: text_box(one) for one in figure.layers["labels"] if isinstance(one, Text)}
@@ -138,34 +138,19 @@ def _with_details(
     pieces = []
     shown: set[str] = set()
     again: set[str] = set()  # with the letters that stand at other vectors too
-    for number, (one, box) in enumerate(zip(here.enlarged, boxes, strict=False), 1):
-        pieces.append(_named_detail(here, own, one, box, number))
-        letters = _shown_in(pieces[-1])
+    for number, (detail, box) in enumerate(zip(here.enlarged, boxes, strict=False), 1):
+        middle, reach = here.at(detail.centre), detail.radius + 0.6
+        points = [name for name in own.labels if isinstance(name.mark, complex) and abs(name.mark - middle) <= reach]
+        inset = _detail_inset(here, detail, box, number, points)
+        pieces.append(inset)
+        ids = (text.id for text in inset.layers["labels"] if isinstance(text, Text))
+        letters = {id.replace("label-detail-", "label-") for id in ids}
         again |= letters
-        shown |= {id for id in letters if one.crowd is not None or id.startswith("label-foot-")}
+        shown |= {id for id in letters if detail.crowd is not None or id.startswith("label-foot-")}
     own = replace(own, labels=tuple(label for label in own.labels if label.text.id not in shown))
     figure, crowd = with_crowd(own, here.panel, fences)
     again &= {label.text.id for label in crowd}
     return without(figure, again), pieces, tuple(label for label in crowd if label.text.id not in again)
-
-
-def _named_detail(here: PolygonOnPage, own: Piece, one: Detail, box: Box, number: int) -> Piece:
-    return with_labels(*_detail_inset(here, one, box, number, _points_in(own, here, one)))
-
-
-def _shown_in(inset: Piece) -> set[str]:
-    """The ids of the names that an inset shows."""
-    return {
-        text.id.replace("label-detail-", "label-") for text in inset.layers["labels"] if isinstance(text, Text)
-    }
-
-
-def _points_in(piece: Piece, here: PolygonOnPage, detail: Detail) -> list[Label]:
-    """The letters of points in an enlarged place."""
-    middle = here.at(detail.centre)
-    return [
-        one for one in piece.labels if isinstance(one.mark, complex) and abs(one.mark - middle) <= detail.radius + 0.6
-    ]
 
 
 def strip_height(sheet: Sheet, diagram: DiagramName, width: float) -> float:
@@ -178,11 +163,9 @@ def _coriolis(sheet: Sheet, diagram: DiagramName) -> list[CoriolisTerm]:
     return coriolis_terms(sheet) if diagram == "acceleration" else []
 
 
-def _detail_inset(
-    here: PolygonOnPage, detail: Detail, box: Box, number: int, points: Sequence[Label]
-) -> tuple[Piece, Box]:
-    """The inset in a box of the page, and the part of it in which its names may stand; ``points`` are the letters of
-    the points in it."""
+def _detail_inset(here: PolygonOnPage, detail: Detail, box: Box, number: int, points: Sequence[Label]) -> Piece:
+    """The inset of an enlarged place in a box of the page, with its names; ``points`` are the letters of the points in
+    it."""
     inner = _inside(box, CAPTION)
     sheet, letters = here.sheet, here.letters
 
@@ -223,7 +206,7 @@ def _detail_inset(
     if runs_width(runs) > box.width - 1.6:
         runs = fitted(f"{numeral(number)} ({detail.factor:g} : 1)", NUMERAL, box.width - 1.6)
     drawn = _inset(box, here.diagram, parts, runs, 1.6, id, f"label-{id}", classes, detail.crowd)
-    return dated(replace(drawn, labels=tuple(names)), here.since(detail)), inner
+    return with_labels(dated(replace(drawn, labels=tuple(names)), here.since(detail)), inner)
 
 
 def _inside(box: Box, caption: float) -> Box:
@@ -304,7 +287,10 @@ def _mechanism_detail(
     words = fitted(f"{_enlarged(factor, language)}, {letters_of_both}", 2.6, box.width - 1.6)
     parts, classes = named.layers["mechanism"], ("inset", "detail")
     frame = _inset(box, "mechanism", parts, words, 1.6, "detail-mechanism", "label-detail-mechanism", classes)
-    labels = map_tree(named.layers.get("labels", ()), _renamed)
+    labels = tuple(
+        replace(thing, id=f"label-detail-{thing.id.removeprefix('label-')}", step=None, since=None)
+        if isinstance(thing, Text) else thing for thing in named.layers.get("labels", ())
+    )  # fmt: skip
     return joined((Piece({"labels": labels}), frame))
 
 
@@ -321,13 +307,6 @@ def _nearest(sheet: Sheet) -> tuple[PointRef, PointRef] | None:
 def _plain(thing: Primitive) -> Primitive:
     """The primitive without its id, which the mechanism itself has."""
     return Group(thing.children, "", thing.classes) if isinstance(thing, Group) else thing
-
-
-def _renamed(thing: Primitive) -> Primitive:
-    if isinstance(thing, Text):
-        id = f"label-detail-{thing.id.removeprefix('label-')}"
-        return Text(thing.at, thing.runs, thing.anchor, thing.colour, id, thing.classes)
-    return thing
 
 
 CoriolisTerm: TypeAlias = tuple[Vector, Vector, Size | None]
@@ -353,8 +332,8 @@ def coriolis_terms(sheet: Sheet) -> list[CoriolisTerm]:
     return found
 
 
-def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Letters, box: Box) -> tuple[Piece, Box]:
-    """The inset in a box of the page, and the part of it in which its names may stand."""
+def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Letters, box: Box) -> Piece:
+    """The inset of a Coriolis term in a box of the page, with its names."""
     vector, velocity, rule = term
     slip, turned = unit(velocity.span), unit(vector.span)
     sense = 1 if cross(slip, turned) > 0 else -1
@@ -382,18 +361,13 @@ def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Letters, box: Box)
         caption = fitted(name, 2.8, box.width - 1.6)
     piece = _inset(box, "acceleration", parts, caption, 2.3, f"sense-{id}", f"label-sense-{id}", ("inset",))
     drawn = [step.number for step in sheet.steps if vector in step.strokes]
-    return dated(replace(piece, labels=tuple(names)), max(drawn, default=None)), inner
+    return with_labels(dated(replace(piece, labels=tuple(names)), max(drawn, default=None)), inner)
 
 
 def coriolis_row(sheet: Sheet, terms: Sequence[CoriolisTerm], letters: Letters, row: Box) -> Piece:
     """Insets of Coriolis terms side by side in a row, up to the last that fits."""
     boxes = inset_boxes(row, min(len(terms), per_row(row.width)))
-    return joined(named_inset(sheet, one, letters, box) for one, box in zip(terms, boxes, strict=False))
-
-
-def named_inset(sheet: Sheet, one: CoriolisTerm, letters: Letters, box: Box) -> Piece:
-    """The inset of a Coriolis term in its box, with its names."""
-    return with_labels(*coriolis_inset(sheet, one, letters, box))
+    return joined(coriolis_inset(sheet, one, letters, box) for one, box in zip(terms, boxes, strict=False))
 
 
 def per_row(width: float) -> int:

@@ -36,7 +36,6 @@ from graphkin.drawing.parts.mechanism_on_paper import (
     CurvedSlot,
     LinkShape,
     MechanismOnPaper,
-    Slider,
 )
 from graphkin.drawing.parts.polygon import same_place
 from graphkin.drawing.parts.touching import (
@@ -164,7 +163,10 @@ def _link(here: MechanismOnPaper, shape: LinkShape) -> Group:
     hidden = {b.slide.b for b in here.sliders if b.slide.key in here.cylinders}
     if shape.link not in hidden:
         parts += [Line(on_page(start), on_page(end), stroke) for start, end in shape.bars]
-        parts += _texture(here, shape)
+        texture = strokes.texture(here.scene.order[shape.link])  # distinguishes its lines in black and white
+        if texture is not None and not shape.redundant:
+            edges = zip(shape.corners, (*shape.corners[1:], *shape.corners[:1]), strict=True)
+            parts += [Line(on_page(start), on_page(end), texture) for start, end in (*shape.bars, *edges)]
         parts += _welds(here, shape, colour)
     for start, end in shape.slots:
         parts += symbols.slot(on_page(start), on_page(end), colour)
@@ -176,20 +178,13 @@ def _link(here: MechanismOnPaper, shape: LinkShape) -> Group:
             parts += symbols.cylinder(on_page(here.pivot(b)), on_page(b.at), colour)
     for b in here.sliders:
         if b.slide.a == shape.link and not b.slide.slot and b.slide.key not in here.cylinders:
-            parts += _block(here, b)
+            shrink = 0.72 ** here.nested(shape.link)
+            size = symbols.BLOCK_LENGTH * shrink, symbols.BLOCK_WIDTH * shrink
+            parts += symbols.block(on_page(b.at), phase(b.along), colour, *size)
         if b.slide.a == shape.link and b.slide.key in here.cylinders:
             start, end = here.rod(b)
             parts.append(Line(on_page(start), on_page(end), strokes.LINK.coloured(colour)))
     return Group(tuple(parts), id=f"link-{shape.link}", classes=("link",), since=here.since(shape.link))
-
-
-def _texture(here: MechanismOnPaper, shape: LinkShape) -> list[Primitive]:
-    """The texture that distinguishes the lines of a link in black and white."""
-    white = strokes.texture(here.scene.order[shape.link])
-    if white is None or shape.redundant:
-        return []
-    edges = zip(shape.corners, (*shape.corners[1:], *shape.corners[:1]), strict=True)
-    return [Line(on_page(start), on_page(end), white) for start, end in (*shape.bars, *edges)]
 
 
 def _curved(here: MechanismOnPaper, curved: CurvedSlot) -> Iterator[Primitive]:
@@ -202,12 +197,6 @@ def _curved(here: MechanismOnPaper, curved: CurvedSlot) -> Iterator[Primitive]:
         near = min(held or [curved.centre], key=lambda z: abs(z - rim))
         yield Line(on_page(near), on_page(rim), strokes.LINK.coloured(colour))
     yield from symbols.circular_slot(on_page(curved.centre), radius, curved.start, curved.end, colour)
-
-
-def _block(here: MechanismOnPaper, b: Slider) -> tuple[Primitive, ...]:
-    shrink = 0.72 ** here.nested(b.slide.a)
-    size = symbols.BLOCK_LENGTH * shrink, symbols.BLOCK_WIDTH * shrink
-    return symbols.block(on_page(b.at), phase(b.along), here.colour(b.slide.a), *size)
 
 
 def _welds(here: MechanismOnPaper, shape: LinkShape, colour: str) -> list[Primitive]:
@@ -368,7 +357,9 @@ def mechanism_piece(sheet: Sheet, letters: Letters, room: tuple[float, float] | 
     strokes far beyond its points are cut at the edge of the room.
     """
     here = MechanismOnPaper(sheet, letters)
-    bare = _without_lengths(here)
+    clear = clearance(here)
+    placed = contact_marks(here), links(here), _springs(here), compass_arcs(here), trial_marks_in_mechanism(sheet)
+    bare = joined((*placed, joints(here), drivers(here, clear), found_rates(here, clear)))
     around = ink_box(bare.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     if room is None or _fits(around, room):
         piece = _with_lengths(here, bare, None, room)
@@ -412,13 +403,6 @@ def bare_mechanism(sheet: Sheet, letters: Letters) -> Piece:
 
 def _marks(here: MechanismOnPaper) -> Piece:
     return Piece(marks=tuple(on_page(z) for z in here.places.values()))
-
-
-def _without_lengths(here: MechanismOnPaper) -> Piece:
-    clear = clearance(here)
-    bodies = joined((links(here), _springs(here)))
-    placed = joined((contact_marks(here), bodies, compass_arcs(here), trial_marks_in_mechanism(here.sheet)))
-    return joined((placed, joints(here), drivers(here, clear), found_rates(here, clear)))
 
 
 def _with_lengths(

@@ -223,7 +223,12 @@ class MechanismOnPaper:
     @cached_property
     def cylinders(self) -> frozenset[str]:
         """Driven slides that are drawn as cylinder and rod."""
-        return frozenset(b.slide.key for b in self.sliders if b.driven and self._is_cylinder(b))
+        found = []
+        for b in self.sliders:
+            if b.driven and b.slide.b != self.ground and not b.slide.slot:
+                rod = b.at - self.pivot(b)
+                found += [b.slide.key] if abs(cross(rod, b.along)) < 1e-3 and dot(rod, b.along) > 12.0 else []
+        return frozenset(found)
 
     def colour(self, link: str) -> str:
         return colour_of_link(self.scene, link)
@@ -238,7 +243,7 @@ class MechanismOnPaper:
         ways = [phase(w) for w in self.ways(here)]
 
         def cost(angle: float) -> float:
-            nearest = min((_turn(angle, way) for way in ways), default=math.pi)
+            nearest = min((abs(math.remainder(angle - way, math.tau)) for way in ways), default=math.pi)
             end = here + (symbols.FOOT_HEIGHT + 1.0) * complex(math.cos(angle), math.sin(angle))
             covered = sum(_inside(end, shape.corners) for shape in self.shapes)
             return FOOT[angle] + max(0.0, 0.9 - nearest) * 3 + 0.9 * covered
@@ -276,12 +281,6 @@ class MechanismOnPaper:
         """The visible part of a cylinder's rod."""
         pivot = self.pivot(b)
         return pivot + 0.6 * (b.at - pivot), b.at
-
-    def _is_cylinder(self, b: Slider) -> bool:
-        if b.slide.b == self.ground or b.slide.slot:
-            return False
-        pivot = self.pivot(b)
-        return abs(cross(b.at - pivot, b.along)) < 1e-3 and dot(b.at - pivot, b.along) > 12.0
 
 
 def _shape(
@@ -381,8 +380,3 @@ def _inside(z: complex, corners: tuple[complex, ...]) -> bool:
     """Whether a place lies in a convex area whose corners run counter-clockwise."""
     ends = zip(corners, (*corners[1:], *corners[:1]), strict=True)
     return len(corners) > 2 and all(cross(b - a, z - a) > 0 for a, b in ends)
-
-
-def _turn(a: float, b: float) -> float:
-    """Angle between two directions (rad, 0 to pi)."""
-    return abs((a - b + math.pi) % (2 * math.pi) - math.pi)

@@ -317,11 +317,8 @@ def _pole(here: PolygonOnPage, refs: Sequence[PointRef]) -> Piece:
 
 
 def _named(here: PolygonOnPage, markup: str, at: complex, id: str, rank: int, away: complex) -> tuple[Label, ...]:
-    if not markup:
-        return ()
-    text = Text(0j, symbol(markup), "start", strokes.BLACK, id.replace("@", ""), ("label",))
     toward = (phase(away),) if abs(away) > SAME else ()
-    return (Label(text, here.at(at), toward, rank),)
+    return (Label.of(symbol(markup), here.at(at), id.replace("@", ""), toward=toward, rank=rank),) if markup else ()
 
 
 def step_number(step: int, colour: str = strokes.GREY) -> Text:
@@ -335,13 +332,9 @@ BEYOND = 9.0  # mm: how far a direction line runs past the crossing
 
 def polygon_piece(here: PolygonOnPage) -> Piece:
     """Draw a polygon at its place; an enlarged place gets a ring, and its vectors have no names here."""
-    return joined((_construction(here), _vectors(here), points(here), _vector_names(here)))
-
-
-def _construction(here: PolygonOnPage) -> Piece:
-    """The thin strokes of the construction, with their names."""
-    shapes = Piece({"construction": (*rings(here), *_images(here))})
-    return joined((shapes, *trial_marks_in_polygon(here), *_bars(here), *_rays(here)))
+    areas, vectors = Piece({"construction": (*rings(here), *_images(here))}), Piece({here.diagram: (*_vectors(here),)})
+    construction = areas, *trial_marks_in_polygon(here), *_bars(here), *_rays(here)
+    return joined((*construction, vectors, points(here), Piece(labels=tuple(_vector_names(here)))))
 
 
 def rings(here: PolygonOnPage) -> Iterator[Group]:
@@ -401,6 +394,7 @@ def _images(here: PolygonOnPage) -> Iterator[Primitive]:
 
 
 def _bars(here: PolygonOnPage) -> Iterator[Piece]:
+    """Thin straight strokes; a vector added before its turn in the chain has an arrowhead and its name."""
     for step in here.steps:
         for bar in (s for s in step.strokes if isinstance(s, Bar)):
             if abs(bar.b - bar.a) <= SAME or here.covered(bar.a, bar.b):
@@ -410,27 +404,15 @@ def _bars(here: PolygonOnPage) -> Iterator[Piece]:
                 continue
             parts: list[Primitive] = [Line(*clipped, strokes.CONSTRUCTION)]
             names: list[Label] = []
-            if step.reason == "before its turn":
-                parts += _head(clipped, here.at(bar.b))
-                names += _carried(here, step, clipped)
+            carried, length, tip = step.reason == "before its turn", abs(clipped[1] - clipped[0]), here.at(bar.b)
+            if carried and abs(clipped[1] - tip) < SAME and length > 1.0:
+                head = min(POINTER.head_length, 0.7 * length)
+                parts.append(arrowhead(tip, clipped[1] - clipped[0], head, POINTER.head_width, strokes.BLACK))
+            if carried and length > 4.0:
+                markup, id = symbol(here.letters.arrow(step.symbol), 3.0), f"label-carried-{step.symbol.id}"
+                names.append(Label.of(markup, clipped, id, colour=strokes.GREY, rank=3, key=step_number(step.number)))
             drawn = Group(tuple(parts), classes=("construction",), step=step.number)
             yield dated(Piece({"construction": (drawn,)}, tuple(names)), step.number)
-
-
-def _head(line: Segment, tip: complex) -> Iterator[Primitive]:
-    """The arrowhead of a vector added before its turn in the chain."""
-    length = abs(line[1] - line[0])
-    if abs(line[1] - tip) < SAME and length > 1.0:
-        head = min(POINTER.head_length, 0.7 * length)
-        yield arrowhead(tip, line[1] - line[0], head, POINTER.head_width, strokes.BLACK)
-
-
-def _carried(here: PolygonOnPage, step: Step, line: Segment) -> Iterator[Label]:
-    """The name of a vector added before its turn in the chain."""
-    if abs(line[1] - line[0]) > 4.0:
-        markup = symbol(here.letters.arrow(step.symbol), 3.0)
-        yield Label.of(markup, line, f"label-carried-{step.symbol.id}", colour=strokes.GREY, rank=3,
-                       key=step_number(step.number))  # fmt: skip
 
 
 def _rays(here: PolygonOnPage) -> Iterator[Piece]:
@@ -469,42 +451,32 @@ def _line(here: PolygonOnPage, ray: Ray, end: complex) -> tuple[Segment | None, 
     return here.panel.clip(here.at(first), here.at(last)), beyond
 
 
-def _vectors(here: PolygonOnPage) -> Piece:
-    """Every vector as an arrow."""
-    return Piece({here.diagram: tuple(_arrow(here, step, vector) for step, vector in here.in_order())})
+def _vectors(here: PolygonOnPage) -> Iterator[Group]:
+    """Every vector as an arrow; one that lies beside its place has thin lines to its true ends."""
+    for step, vector in here.in_order():
+        tail, tip = here.drawn(vector)
+        group = vector_group(
+            vector.symbol.id, step, tail, tip, RESULTANT if vector.role == "resultant" else COMPONENT,
+            colour_of_vector(here.sheet, vector.symbol), spoken_vector(vector.symbol, here.language), (vector.role,),
+        )  # fmt: skip
+        ends = ((here.at(vector.tail), tail), (here.at(vector.tip), tip)) if vector.symbol in here.shifts else ()
+        ties = tuple(Line(true, shown, strokes.CONSTRUCTION) for true, shown in ends)
+        yield replace(group, children=(*group.children, *ties))
 
 
-def _arrow(here: PolygonOnPage, step: int, vector: Vector) -> Group:
-    tail, tip = here.drawn(vector)
-    group = vector_group(
-        vector.symbol.id, step, tail, tip, RESULTANT if vector.role == "resultant" else COMPONENT,
-        colour_of_vector(here.sheet, vector.symbol), spoken_vector(vector.symbol, here.language),
-        classes=(vector.role,),
-    )  # fmt: skip
-    if vector.symbol not in here.shifts:
-        return group
-    true = here.at(vector.tail), here.at(vector.tip)
-    ties = tuple(Line(z, w, strokes.CONSTRUCTION) for z, w in zip(true, (tail, tip), strict=True))
-    return replace(group, children=(*group.children, *ties))
-
-
-def _vector_names(here: PolygonOnPage) -> Piece:
-    """A name for vectors that share tail and tip; vectors of zero length are named in words."""
+def _vector_names(here: PolygonOnPage) -> Iterator[Label]:
+    """A name for vectors that share tail and tip, the longest first, without enlarged ones; vectors of zero length are
+    named in words."""
     letters = {same_place(point.at): point.letter for point in reversed(here.lettered.named)}
-    named = (_name(here, length, shared, letters) for length, shared in _shared(here))
-    return Piece(labels=tuple(name for name in named if name))
-
-
-def _shared(here: PolygonOnPage) -> Iterator[tuple[float, list[Vector]]]:
-    """Length, and vectors that share tail and tip, the longest first; without enlarged ones."""
     groups: dict[tuple[complex, complex, bool], list[Vector]] = {}
     for _, vector in here.in_order():
         key = same_place(vector.tail), same_place(vector.tip), vector.span == 0.0
         groups.setdefault(key, []).append(vector)
     elsewhere = {v.symbol for detail in here.enlarged for v in detail.vectors}
     for shared in sorted(groups.values(), key=lambda group: -round(abs(group[0].span), 6)):
-        if shared[0].symbol not in elsewhere:
-            yield abs(shared[0].span), sorted(shared, key=lambda v: here.vectors[v.symbol][0])
+        length, in_order = abs(shared[0].span), sorted(shared, key=lambda v: here.vectors[v.symbol][0])
+        if shared[0].symbol not in elsewhere and (name := _name(here, length, in_order, letters)) is not None:
+            yield name
 
 
 def _name(
@@ -520,24 +492,19 @@ def _name(
     markup = " = ".join(written(v.symbol) for v in vectors)
     id, step = f"label-{first.symbol.id}", here.vectors[first.symbol][0]
     if length < LEAST_DRAWN:
-        value = symbol(markup + " = 0") if length == 0.0 else rich(f"${markup}$ = {_valued(here, length)}", LETTER)
+        unit = unit_of(here.sheet, here.diagram)
+        size = f"{number(length * here.sheet.scales.of(here.diagram) / unit.si, 4)} {unit.written}"
+        value = symbol(markup + " = 0") if length == 0.0 else rich(f"${markup}$ = {size}", LETTER)
         return Label.of(value, here.at(first.tip), id, rank=3, since=step, key=step_number(step))
     resultants = all(v.role == "resultant" for v in vectors)
     text = Text(0j, symbol(markup), "start", colour_of_vector(here.sheet, first.symbol), id, ("label",), since=step)
     key = step_number(step, text.colour)
     if LEAST <= length < SHORT and len(here.vectors) <= MANY:
-        number = key.runs
-        by = runs_width(number) + BESIDE
-        text = replace(text, runs=(*number, *(run._replace(x=run.x + by) for run in text.runs)), step=step)
+        by = runs_width(key.runs) + BESIDE
+        text = replace(text, runs=(*key.runs, *(run._replace(x=run.x + by) for run in text.runs)), step=step)
     ends = [letters.get(same_place(end), "") for end in (first.tail, first.tip)]
     between = "→".join(ends) if all(ends) else ""
     return Label(text, here.drawn(first), rank=2 if resultants and not us else 1, key=key, between=between)
-
-
-def _valued(here: PolygonOnPage, length: float) -> str:
-    """A length on paper (mm) as what it stands for, with its unit."""
-    unit = unit_of(here.sheet, here.diagram)
-    return f"{number(length * here.sheet.scales.of(here.diagram) / unit.si, 4)} {unit.written}"
 
 
 LEAST = 5.0  # mm: a shorter vector has no room for a number
@@ -609,27 +576,20 @@ def trial_marks_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
             whole = abs(clipped[1] - here.at(aid.tip)) < SAME
             if whole and abs(aid.tip - aid.tail) > 2.5:
                 parts.append(arrowhead(here.at(aid.tip), clipped[1] - clipped[0], 1.6, 0.6, strokes.GREY))
-            if not trial and (_of_one_point(aid) or aid.symbol.seen) and abs(clipped[1] - clipped[0]) > 4.0:
-                text = Text(0j, symbol(here.letters.arrow(aid.symbol), 3.0), "start", strokes.GREY,
-                            f"label-special-{aid.symbol.id}", ("label",))  # fmt: skip
-                rank = 3 if aid.symbol.to and aid.symbol.to.link in held else 4
-                labels.append(Label(text, clipped, rank=rank, key=step_number(step.number)))
-            if trial and whole and aid.symbol.to is None and aid.symbol.of is not None and (
-                same_place(aid.tip) not in named
-            ):  # fmt: skip
+            of, to = aid.symbol.of, aid.symbol.to
+            of_one_point = of is not None and to is not None and of.point == to.point
+            if not trial and (of_one_point or aid.symbol.seen) and abs(clipped[1] - clipped[0]) > 4.0:
+                markup, id = symbol(here.letters.arrow(aid.symbol), 3.0), f"label-special-{aid.symbol.id}"
+                rank = 3 if to and to.link in held else 4
+                labels.append(Label.of(markup, clipped, id, colour=strokes.GREY, rank=rank,
+                                       key=step_number(step.number)))
+            if trial and whole and to is None and of is not None and same_place(aid.tip) not in named:
                 named.add(same_place(aid.tip))
-                letter = here.letters.end(here.diagram, aid.symbol.of)
+                letter = here.letters.end(here.diagram, of)
                 if letter:
-                    above = numeral(trial)
                     name = f"label-trial-{here.diagram}-{trial}-{aid.symbol.id}"
-                    labels.append(Label.of(symbol(f"{letter}^{{{above}}}", 2.5), here.at(aid.tip), name,
+                    labels.append(Label.of(symbol(f"{letter}^{{{numeral(trial)}}}", 2.5), here.at(aid.tip), name,
                             colour=strokes.GREY, toward=(phase(clipped[1] - clipped[0]),), rank=5, classes=("trial",)))
         classes = (f"trial-{trial}",) if trial else ("special",)
         drawn = Group(tuple(parts), classes=classes, step=step.number)
         yield dated(Piece({"construction": (drawn,)}, tuple(labels)), step.number)
-
-
-def _of_one_point(aid: ConstructionVector) -> bool:
-    """Whether a vector is the relative motion of two coincident points."""
-    of, to = aid.symbol.of, aid.symbol.to
-    return of is not None and to is not None and of.point == to.point

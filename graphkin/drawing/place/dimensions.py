@@ -138,11 +138,6 @@ class _Choice(NamedTuple):
             [Box.around(part.points) for part in parts if isinstance(part, Polygon)],
         )  # fmt: skip
 
-    def with_extensions(self, lines: list[Line]) -> _Choice:
-        """The dimension with other extension lines."""
-        others = (part for part in self.parts if not any(part is line for line in self.extensions))
-        return self._replace(parts=(*lines, *others), extensions=lines)
-
 
 class DimensionClearance:
     """The strokes already drawn, as arrays: segments, shape (n, 2), and boxes by their middles and half sizes, shape
@@ -216,8 +211,10 @@ class DimensionClearance:
         each = iter(self._trimmed([line for choice in choices for line in choice.extensions]))
         for choice in choices:
             trimmed = [next(each) or (line if crossing else None) for line in choice.extensions]
-            if None not in trimmed:
-                found.append(choice.with_extensions([line for line in trimmed if line is not None]))
+            kept = [line for line in trimmed if line is not None]
+            if len(kept) == len(trimmed):
+                others = (part for part in choice.parts if not any(part is line for line in choice.extensions))
+                found.append(choice._replace(parts=(*kept, *others), extensions=kept))
         bad, over = np.zeros((2, len(found)), dtype=bool)
         of_numbers, numbers = _owned([choice.numbers for choice in found], _boxes)
         of_beyond, beyond = _owned([_ends(choice.extensions) for choice in found], _segments)
