@@ -6,13 +6,14 @@ Every length is in mm, y down.  Text is markup, with symbols between dollar sign
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from graphkin.account.given import drivers
 from graphkin.account.headings import facts, figure_title, punctuation, term, titles
 from graphkin.account.notation import Letters, letters_of, scale_statement
 from graphkin.account.spoken import spoken_words
+from graphkin.account.voice import whole_sentence
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName
 from graphkin.drawing.box import Box
@@ -24,7 +25,7 @@ from graphkin.drawing.text import SMALLEST, fitted, plain, rich, runs_width, wra
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up
 from graphkin.scene.scene_tables import Convention
-from graphkin.words import Phrase, Wording, in_all, languages, word
+from graphkin.words import Phrase, Wording, as_markup, as_plain, in_all, languages, rich_text, word
 from graphkin.words.written import in_markup
 
 MARGIN = 8.0  # of a page
@@ -113,26 +114,28 @@ def row(*blocks: Block, gap: float = 0.0) -> Block:
 
 def pages(blocks: Iterable[Block], height: float, gap: float) -> list[Block]:
     """Blocks below each other, divided into pages of a height."""
-    made: list[list[Block]] = [[]]
-    y = 0.0
-    for block in blocks:
-        if made[-1] and y + block.height > height:
-            made.append([])
-            y = 0.0
-        made[-1].append(block)
-        y += block.height + gap
-    return [column(*some, gap=gap) for some in made]
+    return [column(*some, gap=gap) for some in _lots(blocks, height, gap, lambda block: block.height)]
 
 
 def rows(blocks: Sequence[Block], width: float, gap: float) -> list[Block]:
     """Blocks beside each other, divided into rows of a width."""
-    made: list[list[Block]] = []
+    return [row(*some, gap=gap) for some in _lots(blocks, width + 0.1, gap, lambda block: block.width)]
+
+
+def _lots(
+    blocks: Iterable[Block], room: float, gap: float, size: Callable[[Block], float]
+) -> Iterator[list[Block]]:
+    """Blocks in order in lots whose sizes (mm), with gaps between, a room holds; a larger block is a lot of its own."""
+    lot: list[Block] = []
+    used = 0.0
     for block in blocks:
-        if made and added_up((one.width + gap for one in made[-1]), block.width) <= width + 0.1:
-            made[-1].append(block)
-        else:
-            made.append([block])
-    return [row(*some, gap=gap) for some in made]
+        if lot and used + size(block) > room:
+            yield lot
+            lot, used = [], 0.0
+        lot.append(block)
+        used += size(block) + gap
+    if lot:
+        yield lot
 
 
 def panel(width: float, height: float, draw: Callable[[Box], Piece]) -> Block:
@@ -245,29 +248,36 @@ def without_titles(children: tuple[Primitive, ...]) -> tuple[Primitive, ...]:
     return map_tree(children, lambda one: None if isinstance(one, Text) and "heading" in one.classes else one)
 
 
-def steps(told: Iterable[tuple[int, str]], width: float = WORKED) -> Block:
-    """Steps below each other after their numbers, each marked with its step."""
-    return column(*(numbered(number, text, width, STEP, step=number) for number, text in told))
-
-
 def worked_page(
-    names: Iterable[str], given: str, parts: Sequence[Block], notes: Iterable[Wording], scale: str, *, title: str,
-    said: str, language: str, metadata: Mapping[str, object],
+    names: Iterable[str], given: str, drawn: Sequence[Block], steps: Sequence[Phrase], results: Block,
+    notes: Iterable[Wording], scale: str, *, title: str, said: str, language: str, metadata: Mapping[str, object],
 ) -> Drawing:  # fmt: skip
-    """The page of a worked task: the given data, ``parts`` of the width `WORKED` below each other, notes, and the foot.
+    """The page of a worked task, of the width `WORKED` inside: the given data, its drawings, its numbered steps in each
+    language, the results, notes, and the foot.
 
     Parameters
     ----------
     names : of the task, in each language in which it has one
     title, said : of the figure as a key of the table of words, and the figure in words
     """
-    own = dict.fromkeys(map(in_markup, names))
+    own, every = dict.fromkeys(map(in_markup, names)), languages(language)
+    told = [
+        column(*(numbered(number, as_markup(rich_text(step, each)), WORKED, STEP, step=number)
+                 for number, step in enumerate(steps, 1))) for each in every
+    ]  # fmt: skip
     lines = [line.replace(" -", " −") for note in notes for line in in_all(note, language)]
-    body = column(*parts, prose(lines, WORKED, STEP, classes=TOLD), gap=3.0)
     return page(
-        heading(own, given, WORKED), body, foot(scale, WORKED, language), said=said, language=language,
-        title=f"{' / '.join(own)}: {word(title, languages(language)[0])}", metadata=metadata, margin=12.0,
+        heading(own, given, WORKED), column(*drawn, *told, results, prose(lines, WORKED, STEP, classes=TOLD), gap=3.0),
+        foot(scale, WORKED, language), said=said, language=language, metadata=metadata, margin=12.0,
+        title=f"{' / '.join(own)}: {word(title, every[0])}",
     )  # fmt: skip
+
+
+def spoken(phrases: Iterable[Phrase], language: str) -> str:
+    """Sentences in the first language of a figure, for readers who do not see it."""
+    first = languages(language)[0]
+    sentences = (whole_sentence(as_plain(rich_text(phrase, first)), first) for phrase in phrases)
+    return word("between sentences", first).join(sentences)
 
 
 def picture(body: Block, title: str, language: str, metadata: Mapping[str, object], scale: str = "") -> Drawing:

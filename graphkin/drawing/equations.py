@@ -13,8 +13,10 @@ from graphkin.account.headings import number, term
 from graphkin.account.notation import Letters, rows_of, unit_of
 from graphkin.construction.sheet import Equation, Sheet
 from graphkin.construction.steps import GIVEN, Term
+from graphkin.drawing.boxes import Block
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Line, Primitive, Run, Text, moved
+from graphkin.drawing.ink.primitives import Line, Primitive, Run, Text
+from graphkin.drawing.place.piece import Piece
 from graphkin.drawing.text import rich, run_box, runs_width, symbol, wrapped
 from graphkin.plane import added_up
 from graphkin.words.written import MOST
@@ -27,15 +29,6 @@ CLEAR, UNDERLINE = 0.55, 0.6  # mm between two rows, and between two lines under
 GAP, BESIDE = 1.3, 0.2  # mm beside a column of terms, and beside the last
 COLUMN_GAP = 5.0  # mm between two columns of equations
 WIDE = 150.0  # mm: a page that holds two of them
-
-
-@dataclass(frozen=True)
-class Written:
-    """A block of writing: its content about its left upper corner, and its size (mm)."""
-
-    children: tuple[Primitive, ...]
-    width: float
-    height: float
 
 
 @dataclass(frozen=True)
@@ -54,9 +47,9 @@ class _Cell:
         return max(runs_width(self.runs), runs_width(self.size), runs_width(self.direction), runs_width(self.over))
 
 
-Placed: TypeAlias = list[tuple[Written, complex]]
+Placed: TypeAlias = list[tuple[Block, complex]]
 """Blocks with their left upper corners (mm)."""
-LineToSet = Callable[[float, float], Written]
+LineToSet = Callable[[float, float], Block]
 """A line as it is set: at most so wide, in letters of a size (mm)."""
 
 
@@ -109,10 +102,10 @@ def _fullest(tried: Iterable[Placed], count: int) -> tuple[tuple[Primitive, ...]
         best = max(best, placed, key=len)
         if len(best) == count:
             break
-    return tuple(p for block, at in best for p in moved(block.children, at)), len(best)
+    return tuple(thing for block, at in best for thing in block.moved(at).drawn), len(best)
 
 
-def _in_columns(blocks: Iterable[Written], wide: float, height: float, columns: int) -> Placed:
+def _in_columns(blocks: Iterable[Block], wide: float, height: float, columns: int) -> Placed:
     """Blocks below each other in columns, with their corners, up to the last that fits."""
     placed: Placed = []
     column, y = 0, 0.0
@@ -126,21 +119,14 @@ def _in_columns(blocks: Iterable[Written], wide: float, height: float, columns: 
     return placed
 
 
-def _sentence(markup: str, size: float, width: float) -> Written:
+def _sentence(markup: str, size: float, width: float) -> Block:
     """Words with symbols, broken into lines."""
     lines = wrapped(markup, size, width)
     texts = tuple(Text(complex(0, size * (1 + 1.5 * k)), runs) for k, runs in enumerate(lines))
-    return Written(texts, max(map(runs_width, lines), default=0.0), (0.4 + 1.5 * len(lines)) * size)
+    return Block(Piece({"labels": texts}), (0.4 + 1.5 * len(lines)) * size, max(map(runs_width, lines), default=0.0))
 
 
-def write_equation(
-    sheet: Sheet, equation: Equation, letters: Letters, language: str, width: float, size: float = 3.2
-) -> Written:
-    """An equation, at most ``width`` mm wide, broken if it is longer."""
-    return line_to_set(equation, sheet, letters, language)(width, size)
-
-
-def _written_cells(cells: list[_Cell], letters: Letters, language: str, width: float, size: float) -> Written:
+def _written_cells(cells: list[_Cell], letters: Letters, language: str, width: float, size: float) -> Block:
     """Terms and operators with their rows, broken before a line gets too long."""
     gap = 1.2 * GAP if rows_of(letters.convention) == "table" else 0.6 * GAP
     heads = _heads(letters, language, size)
@@ -149,16 +135,15 @@ def _written_cells(cells: list[_Cell], letters: Letters, language: str, width: f
     y = most = 0.0
     for line in _lines(cells, width - lead - BESIDE, gap):
         block = _set(line, heads, lead, gap, letters, size, y)
-        children += block.children
+        children += block.piece.drawn
         y += block.height
         most = max(most, block.width)
-    return Written(tuple(children), most, y)
+    return Block(Piece({"labels": tuple(children)}), y, most)
 
 
-def write_sum(
-    sheet: Sheet, terms: Sequence[Term], letters: Letters, language: str, width: float, size: float = 3.2
-) -> Written:
+def write_sum(sheet: Sheet, terms: Sequence[Term], letters: Letters, language: str, width: float) -> Block:
     """Vectors whose sum is zero, with their rows of sizes and directions, at most ``width`` mm wide."""
+    size = WAYS[0][0]
     cells = _cells(sheet, [terms], letters, size)
     cells += [_Cell(symbol("=", size), is_term=False), _Cell(rich("0", size), is_term=True)]
     return _written_cells(cells, letters, language, width, size)
@@ -242,7 +227,7 @@ def _lines(cells: list[_Cell], width: float, gap: float) -> list[list[_Cell]]:
 def _set(
     line: list[_Cell], heads: tuple[tuple[Run, ...], ...], lead: float, gap: float, letters: Letters, size: float,
     top: float,
-) -> Written:  # fmt: skip
+) -> Block:  # fmt: skip
     rows = rows_of(letters.convention)
     stack = [[c.over for c in line], [c.runs for c in line], [c.size for c in line], [c.direction for c in line]]
     lines = max((c.underlines for c in line), default=0)
@@ -267,7 +252,7 @@ def _set(
     if rows == "table":
         first = [lead - gap / 2] if line[0].is_term else []  # a line goes on with its sign at the head of the table
         children += _grid([-0.8, *first, *across, x], [y + CLEAR for y in edges_down[1:]])
-    return Written(tuple(children), x + BESIDE, max(edges_down) - top + 0.55 * size)
+    return Block(Piece({"labels": tuple(children)}), max(edges_down) - top + 0.55 * size, x + BESIDE)
 
 
 def _baselines(

@@ -265,7 +265,7 @@ def outline(text: str, at: complex, size: float, style: Style) -> str:
     from fontTools.pens.svgPathPen import SVGPathPen
     from fontTools.pens.transformPen import TransformPen
 
-    pen = SVGPathPen(None, ntos=_hundredths)
+    pen = SVGPathPen(None, ntos=lambda mm: f"{mm:.2f}".rstrip("0").rstrip("."))
     times, x = size / EM, at.real
     for character in text:
         found = glyph(character, style)
@@ -275,10 +275,6 @@ def outline(text: str, at: complex, size: float, style: Style) -> str:
         x += found.advance * times
     commands: str = pen.getCommands()
     return commands
-
-
-def _hundredths(mm: float) -> str:
-    return f"{mm:.2f}".rstrip("0").rstrip(".")
 
 
 def _draw(found: Glyph, pen: object) -> None:

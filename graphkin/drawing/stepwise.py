@@ -35,11 +35,11 @@ def step_of(thing: Primitive) -> int | None:
 
 def stepped(children: Iterable[Primitive]) -> tuple[Primitive, ...]:
     """The figure with the step of every primitive as a class, by which pages show and hide it."""
-    return tied(map_tree(children, _with_step))
 
+    def change(thing: Primitive) -> Primitive:
+        return replace(thing, step=step_of(thing)) if isinstance(thing, Group | Text) else thing
 
-def _with_step(thing: Primitive) -> Primitive:
-    return replace(thing, step=step_of(thing)) if isinstance(thing, Group | Text) else thing
+    return tied(map_tree(children, change))
 
 
 def tied(children: Iterable[Primitive]) -> tuple[Primitive, ...]:
@@ -49,16 +49,14 @@ def tied(children: Iterable[Primitive]) -> tuple[Primitive, ...]:
         if not isinstance(thing, Group):
             return thing
         held = thing.children
-        inside = (_leader(part, after) for part, after in zip(held, (*held[1:], None), strict=False))
-        return replace(thing, children=tuple(inside))
+        inside = tuple(
+            Group((part,), classes=("leader",), step=after.step)
+            if isinstance(part, Line) and isinstance(after, Text) and "label" in after.classes else part
+            for part, after in zip(held, (*held[1:], None), strict=True)
+        )  # fmt: skip
+        return replace(thing, children=inside)
 
     return map_tree(children, change)
-
-
-def _leader(thing: Primitive, after: Primitive | None) -> Primitive:
-    if isinstance(thing, Line) and isinstance(after, Text) and "label" in after.classes:
-        return Group((thing,), classes=("leader",), step=after.step)
-    return thing
 
 
 def so_far(children: Iterable[Primitive], first: int, last: int) -> tuple[Primitive, ...]:

@@ -112,7 +112,7 @@ def _column(
 
 def _texts(sheet: Sheet, row: TableRow, letters: Letters, language: str) -> list[str]:
     reading, compared = row.reading, row.compared
-    unit, units = _unit(sheet, reading), sheet.scene.units
+    unit, units = reading.symbol.unit(sheet.scene.units).written, sheet.scene.units
     name = letters.vector(reading.symbol)
     if row.more:
         name = f"{name[0]}_{{{','.join((reading.symbol.link, *row.more))}}}"
@@ -123,10 +123,6 @@ def _texts(sheet: Sheet, row: TableRow, letters: Letters, language: str) -> list
         texts += [written(exact(compared, units)),
                   term("agrees", language) if agrees else written(deviation(compared, units))]  # fmt: skip
     return texts
-
-
-def _unit(sheet: Sheet, reading: Reading) -> str:
-    return reading.symbol.unit(sheet.scene.units).written
 
 
 def given_lines(sheet: Sheet, letters: Letters, language: str, width: float, size: float) -> list[tuple[Run, ...]]:

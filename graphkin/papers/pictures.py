@@ -12,7 +12,7 @@ from graphkin.construction.sheet import Equation
 from graphkin.construction.steps import DiagramName
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import without_titles
-from graphkin.drawing.equations import write_equation
+from graphkin.drawing.equations import line_to_set
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Polygon, Primitive, Text, map_tree, moved
 from graphkin.drawing.parts.insets import polygon_with_insets, strip_height
@@ -139,8 +139,8 @@ def equation_picture(lesson: Lesson, equation: Equation) -> Drawing:
     sheet, letters = lesson.sheet, lesson.letters
     sides = (" + ".join(plain_words(f"${letters.vector(t.symbol)}$") for t in side) for side in equation.sides)
     width = paper_of(sheet.scene).body.width - 4.0
-    written = write_equation(sheet, equation, letters, lesson.language, width, 3.8)
-    return _cropped(lesson, written.children, " = ".join(sides), "")
+    written = line_to_set(equation, sheet, letters, lesson.language)(width, 3.8)
+    return _cropped(lesson, written.piece.drawn, " = ".join(sides), "")
 
 
 # -- frames to draw in -------------------------------------------------------------------------------------------------

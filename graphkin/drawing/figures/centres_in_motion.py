@@ -184,18 +184,16 @@ def centrodes_figure(
     figure = centred(content, page.width, content.height + 2 * ROOM, lambda around: whole)
     legend = [(say(Phrase(key, **gaps), languages(page.language)[0]), stroke)
               for key, _, stroke, branches, gaps in kinds if branches]  # fmt: skip
-    keys = [row(_sample(stroke), prose((said,), page.width - KEY, 3.0, classes=("legend",))) for said, stroke in legend]
+    keys = [
+        row(Block(Piece({"labels": (Line(2.2j, KEY - 3.0 + 2.2j, stroke),)}), 0.0, KEY),
+            prose((said,), page.width - KEY, 3.0, classes=("legend",))) for said, stroke in legend
+    ]  # fmt: skip
     end = punctuation("full stop", page.language) + punctuation("between sentences", page.language)
     return page.drawing(
         page.at_drivers(f"{page.term('centrodes')} {link}"),
         column(figure, *keys), page.scale("mechanism"), title="centrodes",
         said="".join(said + end for said, _ in legend).strip(),
     )  # fmt: skip
-
-
-def _sample(stroke: Stroke) -> Block:
-    """A stretch of a line for the legend."""
-    return Block(Piece({"labels": (Line(2.2j, KEY - 3.0 + 2.2j, stroke),)}), 0.0, KEY)
 
 
 def _clipped(branches: Sequence[Branch], stroke: Stroke, box: Box) -> tuple[Primitive, ...]:

@@ -16,14 +16,13 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from graphkin.account.headings import number, term, written
-from graphkin.account.voice import whole_sentence
 from graphkin.checking.closed_form import FoundLength
 from graphkin.construction.cam_sheet import CamSheet, cam_sheet
 from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.construction.synthesis import DesignSheet, DesignStroke
 from graphkin.construction.touching import CamStation
 from graphkin.drawing.box import Box
-from graphkin.drawing.boxes import STEP, WORKED, Block, picture, row, steps, table, worked_page
+from graphkin.drawing.boxes import STEP, WORKED, Block, picture, row, spoken, table, worked_page
 from graphkin.drawing.chart import ChartPage
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes, symbols
@@ -50,7 +49,7 @@ from graphkin.scene.laws import TURN
 from graphkin.scene.model import Mechanism
 from graphkin.scene.pairs import LawCam, SlidingFollower, SwingingFollower
 from graphkin.version import __version__
-from graphkin.words import Phrase, as_markup, as_plain, in_all, languages, rich_text, say, word
+from graphkin.words import Phrase, as_markup, in_all, languages, rich_text, say, word
 from graphkin.words.written import amount, on_paper, product
 
 if TYPE_CHECKING:
@@ -121,21 +120,14 @@ def design_figure(
     notes : sentences on the result
     language : "en", "zh" or "both"
     """
-    unit, every = design.units.length, languages(language)
-    phrases = [phrase for phrase, _ in sheet.steps]
-    parts = [
-        _construction(sheet),
-        *(steps(enumerate((step_words(phrase, each) for phrase in phrases), 1)) for each in every),
-        _tables(design, sheet.scale, rows, confirmed, language),
-    ]  # fmt: skip
-    first = every[0]
-    sentences = (whole_sentence(as_plain(rich_text(phrase, first)), first) for phrase in phrases)
-    spoken = word("between sentences", first).join(sentences)
+    unit, names = design.units.length, (design.title_in(each) or design.name for each in languages(language))
+    steps = [phrase for phrase, _ in sheet.steps]
     lengths = "; ".join(f"{row.symbol} = {row.measured:.6g} {unit}" for row in rows)
     facts = {"kind": design.task.kind, "units": {"length": unit, "paper": "mm"}, "instrument": sheet.hand.name}
     return worked_page(
-        (design.title_in(each) or design.name for each in every), asked_words(design, language), parts, notes,
-        _design_scale(design, sheet), title="design figure", said=f"{spoken} {lengths}", language=language,
+        names, asked_words(design, language), [_construction(sheet)], steps,
+        _tables(design, sheet.scale, rows, confirmed, language), notes, _design_scale(design, sheet),
+        title="design figure", said=f"{spoken(steps, language)} {lengths}", language=language,
         metadata=_design_facts(design, sheet) | facts,
     )  # fmt: skip
 
@@ -364,20 +356,13 @@ def cam_figure(scene: Mechanism, sheet: CamSheet, notes: Sequence[Phrase], langu
     notes : sentences on its values
     language : "en", "zh" or "both"
     """
-    first, every = languages(language)[0], languages(language)
-    parts = [
-        _diagram(scene, sheet, language), _cam(scene, sheet),
-        *(steps(enumerate((say(step, each) for step in sheet.steps), 1)) for each in every),
-        _table(scene, sheet, language),
-    ]  # fmt: skip
-    sentences = (whole_sentence(say(said, first), first) for said in (*sheet.steps, *notes))
-    spoken = word("between sentences", first).join(sentences)
+    names = (scene.question.title_in(each) or scene.name for each in languages(language))
     facts = {"units": {"length": scene.units.length, "paper": "mm"},
              "scales": {"length": sheet.scale / scene.units.metres}, "instrument": "exact"}  # fmt: skip
     return worked_page(
-        (scene.question.title_in(each) or scene.name for each in every), _given(scene, sheet.cam, language), parts,
-        notes, _scale(scene, sheet), title="cam figure", said=spoken, language=language,
-        metadata=_facts(scene, sheet) | facts,
+        names, _given(scene, sheet.cam, language), [_diagram(scene, sheet, language), _cam(scene, sheet)], sheet.steps,
+        _table(scene, sheet, language), notes, _scale(scene, sheet), title="cam figure",
+        said=spoken((*sheet.steps, *notes), language), language=language, metadata=_facts(scene, sheet) | facts,
     )  # fmt: skip
 
 

@@ -43,7 +43,7 @@ from graphkin.drawing.parts.mechanism import bare_mechanism, mechanism_piece
 from graphkin.drawing.parts.polygon import PolygonOnPage, extent, polygon_piece
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, middle_of, moved_piece, renamed
-from graphkin.drawing.text import text_box
+from graphkin.drawing.text import box_about
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene_tables import DIAGRAMS
@@ -130,20 +130,15 @@ def figure_in_motion(
         panel = content.grown(MOVING)
         piece = polygon_piece(PolygonOnPage(sheet, diagram, letters, languages(spoken)[0], panel, 0j, ()))
     size = complex(content.width + 2 * MOVING, content.height + 2 * MOVING)
-    piece = _named_at_once(moved_piece(piece, size / 2 - content.centre))
+    piece = moved_piece(piece, size / 2 - content.centre)
+    named = joined((piece, Piece({"labels": tuple(_beside(label) for label in piece.labels if label.rank < 3)})))
     title = figure_title(sheet, FIGURE_WORDS[diagram], spoken)
-    return Drawing(size.real, size.imag, layer_groups(piece), title, "", languages(spoken)[0])
-
-
-def _named_at_once(piece: Piece) -> Piece:
-    names = tuple(_beside(label) for label in piece.labels if label.rank < 3)
-    return Piece({**piece.layers, "labels": (*piece.layers.get("labels", ()), *names)})
+    return Drawing(size.real, size.imag, layer_groups(named), title, "", languages(spoken)[0])
 
 
 def _beside(label: Label) -> Text:
     """A name on the preferred side of its mark, by default right above it."""
-    text = Text(0j, label.text.runs, "start", label.text.colour, label.text.id, label.text.classes, label.text.step)
-    box = text_box(text)
+    box = box_about(label.text.runs)
     if label.toward:
         away = page_direction(label.toward[0])
     elif isinstance(label.mark, tuple) and label.mark[0] != label.mark[1]:
@@ -153,9 +148,7 @@ def _beside(label: Label) -> Text:
         away = page_direction(0.8)
     half = abs(away.real) * box.width / 2 + abs(away.imag) * box.height / 2
     centre = middle_of(label.mark) + away * (half + ASIDE)
-    return Text(
-        centre - box.centre, text.runs, "start", text.colour, text.id, text.classes, text.step
-    )  # fmt: skip
+    return replace(label.text, at=centre - box.centre, anchor="start", since=None)
 
 
 GUTTER = 4.0  # mm between panels

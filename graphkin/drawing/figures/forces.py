@@ -163,7 +163,9 @@ def _pictures(
     polygons = _polygons(stage.group)
     alone = len(polygons) == 1 and polygons[0][3].width <= page.width - SKETCH - APART
     wide = SKETCH if alone else page.width
-    high = max(LEAST, _sketch_height(page.sheet, stage.group, wide), polygons[0][3].height if alone else 0.0)
+    links = _extent(page.sheet, stage.group)
+    shown = links.height * min((wide - ROOM) / max(links.width, 1e-6), 1.0)
+    high = max(LEAST, min(HIGHEST, shown + ROOM), polygons[0][3].height if alone else 0.0)
     named = "-".join(stage.group.links) + suffix
     sketch = framed(panel(wide, high, lambda room: _free_body(page, forces, stage, room.grown(-INSIDE), named)))
 
@@ -203,9 +205,8 @@ def group_equation(page: FigurePage, group: ForceGroup) -> Drawing | None:
     if group.way == "drawn system" or len(group.polygon) < 2:
         return None
     terms = tuple(vector.term for vector in group.polygon)
-    written = write_sum(page.sheet, terms, page.letters, page.language, page.width)
-    title, language = page.term("forces"), languages(page.language)[0]
-    return Drawing(written.width, written.height, written.children, title, "", language)
+    sum_ = write_sum(page.sheet, terms, page.letters, page.language, page.width)
+    return Drawing(sum_.width, sum_.height, sum_.piece.drawn, page.term("forces"), "", languages(page.language)[0])
 
 
 def _tables(page: FigurePage, some: Sequence[TableRow]) -> Iterator[Block]:
@@ -251,12 +252,6 @@ def _free_body(page: FigurePage, forces: ForceSheet, stage: ForceStage, panel: B
             break
         times *= min(0.95 / over, 0.9)
     return with_labels(cut_piece(moved_piece(piece, panel.centre - ink.centre), panel.grown(-1.0)), panel)
-
-
-def _sketch_height(sheet: Sheet, group: ForceGroup, width: float) -> float:
-    """The height of a sketch of a width (mm)."""
-    box = _extent(sheet, group)
-    return min(HIGHEST, box.height * min((width - ROOM) / max(box.width, 1e-6), 1.0) + ROOM)
 
 
 def _extent(sheet: Sheet, group: ForceGroup) -> Box:
@@ -427,7 +422,9 @@ def _drawn_polygon(
     shifts = side_by_side(Vector(_key(v), v.tail, v.tip, "relative") for v in (*vectors, *inside))
 
     def arrow(vector: ForceVector, tail: complex, tip: complex, step: int, rank: int = 0) -> None:
-        name = _unique(vector, names, suffix)
+        name = vector.symbol.id + (f"-{vector.part}" if vector.part else "") + suffix
+        names[name] += 1
+        name += f"-again{names[name] - 1}" if names[name] > 1 else ""
         ends = [corner_at(stage.group, place) for place in (vector.tail, vector.tip)] if lettered else []
         between = "→".join(ends) if len(set(ends)) > 1 else ""
         plate.arrow("forces", name, tail, tip, _letters_of(page.letters, vector), 3.2, kind=_kind(vector),
@@ -478,13 +475,6 @@ def _wholes(vectors: Sequence[ForceVector]) -> Iterator[ForceVector]:
             whole = replace(first, part="", by="closing", tip=second.tip)
             if min(abs(whole.span), abs(first.span), abs(second.span)) > SHORT:
                 yield whole
-
-
-def _unique(vector: ForceVector, names: Counter[str], suffix: str) -> str:
-    """Its symbol as an id, with a number if it is drawn again."""
-    name = vector.symbol.id + (f"-{vector.part}" if vector.part else "") + suffix
-    names[name] += 1
-    return name if names[name] == 1 else f"{name}-again{names[name] - 1}"
 
 
 # -- Zhukovsky's lever -------------------------------------------------------------------------------------------------

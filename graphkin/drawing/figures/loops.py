@@ -7,6 +7,7 @@ import cmath
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from itertools import product
 
 from graphkin.account.headings import number
 from graphkin.account.loops import MatrixEquation, equation, matrices, projections, root, size_name
@@ -39,30 +40,30 @@ ARC = 5.0  # mm, of an angle from the x axis
 AXIS = 8.5  # mm of x axis at a tail
 
 
-def loop_blocks(sheet: Sheet) -> tuple[LoopBlock, ...]:
-    """The loops of a sheet's mechanism, measured on the drawing.  Raises CallError for a chosen loop that does not go
-    from point to point."""
-    axes, travels = places_of_loops(sheet)
-    return loops_in_numbers(sheet.structure, axes, travels)
-
-
 def loops_figure(sheet: Sheet, *, language: str | None = None, convention: str | None = None) -> Drawing | None:
-    """Every vector loop with its equations; None without loops.
+    """Every vector loop with its equations, measured on the drawing; None without loops.
 
     Parameters
     ----------
     language : "en", "zh" or "both"; the scene's own if None
     convention : letters of the driver's values; the scene's own if None
+
+    Raises
+    ------
+    CallError : a chosen loop does not go from point to point
     """
-    blocks = loop_blocks(sheet)
+    blocks = loops_in_numbers(sheet.structure, *places_of_loops(sheet))
     if not blocks:
         return None
     page = FigurePage.of(sheet, "loops", language, convention)
-    scale = _scale(blocks)
-    body = column(*(_loop(page, block, loop, scale) for block in blocks for loop in block.loops), gap=5.0)
+    scale, loops = _scale(blocks), [(block, loop) for block in blocks for loop in block.loops]
+    heads = (Phrase("loop heading", loop=loop.name, links=", ".join(loop.links), equation=", ".join(loop.points))
+             for _, loop in loops)  # fmt: skip
     return page.drawing(
-        page.at_drivers(page.term("loops")), body, page.scale("mechanism", scale), title="loops",
-        said=_described(page, blocks), metadata={"scales": {"length": scale / sheet.scene.units.metres}},
+        page.at_drivers(page.term("loops")), column(*(_loop(page, *loop, scale) for loop in loops), gap=5.0),
+        page.scale("mechanism", scale), title="loops",
+        said=". ".join(say(head, each) for each, head in product(languages(page.language), heads)),
+        metadata={"scales": {"length": scale / sheet.scene.units.metres}},
     )  # fmt: skip
 
 
@@ -225,15 +226,6 @@ def _matrix(matrix: MatrixEquation, room: float) -> Block:
     cells(right, x + 1.4, wide, "end")
     bracket(x + 2.8 + wide, -1.0)
     return Block(Piece({"labels": tuple(drawn)}), height, x + 2.8 + wide)
-
-
-def _described(page: FigurePage, blocks: Sequence[LoopBlock]) -> str:
-    said = []
-    for each in languages(page.language):
-        for loop in (loop for block in blocks for loop in block.loops):
-            points = ", ".join(loop.points)
-            said.append(say(Phrase("loop heading", loop=loop.name, links=", ".join(loop.links), equation=points), each))
-    return ". ".join(said)
 
 
 FIGURES = (Figure("loops", loops_figure, by_itself=lambda scene: bool(scene.question.loops), of_all=True, place=12),)

@@ -229,7 +229,12 @@ def positions_figure(shown: Shown, *, language: str | None = None, convention: s
         Group((Polyline(tuple(map(on_page, places)), PATH),), id=f"path-{point}", classes=("path",))
         for point, places in shown.paths.items() if len(places) > 1
     )})  # fmt: skip
-    drawn = joined((paths, *numbered, *limits, *least, _back(shown), bare_mechanism(sheet, letters)))
+    back: tuple[Primitive, ...] = ()
+    if (crank := _limits_of_crank(shown)) is not None:  # drawn beyond its pivot in its second limit position
+        _, pivot, _, second = crank
+        back = (Line(on_page(pivot), on_page(pivot - 1.35 * second), strokes.DIRECTION),)
+    beyond = Piece({"answers": back} if back else {})
+    drawn = joined((paths, *numbered, *limits, *least, beyond, bare_mechanism(sheet, letters)))
     whole = joined((drawn, _dimensions(shown, drawn), _numbers(shown)))
     box = ink_box(whole.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     page = page.wide_enough(box.width + 2 * ROOM)
@@ -322,15 +327,6 @@ def _limits_of_crank(shown: Shown) -> tuple[float, complex, complex, complex] | 
         if low is not None and high is not None and lag is not None and "theta" in shown.marks:
             return lag, low[0], low[1] - low[0], high[1] - high[0]
     return None
-
-
-def _back(shown: Shown) -> Piece:
-    """The crank's second limit position drawn beyond its pivot."""
-    crank = _limits_of_crank(shown)
-    if crank is None:
-        return Piece()
-    _, pivot, _, two = crank
-    return Piece({"answers": (Line(on_page(pivot), on_page(pivot - 1.35 * two), strokes.DIRECTION),)})
 
 
 _Wanted: TypeAlias = tuple[str, bool, Sequence[Parts]]

@@ -85,8 +85,10 @@ def sheet_page(
     words = _Writing(page, rows, lines, homeless)
     writing, rest = words.on(plan, GIVEN[0])
     if rest and plan.equations:
-        usual = (plan, *with_less_mechanism(plan, sheet))
-        closer = (*usual, *(less for each in usual for less in with_less_polygons(each, _heights(page, plan))))
+        usual, panels = (plan, *with_less_mechanism(plan, sheet)), zip(
+            POLYGONS, (plan.velocity, plan.acceleration), strict=True)  # fmt: skip
+        high = [extent(sheet, diagram, box.grown(-3.0)).height + 2 * NAMES for diagram, box in panels]
+        closer = (*usual, *(less for each in usual for less in with_less_polygons(each, high)))
         for each, size in islice(product(closer, GIVEN), 1, None):
             there, left = words.on(each, size)
             if left:
@@ -104,7 +106,8 @@ def sheet_page(
     pieces += [
         heading(page, plan.page), _panel(plan.mechanism, _caption(page, "mechanism")),
         _panel(plan.velocity, _caption(page, "velocity")), _mechanism(page, plan.mechanism), velocity, *writing,
-        _step_number(page, plan.page), title_block(page, [row.compared for row in rows if row.compared], plan.block),
+        _below_left(term("step number", page.language, number="(9)"), plan.page),
+        title_block(page, [row.compared for row in rows if row.compared], plan.block),
     ]  # fmt: skip
     further = overleaf(page, rest, plan.page)
     for kind in ("plan", "loops") if sheet.scene.question.sheet.loops else ("plan",):
@@ -176,10 +179,10 @@ def _in_corner(words: str, frame: Box) -> Piece:
     return Piece({"labels": (Text(complex(frame.right, frame.bottom + 4.0), plain(words, 2.6), "end"),)})
 
 
-def _step_number(page: FigurePage, frame: Box) -> Piece:
-    """The note on the numbers in brackets at the vectors."""
-    words = fitted(term("step number", page.language, number="(9)"), 2.4, 0.7 * frame.width)
-    return Piece({"labels": (Text(complex(frame.left, frame.bottom + 4.0), words),)})
+def _below_left(words: str, frame: Box) -> Piece:
+    """A note below the left lower corner of a page."""
+    text = Text(complex(frame.left, frame.bottom + 4.0), fitted(words, 2.4, 0.7 * frame.width))
+    return Piece({"labels": (text,)})
 
 
 def _caption(page: FigurePage, diagram: DiagramName) -> str:
@@ -211,12 +214,6 @@ def _polygons(page: FigurePage, plan: SheetPlan) -> tuple[Piece, Piece | None, l
 def _polygon(page: FigurePage, diagram: DiagramName, panel: Box) -> tuple[Piece, list[CoriolisTerm]]:
     origin = panel.centre - extent(page.sheet, diagram, panel.grown(-3.0)).centre
     return polygon_with_insets(page.sheet, diagram, page.letters, page.language, panel.grown(-0.8), origin)
-
-
-def _heights(page: FigurePage, plan: SheetPlan) -> list[float]:
-    """The heights (mm) of the polygons with their names on a plan."""
-    panels = zip(POLYGONS, (plan.velocity, plan.acceleration), strict=True)
-    return [extent(page.sheet, diagram, box.grown(-3.0)).height + 2 * NAMES for diagram, box in panels]
 
 
 def _insets(pieces: Sequence[object]) -> list[str]:

@@ -155,15 +155,12 @@ def _taken_apart(page_: FigurePage, structure: Structure) -> Block:
     for number, elements in enumerate(shown, 1):
         tag = f"{names.replace('/', '-').replace(', ', '-')}-{number}"
         part = panel(*PART, partial(_group, page_.sheet, elements, page_.letters, tag))
-        about = prose(_about(page_.sheet, elements, page_.language), PART[0] - 2.0, 2.6)
+        named = [element for element in elements if not isinstance(element, Driven)
+                 or element.link in page_.sheet.scene.by_name]  # without blocks that replace a pair  # fmt: skip
+        lines = (_told(page_.sheet, element, each) for each in languages(page_.language) for element in named)
+        about = prose(lines, PART[0] - 2.0, 2.6)
         parts.append(column(framed(part), about, gap=1.0))
     return column(page_.prose(drivers, SIZE, bold=True), *rows(parts, page_.width, gap=3.0), gap=GAP)
-
-
-def _about(sheet: Sheet, elements: Sequence[Element], language: str) -> list[str]:
-    """The name of each element, without blocks that replace a pair."""
-    return [_told(sheet, element, each) for each in languages(language) for element in elements
-            if not isinstance(element, Driven) or element.link in sheet.scene.by_name]  # fmt: skip
 
 
 def _told(sheet: Sheet, element: Element, language: str) -> str:

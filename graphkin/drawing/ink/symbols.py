@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Stroke, page_direction
+from graphkin.plane import cross
 
 # A vector shorter than this (mm) has no length a ruler could tell from none; it is drawn as a dot.
 ZERO = 0.02
@@ -263,14 +264,11 @@ def hull(points: tuple[complex, ...]) -> tuple[complex, ...]:
     for chain in (ordered, ordered[::-1]):
         half: list[complex] = []
         for point in chain:
-            while len(half) > 1 and _turns_back(half[-2], half[-1], point):
+            while len(half) > 1:
+                edge, way = half[-1] - half[-2], point - half[-2]
+                if cross(edge, way) > 1e-6 * max(abs(edge), abs(way)) ** 2:  # a millionth of the square is straight
+                    break
                 half.pop()
             half.append(point)
         halves += half[:-1]
     return tuple(halves)
-
-
-def _turns_back(a: complex, b: complex, c: complex) -> bool:
-    # A millionth of the square of the size counts as straight.
-    turn = (b - a).real * (c - a).imag - (b - a).imag * (c - a).real
-    return turn <= 1e-6 * max(abs(b - a), abs(c - a)) ** 2

@@ -237,29 +237,17 @@ def _point(cam: LawCam, part: LiftPiece, degree: float) -> tuple[complex, comple
 def _between(cam: LawCam, part: LiftPiece, start: float, end: float, rounds: int) -> list[Vertex]:
     """Arcs from one angle of the law to another."""
     (p, t), (q, u) = _point(cam, part, start), _point(cam, part, end)
-    middle = _point(cam, part, (start + end) / 2)[0]
     t, u = (w if dot(w, q - p) >= 0.0 else -w for w in (t, u))
     two = _biarc(p, t, q, u)
     if two is None:
         return [(p, 0.0)]
     joint, first, second = two
-    off = max(_off(p, joint, first, z) if near else _off(joint, q, second, z) for z, near in _probes(
-        cam, part, start, end, joint, middle, p, q))  # fmt: skip
+    probes = (_point(cam, part, start + share * (end - start))[0] for share in (0.2, 0.5, 0.8))
+    off = max(_off(p, joint, first, z) if dot(z - joint, q - p) < 0.0 else _off(joint, q, second, z) for z in probes)
     if off > KEEPS and rounds:
         half = (start + end) / 2
         return [*_between(cam, part, start, half, rounds - 1), *_between(cam, part, half, end, rounds - 1)]
     return [(p, first), (joint, second)]
-
-
-def _probes(
-    cam: LawCam, part: LiftPiece, start: float, end: float, joint: complex, middle: complex, p: complex, q: complex
-) -> list[tuple[complex, bool]]:
-    """Points of the profile between the ends, and whether they lie on the first arc."""
-    found = []
-    for share in (0.2, 0.5, 0.8):
-        z = middle if share == 0.5 else _point(cam, part, start + share * (end - start))[0]
-        found.append((z, dot(z - joint, q - p) < 0.0))
-    return found
 
 
 def _biarc(p: complex, t: complex, q: complex, u: complex) -> tuple[complex, float, float] | None:
