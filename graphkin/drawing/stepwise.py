@@ -52,7 +52,7 @@ def tied(children: Iterable[Primitive]) -> tuple[Primitive, ...]:
         inside = tuple(
             Group((part,), classes=("leader",), step=after.step)
             if isinstance(part, Line) and isinstance(after, Text) and "label" in after.classes else part
-            for part, after in zip(held, (*held[1:], None), strict=True)
+            for part, after in zip(held, (*held[1:], None), strict=False)
         )  # fmt: skip
         return replace(thing, children=inside)
 
