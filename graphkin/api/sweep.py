@@ -152,7 +152,7 @@ class Swept(OfScene, Result):
             return None
         from graphkin.study.over_time import study_time  # it loads the drawing board
 
-        return study_time(self.over.scene, self._wished)
+        return study_time(self.over.base.structure, self._wished)
 
     @property
     def _wished(self) -> list[Quantity]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -72,21 +72,29 @@ def number(value: float, digits: int = 5) -> str:
 # the axis
 
 
-@dataclass(frozen=True)
 class Axis(ABC):
-    """The horizontal axis, and the motion over it: its ends, the step of its ticks, its title.
+    """The horizontal axis, and the motion over it.
 
     Places on it are offsets of the driver's range, or moments (s).
     """
 
-    left: float
-    right: float
-    step: float
-    title: str
-
     @property
     @abstractmethod
     def scene(self) -> Mechanism: ...
+
+    @property
+    @abstractmethod
+    def ends(self) -> tuple[float, float]:
+        """Its left and its right end."""
+
+    @property
+    @abstractmethod
+    def step(self) -> float:
+        """The step of its ticks."""
+
+    @abstractmethod
+    def title(self, language: str) -> str:
+        """Its title as markup."""
 
     @abstractmethod
     def at(self, places: Array) -> Array:
@@ -118,17 +126,44 @@ class Axis(ABC):
 
 @dataclass(frozen=True)
 class DriverAxis(Axis):
-    """The driver's value as it moves: degrees, or the scene's unit of length; of a whole turn from 0 on, up or down.
-
-    first : the offset of the driver's range at the left end
-    """
+    """The driver's value as it moves, over its whole range: degrees, or the scene's unit of length; of a whole turn
+    from 0 on, up or down."""
 
     reach: DriverRange
-    first: float
 
     @property
     def scene(self) -> Mechanism:
         return self.reach.scene
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        reach = self.reach
+        if reach.full:
+            low, high = 0.0, 360.0 * reach.turns
+        else:
+            unit = self.scene.unit_of(reach.driver)
+            low, high = sorted(float(unit.of(reach.value(np.array(end)))) for end in reach.ends)
+        return (low, high) if reach.sense > 0 else (high, low)
+
+    @property
+    def step(self) -> float:
+        wide = abs(self.ends[1] - self.ends[0])
+        if self.reach.driver.turns:
+            return chart.degree_step(wide)
+        # a slide that its own place alone lets stand has no way
+        return next_of_series((wide or self.scene.size / self.scene.units.metres) / 12)
+
+    def title(self, language: str) -> str:
+        driver = self.reach.driver
+        name = driver.key.split("/")[0]
+        symbol = f"$φ_{{{name}}}$ (°)" if driver.turns else f"$s_{{{name}}}$ ({self.scene.units.length})"
+        return say(Phrase("of the driver", driver=symbol), language)
+
+    @cached_property
+    def first(self) -> float:
+        """The offset of the driver's range at the left end."""
+        reach = self.reach
+        return float((-reach.start[0] * reach.sense) % reach.ends[1]) if reach.full else reach.ends[0]
 
     @cached_property
     def offsets(self) -> Array:
@@ -153,7 +188,7 @@ class DriverAxis(Axis):
 
     @property
     def ticks(self) -> Array:
-        low, high = sorted((self.left, self.right))
+        low, high = sorted(self.ends)
         first, last = math.ceil(low / self.step - 1e-9), math.floor(high / self.step + 1e-9)
         return np.asarray(self.step * np.arange(first, last + 1))
 
@@ -192,7 +227,7 @@ class DriverAxis(Axis):
         """The curve of a quantity from its values (SI): of a whole turn the axis ends where it begins, a turn later."""
         x, shown = self.at(offsets), self.shown(quantity, offsets, values)
         if self.reach.full:
-            x[0], x[-1] = self.left, self.right
+            x[0], x[-1] = self.ends
             if quantity.is_angle:
                 shown[-1] = shown[0] + quantity.unit(self.scene).of(self.gain(quantity))
         return np.stack([x, shown], axis=1)
@@ -207,22 +242,6 @@ class DriverAxis(Axis):
             read = read + 2 * np.pi * np.rint((self.values(quantity, at) - read) / (2 * np.pi))
         points = np.stack([self.at(at), self.shown(quantity, at, read)], axis=1)
         return np.asarray(points[np.isfinite(points).all(axis=1)])
-
-
-def driver_axis(reach: DriverRange, language: str) -> DriverAxis:
-    """The axis over the whole range of the driver."""
-    scene, driver = reach.scene, reach.driver
-    name = driver.key.split("/")[0]
-    symbol = f"$φ_{{{name}}}$ (°)" if driver.turns else f"$s_{{{name}}}$ ({scene.units.length})"
-    if reach.full:
-        low, high = 0.0, 360.0 * reach.turns
-    else:
-        low, high = sorted(float(scene.unit_of(driver).of(reach.value(np.array(e)))) for e in reach.ends)
-    wide = high - low or scene.size / scene.units.metres  # a slide that its own place alone lets stand has no way
-    step = chart.degree_step(high - low) if driver.turns else next_of_series(wide / 12)
-    first = float((-reach.start[0] * reach.sense) % reach.ends[1]) if reach.full else reach.ends[0]
-    left, right = (low, high) if reach.sense > 0 else (high, low)
-    return DriverAxis(left, right, step, say(Phrase("of the driver", driver=symbol), language), reach, first)
 
 
 # a panel
@@ -257,10 +276,6 @@ class Panel:
         """The phrase for a quantity that grows without bound; a motion does so at ends only."""
         return "grows without bound" if self.quantity.is_load else "unbounded"
 
-    @property
-    def counts_degrees(self) -> bool:
-        return self.quantity.is_angle and self.span[1] - self.span[0] > 60 * (1 + 2 * MARGIN)
-
 
 def panel_of(
     axis: Axis, quantity: Quantity, curve: Array, extremes: Sequence[Extreme], bounded: bool = True,
@@ -275,7 +290,9 @@ def panel_of(
     """
     low, high = span_of(curve, dots, bounded)
     reached = [0.0] if quantity.is_load else laid_over[:, 1].tolist()
-    span = whole_span(min([low, *reached]), max([high, *reached]))
+    low, high = min([low, *reached]), max([high, *reached])
+    room = MARGIN * (high - low)
+    span = low - room, high + room
     places = np.array([e.offset for e in extremes])
     shown = axis.shown(quantity, places, np.array([e.value for e in extremes]))
     marked = tuple(
@@ -333,12 +350,6 @@ def _usual(quantity: Quantity) -> tuple[float, float] | None:
     return {"gamma": (LEAST_GAMMA, 90.0), "pressure": (0.0, 90.0 - LEAST_GAMMA)}.get(quantity.kind)
 
 
-def whole_span(low: float, high: float) -> tuple[float, float]:
-    """A range of values with room for labels."""
-    room = MARGIN * (high - low)
-    return low - room, high + room
-
-
 def span_of(curve: Array, dots: Array = EMPTY, bounded: bool = True) -> tuple[float, float]:
     """The range of values to show: all values, but for a quantity that grows without bound near the ends of a limited
     motion the values of most of the range, and the measured points."""
@@ -362,19 +373,32 @@ def span_of(curve: Array, dots: Array = EMPTY, bounded: bool = True) -> tuple[fl
 # the painter
 
 
+def figure_name(quantities: Sequence[Quantity]) -> str:
+    """The name of the figure of a quantity, or of an output with its rates."""
+    quantity = quantities[0]
+    if len(quantities) == 1:
+        return f"diagram-{quantity.name.replace('/', '-').replace('@', '')}"
+    return f"motion-{'link' if quantity.kind == 'theta' else 'slide'}-{quantity.of.replace('/', '-')}"
+
+
 def chart_page(
-    scene: Mechanism, heads: tuple[str, Sequence[str]], panels: Sequence[Panel], axis: Axis, language: str, of: str,
-    metadata: Mapping[str, object], limits: Sequence[float] = (),
+    axis: Axis, panels: Sequence[Panel], facts: Sequence[str], language: str, limits: Sequence[float] = (),
+    title: str = "", **metadata: object,
 ) -> chart.ChartPage:  # fmt: skip
-    """A page with panels below each other.
+    """A page with the panel of a quantity, or with those of an output and its rates below each other.
 
     Parameters
     ----------
-    heads : title (markup) and facts
-    of : its subject in words, for the title and the description of the file
     limits : places on the axis of limit positions
+    title : of a quantity (markup), if it is not the diagram of what its panel shows
     """
-    title, facts = heads
+    scene, quantity = axis.scene, panels[0].quantity
+    of, about = quantity.name, {"quantity": quantity.name}
+    title = title or say(Phrase("diagram of", quantity=panels[0].title), language)
+    if len(panels) > 1:
+        mover = "link" if quantity.kind == "theta" else "slide"
+        of = say(Phrase(f"motion of {mover}", **{mover: quantity.of.split("/")[0]}), language)
+        title, about = in_markup(of), {"output": quantity.of}
     tall = THIRD if len(panels) > 1 else ALONE
 
     def paint(figure: chart.Figure) -> None:
@@ -386,23 +410,26 @@ def chart_page(
             name = panel.quantity.name.replace("/", "-")
             without = word("list comma", language) + word(panel.without_bound, language)
             headed = panel.title + without * panel.unbounded
-            axes = chart.add_panel(figure, Box(LEFT, top, WIDTH - RIGHT, top + tall), name, headed, axis.title * last)
+            box = Box(LEFT, top, WIDTH - RIGHT, top + tall)
+            axes = chart.add_panel(figure, box, name, headed, axis.title(language) * last)
             draw_panel(axes, panel, axis, language, limits)
             axes.tick_params(labelbottom=last)
 
     return chart.ChartPage(
         WIDTH, TOP + len(panels) * (tall + GAP) - GAP + 20.0, paint, title=f"{of}: {title_of(scene, language)}",
         desc=" ".join(facts) or of, lang=language,
-        metadata={"scene": scene.name, "units": scene.units.length, **metadata},
+        metadata={"scene": scene.name, "units": scene.units.length, **about, **metadata},
     )  # fmt: skip
 
 
 def draw_panel(axes: chart.Axes, panel: Panel, axis: Axis, language: str, limits: Sequence[float] = ()) -> None:
     """Draw a panel; zero lines and limit positions lie behind the curve."""
-    axes.set_xlim(axis.left, axis.right)
+    axes.set_xlim(*axis.ends)
     axes.set_ylim(*panel.span)
     chart.count_steps(axes.xaxis, axis.step)
-    chart.count_steps(axes.yaxis, chart.degree_step(panel.span[1] - panel.span[0], 7) if panel.counts_degrees else None)
+    wide = panel.span[1] - panel.span[0]
+    in_degrees = panel.quantity.is_angle and wide > 60 * (1 + 2 * MARGIN)
+    chart.count_steps(axes.yaxis, chart.degree_step(wide, 7) if in_degrees else None)
     if panel.allowed is not None:
         axes.axhspan(*panel.allowed, color=ALLOWED, linewidth=0.0, zorder=0.5)
         inside = [value for value in (*panel.allowed, panel.falling) if value and 0.0 < value < 90.0]
@@ -419,7 +446,7 @@ def draw_panel(axes: chart.Axes, panel: Panel, axis: Axis, language: str, limits
         kind = extreme.kind
         axes.plot([x], [value], **chart.marker("up" if kind == "max" else "down"))
         mark = f" ({word('local', language)})" if extreme.local else ""
-        nothing = abs(value) < ROUNDING * (panel.span[1] - panel.span[0])
+        nothing = abs(value) < ROUNDING * wide
         labels.append((("0" if nothing else number(value)) + mark, (x, value)))
         toward.append((math.pi / 2 if kind == "max" else -math.pi / 2,))
     chart.add_labels(axes, labels, toward=toward)

@@ -36,7 +36,6 @@ from graphkin.study.graphical import drawn, on_paper, ordinate_chains
 from graphkin.study.quantities import Quantity, rates_of
 from graphkin.study.turn import Output, TurnStudy
 from graphkin.words import Phrase, say, word
-from graphkin.words.written import in_markup
 
 LaidOver = Mapping[Quantity, Sequence[tuple[float, float]]]
 """Values measured elsewhere: offset of the driver's range and value (SI)."""
@@ -55,23 +54,25 @@ def diagrams(
         none
     over : values measured elsewhere, drawn on the curves
     """
-    axis = charts.driver_axis(turn.reach, language)
+    axis = charts.DriverAxis(turn.reach)
     if asked:
         made: dict[str, ChartPage | Drawing] = {}
         for quantity in asked:
             if quantity.is_load:
                 made |= _force_pages(turn, quantity, language)
             else:
-                made[f"diagram-{_file(quantity)}"] = _asked_page(turn, axis, quantity, over, language)
+                others = over.get(quantity, ())
+                panel = charts.motion_panel(turn, axis, quantity, (), others)
+                facts = _apart(turn, quantity, others, language)
+                made[charts.figure_name([quantity])] = charts.chart_page(axis, [panel], facts, language)
         return made
     quantities = [o.quantity for o in turn.outputs]
     dots = measured(turn.reach, quantities, positions) if positions else {q: [] for q in quantities}
     pages: dict[str, ChartPage | Drawing] = {}
     for output in turn.outputs:
         quantity = output.quantity
-        kind = "link" if quantity.kind == "theta" else "slide"
-        name = f"motion-{kind}-{quantity.of.replace('/', '-')}"
-        pages[name] = _motion_page(turn, axis, output, dots[quantity], over, language)
+        page = _motion_page(turn, axis, output, dots[quantity], over, language)
+        pages[charts.figure_name(rates_of(quantity))] = page
     known = turn.reach.known
     points = [(point, link) for point, link in coupler_points(turn.scene)
               if np.isfinite(known.position(point, link)).all()]  # fmt: skip
@@ -84,15 +85,12 @@ def diagrams(
     return pages | _balance_pages(turn, language)
 
 
-def _file(quantity: Quantity) -> str:
-    return quantity.name.replace("/", "-").replace("@", "")
-
-
 def _force_pages(turn: TurnStudy, quantity: Quantity, language: str) -> dict[str, ChartPage | Drawing]:
     """A force or a moment over the driver; of a force the polar diagram too."""
-    pages: dict[str, ChartPage | Drawing] = {f"diagram-{_file(quantity)}": force_page(turn.reach, quantity, language)}
+    name = charts.figure_name([quantity])
+    pages: dict[str, ChartPage | Drawing] = {name: force_page(turn.reach, quantity, language)}
     if quantity.is_size:
-        pages[f"polar-{_file(quantity)}"] = polar_page(turn.reach, quantity, language)
+        pages[name.replace("diagram", "polar", 1)] = polar_page(turn.reach, quantity, language)
     return pages
 
 
@@ -120,38 +118,25 @@ def _motion_page(
     limits = sorted(
         {float(axis.at(np.array(e.offset))) for e in (output.low, output.high) if e is not None and e.kind != "end"}
     )  # those at the ends of the axis are its frame
-    kind = "link" if quantity.kind == "theta" else "slide"
-    title = say(Phrase(f"motion of {kind}", **{kind: quantity.of.split("/")[0]}), language)
-    heads = in_markup(title), _facts(turn, output, language)
-    return charts.chart_page(turn.scene, heads, panels, axis, language, title, {"output": quantity.of}, limits)
+    return charts.chart_page(axis, panels, _facts(turn, output, language), language, limits)
 
 
-def _asked_page(
-    turn: TurnStudy, axis: charts.DriverAxis, quantity: Quantity, over: LaidOver, language: str
-) -> ChartPage:
-    """The diagram of one quantity over the driver."""
-    others = over.get(quantity, ())
-    panel = charts.motion_panel(turn, axis, quantity, (), others)
-    apart = _apart(turn, quantity, others, language)
-    heads = say(Phrase("diagram of", quantity=panel.title), language), [apart] if apart else []
-    return charts.chart_page(turn.scene, heads, [panel], axis, language, quantity.name, {"quantity": quantity.name})
-
-
-def _apart(turn: TurnStudy, quantity: Quantity, over: Sequence[tuple[float, float]], language: str) -> str:
-    """The deviation of values from elsewhere from theory: root of the mean square, and the greatest."""
+def _apart(turn: TurnStudy, quantity: Quantity, over: Sequence[tuple[float, float]], language: str) -> list[str]:
+    """The deviation of values from elsewhere from theory, if there are any: root of the mean square, and the
+    greatest."""
     if not over:
-        return ""
+        return []
     at, read = np.array(over, dtype=float).T
     off = read - np.asarray(quantity.values(turn.reach, turn.reach.motion(at)), dtype=float)
     if quantity.measure == "angle":
         off = np.remainder(off + np.pi, 2 * np.pi) - np.pi
     off = np.abs(off[np.isfinite(off)])
     if not len(off):
-        return ""
+        return []
     unit = quantity.unit(turn.scene)
     sizes = np.sqrt(np.mean(off**2)), off.max()
     mean, greatest = (_said(float(size), unit, 3) for size in sizes)
-    return say(Phrase("laid over apart", values=len(off), mean=mean, greatest=greatest), language)
+    return [say(Phrase("laid over apart", values=len(off), mean=mean, greatest=greatest), language)]
 
 
 def _facts(turn: TurnStudy, output: Output, language: str) -> list[str]:

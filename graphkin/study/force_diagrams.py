@@ -61,11 +61,11 @@ def force_panel(axis: charts.DriverAxis, quantity: Quantity, offsets: charts.Arr
 
 def force_page(reach: DriverRange, quantity: Quantity, language: str) -> chart.ChartPage:
     """The diagram of a moment, or of the size of a force, over the driver."""
-    axis = charts.driver_axis(reach, language)
+    axis = charts.DriverAxis(reach)
     panel = force_panel(axis, quantity, whole_turn(axis))
-    heads = say(Phrase("diagram of", quantity=f"${charts.lettered(reach.scene, quantity.symbol)}$"), language), ()
-    facts = {"units": quantity.unit(reach.scene).written, "quantity": quantity.name}
-    return charts.chart_page(reach.scene, heads, [panel], axis, language, quantity.name, facts)
+    title = say(Phrase("diagram of", quantity=f"${charts.lettered(reach.scene, quantity.symbol)}$"), language)
+    units = quantity.unit(reach.scene).written
+    return charts.chart_page(axis, [panel], (), language, title=title, units=units)
 
 
 def jumps_of(curve: charts.Array) -> list[int]:
@@ -87,7 +87,7 @@ def force_extremes(reach: DriverRange) -> dict[str, tuple[Quantity, tuple[Extrem
     quantities = [Quantity(force) for force in forces_named(reach.scene) if force.kind in ("F", "M")]
     if not quantities:
         return {}
-    axis = charts.driver_axis(reach, "en")
+    axis = charts.DriverAxis(reach)
     offsets = whole_turn(axis)
     motion = reach.motion(offsets)
     forces = forces_of(motion)
@@ -145,7 +145,7 @@ def _grows_beside(axis: charts.DriverAxis, quantity: Quantity, place: float) -> 
 
 def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> chart.ChartPage:
     """The polar diagram of a force: the end of its vector, drawn from one pole, over the way of the driver."""
-    scene, axis = reach.scene, charts.driver_axis(reach, language)
+    scene, axis = reach.scene, charts.DriverAxis(reach)
     offsets, unit = whole_turn(axis), quantity.unit(scene)
     panel = force_panel(axis, quantity, offsets)
     x, sizes = panel.curve.T
@@ -201,7 +201,7 @@ MORE, LESS = "#dcdcdc", "#b8b8b8"
 
 def flywheel_page(reach: DriverRange, study: FlywheelStudy, language: str) -> chart.ChartPage:
     """The page of a flywheel."""
-    scene, axis = reach.scene, charts.driver_axis(reach, language)
+    scene, axis = reach.scene, charts.DriverAxis(reach)
     per, moment, inertia = scene.units.newtons, scene.units.of("moment").written, scene.units.of("inertia").written
     offsets, moments = whole_turn(axis), Quantity(Symbol("M", link=study.link))
     curve = axis.curve(moments, offsets, needed_moment(reach, offsets))
@@ -242,8 +242,8 @@ def flywheel_page(reach: DriverRange, study: FlywheelStudy, language: str) -> ch
         chart.add_labels(axes, labels)
         top = MOMENT_TOP + MOMENT_TALL + ENERGY_GAP
         box = Box(charts.LEFT, top, charts.WIDTH - charts.RIGHT, top + ENERGY_LOW)
-        store = chart.add_panel(figure, box, "energy", f"$ΔE$ ({moment})", axis.title)
-        store.set_xlim(axis.left, axis.right)
+        store = chart.add_panel(figure, box, "energy", f"$ΔE$ ({moment})", axis.title(language))
+        store.set_xlim(*axis.ends)
         least, most = float(energy.min()), float(energy.max())
         room = 1.6 * charts.MARGIN * (most - least) or 0.5
         store.set_ylim(least - room, most + room)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -14,9 +14,9 @@ from graphkin.drawing.chart import ChartPage
 from graphkin.files import Json
 from graphkin.scene.drivers import time_span
 from graphkin.scene.model import Mechanism
-from graphkin.solver import Motion, over_time, structure_of
+from graphkin.solver import Motion, over_time
 from graphkin.structure import Structure
-from graphkin.study.charts import Axis, chart_page, number, panel_of, quantity_title
+from graphkin.study.charts import Axis, Panel, chart_page, figure_name, number, panel_of
 from graphkin.study.extremes import Extreme
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
 from graphkin.study.turn import output_links, output_slides
@@ -41,7 +41,7 @@ class TimeAxis(Axis):
     @cached_property
     def times(self) -> Array:
         """Moments that show the motion: even ones, seams of laws, and just before them."""
-        low, high = time_span(self.scene)
+        low, high = self.ends
         seams = [p.start for d in self.scene.drivers if d.law is not None for p in d.law.parts]
         inner = np.array([t for t in seams if low < t < high])
         even = np.linspace(low, high, POINTS)
@@ -50,6 +50,18 @@ class TimeAxis(Axis):
     @cached_property
     def motion(self) -> Motion:
         return over_time(self.structure, self.times, extended=False)
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        return time_span(self.scene)
+
+    @property
+    def step(self) -> float:
+        low, high = self.ends
+        return next_of_series((high - low) / 12)
+
+    def title(self, language: str) -> str:
+        return word("time axis", language)
 
     def at(self, places: Array) -> Array:
         return places
@@ -69,26 +81,17 @@ class TimeAxis(Axis):
 
 @dataclass(frozen=True)
 class TimeStudy:
-    """The motion of outputs over time: the quantities of each, in groups of a page."""
+    """The motion of outputs over time: ``groups`` of quantities, each shown on a page."""
 
-    structure: Structure
-    pages: tuple[tuple[str, tuple[Quantity, ...]], ...]
-
-    @property
-    def scene(self) -> Mechanism:
-        return self.structure.scene
-
-    @cached_property
-    def axis(self) -> TimeAxis:
-        low, high = time_span(self.scene)
-        return TimeAxis(low, high, next_of_series((high - low) / 12), "", self.structure)
+    axis: TimeAxis
+    groups: tuple[tuple[Quantity, ...], ...]
 
     @cached_property
     def extremes(self) -> dict[Quantity, tuple[Extreme, ...]]:
         """The least and the greatest value of each quantity, none of a constant one; their offset and driver is the
         time (s)."""
         extremes = dict[Quantity, tuple[Extreme, ...]]()
-        for quantity in (q for _, quantities in self.pages for q in quantities):
+        for quantity in (q for quantities in self.groups for q in quantities):
             values = self.axis.course(quantity)
             good = values[np.isfinite(values)]
             still = not len(good) or np.ptp(good) <= 1e-12 * np.max(np.abs(good))
@@ -96,32 +99,27 @@ class TimeStudy:
         return extremes
 
     def diagrams(self, language: str) -> dict[str, ChartPage]:
-        """A page for each output: its position, rate and second rate over the time."""
-        return {name: self._page(quantities, language) for name, quantities in self.pages}
+        """A page for each group of quantities over the time."""
+        axis, facts = self.axis, [self._fact(language)]
 
-    def _page(self, quantities: Sequence[Quantity], language: str) -> ChartPage:
-        axis, subject = replace(self.axis, title=word("time axis", language)), quantities[0]
-        times = self.axis.times
-        mover = {"theta": "link", "s": "slide"}.get(subject.kind)
-        moving = mover and Phrase(f"motion of {mover}", **{mover: subject.of.split("/")[0]})
-        title = say(moving or Phrase("diagram of", quantity=quantity_title(self.scene, subject)), language)
-        panels = []
-        for quantity in quantities:
-            curve = np.stack([times, axis.shown(quantity, times, self.axis.course(quantity))], axis=1)
-            panels.append(panel_of(axis, quantity, curve, self.extremes[quantity]))
-        return chart_page(self.scene, (title, [self._fact(language)]), panels, axis, language, title, {"over": "time"})
+        def panel(quantity: Quantity) -> Panel:
+            shown = axis.shown(quantity, axis.times, axis.course(quantity))
+            return panel_of(axis, quantity, np.stack([axis.times, shown], axis=1), self.extremes[quantity])
+
+        return {figure_name(quantities): chart_page(axis, [*map(panel, quantities)], facts, language, over="time")
+                for quantities in self.groups}  # fmt: skip
 
     def _fact(self, language: str) -> str:
         """The drivers, and the span of time."""
-        drives = ", ".join(d.key for d in self.scene.drivers if d.law is not None)
-        begin, end = map(number, time_span(self.scene))
+        drives = ", ".join(d.key for d in self.axis.scene.drivers if d.law is not None)
+        begin, end = map(number, self.axis.ends)
         return say(Phrase("over the time", drivers=drives, begin=begin, end=end), language)
 
     def lines(self, language: str) -> list[str]:
         """The least and the greatest value of each quantity, with their moments, as lines of text."""
         lines = [self._fact(language)]
         for quantity, extremes in self.extremes.items():
-            unit = quantity.unit(self.scene)
+            unit = quantity.unit(self.axis.scene)
             ends = []
             for e in extremes:
                 key = "least at time" if e.kind == "min" else "greatest at time"
@@ -134,28 +132,24 @@ class TimeStudy:
     @cached_property
     def data(self) -> dict[str, Json]:
         """The study as plain data: scene units, radians, seconds."""
-        low, high = time_span(self.scene)
-        outputs: dict[str, Json] = {}
+        scene, outputs = self.axis.scene, dict[str, Json]()
         for quantity, extremes in self.extremes.items():
-            ends, unit = {"min": "least", "max": "greatest"}, quantity.unit(self.scene, radians=True)
+            ends, unit = {"min": "least", "max": "greatest"}, quantity.unit(scene, radians=True)
             outputs[quantity.name] = {
                 ends[e.kind]: {"value": unit.of(e.value), "time": e.offset} for e in extremes
             }
-        return {"title": self.scene.question.title, "time": [low, high], "outputs": outputs}
+        return {"title": scene.question.title, "time": [*self.axis.ends], "outputs": outputs}
 
 
-def study_time(scene: Mechanism, asked: Sequence[Quantity] = ()) -> TimeStudy:
+def study_time(structure: Structure, asked: Sequence[Quantity] = ()) -> TimeStudy:
     """The study over time of the asked quantities, each on a page; else of the drivers and every output with its
     rates."""
+    axis, scene = TimeAxis(structure), structure.scene
     if asked:
-        named = ((f"diagram-{q.name.replace('/', '-').replace('@', '')}", (q,)) for q in asked)
-        return TimeStudy(structure_of(scene), tuple(named))
-    pages: list[tuple[str, tuple[Quantity, ...]]] = []
+        return TimeStudy(axis, tuple((quantity,) for quantity in asked))
     turning = [d.link for d in scene.drivers if d.turns_about(scene.frame.name)]
     sliding = [d.key for d in scene.drivers if not d.turns]
-    start = over_time(scene, np.array(time_span(scene)[:1]))
+    start = over_time(structure, np.array(axis.ends[:1]))
     turning += [name for name in output_links(scene) if name not in turning]
     sliding += [key for key in output_slides(start) if key not in sliding]
-    pages += [(f"motion-link-{name}", link_quantities(name)) for name in turning]
-    pages += [(f"motion-slide-{key.replace('/', '-')}", slide_quantities(key)) for key in sliding]
-    return TimeStudy(structure_of(scene), tuple(pages))
+    return TimeStudy(axis, (*map(link_quantities, turning), *map(slide_quantities, sliding)))

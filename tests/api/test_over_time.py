@@ -129,6 +129,11 @@ def test_a_sweep_goes_over_the_time_and_names_the_extremes():
     assert "greatest 6.28319 rad/s at 0.25 s" in swept.text
 
 
+def test_the_file_of_a_diagram_over_the_time_is_called_by_the_quantity_not_by_its_markup():
+    swept = graphkin.sweep(crank(angle=50, law=LAW), positions=5, find=["v_B"])
+    assert "v_B: " == swept.figures["diagram-v_B"].title[:5]
+
+
 def test_a_scene_with_a_law_is_written_and_read_again(tmp_path):
     for name, given in (("crank", crank(angle=50, law=LAW)), ("five-bar", five_bar())):
         scene = graphkin.read(given)
