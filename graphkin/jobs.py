@@ -25,7 +25,7 @@ from multiprocessing.connection import wait
 from multiprocessing.process import BaseProcess
 from pathlib import Path
 from types import TracebackType
-from typing import IO, TYPE_CHECKING, Any, Generic, ParamSpec, TypeVar
+from typing import IO, TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 from graphkin.errors import CallError, Problem
 from graphkin.files import Json, Tables, whole_file
@@ -156,11 +156,6 @@ class Workers:
         self._waiting: set[Future[Any]] = set()
 
     @property
-    def own(self) -> bool:
-        """Whether the processes are its own."""
-        return self._processes is not None
-
-    @property
     def width(self) -> int:
         """The number of pieces done at once, if the executor tells it; 1 in this process alone."""
         if self._processes is not None:
@@ -172,19 +167,43 @@ class Workers:
         """The number of pieces given out beyond the awaited one."""
         return 0 if self._given is None and self._processes is None else AHEAD * max(2, self.width)
 
-    def start(self, task: Callable[..., Result], *given: object) -> Started[Result]:
-        """Give out a piece."""
-        return Started(self, task, given)
+    def start(self, task: Callable[..., Result], *given: object) -> Callable[[], Result]:
+        """Give out a piece; the returned function waits for its result.
+
+        A piece whose worker was lost is given out again.  Without an executor, or where it is broken or could not do
+        the piece, the piece is done here, which raises its error.
+        """
+        future = self._submit(task, given)
+
+        def result() -> Result:
+            nonlocal future
+            for _ in range(MOST_LOSSES):
+                if future is None:
+                    break
+                try:
+                    return future.result()
+                except (BrokenExecutor, CancelledError):
+                    pass
+                except Exception as error:
+                    if type(error).__name__ not in ("KilledWorker", "CommClosedError", "FutureCancelledError"):
+                        future = None
+                        break
+                future = self._submit(task, given)
+            if future is not None and self._processes is not None:
+                raise CallError(LOST)
+            return task(*given)
+
+        return result
 
     def results(self, task: Callable[..., Result], pieces: Iterable[tuple[object, ...]]) -> Iterator[Result]:
         """The results of the pieces in their order; a few pieces are always given out ahead."""
-        queue: deque[Started[Result]] = deque()
+        queue: deque[Callable[[], Result]] = deque()
         for given in pieces:
             queue.append(self.start(task, *given))
             if len(queue) > self.ahead:
-                yield queue.popleft().result()
+                yield queue.popleft()()
         while queue:
-            yield queue.popleft().result()
+            yield queue.popleft()()
 
     def __enter__(self) -> Workers:
         return self
@@ -227,36 +246,6 @@ class Workers:
             except BrokenExecutor:  # one of its processes was killed
                 self._count = self._renewed
         raise CallError(LOST)
-
-
-class Started(Generic[Result]):
-    """A piece under work."""
-
-    def __init__(self, workers: Workers, task: Callable[..., Result], given: tuple[object, ...]) -> None:
-        self._workers, self._task, self._given = workers, task, given
-        self._future = workers._submit(task, given)
-
-    def result(self) -> Result:
-        """The result of the piece.
-
-        A piece whose worker was lost is given out again.  Without an executor, or where it is broken or could not do
-        the piece, the piece is done here, which raises its error.
-        """
-        for _ in range(MOST_LOSSES):
-            if self._future is None:
-                break
-            try:
-                return self._future.result()
-            except (BrokenExecutor, CancelledError):
-                pass
-            except Exception as error:
-                if type(error).__name__ not in ("KilledWorker", "CommClosedError", "FutureCancelledError"):
-                    self._future = None
-                    break
-            self._future = self._workers._submit(self._task, self._given)
-        if self._future is not None and self._workers.own:
-            raise CallError(LOST)
-        return self._task(*self._given)
 
 
 def process_pool(processes: int) -> ProcessPoolExecutor:

@@ -154,7 +154,8 @@ SAME_AT_SEAM = 1e-11
 """Of the largest value: a curve that changes by less stands still."""
 
 _NODES = np.cos(np.pi * (np.arange(POINTS) + 0.5) / POINTS)[::-1]
-_FIT = np.linalg.inv(chebyshev.chebvander(_NODES, POINTS - 1))
+_VALUES = chebyshev.chebvander(_NODES, POINTS - 1)
+_FIT = np.linalg.inv(_VALUES)
 
 
 class Turn(NamedTuple):
@@ -189,13 +190,15 @@ class Pieces:
     doubt: Array
     seams: Array
 
-    def zeros(self, curve: int) -> Array:
-        """Parameters at which a curve is zero, in increasing order; of a stretch along which it is zero, the ends."""
-        found = self._roots(self.coefficients[:, :, curve], self.scale[curve], self.doubt[:, curve])
+    def zeros(self, curve: int, level: float = 0.0) -> Array:
+        """Parameters at which a curve is zero, in increasing order; of a stretch along which it is zero, the ends.  A
+        curve without a weight may be looked at from another ``level``."""
+        coefficients = self.coefficients[:, :, curve] - level * np.eye(1, POINTS)
+        found = self._roots(coefficients, self.scale[curve], self.doubt[:, curve])
         if not len(self.seams):
             return found
         whole = self.high[-1] - self.low[0]
-        nothing = np.abs(self.levels(curve)).min(axis=0) <= NOTHING * self.scale[curve]
+        nothing = np.abs(self.levels(curve) - level).min(axis=0) <= NOTHING * self.scale[curve]
         for seam in self.seams[nothing]:
             # several roots at one end are found apart, by the root of the rounding
             apart = np.abs(found - seam)
@@ -223,8 +226,8 @@ class Pieces:
             # f = g / (s^2a c^2b), s and c of half the parameter, is at rest where g' s c - g (a c^2 - b s^2) = 0
             half = (self.high - self.low)[:, None] / 2
             at = ((self.low + self.high)[:, None] / 2 + half * _NODES) / 2
-            g = c @ chebyshev.chebvander(_NODES, POINTS - 1).T
-            dg = slopes @ chebyshev.chebvander(_NODES, POINTS - 2).T / half
+            g = c @ _VALUES.T
+            dg = slopes @ _VALUES[:, :-1].T / half
             rising, falling = np.sin(at) ** (first > 0), np.cos(at) ** (last > 0)
             bent = first * np.cos(at) * falling - last * np.sin(at) * rising
             slopes = (half * (dg * rising * falling - g * bent)) @ _FIT.T
@@ -313,6 +316,12 @@ class Pieces:
         before = np.where(self.periodic & (self.seams == self.low[0]), self.high[-1], self.seams)
         return np.stack([self.at(before, curve), self.at(self.seams, curve, after=True)])
 
+    def span(self, curve: int) -> tuple[float, float]:
+        """Two values between which the known part of a curve lies."""
+        c = self.coefficients[np.isfinite(self.doubt[:, curve]), :, curve]
+        rest = np.abs(c[:, 1:]).sum(axis=1)
+        return float(np.min(c[:, 0] - rest, initial=0.0)), float(np.max(c[:, 0] + rest, initial=0.0))
+
     def is_constant(self, curve: int) -> bool:
         """Whether the known part of a curve changes by rounding alone."""
         c = self.coefficients[np.isfinite(self.doubt[:, curve]), :, curve]
@@ -376,7 +385,8 @@ class Pieces:
 
         pieces = np.repeat(np.arange(len(low)), POINTS)
         places = (((low + high)[:, None] + (high - low)[:, None] * _NODES) / 2).ravel()
-        told = values(places, pieces)
+        at_nodes = (_VALUES[:, : coefficients.shape[1]] * coefficients[which][:, None]).sum(axis=2)
+        told = np.where(np.abs(at_nodes) > noise[which][:, None], at_nodes, 0.0).ravel()
         ends, found = np.flatnonzero(told), list[float]()
         turning = (told[ends[1:]] * told[ends[:-1]] < 0) & (pieces[ends[1:]] - pieces[ends[:-1]] < 2)
         for i, k in zip(ends[:-1][turning].tolist(), ends[1:][turning].tolist(), strict=True):

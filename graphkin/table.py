@@ -345,8 +345,9 @@ class Table:
         dataset = frame.set_index(list(along)).to_xarray()
         if dataset.sizes and math.prod(dataset.sizes.values()) != len(self):
             raise CallError.of("table", "is no grid of", shape=", ".join(self.index))
-        for column in self.columns:
-            dataset[column.name].attrs |= _attributes(column)
+        for column in self.columns:  # "units" is the name that xarray's plots look for
+            facts = _facts(column).items()
+            dataset[column.name].attrs |= {"units" if fact == "unit" else fact: text for fact, text in facts}
         return dataset
 
     # files
@@ -391,11 +392,6 @@ def _library(name: str) -> Any:
 def _facts(column: Column) -> dict[str, str]:
     facts = {"unit": column.unit, "symbol": column.symbol}
     return {key: text for key, text in facts.items() if text}
-
-
-def _attributes(column: Column) -> dict[str, str]:
-    # "units" is the name that xarray's plots look for
-    return {{"unit": "units"}.get(key, key): text for key, text in _facts(column).items()}
 
 
 Array = NDArray[Any]

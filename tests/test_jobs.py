@@ -23,7 +23,7 @@ import os, sys, time
 from graphkin.jobs import Workers
 if __name__ == "__main__":
     with Workers(processes=2) as workers:
-        print(workers.start(os.getpid).result(), flush=True)
+        print(workers.start(os.getpid)(), flush=True)
         for _ in workers.results(time.sleep, [(60,)] * 4):
             pass
 """
@@ -112,12 +112,12 @@ def test_memory_stays_bounded() -> None:
 
 def test_a_pool_whose_process_was_killed_is_replaced(tmp_path: Path) -> None:
     with Workers(processes=2) as workers:
-        assert "done" == workers.start(lost_once, str(tmp_path / "once")).result()
+        assert "done" == workers.start(lost_once, str(tmp_path / "once"))()
 
 
 def test_a_piece_that_ends_every_process_is_a_sentence() -> None:
     with pytest.raises(CallError, match="again and again"), Workers(processes=2) as workers:
-        workers.start(os._exit, 1).result()
+        workers.start(os._exit, 1)()
 
 
 def test_a_process_that_may_have_no_children_does_the_pieces_itself(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from numbers import Real
 from typing import TYPE_CHECKING
 
@@ -224,7 +224,8 @@ class Prepared(Tabled, OfScene):
 
     def __reduce__(self) -> tuple[object, ...]:
         # what was asked is pickled, the code for it is made anew
-        return _prepare, self._said
+        scene, find, bounds, fast = self._said
+        return partial(prepare, find=find, bounds=bounds, fast=fast), (scene,)
 
     @property
     def _said(self) -> tuple[SceneLike, tuple[str, ...], bool, bool | None]:
@@ -391,18 +392,10 @@ class PreparedDesigns(Tabled, OfScene):
 
     def __reduce__(self) -> tuple[object, ...]:
         given = {key: float(own[0]) if self.single else own for key, own in self.values.items()}
-        return _over, (self.prepared, given)
+        return self.prepared.over, (given,)
 
     def __repr__(self) -> str:
         return f"<PreparedDesigns {self.prepared.mechanism.name}: {len(self)} of {', '.join(self.values)}>"
-
-
-def _over(prepared: Prepared, designs: Mapping[str, ArrayLike]) -> PreparedDesigns:
-    return prepared.over(designs)
-
-
-def _prepare(scene: SceneLike, find: tuple[str, ...], bounds: bool, fast: bool | None) -> Prepared:
-    return prepare(scene, find=find, bounds=bounds, fast=fast)
 
 
 def prepare(

@@ -33,7 +33,8 @@ def loop_gaps(sheet: Sheet, stated: Mapping[Symbol, complex | float]) -> dict[Sy
     for loop in loops_of(sheet.structure) if coordinates else ():
         vectors = stated_arrows(sheet, loop, stated)
         for symbol, coordinate in coordinates.items():
-            if vectors and _gives(loop, coordinate):
+            kind, name = coordinate
+            if vectors and (kind, loop.ties.get(name, name) if kind == "angle" else name) in loop.unknowns:
                 gaps.setdefault(symbol, (loop.name, abs(added_up(vectors, 0j))))
     return gaps
 
@@ -64,8 +65,3 @@ def _of_loop(symbol: Symbol) -> Coordinate | None:
     if symbol.kind == "theta" and not symbol.other and not symbol.at:
         return "angle", symbol.link
     return ("travel", symbol.pair) if symbol.kind == "s" and not symbol.at else None
-
-
-def _gives(loop: Loop, coordinate: Coordinate) -> bool:
-    kind, name = coordinate
-    return (kind, loop.ties.get(name, name) if kind == "angle" else name) in loop.unknowns

@@ -179,12 +179,8 @@ def _lines(
                 for e in sheet.equations if e.diagram == diagram for side in e.sides for t in side}  # fmt: skip
     drawn = sorted(vectors.values(), key=lambda v: known_of.get(v.symbol, (False, False)) == (False, False))
     for vector in drawn:
-        tail, tip = (_name_at(z, ends, places, SAME * largest) for z in (vector.tail, vector.tip))
+        tail, tip = (next((name for name in places if abs(ends[name] - end) <= SAME * largest), "")
+                     for end in (vector.tail, vector.tip))  # fmt: skip
         if tail and tip and abs(vector.span) > SAME * largest:
             known = known_of.get(vector.symbol, (False, False))
             yield ReadLine(str(vector.symbol), vector.span, places[tail], places[tip], known, within * largest)
-
-
-def _name_at(place: complex, ends: Mapping[str, complex], read: Mapping[str, complex], near: float) -> str:
-    """A read end that lies exactly at a place, "" if none does."""
-    return next((name for name in read if abs(ends[name] - place) <= near), "")

@@ -473,7 +473,8 @@ def _force_slips(motion: Motion) -> Iterator[Alteration]:
         return
     loading = motion.scene.loading
     masses, springs, (loads, idle), down = loading.masses, loading.springs, _standing(motion), loading.gravity
-    weights = tuple(_weight(mass, mass.mass * down) for mass in masses) if down else ()
+    weights = tuple(LoadOn(f"weight{mass.link}", mass.link, mass.mass * abs(down), True, mass.at, down / abs(down))
+                    for mass in masses) if down else ()  # fmt: skip
     right = Loading(0j, masses, (*weights, *loads), loading.balance, springs=springs)
 
     def slip(key: str, of: str | None, share: float, **changes: Sequence[object]) -> Alteration:
@@ -555,10 +556,6 @@ def _standing(motion: Motion) -> tuple[tuple[LoadOn, ...], tuple[LoadOn, ...]]:
             bare = replace(bare, size=abs(value), turn=complex(value / abs(value)), follows="", against="")
         (acting if acting_now else idle).append(bare)
     return tuple(acting), tuple(idle)
-
-
-def _weight(mass: LinkMass, force: complex) -> LoadOn:
-    return LoadOn(f"weight{mass.link}", mass.link, abs(force), True, mass.at, force / abs(force))
 
 
 def _scaled(mass: LinkMass, links: Sequence[str], force: float, couple: float) -> LinkMass:

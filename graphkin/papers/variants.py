@@ -23,7 +23,7 @@ from graphkin.construction import Sheet, execute
 from graphkin.construction.steps import Ray
 from graphkin.errors import GraphkinError, SceneError, Unsolvable
 from graphkin.files import OwnTables, Tables
-from graphkin.jobs import Checkpoints, Progress, Started, Workers, key_of
+from graphkin.jobs import Checkpoints, Progress, Workers, key_of
 from graphkin.papers.fresh_numbers import LEVELS, Bounds, Spread, candidate, level_of, round_step, varied_keys
 from graphkin.papers.paper import paper_plan
 from graphkin.plane import cross
@@ -338,6 +338,8 @@ def _answers(
 # -- a set of them -----------------------------------------------------------------------------------------------------
 
 Render = Callable[[Variant], Mapping[str, bytes]]
+Papers = Callable[[], tuple[Variant, Mapping[str, bytes]]]
+"""Waits for the files of a variant."""
 
 
 @dataclass(frozen=True)
@@ -474,11 +476,11 @@ def make(
         points.open(variants=len(jobs))
     again = False
 
-    def settle(job: Job, variant: Variant, papers: Started[tuple[Variant, Mapping[str, bytes]]] | None) -> None:
+    def settle(job: Job, variant: Variant, papers: Papers | None) -> None:
         nonlocal again
         files: tuple[str, ...] = ()
         if papers is not None:
-            variant, rendered = papers.result()
+            variant, rendered = papers()
             try:
                 files = tuple(keep(variant, rendered)) if keep is not None and not variant.why else ()
             except Exception as error:
@@ -491,7 +493,7 @@ def make(
         if progress is not None:
             progress(len(made), len(jobs))
 
-    waiting: deque[tuple[Job, Variant, Started[tuple[Variant, Mapping[str, bytes]]] | None]] = deque()
+    waiting: deque[tuple[Job, Variant, Papers | None]] = deque()
     for job, variant in accepted(jobs, done, workers):
         new = not variant.why and job.number not in done
         waiting.append((job, variant, workers.start(_rendered, render, variant) if new else None))
@@ -510,7 +512,7 @@ def accepted(jobs: Iterable[Job], done: Mapping[int, Variant], workers: Workers)
     """The result of each job, in order; variants drawn from a seed differ from all before them."""
     taken: list[tuple[Answer, ...]] = []
     refused: Variant | None = None
-    queue: deque[tuple[Job, Started[Variant] | None]] = deque()
+    queue: deque[tuple[Job, Callable[[], Variant] | None]] = deque()
     left = iter(jobs)
     while True:
         # nothing is begun beside the first before it has shown that the scene can vary
@@ -522,12 +524,12 @@ def accepted(jobs: Iterable[Job], done: Mapping[int, Variant], workers: Workers)
         if refused is not None:
             yield job, replace(refused, name=job.name)
             continue
-        variant = done[job.number] if started is None else started.result()
+        variant = done[job.number] if started is None else started()
         if variant.why and job.spread is not None and not taken:
             refused = variant  # what no attempt at the first one makes a good problem, none at the others will
         drawn = started is not None and job.spread is not None
         while drawn and not variant.why and not distinct(variant.answers, taken):
-            variant = workers.start(work, job, variant.attempt + 1).result()
+            variant = workers.start(work, job, variant.attempt + 1)()
         if not variant.why:
             taken.append(variant.answers)
         yield job, variant

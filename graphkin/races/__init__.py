@@ -5,7 +5,7 @@ programs, and as a chart: cost of a position against the largest error, velocity
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
@@ -17,7 +17,7 @@ from graphkin.drawing.chart import ChartPage, Shape, add_labels, add_panel, add_
 from graphkin.drawing.text import rich, wrapped
 from graphkin.files import Json
 from graphkin.races.methods import METHODS, acts, copy_time, one_by_one
-from graphkin.races.work import Entry, Machine, Skipped, Work, this_machine, work_of
+from graphkin.races.work import Entry, Skipped, Work, this_machine, work_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.study.equations import context
@@ -45,6 +45,7 @@ class Race:
 
     copying : cost of copying the velocities of a position, and with the accelerations (s)
     acts : acts of the hand in one drawing
+    machine : cores, processor, versions of the programs by name
     skipped : peers left out, with the reason
     asked : the quantities of the limited runs
     """
@@ -56,7 +57,7 @@ class Race:
     repeats: int
     count: int
     places: int
-    machine: Machine
+    machine: tuple[int, str, Mapping[str, str]]
     skipped: tuple[tuple[str, Phrase], ...]
     asked: tuple[Symbol, ...]
 
@@ -117,11 +118,10 @@ def race_table(race: Race) -> Table:
 
 def to_json(race: Race, language: str = "en") -> dict[str, Json]:
     """Costs in s for a position, errors in parts of the largest value, and the machine."""
+    cores, processor, versions = race.machine
     return {
         "scene": race.scene.name,
-        "machine": {
-            "cores": race.machine.cores, "processor": race.machine.processor, "versions": dict(race.machine.versions)
-        },
+        "machine": {"cores": cores, "processor": processor, "versions": dict(versions)},
         "repeats": race.repeats,
         "positions": race.count,
         "places": race.places,
@@ -176,11 +176,10 @@ def race_page(race: Race, language: str = "en") -> ChartPage:
     """One page for both."""
     title = word("speed title", language)
     name = race.scene.question.title_in(language)
-    versions = ", ".join(f"{n} {v}" for n, v in race.machine.versions)
-    machine, counts = race.machine, {"runs": race.repeats, "positions": race.count, "places": race.places}
-    facts = say(
-        Phrase("speed facts", cores=machine.cores, processor=machine.processor, versions=versions, **counts), language
-    )
+    cores, processor, programs = race.machine
+    versions = ", ".join(f"{program} {version}" for program, version in programs.items())
+    facts = say(Phrase("speed facts", cores=cores, processor=processor, versions=versions, runs=race.repeats,
+                       positions=race.count, places=race.places), language)  # fmt: skip
     wide = WIDTH - LEFT - RIGHT
     half = (wide - GAP) / 2
 

@@ -10,6 +10,7 @@ import os
 import platform
 import time
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from importlib import metadata
 from typing import TYPE_CHECKING, Literal
@@ -24,6 +25,7 @@ from graphkin.solver import Motion
 from graphkin.solver.pose import Array
 from graphkin.structure import Dyad, Structure, group_named
 from graphkin.study.equations import Equations, Solution, reference, refined
+from graphkin.version import __version__
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
@@ -255,32 +257,13 @@ def best_time(run: Callable[[], object], repeats: int, least: float = 2e-3) -> f
 PACKAGES = ("numpy", "numba", "scipy", "pylinkage", "mpmath")
 
 
-@dataclass(frozen=True)
-class Machine:
-    """Cores and processor, and the versions of the programs."""
-
-    cores: int
-    processor: str
-    versions: tuple[tuple[str, str], ...]
-
-
-def this_machine() -> Machine:
-    """This machine."""
-    from graphkin.version import __version__
-
-    versions = [("graphkin", __version__), ("Python", platform.python_version())]
+def this_machine() -> tuple[int, str, dict[str, str]]:
+    """Cores and processor of this machine, and the versions of the programs by name."""
+    versions = {"graphkin": __version__, "Python": platform.python_version()}
     for name in PACKAGES:
-        try:
-            versions.append((name, metadata.version(name)))
-        except metadata.PackageNotFoundError:
-            continue
-    return Machine(os.cpu_count() or 1, _processor(), tuple(versions))
-
-
-def _processor() -> str:
-    try:
-        with open("/proc/cpuinfo", encoding="utf-8") as file:
-            names = [line.partition(":")[2].strip() for line in file if line.startswith("model name")]
-    except OSError:
-        names = []
-    return names[0] if names else platform.processor() or platform.machine()
+        with suppress(metadata.PackageNotFoundError):
+            versions[name] = metadata.version(name)
+    names = []
+    with suppress(OSError), open("/proc/cpuinfo", encoding="utf-8") as file:
+        names = [line.partition(":")[2].strip() for line in file if line.startswith("model name")]
+    return os.cpu_count() or 1, names[0] if names else platform.processor() or platform.machine(), versions

@@ -207,7 +207,7 @@ class DriverAxis(Axis):
     def shown(self, quantity: Quantity, places: Array, values: Array) -> Array:
         """Values (SI) in units of the figure; an angle of a link without a jump along the axis."""
         values = np.asarray(values, dtype=float)
-        if quantity.is_angle and self.reach.full:
+        if quantity.kind == "theta" and self.reach.full:
             values = np.where(places < self.first - 1e-12, values + self.gain(quantity), values)
             left = quantity.values(self.reach, self.beside_ends)[2]
             values = values - 2 * np.pi * np.rint(left / (2 * np.pi))
@@ -228,7 +228,7 @@ class DriverAxis(Axis):
         x, shown = self.at(offsets), self.shown(quantity, offsets, values)
         if self.reach.full:
             x[0], x[-1] = self.ends
-            if quantity.is_angle:
+            if quantity.kind == "theta":
                 shown[-1] = shown[0] + quantity.unit(self.scene).of(self.gain(quantity))
         return np.stack([x, shown], axis=1)
 
@@ -237,7 +237,7 @@ class DriverAxis(Axis):
         if not len(pairs):
             return EMPTY
         at, read = np.array(pairs, dtype=float).T
-        if quantity.is_angle:
+        if quantity.kind == "theta":
             # an angle that is measured tells no whole turns
             read = read + 2 * np.pi * np.rint((self.values(quantity, at) - read) / (2 * np.pi))
         points = np.stack([self.at(at), self.shown(quantity, at, read)], axis=1)
@@ -428,7 +428,7 @@ def draw_panel(axes: chart.Axes, panel: Panel, axis: Axis, language: str, limits
     axes.set_ylim(*panel.span)
     chart.count_steps(axes.xaxis, axis.step)
     wide = panel.span[1] - panel.span[0]
-    in_degrees = panel.quantity.is_angle and wide > 60 * (1 + 2 * MARGIN)
+    in_degrees = panel.quantity.kind == "theta" and wide > 60 * (1 + 2 * MARGIN)
     chart.count_steps(axes.yaxis, chart.degree_step(wide, 7) if in_degrees else None)
     if panel.allowed is not None:
         axes.axhspan(*panel.allowed, color=ALLOWED, linewidth=0.0, zorder=0.5)

@@ -13,7 +13,7 @@ from typing import Literal
 
 import numpy as np
 
-from graphkin.search import Pieces, Turn, resolve
+from graphkin.search import SAME, Pieces, Turn, resolve
 from graphkin.solver import DriverRange, Motion
 from graphkin.solver.pose import Array
 from graphkin.study.quantities import Quantity, rates_of
@@ -88,6 +88,26 @@ class Curve:
     quantity: Quantity
     pieces: Pieces
     k: int
+
+    @cached_property
+    def zeros(self) -> Array:
+        """The parameters at which it is zero, in increasing order; of the angle between two links, whatever whole turns
+        one has made against the other, those at which they stand alike; none of a link's own angle."""
+        if self.quantity.is_angle:
+            return np.zeros(0)
+        if self.quantity.kind != "theta":
+            return self.pieces.zeros(self.k)
+        low, high = (bound / math.tau for bound in self.pieces.span(self.k))
+        turns = range(math.ceil(low), math.floor(high) + 1)
+        zeros = np.sort(np.concatenate([self.pieces.zeros(self.k, math.tau * n) for n in turns]))
+        whole = float(self.pieces.high[-1] - self.pieces.low[0])
+        same = self.pieces.periodic and len(zeros) > 1 and zeros[-1] - zeros[0] > (1 - SAME) * whole
+        return zeros[:-1] if same else zeros
+
+    def about_zeros(self, values: Array) -> Array:
+        """Its values at its zeros, before and after them, shape (3, n), without whole turns at the zeros."""
+        values = values.reshape(3, -1)
+        return values - math.tau * np.rint(values[0] / math.tau) if self.quantity.kind == "theta" else values
 
 
 @dataclass(frozen=True)
@@ -221,7 +241,7 @@ def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[Traced, .
         curves += resolved(places, np.array([reach.scene.size if q.measure == "length" else 1.0 for q in places]))
     if rates:
         # near the end of a motion, a distance x away, velocities grow as x^-1/2 and accelerations as x^-3/2
-        power = np.array([(1.0 if q.is_speed else 3.0) * (2 if q.is_size else 1) for q in rates])
+        power = np.array([(3.0 if "acceleration" in q.measure else 1.0) * (2 if q.is_size else 1) for q in rates])
         curves += resolved(rates, _floor(reach, rates), None if reach.full else power * _grow(reach, rates))
     traced = _traced(way, curves) if reach.full else _beside_ends(reach, _traced(way, curves))
     found = {t.quantity: t for t in traced if t.constant is None or np.isfinite(t.constant)}
@@ -282,8 +302,6 @@ def _traced(way: CurveParameter, curves: Sequence[Curve]) -> list[Traced]:
             most = max((e.value for e in extremes if e.kind != "end"), default=0.0)
             extremes = tuple(replace(e, value=0.0) if e.value <= 1e-11 * most else e for e in extremes)
             zeros = np.array([e.offset for e in extremes if e.value == 0.0 and e.kind != "end"])
-        elif quantity.is_angle:
-            zeros = np.zeros(0)
         found.append(Traced(quantity, extremes, tuple(driver_value(reach, float(z)) for z in zeros)))
     return found
 
@@ -291,24 +309,18 @@ def _traced(way: CurveParameter, curves: Sequence[Curve]) -> list[Traced]:
 def _zeros(way: CurveParameter, curves: Sequence[Curve]) -> list[Array]:
     """Offsets at which curves are zero.  Near an end of the motion, where rounding grows without bound, a curve that it
     hides is zero too: there fifty digits tell."""
-    found = [way.offset(way.inside(c.pieces.zeros(c.k))) for c in curves]
+    found = [way.offset(way.inside(curve.zeros)) for curve in curves]
     if way.reach.full:
         return found
+    low, high = way.reach.ends
+    steps = [ASIDE * np.minimum(zeros - low, high - zeros) for zeros in found]
+    places = [np.concatenate([zeros, zeros - step, zeros + step]) for zeros, step in zip(found, steps, strict=True)]
+    values = _values(way.reach, [c.quantity for c in curves], places, extended=True)
     zero = [
         np.isin(zeros, way.reach.seams) | ~(np.abs(at) > ZERO * np.max(np.abs(beside), axis=0))
-        for zeros, (at, *beside) in zip(found, _about(way, curves, found), strict=True)
+        for zeros, (at, *beside) in zip(found, map(Curve.about_zeros, curves, values), strict=True)
     ]
     return [zeros[is_one] for zeros, is_one in zip(found, zero, strict=True)]
-
-
-def _about(way: CurveParameter, curves: Sequence[Curve], offsets: Sequence[Array]) -> list[Array]:
-    """Curves over a range that ends, at offsets of their own, a little before and a little after each, shape (3, n),
-    with all their digits."""
-    low, high = way.reach.ends
-    steps = [ASIDE * np.minimum(places - low, high - places) for places in offsets]
-    places = [np.concatenate([own, own - step, own + step]) for own, step in zip(offsets, steps, strict=True)]
-    values = _values(way.reach, [c.quantity for c in curves], places, extended=True)
-    return [of_curve.reshape(3, -1) for of_curve in values]
 
 
 def _beside_ends(reach: DriverRange, curves: Sequence[Traced]) -> list[Traced]:

@@ -129,28 +129,18 @@ def ordinate_chains(scene: Mechanism) -> Iterator[tuple[Symbol, ...]]:
             yield Symbol(axis, point), *(Symbol(kind, point, axis=axis) for kind in "va")
 
 
-def _chain_of(scene: Mechanism, name: str) -> tuple[tuple[Symbol, ...], int]:
-    """A quantity by its name: its index among position, rate and second rate, and these.
-
-    Raises
-    ------
-    CallError : no such quantity, or one without a sign
-    """
-    places = {str(symbol): (chain, k) for chain in ordinate_chains(scene) for k, symbol in enumerate(chain)}
-    if name not in places:
-        raise CallError.of(Phrase("quantity of name", name=f"{name:.60}"), "is no quantity with a sign here",
-                           did_you_mean(name, places))
-    return places[name]
-
-
 def known_ordinate(scene: Mechanism, name: str, way: Way) -> tuple[Symbol, Symbol]:
     """The given quantity, and the derived or integrated one.
 
     Raises
     ------
-    CallError : no such quantity, no result of it, or a driver that does not move evenly
+    CallError : no such quantity, or one without a sign; no result of it; a driver that does not move evenly
     """
-    chain, k = _chain_of(scene, name)
+    chains = {str(symbol): (chain, k) for chain in ordinate_chains(scene) for k, symbol in enumerate(chain)}
+    if name not in chains:
+        raise CallError.of(Phrase("quantity of name", name=f"{name:.60}"), "is no quantity with a sign here",
+                           did_you_mean(name, chains))
+    chain, k = chains[name]
     wanted = k + (1 if way == "derivative" else -1)
     if not 0 <= wanted < len(chain):
         says = (

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cached_property
 
 import numpy as np
 
@@ -31,11 +31,6 @@ TOGETHER = 1 << 16
 """Positions that are computed together."""
 LOOP = 64
 """From so many positions of each design on its own loop of compiled code pays."""
-
-
-@cache
-def _nodes() -> tuple[Array, Array]:
-    return UniformGrid(0.0, 2 * np.pi, NODES, 0, NODES).turn
 
 
 @dataclass(frozen=True)
@@ -127,7 +122,8 @@ class PreparedMechanisms:
         ready = self.ready
         if not ready.whole or ready.signs is None or ready.bounded:  # bounds are made of each mechanism by itself
             return np.zeros(self.count, dtype=bool)
-        turn = (np.broadcast_to(x, (self.count, NODES)) for x in _nodes())
+        nodes = UniformGrid(0.0, 2 * np.pi, NODES, 0, NODES).turn
+        turn = (np.broadcast_to(x, (self.count, NODES)) for x in nodes)
         seen = self._compute(self._formulas.checks, np.arange(self.count), *turn)
         # so near to each other that nothing happens between two nodes
         steps = np.abs(seen - np.roll(seen, 1, axis=2))

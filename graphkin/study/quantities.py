@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -77,11 +78,6 @@ class Quantity:
         return self.symbol.scope == "position"
 
     @property
-    def is_speed(self) -> bool:
-        """Whether it is a velocity or an angular velocity."""
-        return self.measure in ("velocity", "angular velocity")
-
-    @property
     def is_load(self) -> bool:
         """Whether it is a force or a moment."""
         return self.symbol.is_load
@@ -119,10 +115,10 @@ class Quantity:
         return value_of(motion, self.symbol)
 
     def values(self, reach: DriverRange | None, motion: Motion) -> Array:
-        """Its values as real numbers (SI), shape (n,); in a motion of a range angles are continuous."""
-        if reach is not None and self.kind == "theta":
-            angle, other = reach.angle(motion, self.symbol.link), self.symbol.other
-            return angle - reach.angle(motion, other) if other else angle
+        """Its values as real numbers (SI), shape (n,); angles are continuous, over a range from its start on."""
+        if self.kind == "theta":
+            angle, other = motion.angle if reach is None else partial(reach.angle, motion), self.symbol.other
+            return angle(self.symbol.link) - angle(other) if other else angle(self.symbol.link)
         found = self.whole(motion)
         senses = senses_along(motion, self.symbol) if self.along else None
         found = found if senses is None else found * senses.conjugate()

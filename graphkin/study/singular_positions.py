@@ -402,56 +402,40 @@ C = [{x!r}, {y!r}]
 """
 
 
-@dataclass(frozen=True)
-class _CoupledFourBar:
-    """A four-bar with its crank AB upright and its rocker DC at an angle to it: their lines cross in the centre of the
-    coupler.
+def _four_bar(phi: float, mp: MPContext) -> tuple[Mechanism, mpc, mpc]:
+    """A four-bar with its crank AB upright and its rocker DC at an angle to it (rad), whose lines cross in the centre
+    of the coupler; to 50 digits that centre (m; None where the coupler does not turn) and the velocity of C (m/s)."""
+    c = complex(300, 0) + 120 * complex(math.sin(phi), math.cos(phi))
+    scene = mechanism_of_text(_FOUR_BAR.format(x=c.real, y=c.imag), "parallel")
+    motion = solver.solve(scene)
+    equations, (value, rate, second) = reference(motion.structure, mp), scene.drivers[0].values
+    start = list(Equations(motion.structure).start(motion)[:, 0])
+    right = refined(equations, mp, start, [mp.mpf(value)], [rate], [second])
+    k = equations.column["2"]
+    z, v, omega = mp.mpc(*right.place[k : k + 2]), mp.mpc(*right.rate[k : k + 2]), right.rate[k + 2]
+    _, _, vx, vy, _, _ = equations.point(right, "3", scene.by_name["3"].points["C"])
+    return scene, z + 1j * v / omega if omega else None, mp.mpc(vx, vy)
 
-    Parameters
-    ----------
-    centre : of the coupler, 50 digits (m)
-    velocity : of C, 50 digits (m/s)
-    """
 
-    scene: Mechanism
-    centre: mpc
-    velocity: mpc
-
-    @classmethod
-    def at(cls, phi: float, mp: MPContext) -> _CoupledFourBar:
-        c = complex(300, 0) + 120 * complex(math.sin(phi), math.cos(phi))
-        scene = mechanism_of_text(_FOUR_BAR.format(x=c.real, y=c.imag), "parallel")
-        motion = solver.solve(scene)
-        equations, (value, rate, second) = reference(motion.structure, mp), scene.drivers[0].values
-        start = list(Equations(motion.structure).start(motion)[:, 0])
-        right = refined(equations, mp, start, [mp.mpf(value)], [rate], [second])
-        k = equations.column["2"]
-        z, v, omega = mp.mpc(*right.place[k : k + 2]), mp.mpc(*right.rate[k : k + 2]), right.rate[k + 2]
-        _, _, vx, vy, _, _ = equations.point(right, "3", scene.by_name["3"].points["C"])
-        return cls(scene, z + 1j * v / omega if omega else None, mp.mpc(vx, vy))
-
-    def errors(self, hand: Instrument) -> tuple[float, float]:
-        """Errors of the centre's place (of its distance; nan where it is given as a direction only) and of the velocity
-        of C through it (relative)."""
-        centres = find_centres(self.scene, instrument=hand)
-        velocity = centres.velocity(Symbol.parse("v_C"))
-        off = float(abs(velocity - self.velocity) / abs(self.velocity)) if velocity is not None else math.nan
-        point = centres.of("2", "0").point
-        if point is None:
-            return math.nan, off
-        return float(abs(point / centres.mm - self.centre) / abs(self.centre)), off
+def _centre_errors(scene: Mechanism, right: mpc, right_velocity: mpc, hand: Instrument) -> tuple[float, float]:
+    """Errors of the place of the coupler's centre (of its distance; nan where it is given as a direction only) and of
+    the velocity of C through it (relative)."""
+    centres = find_centres(scene, instrument=hand)
+    velocity, point = centres.velocity(Symbol.parse("v_C")), centres.of("2", "0").point
+    off = float(abs(velocity - right_velocity) / abs(right_velocity)) if velocity is not None else math.nan
+    return float(abs(point / centres.mm - right) / abs(right)) if point is not None else math.nan, off
 
 
 def parallel_lines(mp: MPContext, samples: int = 2) -> Singularity:
     """Errors against the angle of the two lines that cross in the centre; of a pencil the root of the mean square."""
 
     def exactly(phi: float) -> Answer:
-        return Answer(_CoupledFourBar.at(phi, mp).errors(EXACT))
+        return Answer(_centre_errors(*_four_bar(phi, mp), EXACT))
 
     def by_pencil(phi: float) -> Answer:
-        four_bar = _CoupledFourBar.at(phi, mp)
-        hands = [pencil(four_bar.scene.question.sheet.tools, seed) for seed in range(SEEDS)]
-        columns = zip(*map(four_bar.errors, hands), strict=True)
+        scene, centre, velocity = _four_bar(phi, mp)
+        hands = [pencil(scene.question.sheet.tools, seed) for seed in range(SEEDS)]
+        columns = zip(*(_centre_errors(scene, centre, velocity, hand) for hand in hands), strict=True)
         return Answer([math.sqrt(added_up(e * e for e in errors) / SEEDS) for errors in columns])
 
     exact = (

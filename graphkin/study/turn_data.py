@@ -107,19 +107,16 @@ def _forces(turn: TurnStudy) -> dict[str, Json]:
         return {"forces": {}, "why_no_forces": stop.why}
     return {"forces": {
         name: {"unit": quantity.unit(turn.scene).text, "extremes": [
-            {"kind": e.kind, "driver": _driver(turn.scene, e.driver), **_bounded(quantity.unit(turn.scene).of(e.value))}
+            {"kind": e.kind, "driver": _driver(turn.scene, e.driver),
+             **_known(quantity.unit(turn.scene).of(e.value), "grows without bound there")}
             for e in extremes
         ]} for name, (quantity, extremes) in found.items()
     }}  # fmt: skip
 
 
-def _bounded(value: float) -> dict[str, float | str | None]:
-    return {"value": value} if math.isfinite(value) else {"value": None, "why": word("grows without bound there", "en")}
-
-
-def _why_not(value: float) -> str:
-    """The reason for a missing value at an end of the motion: infinite, or not computed."""
-    return word("goes away" if math.isinf(value) else "not computed", "en")
+def _known(value: float, why: str) -> dict[str, float | str | None]:
+    """A value, or the reason why there is none."""
+    return {"value": value} if math.isfinite(value) else {"value": None, "why": word(why, "en")}
 
 
 def _driver(scene: Mechanism, value: float) -> float:
@@ -127,11 +124,13 @@ def _driver(scene: Mechanism, value: float) -> float:
 
 
 def _extreme(turn: TurnStudy, traced: Traced, extreme: Extreme) -> dict[str, Json]:
-    found: dict[str, Json] = {"kind": extreme.kind, "driver": _driver(turn.scene, extreme.driver)}
-    if math.isfinite(extreme.value):
-        local = {"local": True} if extreme.local else {}
-        return {**found, "value": traced.quantity.unit(turn.scene, radians=True).of(extreme.value), **local}
-    return {**found, "value": None, "why": _why_not(extreme.value)}
+    value = traced.quantity.unit(turn.scene, radians=True).of(extreme.value)
+    return {
+        "kind": extreme.kind,
+        "driver": _driver(turn.scene, extreme.driver),
+        **_known(value, "goes away" if math.isinf(extreme.value) else "not computed"),
+        **({"local": True} if extreme.local and math.isfinite(value) else {}),
+    }
 
 
 def _curve(turn: TurnStudy, traced: Traced) -> dict[str, Json]:

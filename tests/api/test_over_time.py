@@ -134,6 +134,15 @@ def test_the_file_of_a_diagram_over_the_time_is_called_by_the_quantity_not_by_it
     assert "v_B: " == swept.figures["diagram-v_B"].title[:5]
 
 
+def test_the_angle_between_two_links_counts_its_whole_turns_over_the_time():
+    turning = crank(angle=50, law={"from": 20, "to": 800, "duration": 0.5, "by": "cycloidal"})
+    ends = graphkin.sweep(turning, positions=5, find=["theta_1/2"]).data["outputs"]["theta_1/2"]
+    angles = [graphkin.solve(crank(angle=angle, omega=0))["theta_1/2"][0] for angle in (20, 800)]
+    assert {"least": angles[0], "greatest": angles[1] + 720} == {
+        end: pytest.approx(math.degrees(extreme["value"])) for end, extreme in ends.items()
+    }
+
+
 def test_a_scene_with_a_law_is_written_and_read_again(tmp_path):
     for name, given in (("crank", crank(angle=50, law=LAW)), ("five-bar", five_bar())):
         scene = graphkin.read(given)

@@ -6,9 +6,15 @@ import math
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import graphkin
+from graphkin.scene import mechanism_of
+from graphkin.scene.symbol import Symbol
+from graphkin.solver import driver_range
+from graphkin.study.charts import DriverAxis
+from graphkin.study.quantities import Quantity
 
 
 def test_what_is_asked_alone_is_drawn_alone() -> None:
@@ -87,3 +93,10 @@ def test_the_pressure_angle_of_a_cams_follower_is_swept_with_what_the_scene_allo
     words = words_of(swept.figures["diagram-pressure_2"])
     assert "allowed: ≤ 30° as it rises, ≤ 70° as it falls" in words
     assert "e−" not in words  # no residue where it is nought
+
+
+def test_the_diagram_of_the_angle_between_two_links_has_no_leap_of_a_turn() -> None:
+    reach = driver_range(mechanism_of("four-bar-coupler-point"))
+    axis, angle = DriverAxis(reach), Quantity(Symbol.parse("theta_2/1"))
+    curve = axis.curve(angle, axis.offsets, angle.values(reach, axis.motion))
+    assert np.abs(np.diff(curve[:, 1])).max() < 1.0

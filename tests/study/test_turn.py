@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import graphkin
 from graphkin.api.arguments import as_scene
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of, mechanism_of_text
@@ -619,3 +620,10 @@ def test_angles_at_both_ends_where_other_links_go_away_are_each_of_its_own_end()
 def test_zeros_are_told_of_the_curves_whose_zeros_are_sought() -> None:
     curves = to_json(turn_of("slider-crank-offset"))["curves"]
     assert {"theta_2": False, "omega_2": True} == {name: "zeros" in curves[name] for name in ("theta_2", "omega_2")}
+
+
+@pytest.mark.parametrize("start", [60, 200, 350])
+def test_links_stand_alike_in_a_limit_position_whatever_whole_turns_one_has_made_against_the_other(start):
+    swept = graphkin.sweep("four-bar-coupler-point", positions=3, find=["theta_2/1"], at=start)
+    stretched = min(swept.data["outputs"][0]["limit_positions"], key=lambda limit: limit["value"])
+    assert [pytest.approx(stretched["driver"])] == swept.data["curves"]["theta_2/1"]["zeros"]
