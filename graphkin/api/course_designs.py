@@ -4,15 +4,13 @@ position of each student, and the reports and the table of the class as files.""
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from graphkin import solver
 from graphkin.api.arguments import (
     ON_SHEETS,
     At,
-    as_scene,
     asked_symbols,
     driver_values,
     for_paper,
@@ -24,47 +22,31 @@ from graphkin.api.drawn import draw
 from graphkin.api.problem_sets import drawn_schemes, schemes_of
 from graphkin.api.results import OfScene, Result
 from graphkin.api.sweep import sweep
-from graphkin.checking.readings import read_off
-from graphkin.construction import execute
 from graphkin.drawing.chart import ChartPage
-from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
+from graphkin.errors import CallError, Unsolvable
 from graphkin.files import Json, path_of
 from graphkin.jobs import Progress
 from graphkin.papers.blocks import Picture, Plate
-from graphkin.papers.course_reports import (
+from graphkin.papers.course_reports import Figures, class_document, course_report, on_paper, plate
+from graphkin.papers.courses import (
     ClassRow,
-    Figures,
-    PlaceValues,
-    Scheme,
     Student,
-    class_document,
     class_table,
-    course_report,
-    on_paper,
-    plate,
-    value_read,
+    dealt_out,
+    read_at,
+    scheme_for,
+    scheme_of,
 )
 from graphkin.papers.documents import answers_template
-from graphkin.papers.lesson import Lesson, compared, lesson_of, positions
+from graphkin.papers.lesson import lesson_of
 from graphkin.papers.paper import paper_of, paper_plan
 from graphkin.papers.pdf import FORMATS, can_join, can_typeset, one_after_another, papers_as
-from graphkin.papers.variants import asked_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike, safe_name
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import solved_here
-from graphkin.solver.named_positions import named_positions
-from graphkin.table import Table, table_of
+from graphkin.table import Table
 from graphkin.words import Phrase, languages
-
-HEADS: Mapping[str, tuple[str, ...]] = {
-    "name": ("name", "student", "姓名", "学生"),
-    "id": ("id", "number", "no", "学号"),
-    "scheme": ("scheme", "variant", "group", "方案", "组", "组别"),
-    "place": ("position", "at", "位置"),
-}
-GROUPS = ("group", "组", "组别")
-"""Heads of schemes that may be meant as groups of students who all have the same lengths."""
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -172,24 +154,25 @@ def course_design(
         sources, data = schemes_of(scene, rows)
     elif variants is not None:
         sources, data = drawn_schemes(scene, variants, seed, find)
-    course = {name: scheme_of(name, source, find, count) for name, source in sources.items()}
+    mechanisms = {name: for_paper(source) for name, source in sources.items()}
+    course = {name: scheme_of(name, own, asked_symbols(own, find), count) for name, own in mechanisms.items()}
     if students is None:
         dealt = [(Student(scheme=name), driver_values(scheme.scene, at)) for name, scheme in course.items()]
         dealt = [(replace(who, place=at if isinstance(at, str) else ""), values) for who, values in dealt]
     else:
-        dealt = [(who, course[scheme_name(course, who)].values(who.place)) for who in dealt_out(students, course)]
+        dealt = [(who, scheme_for(who, course).values(who.place)) for who in dealt_out(students, course)]
     content: dict[str, bytes] = {}
     lines, agrees, shared = [], True, dict[str, dict[str, Figures]]()
     lesson = None
     for k, (who, values) in enumerate(dealt):
-        scheme = course[scheme_name(course, who)]
+        scheme = scheme_for(who, course)
         motion = solved_here(scheme.scene, values)
         what = paper_plan(motion.structure, values, asked_symbols(scheme.scene, find))
         lesson = lesson_of(what, motion, spoken, letters)
         agrees = agrees and lesson.report.ok
         if scheme.name not in shared:
             shared[scheme.name] = _figures(scheme.scene, spoken, letters)
-        asked = asked_in_tables(scheme.scene, find)
+        asked = scheme.asked
         stands = lesson.sheet.drivers[scheme.scene.drivers[0].key]
         place = scheme.places[who.place] if who.place in scheme.places else read_at("", stands, lesson, asked)
         lines.append(ClassRow(who, place))
@@ -200,7 +183,6 @@ def course_design(
         if progress is not None:
             progress(k + 1, len(dealt))
     assert lesson is not None
-    asked = asked_in_tables(lesson.sheet.scene, find)
     whole = class_document(lesson, lines, asked, given.unit_of(given.drivers[0]).written)
     bound = [paper for name, paper in content.items() if name.endswith(".pdf")]
     content |= papers_as(formats, {"class": whole})
@@ -244,118 +226,3 @@ def _figures(scene: Mechanism, language: str, convention: str) -> dict[str, Figu
         else:
             pages_of.append(on_paper(page, paper))
     return figures | {"diagrams": tuple(pages_of)}
-
-
-# -- schemes, and which of them each student draws ---------------------------------------------------------------------
-
-
-def scheme_of(name: str, source: SceneLike, find: Iterable[str | Symbol] | None, count: int) -> Scheme:
-    """A mechanism with all its positions, each drawn and compared with the solver."""
-    scene = for_paper(as_scene(source))
-    structure = solver.structure_of(scene)
-    key = scene.drivers[0].key
-    named = named_positions(scene)
-    if named is not None and named.names.names:
-        drivers = dict(named.values)
-    else:
-        drivers = {str(k): row[key] for k, row in enumerate(positions(structure, None, count)[0], 1)}
-    asked = asked_in_tables(scene, find)
-    places = {}
-    for place, value in drivers.items():
-        try:
-            motion = solved_here(structure, {key: value})
-            sheet = execute(paper_plan(structure, {key: value}, asked))
-            lesson = compared(sheet, motion, "en", "chinese", asked)
-            lesson.report.must_agree(scene)
-            places[place] = read_at(place, value, lesson, asked)
-        except Unsolvable:
-            places[place] = PlaceValues(place, scene.unit_of(scene.drivers[0]).of(value))
-    return Scheme(name, scene, drivers, places)
-
-
-def read_at(place: str, value: float, lesson: Lesson, asked: Sequence[Symbol]) -> PlaceValues:
-    """The readings at a position, in scene units."""
-    rows = [row for row in lesson.report.rows if row.symbol in asked]
-    read = {row.symbol: value_read(lesson, row) for row in rows}
-    exact = {
-        row.symbol: lesson.in_unit(row.symbol, abs(row.true) if row.symbol.is_vector else float(row.true.real))
-        for row in rows
-    }
-    return PlaceValues(place, lesson.sheet.scene.unit_of(lesson.sheet.scene.drivers[0]).of(value), read, exact)
-
-
-def scheme_name(course: Mapping[str, Scheme], who: Student) -> str:
-    """The scheme of a student; with a single scheme the table's entry is the name of a group."""
-    return who.scheme if who.scheme in course else next(iter(course))
-
-
-def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) -> Iterator[Student]:
-    """Every student with a scheme and a position of it.
-
-    Raises CallError for a table without names, and for all unknown schemes and positions.
-    """
-    table = table_of(students)
-    columns = {
-        role: i for role, names in HEADS.items() for i, head in reversed(tuple(enumerate(table.heads)))
-        if head.strip().lower() in names
-    }  # fmt: skip
-    if "name" not in columns and "id" not in columns:
-        raise CallError.of(str(students), "no column of names", "write a head name or id",
-                           names=', '.join(table.heads)[:200])
-    problems: list[Problem] = []
-    head = table.heads[columns["scheme"]].strip().lower() if "scheme" in columns else ""
-    may_be_groups = len(course) == 1 and head in GROUPS
-    if head and "" in course and not may_be_groups:
-        named = dict.fromkeys(cells[columns["scheme"]] for _, cells in table.rows if len(cells) > columns["scheme"])
-        if schemes := ", ".join(filter(None, named))[:80]:
-            found, wanted = (
-                Phrase("schemes without their data", schemes=schemes),
-                Phrase("give a row for each rows file.csv"),
-            )
-            raise CallError.of(f"{students}, {head}", found, wanted)
-    listed = []
-    for line, cells in table.rows:
-        who = Student(**{role: cells[i] if i < len(cells) else "" for role, i in columns.items()})
-        where = Phrase("line of students and line", students=students, line=line)
-        if who.scheme and who.scheme not in course and not may_be_groups:
-            problems.append(Problem(where, "there is no scheme", did_you_mean(who.scheme, course), scheme=who.scheme))
-            continue
-        known = course[scheme_name(course, who)].places if who.scheme or len(course) == 1 else None
-        all_known = dict.fromkeys(n for scheme in course.values() for n in scheme.places) if known is None else known
-        if who.place and who.place not in all_known:
-            problems.append(Problem(where, "there is no position", did_you_mean(who.place, all_known), at=who.place))
-            continue
-        if who.place and known is not None and not known[who.place].read:
-            problems.append(Problem(where, "position cannot be drawn", "give another one", place=who.place))
-        listed.append(who)
-    if problems:
-        raise CallError(*problems)
-    free = {name: [p for p, v in scheme.places.items() if v.read] for name, scheme in course.items()}
-    if not any(free.values()):
-        raise CallError.of("positions", "none of them can be drawn", "give others in positions")
-    taken: dict[str, list[str]] = {}
-    for who in listed:
-        if who.place:
-            taken.setdefault(who.scheme, []).append(who.place)
-    for who in listed:
-        if not who.scheme and len(course) > 1:
-            # the first scheme with a position left, and when all are dealt out from the start again
-            name = min(free, key=lambda n: len(taken.get(n, ())) // max(1, len(free[n])))
-            who = replace(who, scheme=name)
-        if not who.place:
-            places_taken = taken.setdefault(who.scheme, [])
-            places = free[scheme_name(course, who)]
-            who = replace(who, place=min(places, key=places_taken.count))
-            places_taken.append(who.place)
-        yield who
-
-
-def asked_in_tables(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:
-    """The quantities in the tables: those asked of the position itself, else the motion of the last joint and the rates
-    of links about fixed pivots, else every velocity and acceleration that is read."""
-    asked = (s for s in asked_symbols(scene, find) if s.scope in ("motion", "position", "force") and not s.at)
-    kept = tuple(asked) or asked_of(scene.asking(find=()))
-    if kept:
-        return kept
-    drawn = (reading.symbol for reading in read_off(execute(paper_plan(scene, None, ()))))
-    return tuple(s for s in drawn if s.scope == "motion" and s.to is None and s.kind in ("v", "a", "omega", "alpha"))

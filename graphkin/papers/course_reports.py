@@ -5,10 +5,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 from graphkin.account.headings import number
-from graphkin.checking.report import Compared
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.blocks import (
     Beside,
@@ -25,13 +24,12 @@ from graphkin.papers.blocks import (
     said,
     said_each,
 )
-from graphkin.papers.documents import given, head_of, paper_title, results_table, scene_title, solution_blocks
+from graphkin.papers.courses import ClassRow, PlaceValues, Scheme, Student
+from graphkin.papers.documents import given, paper_title, results_table, scene_title, solution_blocks
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.paper import Paper, paper_of
 from graphkin.papers.pictures import bare_picture, mechanism_picture
-from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.table import Table
 from graphkin.words import languages, word
 from graphkin.words.written import in_markup
 
@@ -40,49 +38,6 @@ MOST_VALUES = 7  # columns of values that a table has room for
 DIGITS = 5
 
 Figures = tuple[Picture | Plate, ...]
-
-
-@dataclass(frozen=True)
-class Student:
-    """The student of a report, with their scheme and position ("" where the table names none)."""
-
-    name: str = ""
-    id: str = ""
-    scheme: str = ""
-    place: str = ""
-
-
-@dataclass(frozen=True)
-class PlaceValues:
-    """The readings at a position: the first driver's value and the readings by symbol, both in scene units (vectors by
-    size, rates with sign), and the exact values; no values where it cannot be drawn."""
-
-    name: str
-    driver: float
-    read: Mapping[Symbol, float] = field(default_factory=dict)
-    exact: Mapping[Symbol, float] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class ClassRow:
-    """A line of the table of a class."""
-
-    student: Student
-    values: PlaceValues
-
-
-@dataclass(frozen=True)
-class Scheme:
-    """A mechanism of a course: its positions (SI values of the first driver) and the readings at each."""
-
-    name: str
-    scene: Mechanism
-    drivers: Mapping[str, float]
-    places: Mapping[str, PlaceValues]
-
-    def values(self, place: str) -> dict[str, float]:
-        """Driver values (rad, m) at a position."""
-        return {self.scene.drivers[0].key: self.drivers[place]}
 
 
 def on_paper(drawing: Drawing, paper: Paper, caption: Said = ()) -> Picture | Plate:
@@ -234,13 +189,6 @@ def _lower(block: Block) -> Block:
     return block
 
 
-def value_read(lesson: Lesson, row: Compared) -> float:
-    """A reading in the scene's unit: a vector by size, a rate with its sign; zero where it is rounding alone."""
-    value = row.reading.value
-    size = abs(value) if row.symbol.is_vector else float(complex(value).real)
-    return lesson.in_unit(row.symbol, size) if row.true != 0.0 else 0.0
-
-
 def _value_tables(
     lesson: Lesson, heads: tuple[Said, ...], cells: Sequence[tuple[str, ...]], places: Sequence[PlaceValues],
     asked: Sequence[Symbol], unit: str, bold: frozenset[int] = frozenset(),
@@ -260,14 +208,3 @@ def _value_tables(
         align = "l" * len(heads) + "r" * (1 + len(part))
         tables.append(TableBlock((*heads, driver, *columns), rows, align, bold))
     return tables
-
-
-def class_table(scene: Mechanism, rows: Sequence[ClassRow], asked: Sequence[Symbol]) -> Table:
-    heads = ["name", "id", "variant", "position", "at"]
-    heads += [head for s in asked for head in (head_of(s, scene.units), f"{s} exact")]
-    lines = [
-        (row.student.name, row.student.id, row.student.scheme, row.student.place, row.values.driver,
-         *(v for s in asked for v in (row.values.read.get(s), row.values.exact.get(s))))
-        for row in rows
-    ]  # fmt: skip
-    return Table.of(heads, lines, ("", "", "", "", ".9g", *[".9g"] * (2 * len(asked))))

@@ -5,11 +5,11 @@ from dataclasses import replace
 import pytest
 
 import graphkin
-from graphkin.api import checked, course_designs
+from graphkin.api import checked
 from graphkin.checking.readings import read_off
 from graphkin.construction import execute, plan
 from graphkin.construction.centres import find_centres
-from graphkin.papers import lesson
+from graphkin.papers import courses, lesson
 from graphkin.papers.lesson import usual_count
 from graphkin.scene import mechanism_of
 from graphkin.structure import analyse
@@ -44,7 +44,7 @@ def misread(monkeypatch):
     def wrong(reading):
         return replace(reading, value=-reading.value) if str(reading.symbol) == "omega_3" else reading
 
-    for room in (lesson, checked, course_designs):
+    for room in (lesson, checked, courses):
         monkeypatch.setattr(room, "read_off", lambda *given: [wrong(reading) for reading in read_off(*given)])
 
 
