@@ -19,7 +19,7 @@ from graphkin.errors import CallError, Problem, as_list, did_you_mean, unfit
 from graphkin.scene.asked import quantity_of
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.scene import SceneLike, mechanism_of
-from graphkin.scene.scene_tables import Convention
+from graphkin.scene.scene_tables import Convention, SheetWishes
 from graphkin.scene.symbol import Symbol
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import BOTH, LANGUAGES, Phrase, Wording, from_others, links_named
@@ -304,8 +304,8 @@ def asked_here(asked: Sequence[Symbol]) -> tuple[Symbol, ...]:
     return tuple(s for s in asked if not s.at) or tuple(dict.fromkeys(s.here for s in asked))
 
 
-def hand_of(scene: Mechanism, name: str, seed: int) -> Instrument:
-    """The instrument of a name.  Raises CallError for an unknown name."""
+def hand_of(wishes: SheetWishes, name: str, seed: int) -> Instrument:
+    """The instrument of a name, the pencil with the tools that are wished.  Raises CallError for an unknown name."""
     from graphkin.construction import EXACT, cad, pencil
 
     if not isinstance(name, str):
@@ -315,7 +315,7 @@ def hand_of(scene: Mechanism, name: str, seed: int) -> Instrument:
     if name == "cad":
         return cad()
     if name == "pencil":
-        return pencil(scene.question.sheet.tools, whole_number("seed", seed, -MOST_SEED, MOST_SEED))
+        return pencil(wishes.tools, whole_number("seed", seed, -MOST_SEED, MOST_SEED))
     raise CallError.of("instrument", f'"{name}"', did_you_mean(str(name), INSTRUMENTS))
 
 

@@ -419,20 +419,16 @@ def centrodes(
 
     known_words(formats, language, convention, known_languages=ON_SHEETS)
     given, values = placed(as_scene(scene), at)
-    _check_names(given, link, point)
+    as_text("point", point)
+    names = [n.name for n in given.links if not n.redundant]
+    if as_text("link", link) not in names:
+        raise CallError.of(f"centrode {link}", "there is no moving link", did_you_mean(link, names), link=link)
+    points = given.by_name[link].points
+    if point and point not in points:
+        raise CallError.of(Phrase("point", point=point), "link has no such point", did_you_mean(point, points),
+                           link=link)
     solved_here(given, values)
     given = steady(given)
     motion, curves = turning_centrodes(given, values, link)
     found = found_centres(given, values)
     return Centroded(found, motion, curves, link, point, language, convention).saved(out, formats)
-
-
-def _check_names(scene: Mechanism, link: str, point: str) -> None:
-    as_text("point", point)
-    names = [n.name for n in scene.links if not n.redundant]
-    if as_text("link", link) not in names:
-        raise CallError.of(f"centrode {link}", "there is no moving link", did_you_mean(link, names), link=link)
-    points = scene.by_name[link].points
-    if point and point not in points:
-        raise CallError.of(Phrase("point", point=point), "link has no such point", did_you_mean(point, points),
-                           link=link)

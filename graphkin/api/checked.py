@@ -209,7 +209,7 @@ def check(
     given = as_scene(scene)
     asked = drawn_symbols(given, find)
     given, values = placed(given, at)
-    hand, here = hand_of(given, instrument, seed), asked_here(asked)
+    hand, here = hand_of(given.question.sheet, instrument, seed), asked_here(asked)
     structure = solver.structure_of(given)
     motion = solver.solved_here(structure, values, here)
     return with_elsewhere(checked(plan(structure, values, here), motion, hand), asked, seed)
@@ -266,7 +266,7 @@ def with_elsewhere(made: Checked, asked: Sequence[Symbol], seed: int = 0) -> Che
         wanted = tuple(s.here for s in asked if s.at == name)
         values = {**made.sheet.drivers, scene.drivers[0].key: value_at(scene, name)}
         what = replace(plan(structure, values, wanted), scales=made.sheet.scales)
-        hand = hand_of(scene, made.sheet.instrument, seed)
+        hand = hand_of(scene.question.sheet, made.sheet.instrument, seed)
         there = checked(what, solver.solved_here(structure, values, wanted), hand).report
         kept = [row for row in there.rows if row.symbol in wanted]
         rows += [replace(row, reading=replace(row.reading, symbol=replace(row.symbol, at=name))) for row in kept]

@@ -14,7 +14,7 @@ from graphkin.api.results import Result
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.exchange import FRAME, READ, Bodies, BodyDrive, BodySlide, is_address, read_bodies, write_bodies
 from graphkin.files import Json, path_of
-from graphkin.scene.model import Mechanism, PlacedLink
+from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import Scene, SceneLike, safe_name, toml_text, written
 from graphkin.table import Table
 from graphkin.words import Phrase
@@ -137,7 +137,8 @@ def _bodies(scene: Mechanism) -> Bodies:
             made.body(link.name, link.points)
     poses = {scene.frame.name: (0j, 1 + 0j)}
     for link in scene.links:
-        poses[link.name] = _pose(link, made, float(motion.angle(link.name)[0]))
+        first, turn = next(iter(link.points), None), cmath.rect(1.0, float(motion.angle(link.name)[0]))
+        poses[link.name] = (0j if first is None else made.places[first]), turn
     for pair in scene.slides:
         body = pair.of or pair.link
         if pair.pin is None:
@@ -170,9 +171,3 @@ def _bodies(scene: Mechanism) -> Bodies:
 
 def _name(scene: Mechanism, link: str) -> str:
     return FRAME if link == scene.frame.name else link
-
-
-def _pose(link: PlacedLink, made: Bodies, angle: float) -> tuple[complex, complex]:
-    turn = cmath.rect(1.0, angle)
-    first = next(iter(link.points), None)
-    return (made.places[first] if first is not None else 0j), turn

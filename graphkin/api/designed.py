@@ -9,10 +9,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from graphkin.api.arguments import MOST_SEED, ON_SHEETS, known_words, whole_number
+from graphkin.api.arguments import MOST_SEED, ON_SHEETS, hand_of, known_words, whole_number
 from graphkin.api.results import Result, named
 from graphkin.checking.closed_form import FoundLength, compare_lengths
-from graphkin.construction import EXACT, Instrument, cad, pencil
 from graphkin.construction.synthesis import DesignSheet, construct
 from graphkin.errors import Unsolvable
 from graphkin.files import Json
@@ -192,17 +191,10 @@ class Designed(Result):
     @property
     def table(self) -> Table:
         """The lengths: mm on paper, measured, exact, in the file's unit."""
-        import numpy as np
+        from graphkin.table import Table
 
-        from graphkin.table import Column, Table, text_column
-
-        unit = self.given.units.length
-        return Table((
-            text_column("symbol", [row.symbol for row in self.rows]),
-            Column("on_paper", np.array([row.on_paper for row in self.rows]), "mm"),
-            Column("measured", np.array([row.measured for row in self.rows]), unit),
-            Column("exact", np.array([row.exact for row in self.rows]), unit),
-        ))  # fmt: skip
+        rows, unit = [(row.symbol, row.on_paper, row.measured, row.exact) for row in self.rows], self.given.units.length
+        return Table.of(("symbol", "on_paper", "measured", "exact"), rows, units=("", "mm", unit, unit))
 
     def phrases(self) -> list[Phrase]:
         """The sentences on the result."""
@@ -284,10 +276,9 @@ def design(
     whole_number("seed", seed, 0, MOST_SEED)
     given = design_of(file)
     synthesis = synthesise(given.task)
-    tools = given.sheet.tools
     natural = construct(given.task, max(synthesis.lengths.values()) / 100.0)
     scale = design_scale(given, natural)
-    hand: Instrument = EXACT if instrument == "exact" else cad() if instrument == "cad" else pencil(tools, seed)
+    hand = hand_of(given.sheet, instrument, seed)
     sheet = construct(given.task, scale, hand)
-    rows = compare_lengths(sheet, synthesis.lengths, hand, tools)
+    rows = compare_lengths(sheet, synthesis.lengths, hand, given.sheet.tools)
     return Designed(given, synthesis, sheet, rows, language).saved(out, formats)

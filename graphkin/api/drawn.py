@@ -21,11 +21,11 @@ from graphkin.api.arguments import (
     placed,
     unknown_words,
 )
-from graphkin.api.cams import cam_table
+from graphkin.api.cams import cam_made, cam_table
 from graphkin.api.checked import Checked, checked, with_elsewhere
 from graphkin.api.report_text import report_text
 from graphkin.api.results import OfScene, Result
-from graphkin.construction import EXACT, Plan, execute, plan
+from graphkin.construction import EXACT, Instrument, Plan, execute, plan
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.figures import figure_kinds
 from graphkin.drawing.figures.positions import shown_positions
@@ -75,7 +75,16 @@ class Drawn(OfScene, Result):
         from graphkin.drawing.sheet_plan import sheet_room
 
         fitting = replace(self.plan, scales=self.plan.scales_for(sheet_room(self.mechanism)))
-        return checked(fitting, self.motion, hand_of(self.mechanism, self.checked.sheet.instrument, self.seed))
+        return checked(fitting, self.motion, self._hand)
+
+    @property
+    def whole(self) -> Plan:
+        """The plan of all links at the scales of the drawing."""
+        return replace(plan(self.plan.structure, self.checked.sheet.drivers, ()), scales=self.plan.scales)
+
+    @property
+    def _hand(self) -> Instrument:
+        return hand_of(self.mechanism.question.sheet, self.checked.sheet.instrument, self.seed)
 
     @property
     def with_forces(self) -> Checked | None:
@@ -93,11 +102,8 @@ class Drawn(OfScene, Result):
             return self.checked
         if not self.mechanism.loading:
             return None
-        structure, values = self.plan.structure, self.checked.sheet.drivers
-        whole = replace(plan(structure, values, ()), scales=self.plan.scales)
-        hand = hand_of(self.mechanism, self.checked.sheet.instrument, self.seed)
         try:
-            return checked(whole, solved_here(structure, values), hand)
+            return checked(self.whole, solved_here(self.plan.structure, self.checked.sheet.drivers), self._hand)
         except Unsolvable as stop:
             return stop
 
@@ -189,18 +195,7 @@ def _positions(drawn: Drawn) -> tuple[Any, ...]:
     from graphkin.solver.named_positions import named_positions
 
     places = named_positions(drawn.mechanism)
-    return (shown_positions(_whole(drawn), places.values if places else {}),)
-
-
-def _cams(drawn: Drawn) -> tuple[Any, ...]:
-    from graphkin.api.cams import cam_made
-
-    return drawn.mechanism, [(one.sheet, one.phrases()) for one in cam_made(drawn.mechanism)]
-
-
-def _whole(drawn: Drawn) -> Plan:
-    """The plan of all links at the scales of the drawing."""
-    return replace(plan(drawn.plan.structure, drawn.checked.sheet.drivers, ()), scales=drawn.plan.scales)
+    return (shown_positions(drawn.whole, places.values if places else {}),)
 
 
 SUPPLIES: Mapping[str, Callable[[Drawn], tuple[Any, ...] | None]] = {
@@ -211,10 +206,12 @@ SUPPLIES: Mapping[str, Callable[[Drawn], tuple[Any, ...] | None]] = {
     "centres": _centres,
     "forces": _forces,
     "structures": lambda drawn: (
-        execute(_whole(drawn)), [driven_by(drawn.mechanism, drawn.driver)] if drawn.driver else []
+        execute(drawn.whole), [driven_by(drawn.mechanism, drawn.driver)] if drawn.driver else []
     ),
     "positions": _positions,
-    "cams": _cams,
+    "cams": lambda drawn: (
+        drawn.mechanism, [(made.sheet, made.phrases()) for made in cam_made(drawn.mechanism)]
+    ),
 }
 """What figures are drawn of, by the name under which they ask for it; None where the scene has nothing of it."""
 
@@ -286,7 +283,7 @@ def draw(
     asked = drawn_symbols(given, find)
     given = for_paper(given, () if any(figure_kinds()[name].of_all for name in wanted) else asked_here(asked))
     given, values = placed(given, at)
-    hand = hand_of(given, instrument, seed)
+    hand = hand_of(given.question.sheet, instrument, seed)
     structure = solver.structure_of(given)
     motion = solved_here(structure, values, asked_here(asked))
     what = plan(structure, values, asked_here(asked))

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from graphkin.api.arguments import passed_words
 from graphkin.api.checked import Checked
 from graphkin.checking.report import deviation, exact, measured, paper
-from graphkin.construction.sheet import Equation, Sheet
+from graphkin.construction.sheet import Equation
 from graphkin.construction.steps import Term, plain_in
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import Mechanism
@@ -45,11 +45,14 @@ def report_text(checked: Checked, language: str) -> str:
         lines.append(f"{of}{colon}{plain_said(assembly, language)}")
     lines += [say(said, language) for said in passed_words(scene, checked.passed)]
     unit, scales = scene.units.rates.length, checked.scales
+    # what was drawn by itself, with a link held still
+    apart = [f"{s.number:3}  {plain_said(s.phrase, language)}" for s in sheet.held_still]
+    held_still = [word("held still", language), *apart, ""] if apart else []
     lines += [
         "",
         f"1 mm = {scales['length']:g} mm, {scales['velocity']:g} {unit}/s, {scales['acceleration']:g} {unit}/s²",
         "",
-        *_held_still(sheet, language),
+        *held_still,
         word("steps", language),
         *(f"{s.number:3}  {plain_said(s.phrase, language)}" for s in sheet.steps),
         "",
@@ -113,14 +116,6 @@ def lever_lines(checked: Checked, language: str) -> list[str]:
             said = Phrase("lever balance", lever=f"{row.symbol} = {by_lever}", polygons=by_polygons)
             lines.append(say(said, language))
     return list(dict.fromkeys(lines))
-
-
-def _held_still(sheet: Sheet, language: str) -> list[str]:
-    """The part that was drawn by itself, with a link held still."""
-    if not sheet.held_still:
-        return []
-    steps = [f"{s.number:3}  {plain_said(s.phrase, language)}" for s in sheet.held_still]
-    return [word("held still", language), *steps, ""]
 
 
 def verdict(checked: Checked, language: str) -> str:

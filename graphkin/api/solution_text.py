@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,37 +21,33 @@ if TYPE_CHECKING:
     from graphkin.api.solved import Solved
 
 
-@dataclass(frozen=True)
-class SolutionTable:
-    """A table of every position of a solution.
-
-    rows : name, and for each column its texts over the positions
-    right : columns of numbers, which are aligned to the right
-    """
-
-    heads: Sequence[str]
-    right: tuple[int, ...] = ()
-    rows: list[tuple[str, Sequence[Sequence[str]]]] = field(default_factory=list)
-
-    def at(self, k: int) -> list[list[str]]:
-        """Its rows with a value at a position."""
-        rows = ([name, *(column[k] for column in columns)] for name, columns in self.rows)
-        return [row for row in rows if row[1]]
+Row = tuple[str, Sequence[Sequence[str]]]
+"""A name, and for each column its texts over the positions."""
+Texts = tuple[Sequence[str], tuple[int, ...], list[Row]]
+"""A table of all positions: heads, the columns of numbers, rows."""
 
 
-def solution_tables(solved: Solved, language: str) -> Iterator[tuple[str, Wording, list[SolutionTable]]]:
+def solution_tables(
+    solved: Solved, language: str
+) -> Iterator[tuple[str, Wording, list[tuple[Sequence[str], list[list[str]], tuple[int, ...]]]]]:
     """For each position the values of the drivers, the reason for a missing solution ("" where it is solved), and the
-    tables, which are the same for all positions."""
+    tables of what has a value there: heads, rows, the columns of numbers."""
     motion, scene = solved.motion, solved.mechanism
-    asked = SolutionTable([word("quantity", language), "", ""], (1,))
-    for column in (column for name in solved.find for column in solved.columns(name)):
-        asked.rows.append((column.name, (_texts(column.values), [column.unit] * len(column.values))))
-    tables = [asked] if solved.find else _whole(solved, language)
+    asked: list[Row] = [
+        (column.name, (_texts(column.values), [column.unit] * len(column.values)))
+        for name in solved.find for column in solved.columns(name)
+    ]  # fmt: skip
+    heads = [word("quantity", language), "", ""]
+    tables: list[Texts] = [(heads, (1,), asked)] if solved.find else _whole(solved, language)
     for k, status in enumerate(motion.status):
         drivers = zip(scene.drivers, motion.values[k], strict=True)
         values = [f"{d.key} = {scene.unit_of(d).said(float(v))}" for d, v in drivers]
         values += [f"t = {solved.times[k]:.6g} s"] if solved.times else []
-        yield ", ".join(values), "" if status == "ok" else motion.said(k), tables
+        here = [
+            (heads, [[name, *(column[k] for column in columns)] for name, columns in rows if columns[0][k]], right)
+            for heads, right, rows in tables
+        ]
+        yield ", ".join(values), "" if status == "ok" else motion.said(k), here
 
 
 def _texts(*parts: Array) -> list[str]:
@@ -59,37 +55,34 @@ def _texts(*parts: Array) -> list[str]:
     return ["" if any(map(math.isnan, row)) else ", ".join(f"{x:.6g}" for x in row) for row in zip(*parts, strict=True)]
 
 
-def _whole(solved: Solved, language: str) -> list[SolutionTable]:
+def _whole(solved: Solved, language: str) -> list[Texts]:
     scene, motion = solved.mechanism, solved.motion if solved.forces is None else solved.forces.motion
     push = scene.units.of("acceleration")
 
-    def table(of: str, *right: int) -> SolutionTable:
+    def table(of: str, rows: Iterable[Row], *right: int) -> Texts:
         shown = {measure: scene.units.of(measure) for measure in ("length", "velocity", "acceleration", "force")}
         units = {measure: unit.text if language == "en" else unit.written for measure, unit in shown.items()}
-        return SolutionTable(say(Phrase(f"heads of {of}", **units), language).split("|"), right)
+        return say(Phrase(f"heads of {of}", **units), language).split("|"), right, [*rows]
 
     def columns(*quantities: Quantity) -> list[list[str]]:
         return [_texts(*quantity.parts(None, motion)) for quantity in quantities]
 
-    links, points, slides = table("links", 1, 2, 3), table("points"), table("slides", 1, 2, 3)
-    links.rows.extend((link.name, columns(*link_quantities(link.name))) for link in scene.links)
+    links = [(link.name, columns(*link_quantities(link.name))) for link in scene.links]
     pairs = own_slides(scene, motion.slides)
+    points, slides = list[Row](), list[Row]()
     for point, link in listed_points(scene, pairs):
         ref = PointRef(point, "" if point in scene.by_name[link].points else link)
-        rates = (Quantity(Symbol(kind, ref)) for kind in ("place", "v", "a"))
-        points.rows.append((f"{point}@{link}", columns(*rates)))
+        points.append((f"{point}@{link}", columns(*(Quantity(Symbol(kind, ref)) for kind in ("place", "v", "a")))))
     for pair in pairs:
         term = push.of(motion.settled(motion.slide(pair.key).coriolis, "acceleration", 2.0))
-        slides.rows.append((pair.key, [*columns(*slide_quantities(pair.key)), _texts(term.real, term.imag)]))
-    if solved.forces is None:
-        return [links, points, slides]
-    forces, moments = table("forces", 2, 3), table("moments", 1)
-    forces.rows.extend(_forces(solved.forces))
-    moments.rows.extend(_moments(solved.forces))
-    return [links, points, slides, forces, moments]
+        slides.append((pair.key, [*columns(*slide_quantities(pair.key)), _texts(term.real, term.imag)]))
+    tables = [table("links", links, 1, 2, 3), table("points", points), table("slides", slides, 1, 2, 3)]
+    if solved.forces is not None:
+        tables += [table("forces", _forces(solved.forces), 2, 3), table("moments", _moments(solved.forces), 1)]
+    return tables
 
 
-def _forces(found: Forces) -> Iterator[tuple[str, Sequence[Sequence[str]]]]:
+def _forces(found: Forces) -> Iterator[Row]:
     """Forces by components, size and direction."""
     for quantity in _loads(found, True):
         x, y = (_there(found, quantity, part) for part in quantity.parts(None, found.motion))
@@ -97,7 +90,7 @@ def _forces(found: Forces) -> Iterator[tuple[str, Sequence[Sequence[str]]]]:
         yield quantity.name, (_texts(x, y), _texts(np.hypot(x, y)), way)
 
 
-def _moments(found: Forces) -> Iterator[tuple[str, Sequence[Sequence[str]]]]:
+def _moments(found: Forces) -> Iterator[Row]:
     """Moments with their unit; excess work and inertia of the flywheel, if the scene asks for one."""
     motion = found.motion
     shown = [*_loads(found, False)]

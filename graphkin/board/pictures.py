@@ -122,7 +122,7 @@ def drawn_at(structure: Structure, at: Mapping[str, float] | None, options: Figu
     what = plan(structure, values, asked_here(asked))
     if options.scales is not None:
         what = replace(what, scales=options.scales)
-    made = checked(what, motion, hand_of(scene, options.instrument, options.seed))
+    made = checked(what, motion, hand_of(scene.question.sheet, options.instrument, options.seed))
     names = known_figures(scene, options.figures)
     return Drawn(made, what, motion, names, options.seed, options.language, options.convention), motion
 

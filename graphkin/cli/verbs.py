@@ -268,14 +268,14 @@ def _print_solution(solved: Solved, lang: str | None) -> None:
     for said in passed_words(scene, first.motion.passed):
         tell(say(said, language))
     for some in (first, *blocks):
-        for k, (values, why, tables) in enumerate(solution_tables(some, language)):
+        for values, why, tables in solution_tables(some, language):
             tell("")
             tell(say(Phrase("solved driver", drivers=values), language))
             if why:
                 tell(say(why, language))
                 continue
             for table in tables:
-                print_table(table.heads, table.at(k), right=table.right)
+                print_table(*table)
 
 
 @command(
