@@ -365,7 +365,8 @@ def _pin_problem(
 def check_held(reading: Reading) -> None:
     """Note the links that no joint connects with the frame, except where a joint may have been taken out, and links
     with a problem of their own."""
-    if reading.unsure or reading.lost_under("pins") or any(path[2:] == ("on",) for path in reading.lost):
+    lost = any(map(reading.lost_under, ("pins", "contacts", "gears"))) or any(p[2:] == ("on",) for p in reading.lost)
+    if reading.unsure or lost:
         return
     bare = {problem.where for problem in reading.problems}
     hint = Phrase("share a point with another link or slide", frame=reading.frame.name)

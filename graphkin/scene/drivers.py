@@ -190,7 +190,7 @@ def _pair_of(where: str, driver: DrivenSlide, reading: Reading, lost: set[str]) 
     keys = [pair for pair, rail in pairs.items() if rail in (on or rail,) and rail == (driver.relative_to or rail)]
     known = reading.pairs
     meant, link, here = keys[0] if len(keys) == 1 else driver.slide, reading.links.get(what), f"{where}.slide"
-    if "" in reading.unsure or (link is not None and link.on is not None and not pairs):
+    if "" in reading.unsure or reading.is_unread(driver.slide):
         return meant  # its pair has a problem of its own
     if not pairs and what not in reading.points:
         reading.say(here, "there is no sliding link", did_you_mean(what, known), what=what)

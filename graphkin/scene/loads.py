@@ -159,7 +159,8 @@ def _end(reading: Reading, where: str, point: str, link: str) -> str:
         missing = reading.wrong(reading.no_point(f"{where}.between", point))
         order = [reading.frame.name, *(n for n, each in reading.links.items() if not each.redundant)]
         having = [n for n in order if point in reading.places.get(n, {})]
-        if not having and not missing:
+        unread = "" in reading.unsure or any(point in points for points in reading.points.values())
+        if not having and not missing and not unread:
             reading.say(f"{where}.between", "is placed on no link", "a point of a link or the frame", point=point)
         return having[0] if having else ""
     if link != reading.frame.name and _not_moving(reading, f"{where}.links", link):

@@ -163,7 +163,7 @@ def bodies_of(reading: Reading, drawn: Places) -> dict[str, Placement]:
                                 name=ends[0], other=ends[1])
             if body.length is not None:
                 body.local[ends[1]] = complex(body.length)
-            elif not reading.lost_under("links", name, "length") and not reading.lost_under("drawn"):
+            elif not any(reading.lost_under(*path) for path in (("links", name, "length"), ("drawn",), ("frame",))):
                 undrawn = joined("one and other", [point for point in ends if point not in given])
                 reading.say(f"{body.where}.length", "is missing", "write length or give in drawn", undrawn=undrawn)
         bodies[name] = body

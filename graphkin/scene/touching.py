@@ -91,6 +91,8 @@ def _side(where: str, ref: str, reading: Reading, discs: Discs) -> Side | None:
         return (link, part, disc) if disc else None  # what is wrong with it is told already
     if not part or part in reading.guides.get(link, ()):
         return link, part, None
+    if link in reading.unsure:
+        return None  # what is wrong with its outlines is told already
     known = [*outlines, *reading.guides.get(link, ())]
     unknown = Phrase("write it in links. discs or links. guides", link=link, other=link)
     reading.say(where, "link has no disc and no guide", did_you_mean(part, known) if known else unknown, link=link,
@@ -378,6 +380,8 @@ def _swings(here: str, name: str, cam: Cam, reading: Reading, lines: Mapping[str
     if link is None or reading.lost_under("links", follower) or reading.lost_under("frame"):
         return None
     pivots = [p for p in link.points if p in _fixed(reading)]
+    if any(pair.link == follower and pair.on == frame for pair in reading.slides):
+        return None  # what is wrong with its guide is told already
     if len(pivots) != 1 or link.on is not None:
         reading.say(where, "link neither slides on a guide of the", "write on guide or points with a pivot",
                     follower=follower, frame=frame)

@@ -10,6 +10,7 @@ import graphkin
 from graphkin.errors import SceneError
 from graphkin.scene import mechanism_of_text
 from graphkin.scene.model import FromDeadPoint
+from graphkin.scene.tables import value_at
 
 from .scenes import FOUR_BAR, SIX_BAR, changed
 
@@ -358,6 +359,27 @@ first = 3
 )
 def test_each_problem_is_told_with_no_other_that_follows_from_it(wrong: list[tuple[str, str]], told: set[str]) -> None:
     assert told == {sentence.split(": ")[0] for sentence in messages(changed(LOADED, *wrong))}
+
+
+@pytest.mark.parametrize(
+    ("scene", "key", "wrong"),
+    [
+        ("single-flier", "frame.points.A", [1, 2, 3]),
+        ("wheel-on-rail", "contacts.K.rolling", "yes"),
+        ("hypocycloid-straight-line", "gears.g", "ring"),
+        ("cam-flat-face", "frame.guides.g", {"through": "A"}),
+        ("cam-eccentric-flat-rocker", "links.1.discs", 50),
+        ("rocker-return-spring", "links.3.at.E.from", True),
+        ("boom-lifted", "links.2.on", True),
+    ],
+)
+def test_a_wrong_entry_is_no_second_problem_where_something_refers_to_it(scene: str, key: str, wrong: object) -> None:
+    made = graphkin.read(scene).to_dict()
+    path = key.split(".")
+    value_at(made, tuple(path[:-1]))[path[-1]] = wrong
+    with pytest.raises(SceneError) as told:
+        graphkin.read(made)
+    assert [key] == [str(problem.where) for problem in told.value.problems]
 
 
 def test_a_start_where_nothing_rolls_is_refused() -> None:
