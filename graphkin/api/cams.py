@@ -25,8 +25,8 @@ from graphkin.words.written import true_minus
 
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
-    from graphkin.solver.cams import AtDegree, CamAt, CamStudy
-    from graphkin.solver.discs import DiscCam, DiscCourse
+    from graphkin.solver.cams import AtDegree, CamStudy
+    from graphkin.solver.discs import DiscCam
     from graphkin.table import Array, Table
 
 STEP = 1.0
@@ -111,10 +111,9 @@ class CamMade:
         if self.wanted_base is not None:
             made.append(Phrase("cam base wanted", radius=self._length(self.wanted_base), unit=unit))
         made += self._rates()
-        for jump in study.jumps:
-            edge = "cam impact" if cam.flat or cam.roller else "cam impact corner"
-            made.append(Phrase(edge if jump.order == 1 else "cam soft impact", angle=_degrees(jump.degree)))
-        return made
+        edge = "cam impact" if cam.flat or cam.roller else "cam impact corner"
+        made += [Phrase(edge, angle=_degrees(jump.degree)) for jump in study.impacts]
+        return made + [Phrase("cam soft impact", angle=_degrees(jump.degree)) for jump in study.soft_impacts]
 
     def _undercut(self, start: float, end: float) -> Phrase:
         unit = self.mechanism.units.length
@@ -138,7 +137,7 @@ class CamMade:
                 name = "rad" + per[order - 1]
             else:
                 value, name = value / units.metres, units.length + per[order - 1]
-            if order == 2 and any(jump.order == 1 for jump in self.study.jumps):
+            if order == 2 and self.study.impacts:
                 key = "acceleration beside impacts"
             size = Neutral(f"{true_minus(f'{value:.6g}')} {name}")
             phrases.append(Phrase(f"cam {key}", size=size, place=_place(most)))
@@ -167,7 +166,8 @@ class CamMade:
             "acceleration": at(study.acceleration, lift),
             "radius": at(study.radius, metres),
             "undercut": [[math.degrees(start), math.degrees(end)] for start, end in study.undercut],
-            "jumps": [{"order": j.order, "degree": math.degrees(j.degree), "by": j.by / lift} for j in study.jumps],
+            "jumps": [{"order": order, "degree": math.degrees(jump.degree), "by": jump.value / lift}
+                      for order, jumps in enumerate((study.impacts, study.soft_impacts), 1) for jump in jumps],
             "least_base": None if self.wanted_base is None else self.wanted_base / metres,
             "divisions": [
                 {"number": k, "degree": math.degrees(d.degree), "lift": d.lift / lift, "pressure": d.pressure}
@@ -216,18 +216,18 @@ def cam_table(scene: Mechanism, step: float = STEP, discs: Sequence[DiscCam] = (
     count = max(1, round(360.0 / step))
     degree = np.arange(count) * (360.0 / count)
     # a degree is a rotation of the law, whatever way the cam turns
-    courses: list[tuple[str, bool, bool, CamAt | DiscCourse]] = [
-        (cam.link, cam.turns, cam.flat, cam_at(cam, np.radians(degree))) for cam in scene.cams
-    ]
-    courses += [
-        (disc.link, disc.swings, disc.pitch is None, disc_course(structure_of(scene), disc, np.radians(degree)))
-        for disc in discs
-    ]
+    courses: list[tuple[str, bool, tuple[Array, Array, Array | None, Array]]] = []
+    for cam in scene.cams:
+        at = cam_at(cam, np.radians(degree))
+        course = at.lift, at.profile, None if cam.flat else at.pitch, at.pressure
+        courses.append((cam.link, cam.turns, course))
+    for disc in discs:
+        courses.append((disc.link, disc.swings, disc_course(structure_of(scene), disc, np.radians(degree))))
     parts: list[list[Array]] = []
-    for _, swings, flat, at in courses:
-        pitch = np.full(count, complex(np.nan, np.nan)) if flat or at.pitch is None else at.pitch / metres
-        lift, profile = at.lift / (math.radians(1.0) if swings else metres), at.profile / metres
-        parts.append([degree, lift, pitch.real, pitch.imag, profile.real, profile.imag, np.degrees(at.pressure)])
+    for _, swings, (lift, profile, pitch, pressure) in courses:
+        lift, profile = lift / (math.radians(1.0) if swings else metres), profile / metres
+        pitch = np.full(count, complex(np.nan, np.nan)) if pitch is None else pitch / metres
+        parts.append([degree, lift, pitch.real, pitch.imag, profile.real, profile.imag, np.degrees(pressure)])
     names = ("angle_deg", "lift", "pitch_x", "pitch_y", "profile_x", "profile_y", "pressure_deg")
     joined = (np.concatenate(columns) for columns in zip(*parts, strict=True))
     links = [link for link, *_ in courses for _ in range(count)]

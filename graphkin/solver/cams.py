@@ -197,16 +197,6 @@ class AtDegree:
 
 
 @dataclass(frozen=True)
-class Jump:
-    """A jump of the follower's velocity (``order`` 1: an impact) or acceleration (2: a soft one) at a seam (rad), with
-    its size (m or rad, per rad or rad2)."""
-
-    order: int
-    degree: float
-    by: float
-
-
-@dataclass(frozen=True)
 class CamStudy:
     """The study of a cam; rates are by the cam's angle (m or rad, per rad and rad2), angles in rad, lengths in m.
 
@@ -215,7 +205,7 @@ class CamStudy:
     radius : the least radius of curvature of the convex profile; None if it is nowhere convex
     undercut : the stretches in which the profile cannot be cut: the roller is larger than the radius of the pitch
         curve, or the flat face does not touch the whole of it
-    jumps : the jumps of velocity or acceleration
+    impacts, soft_impacts : the jumps of velocity and of acceleration at seams, by their size
     """
 
     cam: LawCam
@@ -225,7 +215,8 @@ class CamStudy:
     acceleration: AtDegree
     radius: AtDegree | None
     undercut: tuple[tuple[float, float], ...]
-    jumps: tuple[Jump, ...]
+    impacts: tuple[AtDegree, ...]
+    soft_impacts: tuple[AtDegree, ...]
 
     @property
     def judged(self) -> tuple[bool | None, bool | None]:
@@ -245,7 +236,7 @@ def study_cam(cam: LawCam) -> CamStudy:
     convex = [a for a in round_ if a.value + cam.roller > 0.0 or cam.flat]
     return CamStudy(
         cam, most_rise, most_fall, _greatest(cam.law, 1), _greatest(cam.law, 2),
-        min(convex, key=attrgetter("value"), default=None), tuple(_undercut(cam)), tuple(_jumps(cam)),
+        min(convex, key=attrgetter("value"), default=None), tuple(_undercut(cam)), *_impacts(cam.law),
     )  # fmt: skip
 
 
@@ -337,14 +328,15 @@ def _too_sharp(cam: LawCam, part: LiftPiece, degree: Array) -> Array:
     return np.asarray((at.radius < 0.0) & (at.radius + cam.roller > 0.0))
 
 
-def _jumps(cam: LawCam) -> Iterator[Jump]:
-    """The jumps of a law.  At a jump of velocity the acceleration is infinite, and its own jump is left out."""
-    law, hard = cam.law, set[int]()
+def _impacts(law: FollowerLaw) -> tuple[tuple[AtDegree, ...], tuple[AtDegree, ...]]:
+    """The jumps of velocity and of acceleration of a law.  At a jump of velocity the acceleration is infinite, and its
+    own jump is left out."""
     ends = [(part.at(part.start), part.at(part.end)) for part in law.parts]
-    for order in (1, 2):
-        most = abs(_greatest(law, order).value)
-        for k, part in enumerate(law.parts):
-            by = ends[k][0][order] - ends[k - 1][1][order]
-            if abs(by) > CORNER * most and k not in hard:
-                hard.add(k)
-                yield Jump(order, part.start, by)
+    hard, soft = (
+        [AtDegree(ends[k][0][order] - ends[k - 1][1][order], part.start) for k, part in enumerate(law.parts)]
+        for order in (1, 2)
+    )
+    most = [abs(_greatest(law, order).value) for order in (1, 2)]
+    impacts = tuple(jump for jump in hard if abs(jump.value) > CORNER * most[0])
+    return impacts, tuple(jump for jump, harder in zip(soft, hard, strict=True)
+                          if abs(jump.value) > CORNER * most[1] and harder not in impacts)  # fmt: skip

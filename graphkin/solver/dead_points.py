@@ -90,12 +90,11 @@ def _of_group(
     assert isinstance(group, Dyad)
     for known, part in assembled(path, before, low, high, signs):
         chosen = {j: float(known.modes[j](np.zeros(1))) for j in before}
-        for stretch in stretches(known.with_sign(i, 1.0), i, part.low, part.high):
-            exact = known.with_sign(i, 1.0).exactly(i, stretch.low)
-            assert exact is not None
-            ends = [(exact.zero(end), side) for end, side, ended in
+        tried = known.with_sign(i, 1.0)
+        for stretch in stretches(tried, i, part.low, part.high):
+            ends = [(tried.exact_zero(i, end), side) for end, side, ended in
                     zip((stretch.low, stretch.high), (1, -1), stretch.ends, strict=True) if ended]  # fmt: skip
-            touched = (touches[0] for t in stretch.touches if (touches := exact.touches(t, BESIDE)))
+            touched = (touches[0] for t in stretch.touches if (touches := tried.exact_touches(i, t, BESIDE)))
             yield from (DeadPoint(value, i, chosen, (-1, 1)) for value in touched)
             for value, side in ends:
                 if value is not None:

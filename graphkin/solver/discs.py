@@ -47,17 +47,6 @@ class DiscCam:
     outline: tuple[complex, float]
 
 
-@dataclass(frozen=True)
-class DiscCourse:
-    """A disc and its follower at angles of the driver, each of shape (n,): lift from the lowest place (m, rad), contact
-    and centre of a round follower (None of a flat face) in the cam's own axes from its axis (m), pressure angle."""
-
-    lift: Array
-    profile: Array
-    pitch: Array | None
-    pressure: Array
-
-
 def disc_cams(structure: Structure) -> tuple[DiscCam, ...]:
     """The discs that the driver of a mechanism turns about the frame, with the followers that they move.
 
@@ -119,8 +108,16 @@ def _measured(reach: DriverRange, contact: PlacedContact, side: int, of: str) ->
     )  # fmt: skip
 
 
-def disc_course(structure: Structure, disc: DiscCam, angle: Array) -> DiscCourse:
-    """The course of a measured disc at angles of the driver (rad), shape (n,)."""
+def disc_course(structure: Structure, disc: DiscCam, angle: Array) -> tuple[Array, Array, Array | None, Array]:
+    """The course of a measured disc and its follower at angles of the driver (rad), shape (n,).
+
+    Returns
+    -------
+    lift : from the lowest place (m, rad)
+    profile, pitch : contact, and centre of a round follower (None of a flat face), in the cam's own axes from its axis
+        (m)
+    pressure : pressure angle (rad)
+    """
     scene, reach = structure.scene, range_of(structure)
     contact = next(c for c in scene.contacts if c.name == disc.contact)
     sides = _sides(scene, contact)
@@ -140,7 +137,7 @@ def disc_course(structure: Structure, disc: DiscCam, angle: Array) -> DiscCourse
     other = contact.discs[1 - side]
     pitch = None if other is None else (motion.position(other.centre, disc.follower) - axis) * back
     pressure = _between(contact_motion(motion, contact).normal, motion_of_follower)
-    return DiscCourse(np.abs(value - disc.lowest), (place - axis) * back, pitch, pressure)
+    return np.abs(value - disc.lowest), (place - axis) * back, pitch, pressure
 
 
 def _pressures(reach: DriverRange, contact: PlacedContact, follower: str, offset: Array) -> Array:

@@ -119,18 +119,48 @@ class Path:
         assert isinstance(solved, DyadSolution)
         return np.broadcast_to(solved.discriminant, t.shape)
 
-    def exactly(self, i: int, t: float) -> ExactDiscriminant | None:
-        """The discriminant of a dyad along the path in fifty digits, with the modes at a parameter; None after elements
-        other than dyads."""
-        if not all(e.explicit for e in self.structure.elements[:i]):
-            return None
+    @cached_property
+    def _meant(self) -> Callable[[Decimal], list[Decimal]]:
+        """The function of a parameter to the driver values in fifty digits."""
         drivers = self.structure.scene.drivers
         with working():
-            start, end = (tuple(meant_value(d, x) for d, x in zip(drivers, values.tolist(), strict=True))
-                          for values in (self.start, self.end))  # fmt: skip
-            way = tuple(b - a for a, b in zip(start, end, strict=True))
-        modes = self.mode(self.off_flips(np.array([t])))
-        return ExactDiscriminant(discriminant_of(self.structure, i, modes), start, way)
+            ends = ([meant_value(d, x) for d, x in zip(drivers, values.tolist(), strict=True)]
+                    for values in (self.start, self.end))  # fmt: skip
+            spans = [(start, end - start) for start, end in zip(*ends, strict=True)]
+        return lambda t: [start + t * span for start, span in spans]
+
+    def _exactly(self, i: int, t: float) -> ExtendedPrecision:
+        """The discriminant of a dyad in fifty digits, with the modes at a parameter."""
+        return discriminant_of(self.structure, i, self.mode(self.off_flips(np.array([t]))))
+
+    def exact_zero(self, i: int, about: float) -> Decimal | None:
+        """The parameter at which the discriminant of a dyad goes through zero, near a parameter, in fifty digits; None
+        where it does not."""
+        discriminant = self._exactly(i, about)
+        return newton(lambda t: discriminant(*self._meant(t)), about)
+
+    def exact_touches(self, i: int, about: float, near: float) -> tuple[Decimal, ...] | None:
+        """The zeros of a dyad's discriminant near its least value, within ``near`` of a parameter, in fifty digits: one
+        where it touches zero within the digits of the file; two between which it is negative; or none.  None where no
+        least value is found, and after elements other than dyads."""
+        if not all(e.explicit for e in self.structure.elements[:i]):
+            return None
+        discriminant = self._exactly(i, about)
+
+        def value(t: Decimal) -> Decimal:
+            return discriminant(*self._meant(t))
+
+        place = touch(value, about)
+        if place is None or abs(place - Decimal(about)) > near:
+            return None
+        with working():
+            least, sign = discriminant.signed(0, self._meant(place))
+            if sign >= 0:
+                return () if sign else (place,)
+            second = (value(place + STEP) + value(place - STEP) - 2 * least) / (STEP * STEP)
+            away = (-2 * least / second).sqrt() if second > 0 else Decimal(0)
+        ends = (newton(value, place + side * away) for side in (-1, 1) if away)
+        return tuple(end for end in ends if end is not None)
 
     @cached_property
     def change_points(self) -> tuple[ChangePoint, ...]:
@@ -180,40 +210,6 @@ class Path:
 
 
 @dataclass(frozen=True)
-class ExactDiscriminant:
-    """The discriminant of a dyad along a path, in fifty digits: from drivers at ``start`` by ``way`` (rad, m)."""
-
-    discriminant: ExtendedPrecision
-    start: tuple[Decimal, ...]
-    way: tuple[Decimal, ...]
-
-    def _at(self, t: Decimal) -> list[Decimal]:
-        return [a + t * w for a, w in zip(self.start, self.way, strict=True)]
-
-    def __call__(self, t: Decimal) -> Decimal:
-        return self.discriminant(*self._at(t))
-
-    def zero(self, about: float) -> Decimal | None:
-        """The parameter at which it goes through zero, near a parameter; None where it does not."""
-        return newton(self, about)
-
-    def touches(self, about: float, near: float) -> tuple[Decimal, ...] | None:
-        """The zeros near its least value, within ``near`` of a parameter: one where it touches zero within the digits
-        of the file; two between which it is negative; or none.  None where no least value is found."""
-        place = touch(self, about)
-        if place is None or abs(place - Decimal(about)) > near:
-            return None
-        with working():
-            least, sign = self.discriminant.signed(0, self._at(place))
-            if sign >= 0:
-                return () if sign else (place,)
-            second = (self(place + STEP) + self(place - STEP) - 2 * least) / (STEP * STEP)
-            away = (-2 * least / second).sqrt() if second > 0 else Decimal(0)
-        ends = (newton(self, place + side * away) for side in (-1, 1) if away)
-        return tuple(end for end in ends if end is not None)
-
-
-@dataclass(frozen=True)
 class Stretch:
     """A stretch of a path in which a group closes.
 
@@ -232,11 +228,8 @@ def stretches(path: Path, i: int, low: float, high: float) -> list[Stretch]:
     """The stretches in which a dyad of a path closes, in increasing order, between two parameters between which all
     earlier ones close."""
 
-    def touching(about: float) -> tuple[Decimal, ...] | None:
-        exact = path.exactly(i, about)
-        return None if exact is None else exact.touches(about, BESIDE * (high - low))
-
-    return closed(lambda t: path.discriminant(i, t), low, high, touching, path.flips)
+    return closed(lambda t: path.discriminant(i, t), low, high,
+                  lambda about: path.exact_touches(i, about, BESIDE * (high - low)), path.flips)  # fmt: skip
 
 
 def closed(
@@ -251,7 +244,7 @@ def closed(
     Parameters
     ----------
     gap : function of places, shape (n,), to values, shape (n,), without a unit
-    touching : function that finds its zeros near a least value more exactly, see ``ExactDiscriminant.touches``
+    touching : function that finds its zeros near a least value more exactly, see ``Path.exact_touches``
     seams : places at which it may be rough
     """
     wide = high - low

@@ -21,7 +21,7 @@ from typing import Generic, NamedTuple, TypeAlias
 
 from graphkin.plane import Values, cross, dot
 from graphkin.solver.expressions import Real, Vec, fmax, fmin, root, two_sum
-from graphkin.solver.pose import Number, Pose, R, V
+from graphkin.solver.pose import Pose, R, V
 from graphkin.structure import DyadKind
 
 
@@ -75,15 +75,15 @@ def solve_dyad(kind: DyadKind, joints: Joints[V, R], sign: R) -> DyadSolution[V,
     return _SOLVERS[kind](joints, sign)
 
 
-def _square(z: Number) -> Values:
+def _square(z: Values) -> Values:
     return z.real * z.real + z.imag * z.imag
 
 
-def _length(z: Number) -> Values:
+def _length(z: Values) -> Values:
     return root(_square(z))
 
 
-def _by(arm: Number, local: Number, long: Number) -> Values:
+def _by(arm: Values, local: Values, long: Values) -> Values:
     """The direction of a body from one of its vectors in the world and in its own axes."""
     return arm * (local * (1.0 / (long * long))).conjugate()
 
@@ -194,7 +194,7 @@ def _rpr(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
     )
 
 
-def _two(e1: Number, e2: Number, over: Number, w: Number) -> tuple[Values, Values]:
+def _two(e1: Values, e2: Values, over: Values, w: Values) -> tuple[Values, Values]:
     """Solve x e1 + y e2 = w for real x, y, with over = 1 / (e1 x e2)."""
     return cross(w, e2) * over, cross(e1, w) * over
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -39,19 +39,6 @@ class Sliding(NamedTuple):
     coriolis: Array
 
 
-class Reach(Protocol):
-    """The range of the driver to which a motion belongs, with the functions that its forces need."""
-
-    def offsets(self, value: Array) -> Array:
-        """The offsets at which the first driver has these values (rad, m)."""
-
-    def motion(self, offset: Array, unit: bool = False) -> Motion:
-        """The motion there, with the rates of the scene or by the first driver's own value."""
-
-    def stroke(self, pair: str) -> tuple[float, float]:
-        """Least and greatest travel of a sliding pair (m)."""
-
-
 @dataclass(frozen=True)
 class Motion:
     """A mechanism solved at n positions of its drivers.
@@ -63,7 +50,7 @@ class Motion:
     poses : each moving link, the frame, and the blocks of pins, by name; NaN where the status is not ok
     assembled : gives the assembly of each group in words
     accuracy : the source of the bounds of its errors
-    reach : function to the range of the first driver; raises Unsolvable without one
+    reach : function to the ``DriverRange`` of the first driver; raises Unsolvable without one
     passed : the change points on the path from the scene's own position
     turned : over a sweep the angle of each link from its start, to a few degrees (rad): it gives whole turns
     onward : in a later block of a sweep, for each link the angle from which it continues (rad), less ``turned``
@@ -76,7 +63,7 @@ class Motion:
     poses: Mapping[str, Pose]
     assembled: Callable[[], tuple[Phrase, ...]]
     accuracy: Accuracy
-    reach: Callable[[], Reach]
+    reach: Callable[[], Any]
     turned: Mapping[str, Array] = field(default_factory=dict)
     passed: tuple[ChangePoint, ...] = ()
     onward: Mapping[str, float] = field(default_factory=dict)
@@ -106,7 +93,8 @@ class Motion:
         if any(driver.values[1] for driver in self.scene.drivers):
             return self
         reach = self.reach()
-        return reach.motion(reach.offsets(self.values[:, 0]), unit=True)
+        growing: Motion = reach.motion(reach.offsets(self.values[:, 0]), unit=True)
+        return growing
 
     @property
     def ok(self) -> Array:

@@ -7,39 +7,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Generic, Protocol
+from typing import TYPE_CHECKING, Any, Generic
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.plane import Values, cross, dot
+from graphkin.plane import cross, dot
 from graphkin.structure import Structure
 
 Array = NDArray[Any]
 
 
-class Number(Protocol):
-    """The numbers of poses: arrays, or formulas."""
-
-    @property
-    def real(self) -> Values: ...
-    @property
-    def imag(self) -> Values: ...
-    def conjugate(self) -> Values: ...
-    def __neg__(self) -> Values: ...
-    def __add__(self, other: Values, /) -> Values: ...
-    def __radd__(self, other: Values, /) -> Values: ...
-    def __sub__(self, other: Values, /) -> Values: ...
-    def __rsub__(self, other: Values, /) -> Values: ...
-    def __mul__(self, other: Values, /) -> Values: ...
-    def __rmul__(self, other: Values, /) -> Values: ...
-
-
 if TYPE_CHECKING:
     from typing_extensions import TypeVar
 
-    V = TypeVar("V", bound=Number, default=Array)
-    R = TypeVar("R", bound=Number, default=Array)
+    # arrays, or formulas, which compute alike
+    V = TypeVar("V", bound=Any, default=Array)
+    R = TypeVar("R", bound=Any, default=Array)
 else:
     from typing import TypeVar
 

@@ -143,7 +143,9 @@ def _rate(field: str) -> Callable[[Posed[V, R], Symbol], V | R]:
             along: R = getattr(posed.sliding(sliding_pair(posed.slides, symbol)), field).real
             return along
         of: V = getattr(posed.point(symbol.of), field)
-        return of - getattr(posed.point(symbol.to), field) if symbol.to else of
+        if symbol.to is not None:
+            of = of - getattr(posed.point(symbol.to), field)
+        return of
 
     return value
 
