@@ -132,21 +132,136 @@ BALANCE_IDLE = Phrase("the balance does no work in this position")
 
 @dataclass(frozen=True)
 class Forces:
-    """Forces and moments at n positions.
-
-    values : by their symbols.  Complex, shape (n,), N: pair forces ``F_5/6`` (of link 5 on link 6), inertia forces
-        ``Fi_6``, weights ``G_6``, loads ``P_name``, balancing forces ``F_2``; real, shape (n,), N m: couples of sliding
-        pairs ``M_5/6``, inertia couples ``Mi_6``, loads, balancing moments ``M_2``
-    beside : the values with the loads that begin or end exactly at a position; NaN elsewhere, and where they do not
-        change
-    ok : bool, shape (n,): whether the forces are found; numbers elsewhere are NaN
-    """
+    """Forces and moments at the n positions of a motion: its links cut free, with the known actions on them, and the
+    forces of their pairs and the balances as unknowns."""
 
     motion: Motion
+    acting: tuple[Action, ...]
 
-    values: Mapping[Symbol, Array]
-    beside: Mapping[Symbol, Array]
-    ok: Array
+    @cached_property
+    def unknowns(self) -> tuple[PairForce, ...]:
+        """The forces of the pairs, and the balances."""
+        return *pair_forces(self.motion), *balances(self.motion)
+
+    # the equations
+
+    @cached_property
+    def _row(self) -> dict[str, int]:
+        """The first of the three equations of each moving link."""
+        moving = [link.name for link in self.motion.scene.links if not link.redundant]
+        return {name: 3 * i for i, name in enumerate(moving)}
+
+    @property
+    def _size(self) -> float:
+        return self.motion.scene.size
+
+    def _arm(self, link: str, at: Array) -> Array:
+        """The vector from a link's origin to a place, over the size."""
+        return np.asarray((at - self.motion.poses[link].z) / self._size)
+
+    def _equations(self) -> tuple[Array, Array, Array]:
+        """Equilibrium of each link, three rows each: both components of force, and moment about its origin over the
+        size; a column for each unknown.
+
+        Returns
+        -------
+        matrix, inverse : shape (n, rows, columns) and (n, columns, rows)
+        good : whether the inverse exists, shape (n,)
+        """
+        matrix = np.zeros((len(self.motion), 3 * len(self._row), len(self.unknowns)))
+        for k, one in enumerate(self.unknowns):
+            for link, sign in ((one.second, 1.0), (one.first, -1.0)):
+                i = self._row.get(link)
+                if i is None:
+                    continue
+                if one.along is None:
+                    matrix[:, i + 2, k] = sign
+                    continue
+                matrix[:, i, k], matrix[:, i + 1, k] = sign * one.along.real, sign * one.along.imag
+                matrix[:, i + 2, k] = sign * cross(self._arm(link, one.at), one.along)
+        good, (rows, columns) = self.motion.ok, matrix.shape[1:]
+        if rows != columns:
+            return matrix, np.zeros((len(good), columns, rows)), np.zeros_like(good)
+        unit = np.eye(rows)
+        inverse = solve_all(np.where(good[:, None, None], matrix, unit), np.broadcast_to(unit, matrix.shape))
+        good = good & (np.abs(inverse).sum(axis=2).max(axis=1, initial=0.0) < 1.0 / DEAD)  # NaN is not less
+        return matrix, np.where(good[:, None, None], inverse, 0.0), good
+
+    def _right(self, values: Iterable[Array]) -> Array:
+        """The known actions, with these values, on the other side of the equations, shape (rows, n)."""
+        right = np.zeros((3 * len(self._row), len(self.motion)))
+        for one, value in zip(self.acting, values, strict=True):
+            i = self._row.get(one.link)
+            if i is None:  # a spring's force on the frame
+                continue
+            if one.at is None:
+                right[i + 2] -= value / self._size
+                continue
+            right[i] -= value.real
+            right[i + 1] -= value.imag
+            right[i + 2] -= cross(self._arm(one.link, one.at), value)
+        return right
+
+    @cached_property
+    def _found(self) -> list[tuple[Array, Array]]:
+        """The unknowns, shape (columns, n), NaN where they are not found, and whether they are found; where loads begin
+        or end exactly at some position then also with these."""
+        matrix, inverse, regular = self._equations()
+        loads = [[one.value for one in self.acting]]
+        if any(one.beside is not None for one in self.acting):
+            loads.append([one.value if one.beside is None else one.beside for one in self.acting])
+        answers: list[tuple[Array, Array]] = []
+        for values in loads:
+            right = self._right(values)
+            good = regular & np.isfinite(right).all(axis=0)
+            column = np.where(good, right, 0.0).T[..., None]
+            found = inverse @ column
+            # a second pass takes back the rounding of the first
+            found += inverse @ (column - np.where(good[:, None, None], matrix, 0.0) @ found)
+            answers.append((np.where(good, found[..., 0].T, np.nan), good))
+        return answers
+
+    def _by_symbol(self, found: Array) -> dict[Symbol, Array]:
+        """The columns of the answer by their symbols, both components of a force together."""
+        made: dict[Symbol, Array] = {}
+        for one, size in zip(self.unknowns, found, strict=True):
+            value = size * (self._size if one.along is None else one.along)
+            component = one.along is not None and one.symbol in made
+            made[one.symbol] = made[one.symbol] + value if component else value
+        return made
+
+    # the answer
+
+    @cached_property
+    def ok(self) -> Array:
+        """bool, shape (n,): whether the forces are found; numbers elsewhere are NaN."""
+        good = self._found[0][1]
+        nowhere = np.zeros(len(good), dtype=bool)
+        return np.asarray(good & ~np.any([nowhere, *without_line(self.motion).values()], axis=0))
+
+    @cached_property
+    def values(self) -> Mapping[Symbol, Array]:
+        """Forces and moments by their symbols.  Complex, shape (n,), N: pair forces ``F_5/6`` (of link 5 on link 6),
+        inertia forces ``Fi_6``, weights ``G_6``, loads ``P_name``, balancing forces ``F_2``; real, shape (n,), N m:
+        couples of sliding pairs ``M_5/6``, inertia couples ``Mi_6``, loads, balancing moments ``M_2``."""
+        values = {one.symbol: one.value for one in self.acting if one.symbol} | self._by_symbol(self._found[0][0])
+        return values if self.ok.all() else {symbol: known_where(self.ok, value) for symbol, value in values.items()}
+
+    @cached_property
+    def beside(self) -> Mapping[Symbol, Array]:
+        """The values with the loads that begin or end exactly at a position; NaN elsewhere, and where they do not
+        change."""
+        here, ok = self.values, self.ok
+        jumping = [one for one in self.acting if one.beside is not None]
+        if not jumping:
+            return {}
+        changed = ok & np.any([one.beside != one.value for one in jumping], axis=0)
+        made = {one.symbol: one.beside for one in jumping if one.symbol and one.beside is not None}
+        if changed.any():
+            made |= self._by_symbol(np.where(changed, self._found[1][0], np.nan))
+        least = 1e-6 * EDGE * np.max(np.abs(np.nan_to_num(list(here.values()))), axis=0)
+        made = {s: known_where(ok & (np.abs(value - here[s]) > least), value) for s, value in made.items()}
+        return {symbol: value for symbol, value in made.items() if not np.isnan(value).all()}
 
     @cached_property
     def known_motion(self) -> Motion:
@@ -163,8 +278,38 @@ class Forces:
 
     @cached_property
     def bound(self) -> tuple[Array, Array]:
-        """Bounds of the rounding errors of any force (N) and moment (N m), shape (n,) each."""
-        return _cut_free(self.motion).bounds(self)
+        """Bounds of the errors of any force (N) and moment (N m), shape (n,) each: of first order, by rounding and by
+        the bounds of the motion."""
+        matrix, inverse, _ = self._equations()
+        motion, size, loading = self.motion, self._size, self.motion.scene.loading
+        place, _, push = motion.bound.of_point
+        turn = motion.bound.of_turning
+        right = np.zeros((3 * len(self._row), len(motion)))
+        for mass in loading.masses:
+            i = self._row[mass.link]
+            centre = motion.poses[mass.link].fixed(mass.at)
+            heavy = mass.mass * (push + 4 * EPS * np.abs(centre.a))
+            weight = mass.mass * (np.abs(centre.a) + abs(loading.gravity))
+            right[i : i + 2] += heavy
+            right[i + 2] += heavy + weight * (place / size + 8 * EPS) + mass.inertia * turn[2] / size
+        for load in loading.loads:
+            i = self._row[load.link]
+            right[i : i + 3] += abs(load.size) * (turn[0] + place / size + 8 * EPS if load.is_force else EPS / size)
+        for spring in loading.springs:
+            force = np.abs(self.values[Symbol("P", name=spring.name)])
+            length = np.abs(np.subtract(*spring_ends(motion, spring)))
+            off = spring.rate * (2 * place + 8 * EPS * length) + force * (2 * place / length + turn[0] + 8 * EPS)
+            for link in spring.links:
+                if link in self._row:
+                    right[self._row[link] : self._row[link] + 3] += np.nan_to_num(off)
+        values = (self.values[one.symbol] / (size if one.along is None else 1.0) for one in self.unknowns)
+        found = np.nan_to_num([np.abs(value) for value in values])
+        matrix = np.nan_to_num(matrix)
+        off = np.abs(matrix) * 16 * EPS + (matrix != 0.0) * np.nan_to_num(place / size + turn[0])[:, None, None]
+        right += (off @ found.T[..., None])[..., 0].T
+        spread = (np.abs(inverse) @ np.nan_to_num(right).T[..., None])[..., 0].T + 16 * EPS * found
+        most = np.where(self.ok, spread.max(axis=0), np.nan)
+        return most, most * size
 
     @cached_property
     def floors(self) -> tuple[Array, Array]:
@@ -216,155 +361,9 @@ def forces_of(motion: Motion) -> Forces:
     Unsolvable : a load acts on a part of a stroke, and the driver makes no whole turn
     """
     if "forces" not in motion.kept:  # they are found together, and asked for one by one
-        motion.kept["forces"] = _cut_free(motion).solved()
+        motion.kept["forces"] = Forces(motion, tuple(actions(motion)))
     forces: Forces = motion.kept["forces"]
     return forces
-
-
-def _cut_free(motion: Motion) -> _Statics:
-    return _Statics(motion, tuple(actions(motion)), (*pair_forces(motion), *balances(motion)))
-
-
-@dataclass(frozen=True)
-class _Statics:
-    """The links of a motion cut free: the known actions on them, and the unknowns."""
-
-    motion: Motion
-    acting: tuple[Action, ...]
-    unknowns: tuple[PairForce, ...]
-
-    @cached_property
-    def row(self) -> dict[str, int]:
-        """The first of the three equations of each moving link."""
-        moving = [link.name for link in self.motion.scene.links if not link.redundant]
-        return {name: 3 * i for i, name in enumerate(moving)}
-
-    @property
-    def size(self) -> float:
-        return self.motion.scene.size
-
-    def arm(self, link: str, at: Array) -> Array:
-        """The vector from a link's origin to a place, over the size."""
-        return np.asarray((at - self.motion.poses[link].z) / self.size)
-
-    @cached_property
-    def matrix(self) -> Array:
-        """Equilibrium of each link, three rows each: both components of force, and moment about its origin over the
-        size; a column for each unknown.  Shape (n, rows, columns)."""
-        made = np.zeros((len(self.motion), 3 * len(self.row), len(self.unknowns)))
-        for k, one in enumerate(self.unknowns):
-            for link, sign in ((one.second, 1.0), (one.first, -1.0)):
-                i = self.row.get(link)
-                if i is None:
-                    continue
-                if one.along is None:
-                    made[:, i + 2, k] = sign
-                    continue
-                made[:, i, k], made[:, i + 1, k] = sign * one.along.real, sign * one.along.imag
-                made[:, i + 2, k] = sign * cross(self.arm(link, one.at), one.along)
-        return made
-
-    @cached_property
-    def inverse(self) -> tuple[Array, Array]:
-        """The inverse of the matrix, and whether it exists, shape (n,)."""
-        matrix, good = self.matrix, self.motion.ok
-        rows, columns = matrix.shape[1:]
-        if rows != columns:
-            return np.zeros((len(good), columns, rows)), np.zeros_like(good)
-        one = np.eye(rows)
-        found = solve_all(np.where(good[:, None, None], matrix, one), np.broadcast_to(one, matrix.shape))
-        good = good & (np.abs(found).sum(axis=2).max(axis=1, initial=0.0) < 1.0 / DEAD)  # what is no number is not less
-        return np.where(good[:, None, None], found, 0.0), good
-
-    def answer(self, right: Array) -> tuple[Array, Array]:
-        """The unknowns, shape (columns, n), NaN where they are not found, and whether they are found, by right sides of
-        shape (rows, n)."""
-        inverse, good = self.inverse
-        good = good & np.isfinite(right).all(axis=0)
-        column = np.where(good, right, 0.0).T[..., None]
-        found = inverse @ column
-        # a second pass takes back the rounding of the first
-        found += inverse @ (column - np.where(good[:, None, None], self.matrix, 0.0) @ found)
-        return np.where(good, found[..., 0].T, np.nan), good
-
-    def right(self, values: Iterable[tuple[Action, Array]]) -> Array:
-        """The known actions on the other side of the equations."""
-        made = np.zeros((3 * len(self.row), len(self.motion)))
-        for one, value in values:
-            i = self.row.get(one.link)
-            if i is None:  # a spring's force on the frame
-                continue
-            if one.at is None:
-                made[i + 2] -= value / self.size
-                continue
-            made[i] -= value.real
-            made[i + 1] -= value.imag
-            made[i + 2] -= cross(self.arm(one.link, one.at), value)
-        return made
-
-    def solved(self) -> Forces:
-        values = {one.symbol: one.value for one in self.acting if one.symbol}
-        found, ok = self.answer(self.right((one, one.value) for one in self.acting))
-        ok = ok & ~np.any([np.zeros(len(ok), dtype=bool), *without_line(self.motion).values()], axis=0)
-        values |= self._by_symbol(found)
-        if not ok.all():
-            values = {symbol: known_where(ok, value) for symbol, value in values.items()}
-        return Forces(self.motion, values, self._beside(values, ok), ok)
-
-    def _beside(self, here: Mapping[Symbol, Array], ok: Array) -> dict[Symbol, Array]:
-        """The values with the loads that begin or end exactly at a position, where these change them."""
-        jumping = [one for one in self.acting if one.beside is not None]
-        if not jumping:
-            return {}
-        values = [(one, one.value if one.beside is None else one.beside) for one in self.acting]
-        changed = ok & np.any([one.beside != one.value for one in jumping], axis=0)
-        made = {one.symbol: one.beside for one in jumping if one.symbol and one.beside is not None}
-        if changed.any():
-            made |= self._by_symbol(np.where(changed, self.answer(self.right(values))[0], np.nan))
-        least = 1e-6 * EDGE * np.max(np.abs(np.nan_to_num(list(here.values()))), axis=0)
-        made = {s: known_where(ok & (np.abs(value - here[s]) > least), value) for s, value in made.items()}
-        return {symbol: value for symbol, value in made.items() if not np.isnan(value).all()}
-
-    def _by_symbol(self, found: Array) -> dict[Symbol, Array]:
-        """The columns of the answer by their symbols, both components of a force together."""
-        made: dict[Symbol, Array] = {}
-        for one, size in zip(self.unknowns, found, strict=True):
-            value = size * (self.size if one.along is None else one.along)
-            component = one.along is not None and one.symbol in made
-            made[one.symbol] = made[one.symbol] + value if component else value
-        return made
-
-    def bounds(self, forces: Forces) -> tuple[Array, Array]:
-        """First-order bound of the forces' errors by rounding and by the bounds of the motion (N, N m)."""
-        motion, size, loading = self.motion, self.size, self.motion.scene.loading
-        place, _, push = motion.bound.of_point
-        turn = motion.bound.of_turning
-        right = np.zeros((3 * len(self.row), len(motion)))
-        for mass in loading.masses:
-            i = self.row[mass.link]
-            centre = motion.poses[mass.link].fixed(mass.at)
-            heavy = mass.mass * (push + 4 * EPS * np.abs(centre.a))
-            weight = mass.mass * (np.abs(centre.a) + abs(loading.gravity))
-            right[i : i + 2] += heavy
-            right[i + 2] += heavy + weight * (place / size + 8 * EPS) + mass.inertia * turn[2] / size
-        for load in loading.loads:
-            i = self.row[load.link]
-            right[i : i + 3] += abs(load.size) * (turn[0] + place / size + 8 * EPS if load.is_force else EPS / size)
-        for spring in loading.springs:
-            force = np.abs(forces.values[Symbol("P", name=spring.name)])
-            length = np.abs(np.subtract(*spring_ends(motion, spring)))
-            off = spring.rate * (2 * place + 8 * EPS * length) + force * (2 * place / length + turn[0] + 8 * EPS)
-            for link in spring.links:
-                if link in self.row:
-                    right[self.row[link] : self.row[link] + 3] += np.nan_to_num(off)
-        values = (forces.values[one.symbol] / (size if one.along is None else 1.0) for one in self.unknowns)
-        found = np.nan_to_num([np.abs(value) for value in values])
-        matrix = np.nan_to_num(self.matrix)
-        off = np.abs(matrix) * 16 * EPS + (matrix != 0.0) * np.nan_to_num(place / size + turn[0])[:, None, None]
-        right += (off @ found.T[..., None])[..., 0].T
-        spread = (np.abs(self.inverse[0]) @ np.nan_to_num(right).T[..., None])[..., 0].T + 16 * EPS * found
-        most = np.where(forces.ok, spread.max(axis=0), np.nan)
-        return most, most * size
 
 
 # -- what acts on the links of a motion from outside: inertia forces, weights, loads, each where and while it acts -----
