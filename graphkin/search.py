@@ -121,6 +121,28 @@ def greatest_and_least(
     return found[0], found[1]
 
 
+def places_between(angle: Array, low: float, high: float) -> Array:
+    """Places from ``low`` to ``high`` by an angle (rad) from 0 to pi whose cosine runs from one to the other: what
+    grows like a root of the distance to an end is smooth by it.  Nothing is lost near the ends."""
+    first, last = low + (high - low) * np.sin(angle / 2) ** 2, high - (high - low) * np.cos(angle / 2) ** 2
+    return np.asarray(np.where(angle < np.pi / 2, first, last))
+
+
+def angles_between(places: Array, low: float, high: float) -> Array:
+    """The angles (rad) by which ``places_between`` gives these places."""
+    return np.asarray(2 * np.arcsin(np.sqrt((places - low) / (high - low))))
+
+
+def extrapolated(values: Sequence[float], steps: Sequence[float]) -> tuple[float, float]:
+    """The value at 0 of the polynomial through values at steps, and how far the last of them moves it (Neville's
+    scheme)."""
+    found, before = [*values], values[0]
+    for k in range(1, len(found)):
+        before = found[0]
+        found = [(a * y - b * x) / (y - x) for a, b, x, y in zip(found, found[1:], steps, steps[k:], strict=False)]
+    return found[0], abs(found[0] - before)
+
+
 POINTS = 24
 FIRST_PIECES = 8
 MOST_DEPTH = 12

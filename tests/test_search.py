@@ -6,7 +6,18 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from graphkin.search import FIRST_PIECES, changes, intervals, last_true, least_value, resolve, zero_between
+from graphkin.search import (
+    FIRST_PIECES,
+    angles_between,
+    changes,
+    extrapolated,
+    intervals,
+    last_true,
+    least_value,
+    places_between,
+    resolve,
+    zero_between,
+)
 
 pytestmark = pytest.mark.quick
 
@@ -185,3 +196,16 @@ def test_a_bent_function_is_looked_at_few_times_for_its_zero() -> None:
 
 def test_the_search_for_a_zero_ends_where_a_function_has_no_value() -> None:
     assert 0.4 < zero_between(lambda x: np.nan if 0.4 < x < 0.6 else x - 0.5, 0.0, 1.0) < 0.6
+
+
+def test_a_polynomial_is_extrapolated_to_its_value_at_0() -> None:
+    steps = [1.0, 2.0, 4.0, 5.0]
+    # without the last the parabola is off by 0.5 * 1 * 2 * 4
+    assert (7.0, 4.0) == pytest.approx(extrapolated([7.0 - x + 0.5 * x**3 for x in steps], steps))
+
+
+def test_places_by_an_angle_and_their_angles_are_each_others_inverse() -> None:
+    angle = np.array([0.0, 0.3, 1.5, 1.7, np.pi])
+    places = places_between(angle, -2.0, 3.0)
+    assert [-2.0, 0.5 - 2.5 * np.cos(0.3), 3.0] == pytest.approx(places[[0, 1, 4]].tolist())
+    assert angle.tolist() == pytest.approx(angles_between(places, -2.0, 3.0).tolist())

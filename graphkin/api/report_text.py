@@ -20,6 +20,7 @@ from graphkin.words.symbols import plain_words
 from graphkin.words.written import MOST, amount
 
 if TYPE_CHECKING:
+    from graphkin.solver.driver_path import Stretch
     from graphkin.study.extremes import Extreme
     from graphkin.study.turn import Output, TurnStudy
 
@@ -208,19 +209,17 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
     scene = turn.scene
     driver, colon, semicolon = scene.drivers[0], word("colon", language), word("list semicolon", language)
     lines: list[str] = []
-    reach = turn.ranges[0]
-    if reach.whole:
+    if turn.reach.full:
         said = word("full turn", language)
         if turn.reach.turns > 1:
             repeats = say(Phrase("turns to close", turns=turn.reach.turns), language)
             said += semicolon + repeats
     else:
-        said = _between(scene, reach.low, reach.high, reach.open_low, reach.open_high)
+        said = _between(scene, turn.ranges[0])
     lines.append(f"{word('range', language)} {driver.key}{colon}{said}")
     lines += ["  " + say(one, language) for one in passed_words(scene, turn.reach.change_points)]
     for other in turn.ranges[1:]:
-        between = _between(scene, other.low, other.high, other.open_low, other.open_high)
-        lines.append("  " + say(Phrase("also assembles", assembly=between), language))
+        lines.append("  " + say(Phrase("also assembles", assembly=_between(scene, other)), language))
     if turn.not_searched:
         lines.append("  " + say(Phrase("not looked for", links=links_named(turn.not_searched)), language))
     for loop in turn.loops:
@@ -283,12 +282,11 @@ def _flywheel(turn: TurnStudy, language: str) -> list[str]:
     return [head + word("list semicolon", language).join(said)]
 
 
-def _between(scene: Mechanism, low: float, high: float, open_low: bool = False, open_high: bool = False) -> str:
-    ends = [
-        "..." if open_ else scene.unit_of(scene.drivers[0]).said(value)
-        for value, open_ in ((low, open_low), (high, open_high))
-    ]
-    return " – ".join(ends)
+def _between(scene: Mechanism, stretch: Stretch) -> str:
+    """The values of the driver at both ends of a stretch, dots where the motion does not end."""
+    unit = scene.unit_of(scene.drivers[0])
+    values = zip((stretch.low, stretch.high), stretch.ends, strict=True)
+    return " – ".join(unit.said(value) if ended else "..." for value, ended in values)
 
 
 def _at(scene: Mechanism, extreme: Extreme) -> str:

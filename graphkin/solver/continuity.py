@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from operator import itemgetter
 
 import numpy as np
 
-from graphkin.solver.driver_path import OFF_FLIP, START, Path, Stretch, stretches
+from graphkin.search import extrapolated
+from graphkin.solver.driver_path import OFF_FLIP, START, Path, Stretch, stretches, turning
 from graphkin.solver.engine import group_at, positions
 from graphkin.solver.larger_groups import GroupSolved
 from graphkin.solver.pose import Array
@@ -34,29 +36,21 @@ NARROW = 1e-6
 At = Callable[[float, Array], tuple[GroupSolved, Array]]
 
 
-@dataclass(frozen=True)
-class _Walk:
-    """The places of a group along the path parameter.
+def _interpolated(nodes: Array, values: Array) -> Callable[[Array], Array]:
+    """The function of path parameters to values that are linear between those at the nodes, shape (nodes, ...)."""
+    flat = values.reshape(len(nodes), -1)
 
-    nodes, places : parameters, shape (n,), and places there, shape (n, members, 3)
-    end : the parameter at which its motion ends, None if it does not end
-    flips : change points that it passed
-    """
+    def at(t: Array) -> Array:
+        columns = [np.interp(t, nodes, column) for column in flat.T]
+        return np.stack(columns, axis=1).reshape(len(t), *values.shape[1:])
 
-    nodes: Array
-    places: Array
-    end: float | None
-    flips: tuple[float, ...]
-
-    def start(self, t: Array) -> Array:
-        """Starting places of Newton's method, shape (n, members, 3)."""
-        flat = self.places.reshape(len(self.nodes), -1)
-        columns = [np.interp(t, self.nodes, flat[:, k]) for k in range(flat.shape[1])]
-        return np.stack(columns, axis=1).reshape(len(t), -1, 3)
+    return at
 
 
-def _walk_group(at: At, place: Array, size: float, end: float, most: float) -> _Walk:
-    """_Walk with a tangent predictor; a step is taken only if Newton's method confirms the prediction, or if the group
+def _walk_group(
+    at: At, place: Array, size: float, end: float, most: float
+) -> tuple[Array, Array, float | None, tuple[float, ...]]:
+    """Walk with a tangent predictor; a step is taken only if Newton's method confirms the prediction, or if the group
     hardly moves: then it may stop, dwell, turn back or start with a jolt, as its driving link does.
 
     Towards a dead point rates grow as one over the root of the distance to it (Seydel, Practical Bifurcation and
@@ -69,6 +63,12 @@ def _walk_group(at: At, place: Array, size: float, end: float, most: float) -> _
     ----------
     at : function of a parameter and a starting place to the solution there and its rate by the parameter
     most : largest step
+
+    Returns
+    -------
+    nodes, places : parameters, shape (n,), and places there, shape (n, members, 3)
+    end : the parameter at which the motion ends, None if it does not end
+    flips : the change points that it passed
     """
     weight = np.array([size, size, 1.0])
     here, slope = at(0.0, place)
@@ -120,7 +120,7 @@ def _walk_group(at: At, place: Array, size: float, end: float, most: float) -> _
         if end - t < AT_END or (there.residual[0] < CLOSE and off < BESIDE):
             t = end
     stop = None if t >= end else min(_singular_ahead(nodes[-len(determinants) :], determinants), end)
-    return _Walk(np.array(nodes), np.array(places), stop, tuple(flips))
+    return np.array(nodes), np.array(places), stop, tuple(flips)
 
 
 def _singular_ahead(nodes: Sequence[float], determinants: Sequence[float]) -> float:
@@ -136,24 +136,15 @@ def _singular_ahead(nodes: Sequence[float], determinants: Sequence[float]) -> fl
     if len(chosen) < EXTRAPOLATED:
         return last
     (near, less), (far, more) = chosen[EXTRAPOLATED // 2], chosen[EXTRAPOLATED - 1]
-    first = _extrapolated(chosen[:EXTRAPOLATED], 1)[1]
+    places, sizes = zip(*chosen[:EXTRAPOLATED], strict=True)
+    first, _ = extrapolated(places, sizes)
     if not last <= first <= 2 * last - far:
         return last
     power = round(2 * math.log(more / less) / math.log((first - far) / (first - near)))
     roots = {0: (), 2: (1, 2)}.get(power, (power,))
-    off, end = min((_extrapolated(chosen[:EXTRAPOLATED], root) for root in roots), default=(0.0, last))
+    ends = (extrapolated(places, [size ** (1 / root) for size in sizes]) for root in roots)
+    end, off = min(ends, key=itemgetter(1), default=(last, 0.0))
     return end if last <= end <= 2 * last - far and off < SETTLED * (end - last) + LEAST else last
-
-
-def _extrapolated(chosen: Sequence[tuple[float, float]], root: int) -> tuple[float, float]:
-    """The change that the last pair makes, and the parameter at a determinant of zero, from pairs of both by a root of
-    the determinant."""
-    found, by = [t for t, _ in chosen], [determinant ** (1 / root) for _, determinant in chosen]
-    before = found[0]
-    for k in range(1, len(by)):
-        before = found[0]
-        found = [(a * y - b * x) / (y - x) for a, b, x, y in zip(found, found[1:], by, by[k:], strict=False)]
-    return abs(found[0] - before), found[0]
 
 
 def _bend(slope: Array, new_slope: Array, weight: Array) -> float:
@@ -297,8 +288,8 @@ def _follow_group(path: Path, i: int, place: Array) -> Path:
 
     steps = _steps(path.structure, np.abs(path.end - path.start))
     most = min(0.125, CLUSTER_STEP / TURN_STEP / steps)
-    walk = _walk_group(solved, place, path.structure.scene.size, path.reach, most)
-    return _passed_by(path, i, walk.start, np.array(walk.flips), walk.end)
+    nodes, places, end, flips = _walk_group(solved, place, path.structure.scene.size, path.reach, most)
+    return _passed_by(path, i, _interpolated(nodes, places), np.array(flips), end)
 
 
 def _follow_rolled(path: Path, i: int, rolled: Rolled, mode: Array, grid: Array) -> Path:
@@ -310,12 +301,7 @@ def _follow_rolled(path: Path, i: int, rolled: Rolled, mode: Array, grid: Array)
         columns.append(np.full(len(grid), mode[2 * k]))
         if kind == "angle":
             u = np.nan_to_num(np.broadcast_to(poses[name].u, grid.shape), nan=1.0)
-            steps = np.angle(u[1:] * np.conj(u[:-1]))
-            columns.append(mode[2 * k + 1] + np.concatenate(([0.0], np.cumsum(steps))))
+            columns.append(mode[2 * k + 1] + turning(u))
         else:
             columns.append(np.full(len(grid), mode[2 * k + 1]))
-
-    def at(t: Array) -> Array:
-        return np.stack([np.interp(t, grid, column) for column in columns], axis=1)
-
-    return replace(path, modes={**path.modes, i: at})
+    return replace(path, modes={**path.modes, i: _interpolated(grid, np.stack(columns, axis=1))})

@@ -17,7 +17,7 @@ from functools import cached_property
 
 import numpy as np
 
-from graphkin.search import last_true, resolve
+from graphkin.search import angles_between, last_true, places_between, resolve
 from graphkin.solver.drivers import meant_value, working
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import ExtendedPrecision, discriminant_of, newton, positions, touch
@@ -199,8 +199,7 @@ class Path:
         found: dict[str, Array] = {}
         for name, pose in poses.items():
             u = np.nan_to_num(np.broadcast_to(pose.u, nodes.shape), nan=1.0)
-            steps = np.angle(u[1:] * np.conj(u[:-1]))
-            found[name] = np.angle(u[0]) + np.concatenate(([0.0], np.cumsum(steps)))
+            found[name] = np.angle(u[0]) + turning(u)
         return found
 
     def drive(self, t: Array) -> Drive:
@@ -209,12 +208,18 @@ class Path:
         return Drive(value, np.broadcast_to(self.end - self.start, value.shape), np.zeros_like(value))
 
 
+def turning(u: Array) -> Array:
+    """The angles (rad), whole turns included, by which a direction has turned since the first position, where it turns
+    by less than half a turn from one position to the next."""
+    return np.concatenate(([0.0], np.cumsum(np.angle(u[1:] * np.conj(u[:-1])))))
+
+
 @dataclass(frozen=True)
 class Stretch:
-    """A stretch of a path in which a group closes.
+    """A stretch of a path in which a group closes, or the whole mechanism.
 
-    low, high : its ends (parameters)
-    ends : whether the group ends there, or the search does
+    low, high : its ends (parameters; of the first driver's path its values)
+    ends : whether the motion ends there, or is only followed so far
     touches : change points inside, in increasing order
     """
 
@@ -252,11 +257,10 @@ def closed(
         return [Stretch(low, high)]
 
     def place(angle: Array) -> Array:
-        return np.asarray(np.where(
-            angle < np.pi / 2, low + wide * np.sin(angle / 2) ** 2, high - wide * np.cos(angle / 2) ** 2))
+        return places_between(angle, low, high)
 
-    parts = (np.array([*seams]) - low) / wide
-    inner = 2 * np.arcsin(np.sqrt(parts[(parts > START) & (parts < 1 - START)]))
+    inner = np.array([*seams])
+    inner = angles_between(inner[(inner > low + START * wide) & (inner < high - START * wide)], low, high)
     pieces = resolve(lambda angle: (gap(place(angle))[:, None], np.zeros((len(angle), 1))), 0.0, math.pi, floor=1.0,
                      seams=inner)  # fmt: skip
     roots, rests = map(place, pieces.near_zero(0, DOUBTFUL))

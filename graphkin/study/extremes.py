@@ -13,7 +13,7 @@ from typing import Literal
 
 import numpy as np
 
-from graphkin.search import SAME, Pieces, Turn, resolve
+from graphkin.search import SAME, Pieces, Turn, angles_between, extrapolated, places_between, resolve
 from graphkin.solver import DriverRange, Motion
 from graphkin.solver.pose import Array
 from graphkin.study.quantities import Quantity, rates_of
@@ -141,7 +141,7 @@ class CurveParameter:
         """The seams between parts of a cam's law, in increasing order."""
         low, high = self.reach.ends
         offsets = self.reach.seams
-        return offsets if self.reach.full else 2 * np.arcsin(np.sqrt((offsets - low) / (high - low)))
+        return offsets if self.reach.full else angles_between(offsets, low, high)
 
     def end(self, curve: Curve, which: int) -> float:
         """The value of a position at the lower or upper end of the motion, 0 where it is nothing but rounding."""
@@ -168,11 +168,7 @@ class CurveParameter:
         else:
             near = self.offset(high - STEPS_TO_END * steps if which else low + STEPS_TO_END * steps)
             values = curve.quantity.values(self.reach, self.reach.motion(near))
-        # Neville's scheme: the value at 0 of the polynomial through values at steps
-        found = values.tolist()
-        for k in range(1, len(found)):
-            found = [b - (c - b) * x / (y - x) for b, c, x, y in zip(found, found[1:], steps, steps[k:], strict=False)]
-        return curve.quantity.of_extrapolated(float(found[0]))
+        return curve.quantity.of_extrapolated(extrapolated(values.tolist(), steps.tolist())[0])
 
     def _beside_end(self, quantity: Quantity, which: int, parts: Array) -> Array:
         """A quantity at parts of the range beside its lower or upper end."""
@@ -181,15 +177,7 @@ class CurveParameter:
         return quantity.values(self.reach, self.reach.motion(near))
 
     def offset(self, parameter: Array) -> Array:
-        low, high = self.reach.ends
-        if self.reach.full:
-            return np.asarray(parameter)
-        # halves of a product of sines, so that nothing is lost near the ends
-        return np.asarray(np.where(
-            parameter < np.pi / 2,
-            low + (high - low) * np.sin(parameter / 2) ** 2,
-            high - (high - low) * np.cos(parameter / 2) ** 2,
-        ))
+        return np.asarray(parameter) if self.reach.full else places_between(parameter, *self.reach.ends)
 
     def inside(self, parameter: Array) -> Array:
         """The parameters that are not at an end of the motion."""

@@ -15,7 +15,7 @@ from graphkin.plane import added_up
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, Motion, own_slides
-from graphkin.solver.driver_path import FAR, Path, assembled, not_tried
+from graphkin.solver.driver_path import FAR, Path, Stretch, assembled, not_tried
 from graphkin.solver.driver_range import Extremes
 from graphkin.solver.values import FlywheelStudy, flywheel_of
 from graphkin.structure import Driven, Dyad, DyadKind, Pair, Structure
@@ -328,7 +328,7 @@ class TurnStudy:
     """The study of the motion over a whole turn (SI)."""
 
     reach: DriverRange
-    ranges: tuple[AssemblyRange, ...]
+    ranges: tuple[Stretch, ...]
     outputs: tuple[Output, ...]
     curves: tuple[Traced, ...]
     transmission: tuple[Least, ...]
@@ -439,31 +439,15 @@ BESIDE = 1e-9
 """Ranges (rad, m) that overlap by less have only their ends in common."""
 
 
-@dataclass(frozen=True)
-class AssemblyRange:
-    """Values of the first driver (SI) between which the mechanism assembles.
-
-    ``reached`` tells whether the motion of the scene's own assembly runs there; ``whole`` whether it is a full turn;
-    ``open_low``, ``open_high`` whether the motion does not end there but was not followed further.
-    """
-
-    low: float
-    high: float
-    reached: bool
-    whole: bool = False
-    open_low: bool = False
-    open_high: bool = False
-
-
-def ranges(reach: DriverRange) -> tuple[AssemblyRange, ...]:
+def ranges(reach: DriverRange) -> tuple[Stretch, ...]:
     """The range that the motion reaches, then all others in which some assembly closes, except those of
     ``not_searched``: within a turn of the driver; of a driven slide within four sizes of the mechanism and twice as far
     as its motion reaches."""
     if reach.full:
-        return (AssemblyRange(0.0, 2 * np.pi * reach.turns, True, whole=True),)
+        return (Stretch(0.0, 2 * np.pi * reach.turns),)
     low, high = sorted(float(reach.value(np.array(end))) for end in reach.ends)
     below, above = reach.limited if reach.sense > 0 else reach.limited[::-1]
-    own = AssemblyRange(low, high, True, open_low=not below, open_high=not above)
+    own = Stretch(low, high, (below, above))
     dyads = [*reach.structure.dyads]
     if not dyads or not_searched(reach):
         return (own,)
@@ -483,7 +467,7 @@ def not_searched(reach: DriverRange) -> tuple[str, ...]:
     return tuple(name for links in (*larger, *many) for name in links)
 
 
-def _elsewhere(reach: DriverRange, dyads: list[int], own: AssemblyRange) -> list[AssemblyRange]:
+def _elsewhere(reach: DriverRange, dyads: list[int], own: Stretch) -> list[Stretch]:
     turning = reach.driver.turns
     wide = max(FAR * reach.scene.size, 2 * abs(own.low), 2 * abs(own.high))
     first, last = (own.low + BESIDE, own.low + BESIDE + 2 * np.pi) if turning else (-wide, wide)
@@ -498,11 +482,8 @@ def _elsewhere(reach: DriverRange, dyads: list[int], own: AssemblyRange) -> list
     apart = [part for low, high in joined for part in ((low, min(high, own.low)), (max(low, own.high), high))]
     apart = [(low, high) for low, high in apart if high - low > 2 * BESIDE]
     if turning:
-        return [_within(low, high) for low, high in apart]
-    return [AssemblyRange(low, high, False, open_low=low == first, open_high=high == last) for low, high in apart]
-
-
-def _within(low: float, high: float) -> AssemblyRange:
-    """The range with its middle in (-pi, pi]."""
-    shift = 2 * np.pi * np.ceil(((low + high) / 2 - np.pi - 1e-9) / (2 * np.pi))
-    return AssemblyRange(float(low - shift), float(high - shift), False)
+        # with their middles in (-pi, pi]
+        shifts = (2 * np.pi * float(np.ceil(((low + high) / 2 - np.pi - 1e-9) / (2 * np.pi))) for low, high in apart)
+        return [Stretch(low - shift, high - shift, (True, True))
+                for (low, high), shift in zip(apart, shifts, strict=True)]  # fmt: skip
+    return [Stretch(low, high, (low != first, high != last)) for low, high in apart]

@@ -57,12 +57,12 @@ def to_json(turn: TurnStudy) -> dict[str, Json]:
         "driver": {"key": driver.key, "full_turn": reach.full, "turns_to_close": reach.turns or None},
         "ranges": [
             {
-                "low": None if r.open_low else _driver(scene, r.low),
-                "high": None if r.open_high else _driver(scene, r.high),
-                "reached": r.reached,
-                "full_turn": r.whole,
+                "low": _driver(scene, stretch.low) if stretch.ends[0] or reach.full else None,
+                "high": _driver(scene, stretch.high) if stretch.ends[1] or reach.full else None,
+                "reached": k == 0,
+                "full_turn": reach.full,
             }
-            for r in turn.ranges
+            for k, stretch in enumerate(turn.ranges)
         ],
         "ranges_not_searched_for": list(turn.not_searched),
         "why": str(reach.limit_why),

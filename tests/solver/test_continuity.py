@@ -311,7 +311,7 @@ def test_a_group_goes_on_from_where_it_stops_if_no_other_assembly_is_near(
     way: str, alone_within: float, end: float | None
 ) -> None:
     at = stopping(way, alone_within)
-    assert end == _walk_group(at, at(0.0, np.zeros(1))[0].place[0], 1.0, 2.0, 0.05).end
+    assert end == _walk_group(at, at(0.0, np.zeros(1))[0].place[0], 1.0, 2.0, 0.05)[2]
 
 
 def changing(beside: float) -> At:
