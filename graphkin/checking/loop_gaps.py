@@ -5,8 +5,9 @@ from __future__ import annotations
 import cmath
 from collections.abc import Mapping
 
+from graphkin.construction.links_on_paper import travel
 from graphkin.construction.sheet import Sheet
-from graphkin.plane import added_up, dot
+from graphkin.plane import added_up
 from graphkin.scene.symbol import Symbol
 from graphkin.structure.loops import Loop, loops_of
 from graphkin.structure.model import Coordinate
@@ -14,15 +15,10 @@ from graphkin.structure.model import Coordinate
 
 def places_of_loops(sheet: Sheet) -> tuple[dict[str, complex], dict[str, float]]:
     """The unit vector of each link's own axis, and the travel (m) of each sliding pair, as drawn."""
-    axes = {name: pose.axis for name, pose in sheet.poses.items()}
-    travels = {}
-    for slide in sheet.structure.slides:
-        if {slide.a, slide.b} <= set(sheet.poses):
-            guide = sheet.poses[slide.b]
-            start = guide.place(slide.guide.through / sheet.scales.length)
-            along = guide.axis * slide.guide.direction
-            travels[slide.key] = dot(sheet.poses[slide.a].origin - start, along) * sheet.scales.length
-    return axes, travels
+    poses, scale = sheet.poses, sheet.scales.length
+    axes = {name: pose.axis for name, pose in poses.items()}
+    placed = (slide for slide in sheet.structure.slides if poses.keys() >= {*slide.links})
+    return axes, {slide.key: travel(slide, poses, 1.0 / scale) * scale for slide in placed}
 
 
 def loop_gaps(sheet: Sheet, stated: Mapping[Symbol, complex | float]) -> dict[Symbol, tuple[str, float]]:

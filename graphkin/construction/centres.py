@@ -585,7 +585,7 @@ def _driven(centres: Centres, driver: Driver) -> dict[str, Turning]:
     once, reach = centre.place[2], 1.0
     if slide is not None:
         at = centres.point(slide.pin) if slide.slot and slide.pin else chart.middle
-        along = centres.poses[b].axis * slide.guide.direction
+        along = slide.along(centres.poses)
         once = dot(chart.velocity(centre.place, 1.0, at), along) / centres.mm
         reach = (abs(at - chart.middle) + chart.unit) / centres.mm
     if once == 0.0:

@@ -108,8 +108,8 @@ def _driven(plot: Polygons, order: Order, element: Driven) -> None:
     point = pair.pin or next(iter([*plot.links[name].points, *plot.places]), "")
     if point:
         a, b = node(plot.links, point, pair.a), node(plot.links, point, pair.b)
-        labels, way = (PointRef(point, pair.b), PointRef(point, pair.a)), Direction("along", plot.guide_names(pair))
-        edge = RelativeMotion(b, a, labels, way, slide=pair)
+        labels, written = (PointRef(point, pair.b), PointRef(point, pair.a)), Direction("along", plot.guide_names(pair))
+        edge = RelativeMotion(b, a, labels, written, slide=pair)
         draw_equation(plot, order, element, VectorChain.closing(edge if name == pair.a else edge.reversed()))
 
 
@@ -143,7 +143,7 @@ def _travel_rate(plot: Polygons, order: Order, key: str) -> float | None:
     point = slide.pin or next(iter(plot.links[slide.a].points), "")
     if not point:
         raise stuck("not drawn", links_named((slide.a, slide.b)), "no point of the sliding link is drawn")
-    along = plot.paper.poses[slide.b].axis * slide.guide.direction
+    along = slide.along(plot.paper.poses)
     slip = plot.end(order, node(plot.links, point, slide.a)) - plot.end(order, node(plot.links, point, slide.b))
     return dot(slip, along) * plot.per[order]
 
@@ -177,14 +177,14 @@ def _take(plot: Polygons, order: Order, group: LargerGroup, plans: Iterable[Grou
     """Draw a group by the first plan without trials, else by the plan whose trials find the rates best; all have the
     same number."""
     best: tuple[float, GroupPlan] | None = None
-    for found in plans:
-        if not found.tried:
-            best = 1.0, found
+    for candidate in plans:
+        if not candidate.tried:
+            best = 1.0, candidate
             break
-        quality, made = Trials(plot, order, group, found).judged()
+        quality, made = Trials(plot, order, group, candidate).judged()
         if best is None or quality > MUCH_BETTER * best[0]:
             best = quality, made
-        if MUCH_BETTER * best[0] >= len(found.tried) ** 0.5:
+        if MUCH_BETTER * best[0] >= len(candidate.tried) ** 0.5:
             break  # none can be so much better
     if best is None or not best[0]:
         raise stuck("dead point", group_named(group), "no drawing tells how this group moves here")
@@ -196,8 +196,8 @@ def _draw_by(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan) 
     """Draw a group by a plan: its contours, trial polygons for assumed rates, and the moves."""
     _draw_contours(plot, order, group)
     if order == "velocity":
-        for _, one, two in plan.parallel:
-            plot.board.notice("mechanism", "parallel legs", one, two)
+        for _, first, second in plan.parallel:
+            plot.board.notice("mechanism", "parallel legs", first, second)
     if plan.tried:
         trials = Trials(plot, order, group, plan).with_assumptions()
         plot.plans[group] = trials.plan
@@ -324,7 +324,7 @@ def _direction(plot: Polygons, edge: RelativeMotion, places: Mapping[str, comple
     if edge.rolling:
         return 1j * plot.touch(edge.rolling).normal
     if edge.slide is not None:
-        return plot.paper.poses[edge.slide.b].axis * edge.slide.guide.direction
+        return edge.slide.along(plot.paper.poses)
     if edge.contact:
         return -1j * plot.touch(edge.contact).normal
     if edge.joint is not None and edge.joint.pair.turns:  # both ends lie at one place, off the hinge
@@ -372,7 +372,7 @@ def _contours_of(plot: Polygons, group: LargerGroup) -> list[tuple[str, ...]]:
             joints.append((pair.links, plot.places[pair.point], None, frozenset(pair.links) in hinged))
         else:
             at = plot.places[pair.pin] if pair.pin else plot.paper.poses[pair.a].origin
-            along = plot.paper.poses[pair.b].axis * pair.guide.direction
+            along = pair.along(plot.paper.poses)
             joints.append((pair.links, at, along, pair.key in keys))
     turning = [(a, b) for a, b, _ in turned(plot, None, group) if inside.issuperset((a, b))]
     return contours(group.members, joints, turning)
@@ -382,15 +382,15 @@ def _rests_on(plot: Polygons, group: LargerGroup, contour: Sequence[str]) -> lis
     """The links of a contour that can be held still so that the rest is drawn on it without trials; those with most
     other links on them first."""
     outer = [n for p in group.pairs for n in (p.a, p.b) if not {p.a, p.b} <= set(contour)]
-    found = []
+    choices = []
     for held in sorted((n for n in contour if "/" not in n), key=lambda n: -outer.count(n)):
         rest = _on(group, held, contour)
         made = plot.fork(0).holding(group, held)
         plan = next(_plans(made, rest), None)
         if plan is not None and not plan.tried:
             plot.plans[rest] = plan
-            found.append((held, rest))
-    return found
+            choices.append((held, rest))
+    return choices
 
 
 def _turn_driven(plot: Polygons, order: Order, rest: LargerGroup) -> None:
@@ -487,9 +487,9 @@ class Trials:
 
     def along(self, edge: RelativeMotion, across: bool) -> complex:
         """The direction in which an edge's gap is measured: along it, or square to it."""
-        way = _direction(self.plot, edge, self.plot.places)
-        way = way if edge.slide is not None or edge.contact else -1j * way
-        return 1j * way if across else way
+        direction = _direction(self.plot, edge, self.plot.places)
+        direction = direction if edge.slide is not None or edge.contact else -1j * direction
+        return 1j * direction if across else direction
 
     def gap(self, trial: Polygons, edge: RelativeMotion, across: bool) -> float | None:
         """The gap of ends that should meet (mm) after a trial; None where it is unknown."""
@@ -550,7 +550,7 @@ class Trials:
         most = reach(true) + BEYOND * max(right + left, up + down)
         # what hardly moves is tried by a part of the driver's rate
         bases = (rates[i] for i, rates in enumerate(once[1:]))
-        ways = [SLOW * base if abs(x) <= 0.05 * abs(base) else x for x, base in zip(true, bases, strict=True)]
+        spans = [SLOW * base if abs(x) <= 0.05 * abs(base) else x for x, base in zip(true, bases, strict=True)]
 
         def fitting(choices: Iterable[list[float]]) -> list[float]:
             for row in choices:
@@ -558,10 +558,10 @@ class Trials:
                     break
             return row
 
-        low = fitting([_round(x, -share * way) for x, way in zip(true, ways, strict=True)] for share in NEARER)
+        low = fitting([_round(x, -share * span) for x, span in zip(true, spans, strict=True)] for share in NEARER)
         fair = [low]
-        for i, (x, way) in enumerate(zip(true, ways, strict=True)):
-            fair.append(fitting([*low[:i], _round(x, share * way), *low[i + 1 :]] for share in NEARER))
+        for i, (x, span) in enumerate(zip(true, spans, strict=True)):
+            fair.append(fitting([*low[:i], _round(x, share * span), *low[i + 1 :]] for share in NEARER))
         return replace(self, plan=replace(plan, assumed={**plan.assumed, order: tuple(map(tuple, fair))}))
 
     def true_rates(self) -> list[float]:
@@ -583,30 +583,30 @@ class Trials:
             steps = [step for step in trial.board.steps if step.diagram == order]
             vectors = (s for step in steps for s in step.strokes if isinstance(s, ConstructionVector))
             strokes = [replace(vector, trial=number) for vector in vectors]
-            told = RateTrial(number, self.as_symbols(assumed), far)
-            plot.do(Step("trial", "polygon", order, tuple(strokes), data=told))
+            assumption = RateTrial(number, self.as_symbols(assumed), far)
+            plot.do(Step("trial", "polygon", order, tuple(strokes), data=assumption))
         shared = [ref for ref in ends[0] if all(ref in end for end in ends)]
         places = [[end[ref] for ref in shared] for end in ends]
         plot.board.notice(order, "magnified", group_named(self.group), size=magnified(places, apart))
-        found = self._as_noted(rates, apart)
+        true = self._as_noted(rates, apart)
         edges = [edge for edge, _ in plan.open_ends]
         closing = tuple(edge.link or (edge.slide.key if edge.slide else "") for edge in edges)
         divided = Superposed(
-            self.as_symbols(found), closing, tuple(map(tuple, apart)),
+            self.as_symbols(true), closing, tuple(map(tuple, apart)),
             tuple(Direction("square" if across else "along", e.bar if e.link else e.direction.names)
                   for e, across in plan.open_ends),
             tuple((plot.label(e.labels[0]), plot.label(e.labels[1])) for e in edges),
             tuple(tuple(self._taken_off(trial, *end)) for end in plan.open_ends),
         )  # fmt: skip
         plot.do(Step("divide", "open ends", order, data=divided))
-        return found
+        return true
 
     def _taken_off(self, trial: Polygons, edge: RelativeMotion, across: bool) -> Iterator[tuple[Term, float]]:
         """The known terms of an edge with a component in the direction of its gap."""
-        way = self.along(edge, across)
+        direction = self.along(edge, across)
         for p in parts_of(trial, self.order, replace(edge, unknown=None)):
-            if p.span and abs(dot(p.span, way)) > NAUGHT * abs(p.span):
-                yield p, dot(p.span, way)
+            if p.span and abs(dot(p.span, direction)) > NAUGHT * abs(p.span):
+                yield p, dot(p.span, direction)
 
     def _as_noted(self, rates: Sequence[Sequence[float]], apart: Sequence[Sequence[float]]) -> list[float]:
         """The divided rates as they are written down: the step from the first assumed rate with the figures of the
@@ -643,8 +643,8 @@ def _reach(
 ) -> Callable[[Sequence[float]], NDArray[np.float64]]:
     """The reach of a polygon to the right, up, left and down from its pole (mm) for assumed rates: every vector is
     linear in them."""
-    shared = [symbol for symbol in drawn[0] if all(symbol in one for one in drawn)]
-    ends = np.array([[0j, *(z for s in shared for z in (one[s].tail, one[s].tip))] for one in drawn])
+    shared = [symbol for symbol in drawn[0] if all(symbol in polygon for polygon in drawn)]
+    ends = np.array([[0j, *(z for s in shared for z in (polygon[s].tail, polygon[s].tip))] for polygon in drawn])
     slopes = (ends[1:] - ends[0]) / np.diag(np.array(rates[1:]))[:, None]
 
     def reach(assumed: Sequence[float]) -> NDArray[np.float64]:
@@ -658,7 +658,7 @@ def _round(value: float, step: float) -> float:
     """A number about a step from a value, with few figures: easy to lay off."""
     wanted = value + step
     for carried in range(1, 9):
-        found = float(f"{wanted:.{carried}g}")
-        if abs(found - wanted) <= 0.35 * abs(step):
-            return found
+        rounded = float(f"{wanted:.{carried}g}")
+        if abs(rounded - wanted) <= 0.35 * abs(step):
+            return rounded
     return wanted

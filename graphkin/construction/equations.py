@@ -56,8 +56,8 @@ def same_turn(plot: Polygons, group: Dyad | LargerGroup) -> dict[str, str]:
     without = {c.block for c in contacts_of(plot.structure, group)} if plot.at_contacts else set()
     names = group.members
     alike = links_alike(names, turned(plot, None, group))
-    own = {n: min(alike[n].difference(without), default=n) for n in names}
-    return {n: next((m for m in sorted(alike[n]) if m not in names), own[n]) for n in names}
+    representative = {n: min(alike[n].difference(without), default=n) for n in names}
+    return {n: next((m for m in sorted(alike[n]) if m not in names), representative[n]) for n in names}
 
 
 def turned(plot: Polygons, order: Order | None, group: Dyad | LargerGroup) -> list[tuple[str, str, float]]:
@@ -98,12 +98,12 @@ def spread(plot: Polygons, order: Order, start: str, group: Dyad | LargerGroup) 
             for known, new, more in ((a, b, add), (b, a, -add)):
                 if known == at and new not in plot.rates[order]:
                     share_rate(plot, order, at, new, more)
-                    told = add != 0.0
+                    is_told = add != 0.0
                     if a in plot.seen:  # not where it just turns as a third does
                         seen = plot.seen[a].rates[order]
                         as_third = b in seen and seen[b].same_as and seen[seen[b].same_as].value == seen[b].value
-                        told = b in seen and not as_third
-                    if isinstance(group, LargerGroup) and at != plot.ground and told:
+                        is_told = b in seen and not as_third
+                    if isinstance(group, LargerGroup) and at != plot.ground and is_told:
                         value = plot.rates[order][at].value
                         plot.do(Step("read", "sum of rates", order, kind=RATE[order], link=new, links=(at, b),
                                      value=value, other=add))  # fmt: skip
@@ -112,11 +112,11 @@ def spread(plot: Polygons, order: Order, start: str, group: Dyad | LargerGroup) 
 
 def first_ends(plot: Polygons, name: str, hinge: str) -> list[PointRef]:
     """The first points of a driven link in a drawing: one of its own, else those under sliding links on it."""
-    own = [PointRef(p) for p in plot.links[name].points if p != hinge]
+    points = [PointRef(p) for p in plot.links[name].points if p != hinge]
     slides = [s for s in plot.structure.slides if s.b == name and "/" not in name]
     under = [node(plot.links, s.pin, name) for s in slides if s.pin in plot.places]
-    away = [n for n in (*own, *under) if abs(plot.places[n.point] - plot.places[hinge]) > plot.tiny]
-    first = away[:1] if any(n in own for n in away) else away
+    away = [n for n in (*points, *under) if abs(plot.places[n.point] - plot.places[hinge]) > plot.tiny]
+    first = away[:1] if any(n in points for n in away) else away
     return list(dict.fromkeys(first))
 
 
@@ -311,11 +311,11 @@ def _fill(plot: Polygons, order: Order, side: Side, tip: complex, tail: complex,
     for edge, parts in side:
         for part in parts:
             if part.span is None:
-                found = Vector(part.symbol, tail, plot.own_values.found(part.symbol, tail, tip), part.role)
-                span = found.tip - tail
+                vector = Vector(part.symbol, tail, plot.own_values.found(part.symbol, tail, tip), part.role)
+                span = vector.tip - tail
                 plot.board.notice(order, "zero vector", part.symbol, size=abs(span))
                 mm = plot.found_mm(part.symbol, span)
-                plot.record(found, Step("read", "vector", order, (), equation, symbol=part.symbol, mm=mm))
+                plot.record(vector, Step("read", "vector", order, (), equation, symbol=part.symbol, mm=mm))
                 at = tip
             else:
                 if part.symbol not in plot.drawn[order]:
@@ -337,11 +337,11 @@ def _rate(plot: Polygons, order: Order, edge: RelativeMotion, vector: Arrow, gro
     read = abs(hand.read(mm) if plot.trial else plot.board.read(symbol, mm))
     size = hand.noted(read * plot.per[order] / plot.length(arm, bar), min(MOST - 1, figures(on_paper(read))))
     value = size if cross(arm, span) >= 0 else -size
-    own = plot.own_values.rate(Symbol(rate, link=edge.link), value)
-    if own is not None:
+    believed = plot.own_values.rate(Symbol(rate, link=edge.link), value)
+    if believed is not None:
         plot.believed.add((order, edge.link))
     source = symbol if symbol in plot.drawn[order] else None
-    plot.rates[order][edge.link] = Rate(edge.link, value if own is None else own, source, read, abs(arm))
+    plot.rates[order][edge.link] = Rate(edge.link, value if believed is None else believed, source, read, abs(arm))
     plot.do(Step("read", "rate", order, kind=rate, link=edge.link, symbol=symbol, points=bar, value=value, mm=read,
                  held=plot.held))  # fmt: skip
     assert not isinstance(group, Driven)
@@ -458,8 +458,9 @@ def _driven_joint_parts(plot: Polygons, order: Order, edge: RelativeMotion, join
     towards the hinge, omega being the other link's."""
     hinge, per = joint.pair.point, plot.per[order]
     arm = plot.places[edge.end.point] - plot.places[hinge]
-    way = 1 if (joint.driver.link == joint.b) == edge.forward else -1  # whether the driver turns the end from the start
-    omega, alpha = (way * rate for rate in plot.given[joint.driver.key])
+    # whether the driver turns the end from the start
+    sense = 1 if (joint.driver.link == joint.b) == edge.forward else -1
+    omega, alpha = (sense * rate for rate in plot.given[joint.driver.key])
     name, both = (hinge, edge.end.point), (joint.b, joint.a)
     length, square = plot.length(arm, name), 1j * unit(arm)
     if order == "velocity":
@@ -479,15 +480,15 @@ def _contour_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[T
     with the Coriolis term of the held link's turning: a = a_r + 2 omega v_r.  Seen from another link the relative
     acceleration is a_r + 2 (omega_held - omega) v_r."""
     seen = plot.seen[edge.held]
-    way, moving = (1, edge.end) if edge.forward else (-1, edge.start)
-    slip = way * seen.end("velocity", moving)
+    sense, moving = (1, edge.end) if edge.forward else (-1, edge.start)
+    slip = sense * seen.end("velocity", moving)
     if order == "velocity":
         return [_term(plot, edge, "v", unit(slip or 1.0), abs(slip), edge.direction)]
     held, turns = edge.labels[0].link, plot.rates["velocity"]
     # seen from a link that turns itself as seen from the held one, the rest has another share of Coriolis
     read = seen.slip_mm(seen.symbol("v", moving), slip)
     speed = unit(slip) * read * plot.scales.velocity / plot.scales.acceleration if slip else 0j
-    rest = way * seen.end("acceleration", moving) + 2j * (turns[edge.held].value - turns[held].value) * speed
+    rest = sense * seen.end("acceleration", moving) + 2j * (turns[edge.held].value - turns[held].value) * speed
     coriolis = 2j * turns[held].value * speed
     parts = [_term(plot, edge, "ar", unit(rest or 1.0), abs(rest), edge.direction)]
     if held not in plot.still:
@@ -505,7 +506,7 @@ def _slip_read(plot: Polygons, edge: RelativeMotion, sense: complex) -> tuple[fl
 def _slide_parts(plot: Polygons, order: Order, edge: RelativeMotion, slide: Pair) -> list[Term]:
     """Both sides of a sliding pair: v_r and a_r along the guide, of given or unknown size, and 2 omega v_r of Coriolis
     square to it, omega being the guide's; a curved guide adds v_r^2 / rho towards its centre of curvature."""
-    sense = plot.paper.poses[slide.b].axis * slide.guide.direction * (1 if edge.forward else -1)
+    sense = slide.along(plot.paper.poses) * (1 if edge.forward else -1)
     given, per = _given(plot, slide.key, order), plot.per[order]
     mm, size = (None, None) if given is None else (given / per, GIVEN)
     if order == "velocity":
@@ -532,29 +533,29 @@ def _contact_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[T
     With w = omega_2 - omega_1 that is w v_r - (w - k_1 v_r) (w - k_2 v_r) / (k_1 - k_2): the contact runs along the
     outlines at rates that differ by the slip, and their tangents turn by w relative to each other (see `vector_graph`).
     """
-    one, two = (ref.link for ref in edge.labels)
+    link, other_link = (ref.link for ref in edge.labels)
     touch = plot.touch(edge.contact)
     plot.board.notice(order, "at contact", touch.name)
     normal, tangent, per = touch.normal, -1j * touch.normal, plot.per[order]
     if order == "velocity":
         return [_term(plot, edge, "v", tangent, None, edge.direction)]
-    bends = touch.curvatures((one, two), plot.paper.mm)
-    omega, other = (plot.rates["velocity"][n].value for n in (one, two))
+    bends = touch.curvatures((link, other_link), plot.paper.mm)
+    omega, other = (plot.rates["velocity"][n].value for n in (link, other_link))
     _, speed = _slip_read(plot, edge, tangent)
     turning = other - omega
     off = turning * speed - (turning - bends[0] * speed) * (turning - bends[1] * speed) / (bends[0] - bends[1])
-    if one in touch.centres:
-        curves = (one, two) if two in touch.centres else (one,)
-        size = Size("slip on curves", (two, one), symbol_of(plot, "v", edge), curves=curves)
+    if link in touch.centres:
+        curves = (link, other_link) if other_link in touch.centres else (link,)
+        size = Size("slip on curves", (other_link, link), symbol_of(plot, "v", edge), curves=curves)
     else:
-        size = _by_rate(plot, (two, one), (touch.centres[two][0], touch.name), square=True)
+        size = _by_rate(plot, (other_link, link), (touch.centres[other_link][0], touch.name), square=True)
     turned = Direction("turned", edge.direction.names)
     parts = [
-        _coriolis(plot, edge, one, normal, 2 * omega * speed / per, turned),
+        _coriolis(plot, edge, link, normal, 2 * omega * speed / per, turned),
         _term(plot, edge, "an", normal, off / per, Direction("along", ("n-n",)), size),
         _term(plot, edge, "ar", tangent, None, edge.direction),
     ]
-    return parts[1:] if one in plot.still else parts
+    return parts[1:] if link in plot.still else parts
 
 
 def _rolling_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Term]:
@@ -565,24 +566,24 @@ def _rolling_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[T
     """
     if order == "velocity":
         return []
-    one, two = (ref.link for ref in edge.labels)
+    link, other_link = (ref.link for ref in edge.labels)
     touch = plot.touch(edge.rolling)
-    bends = touch.curvatures((one, two), plot.paper.mm)
-    turning = plot.rates["velocity"][two].value - plot.rates["velocity"][one].value
+    bends = touch.curvatures((link, other_link), plot.paper.mm)
+    turning = plot.rates["velocity"][other_link].value - plot.rates["velocity"][link].value
     off = turning**2 / (bends[1] - bends[0]) / plot.scales.acceleration
     along = touch.normal if off >= 0.0 else -touch.normal
-    links = tuple(n for n in (two, one) if n not in plot.still) or (two,)
+    links = tuple(n for n in (other_link, link) if n not in plot.still) or (other_link,)
     if len(touch.centres) == 1:
         ((letter, centre),) = touch.centres.values()
         names = letter, edge.start.point
         size = _by_rate(plot, links, names, square=True)
-        way = Direction("towards", names if off * dot(touch.normal, touch.at - centre) > 0 else names[::-1])
+        written = Direction("towards", names if off * dot(touch.normal, touch.at - centre) > 0 else names[::-1])
     else:
         inside = bends[0] * bends[1] > 0.0
-        pair = (one, two) if not inside or abs(bends[0]) > abs(bends[1]) else (two, one)
+        pair = (link, other_link) if not inside or abs(bends[0]) > abs(bends[1]) else (other_link, link)
         radius = abs(1.0 / (bends[1] - bends[0]))
-        size, way = Size("rolling curves", links, curves=pair, hollow=inside, radius=radius), edge.direction
-    return [_term(plot, edge, "a" if plot.fixed(edge.start) else "an", along, abs(off), way, size)]
+        size, written = Size("rolling curves", links, curves=pair, hollow=inside, radius=radius), edge.direction
+    return [_term(plot, edge, "a" if plot.fixed(edge.start) else "an", along, abs(off), written, size)]
 
 
 def _given(plot: Polygons, key: str, order: Order) -> float | None:

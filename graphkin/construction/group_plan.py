@@ -79,8 +79,8 @@ class _Search:
 
     def turns(self, link: str) -> bool:
         """Whether the rate of a link is known."""
-        one = self.graph.turning(link)
-        return one.name not in self.graph.inside or one in self.known
+        unknown = self.graph.turning(link)
+        return unknown.name not in self.graph.inside or unknown in self.known
 
     @property
     def size(self) -> float:
@@ -173,11 +173,11 @@ class _Search:
 
     def legs(self, link: str) -> list[Path]:
         """Paths from known points to a link, each with one unknown that is not the link's own rate."""
-        own, mine = self.graph.turning(link), set(self.of(link))
+        own_rate, mine = self.graph.turning(link), set(self.of(link))
         best: dict[Unknown, Path] = {}
         for path in self.all_ways(1, mine):
             unknown = next((e.unknown for e in path if e.unknown), None)
-            if unknown is None or unknown == own:
+            if unknown is None or unknown == own_rate:
                 continue
             old = best.get(unknown)
             if old is None or (len(path), self.graph.strange(path)) < (len(old), self.graph.strange(old)):
@@ -192,35 +192,35 @@ class _Search:
             if ("", link) in left_out or self.turns(link) or self.nodes.intersection(self.of(link)):
                 continue
             legs = self.legs(link)
-            for one, two in combinations(legs, 2):
-                at, sine, away = self.crossing(one, two)
+            for first, second in combinations(legs, 2):
+                at, sine, away = self.crossing(first, second)
                 if at is None or sine < FLAT:
-                    flat = flat or (link, one, two)
-                    names = link, one[-1].end.point, two[-1].end.point
+                    flat = flat or (link, first, second)
+                    names = link, first[-1].end.point, second[-1].end.point
                     if names[1] != names[2] and names not in self.parallel:
                         self.parallel.append(names)
                     continue
-                third = [self._third(leg, at) for leg in legs if leg not in (one, two)]
+                third = [self._third(leg, at) for leg in legs if leg not in (first, second)]
                 quality = sine / (1.0 + away / self.size) * max(third, default=0.5)
                 if best is None or quality > best[0]:
-                    best = quality, link, (one, two), at
+                    best = quality, link, (first, second), at
         if best is not None:
             _, link, sides, at = best
             letter = next(self.letters)
             ref = self.graph.add(link, letter, at)
             self.nodes.add(ref)
-            one, two = ((*leg, *self.on_line(leg, leg[-1].end, ref, link)) for leg in sides)
-            self.moves.append(VectorChain(ref, (one, two), link))
+            first, second = ((*leg, *self.on_line(leg, leg[-1].end, ref, link)) for leg in sides)
+            self.moves.append(VectorChain(ref, (first, second), link))
             self.settle()
             return True
         if flat is None:
             return False
-        link, one, two = flat
-        edges = self.graph.edges[one[-1].end]
-        bar = next((self.seen(e) for e in edges if e.link == link and e.end == two[-1].end), None)
-        if bar is None or abs(cross(self.way(bar), self.line(one)[1] * 1j)) < FLAT:
+        link, first, second = flat
+        edges = self.graph.edges[first[-1].end]
+        bar = next((self.seen(e) for e in edges if e.link == link and e.end == second[-1].end), None)
+        if bar is None or abs(cross(self.way(bar), self.line(first)[1] * 1j)) < FLAT:
             return False
-        self.moves.append(VectorChain.closing(*one, bar, *(e.reversed() for e in reversed(two)), link=link))
+        self.moves.append(VectorChain.closing(*first, bar, *(e.reversed() for e in reversed(second)), link=link))
         assert bar.unknown is not None
         self.known.add(bar.unknown)
         self.settle()
@@ -239,10 +239,10 @@ class _Search:
         free = next(e for e in leg if e.unknown)
         return self.graph.places[leg[-1].end.point], 1j * self.way(free)
 
-    def crossing(self, one: Path, two: Path) -> tuple[complex | None, float, float]:
+    def crossing(self, first: Path, second: Path) -> tuple[complex | None, float, float]:
         """The crossing of the lines of two legs, the sine of their angle, and its distance from the middle of their
         joints."""
-        (p, d), (q, e) = self.line(one), self.line(two)
+        (p, d), (q, e) = self.line(first), self.line(second)
         at = cross_lines(p, d, q, e)
         return at, abs(cross(d, e)), 0.0 if at is None else abs(at - (p + q) / 2)
 
@@ -256,15 +256,15 @@ class _Search:
         """Take the special point of two moving links with the best crossing: they are drawn as if hinged there."""
         best: tuple[float, tuple[str, str], tuple[Path, Path], complex] | None = None
         for links, legs in self._legs_between({*left_out, *self.points}).items():
-            for one, two in combinations(legs, 2):
-                at, sine, away = self.crossing(one, two)
+            for first, second in combinations(legs, 2):
+                at, sine, away = self.crossing(first, second)
                 if at is None or sine < OFF:  # parallel: nothing lies there
                     continue
                 quality = sine / (1.0 + away / self.size)
                 if quality <= WORST:
                     self.far.append(FarPoint(links, away, math.asin(min(1.0, sine))))
                 elif best is None or quality > best[0]:
-                    best = quality, links, (one, two), at
+                    best = quality, links, (first, second), at
         if best is None:
             return False
         _, links, sides, at = best
@@ -282,18 +282,18 @@ class _Search:
         """For each two links except these the shortest path by each unknown that joins them."""
         owners, names = self.graph.owners, [name for name in self.graph.inside if "/" not in name]
         turning = {name: self.graph.turning(name) for name in names}
-        found: dict[tuple[str, str], dict[Unknown, Path]] = {}
-        for i, one in enumerate(names):
-            others = {n: [two for two in names[i + 1 :] if two in owners[n]] for n in self.graph.nodes}
-            for path in self._ways_off(one):
+        legs_between: dict[tuple[str, str], dict[Unknown, Path]] = {}
+        for i, link in enumerate(names):
+            others = {n: [other for other in names[i + 1 :] if other in owners[n]] for n in self.graph.nodes}
+            for path in self._ways_off(link):
                 unknown = next((e.unknown for e in path if e.unknown), None)
-                for two in others[path[-1].end] if unknown else ():
-                    if unknown is None or (one, two) in left_out or unknown in (turning[one], turning[two]):
+                for other in others[path[-1].end] if unknown else ():
+                    if unknown is None or (link, other) in left_out or unknown in (turning[link], turning[other]):
                         continue
-                    legs = found.setdefault((one, two), {})
+                    legs = legs_between.setdefault((link, other), {})
                     if (unknown not in legs or len(path) < len(legs[unknown])) and self._straight(path):
                         legs[unknown] = path
-        return {links: list(legs.values()) for links, legs in found.items()}
+        return {links: list(legs.values()) for links, legs in legs_between.items()}
 
     def _ways_off(self, link: str) -> Iterator[Path]:
         """Paths that leave a link, with at most one unknown."""
@@ -312,9 +312,9 @@ class _Search:
     def _straight(self, leg: Path) -> bool:
         """Whether a leg's joints on both links lie on its line, so that the turning of neither moves it along the
         line."""
-        end, way = self.line(leg)
+        end, along = self.line(leg)
         arm = end - self.graph.places[leg[0].start.point]
-        return abs(arm) <= self.graph.tiny or abs(cross(unit(arm), way)) < OFF
+        return abs(arm) <= self.graph.tiny or abs(cross(unit(arm), along)) < OFF
 
     # -- the whole -----------------------------------------------------------------------------------------------------
 

@@ -66,15 +66,14 @@ def place_by_trial(paper: PlacedLinks, reduced: ReducedMechanism, poses: Poses) 
     """
     size = paper.mm * reduced.structure.scene.size
     guess = {name: pose.scaled(size) for name, pose in poses.items()}
-    exact = replace(paper, instrument=EXACT, poses=dict(paper.poses), pricked=dict(paper.pricked))
     if paper.instrument.faultless:
-        paper.poses.update(_fit(exact, reduced, guess))
+        paper.poses.update(_fit(paper, reduced, guess))
         return
 
     def others() -> Iterator[ReducedMechanism]:
         """Other reduced mechanisms, the best first; rolling links have their given places in their own only."""
         there = {name: guess.get(name, pose) for name, pose in paper.poses.items()}
-        known = replace(exact, poses=there, pricked={})
+        known = replace(paper, instrument=EXACT, poses=there, pricked={})
         if not reduced.starts:
             yield from best_first(reduced.structure, reduced.group, known, guess)
 
@@ -121,8 +120,10 @@ def trial_steps(paper: PlacedLinks, so_far: PlacedLinks, reduced: ReducedMechani
     return tuple(steps)
 
 
-def _fit(known: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> dict[str, Pose]:
-    """The group among links near their guessed places; these are moved there in steps if it does not close at once."""
+def _fit(paper: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> dict[str, Pose]:
+    """The group by exact hands among links near their guessed places; these are moved there in steps if it does not
+    close at once."""
+    known = replace(paper, instrument=EXACT)
     there = replace(known, poses={name: guess.get(name, known.poses[name]) for name in known.poses}, pricked={})
     exact = {p: there.point(n, p) for n in there.poses for p in known.links[n].points if p in known.pricked}
 
@@ -133,25 +134,24 @@ def _fit(known: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> dict[st
         return None if fit is None else {**fit, **there.poses}
 
     start = {**{name: guess[name] for name in reduced.group.members}, **there.poses}
-    *_, (part, found) = (0.0, start), *walk(near, start, 0.0, 1.0, 1.0, SHORTEST)
+    *_, (part, fit_poses) = (0.0, start), *walk(near, start, 0.0, 1.0, 1.0, SHORTEST)
     if part < 1.0:
         raise _refused(reduced, Phrase("no trial position closes this group here"))
-    return {name: pose for name, pose in found.items() if name in reduced.group.members}
+    return {name: pose for name, pose in fit_poses.items() if name in reduced.group.members}
 
 
-def _refused(reduced: ReducedMechanism, found: Phrase) -> Unsolvable:
-    return Unsolvable("not assembled", Problem(group_named(reduced.group), found))
+def _refused(reduced: ReducedMechanism, said: Phrase) -> Unsolvable:
+    return Unsolvable("not assembled", Problem(group_named(reduced.group), said))
 
 
-def _between(one: Pose, two: Pose, part: float) -> Pose:
-    axis = one.axis + part * (two.axis - one.axis)
-    return Pose(one.origin + part * (two.origin - one.origin), axis / abs(axis))
+def _between(start: Pose, end: Pose, part: float) -> Pose:
+    axis = start.axis + part * (end.axis - start.axis)
+    return Pose(start.origin + part * (end.origin - start.origin), axis / abs(axis))
 
 
 def _placed_by_hand(paper: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> None:
     """The last trial by erring hands, its gap, and the drawing that follows from it."""
-    exact = replace(paper, instrument=EXACT, poses=dict(paper.poses), pricked=dict(paper.pricked))
-    poses = {**paper.poses, **_fit(exact, reduced, guess)}
+    poses = {**paper.poses, **_fit(paper, reduced, guess)}
     values = np.array(reduced.values(poses, paper.mm))
     if reduced.trial:
         at, slopes = _by_hand(paper, reduced, poses, values)
@@ -173,10 +173,10 @@ def _by_hand(
         raise _refused(reduced, Phrase("a trial drawing does not close"))
     size = paper.mm * reduced.structure.scene.size
     gaps = [
-        gap if one.is_angle else paper.instrument.read(gap * size) / size
-        for gap, one in zip(reduced.gaps(drawn), reduced.removed, strict=True)
+        gap if constraint.is_angle else paper.instrument.read(gap * size) / size
+        for gap, constraint in zip(reduced.gaps(drawn), reduced.removed, strict=True)
     ]
-    exact = replace(paper, instrument=EXACT, poses=dict(paper.poses), pricked={})
+    exact = replace(paper, instrument=EXACT, pricked={})
     step, slopes = 1e-6, []
     for change in step * np.eye(len(values)):
         low, high = (drawn_near(reduced, exact, poses, values + sign * change) for sign in (-1, 1))
@@ -206,10 +206,10 @@ def _trial_positions(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses
     )  # fmt: skip
     driven, left_out = tuple(d.key for d in reduced.trial), tuple(n for n in reduced.left_out if n not in rolling)
     group = reduced.group
-    told = TrialPositions(group.links, group_named(group), driven, left_out, point, POINTS, rolling, instead)
+    positions = TrialPositions(group.links, group_named(group), driven, left_out, point, POINTS, rolling, instead)
     if tried:
-        told = _measured(told, known, reduced, poses, tried[:: BETWEEN if alone else 1])
-    return Step("trial", "positions", strokes=strokes, data=told)
+        positions = _measured(positions, known, reduced, poses, tried[:: BETWEEN if alone else 1])
+    return Step("trial", "positions", strokes=strokes, data=positions)
 
 
 def _trial_drawings(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, values: np.ndarray) -> list[Tried]:
@@ -295,7 +295,7 @@ def _measured(
     at, gaps = [values for values, _ in tried], [np.array(reduced.gaps(drawn)) for _, drawn in tried]
     trials, before, alone = tuple(map(row, at, gaps)), 0, len(moved) == 1
     if alone:
-        over = [i for i, (one, two) in enumerate(pairwise(gaps)) if one[0] * two[0] < 0.0]
+        over = [i for i, (first, second) in enumerate(pairwise(gaps)) if first[0] * second[0] < 0.0]
         sides = min(over, key=lambda i: abs(i + 0.5 - BEFORE * (len(tried) - 1)), default=None)
         before = (sides or 0) + 1
         at, gaps = ([], []) if sides is None else (at[sides : sides + 2], gaps[sides : sides + 2])
@@ -306,17 +306,17 @@ def _measured(
         sizes = np.linalg.svd(np.array([gap - gaps[0] for gap in gaps[1:]]), compute_uv=False)
         if sizes[-1] <= LEAST * sizes[0] or not sizes[0]:
             break
-        found = divide(at, gaps)
-        drawn = drawn_near(reduced, exact, poses, found)
+        divided_values = divide(at, gaps)
+        drawn = drawn_near(reduced, exact, poses, divided_values)
         if drawn is None:
             break
         left_open = np.array(reduced.gaps(drawn))
         parts = parts or tuple(map(float, shares(gaps)))
-        divided.append(row(found, left_open))
+        divided.append(row(divided_values, left_open))
         if all(abs(miss) < UNSEEN for miss in misses(left_open)):
             break
         gone = int(left_open[0] * gaps[1][0] >= 0.0) if alone else int(np.argmax([np.abs(gap).max() for gap in gaps]))
-        at[gone], gaps[gone] = found, left_open
+        at[gone], gaps[gone] = divided_values, left_open
         replaced.append(gone + 1)
     missed = []
     for r in reduced.removed:
@@ -326,8 +326,8 @@ def _measured(
         elif r.kind in ("bar", "guide"):
             names = (*(point for point, _ in r.ends), *(slide.key for slide in r.slides))
         if r.kind == "bar":
-            one, two = (reduced.structure.links[r.left_out].points[point] for point in names)
-            length = abs(two - one) * known.mm
+            first, second = (reduced.structure.links[r.left_out].points[point] for point in names)
+            length = abs(second - first) * known.mm
         missed.append(Missed(r.kind, names, length, r.is_angle))
     return replace(
         positions, moved=tuple(symbol for symbol, _ in moved), missed=tuple(missed), trials=trials,
@@ -371,7 +371,7 @@ def _on_a_grid(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[s
     for values in product(*axes):
         for branches, gaps in _gaps(reduced, known, values).items():
             trials.append((max(abs(g) for g in gaps), values, branches))
-    trials.sort(key=lambda one: one[0])
+    trials.sort(key=lambda trial: trial[0])
     for _, values, branches in trials[:200]:
         paper = _drawn(reduced, known, values, branches)
         if paper is None:
@@ -395,19 +395,19 @@ def fits_between(
         def gap(value: float, branches: Branch = branches) -> float:
             return drawn_at(value).get(branches, (math.nan,))[0]
 
-        for one, two in pairwise((value, gap(value)) for value in grid):
-            closed = _closed_between(gap, one, two)
+        for first, second in pairwise((value, gap(value)) for value in grid):
+            closed = _closed_between(gap, first, second)
             paper = None if closed is None else _drawn(reduced, known, (closed,), branches)
             if paper is not None and abs(reduced.gaps(paper)[0]) < 1e-9:
                 yield reduced.put_back(paper)
 
 
 def _closed_between(
-    gap: Callable[[float], float], one: tuple[float, float], two: tuple[float, float]
+    gap: Callable[[float], float], first: tuple[float, float], second: tuple[float, float]
 ) -> float | None:
     """The trial value at which a gap closes between two values with their gaps, nan for those that cannot be drawn;
     None where it does not close."""
-    (a, fa), (b, fb) = (two, one) if math.isnan(one[1]) else (one, two)
+    (a, fa), (b, fb) = (second, first) if math.isnan(first[1]) else (first, second)
     if math.isnan(fb) and not math.isnan(fa):  # up to the last that can be drawn
         b = last_true(lambda values: np.array([not math.isnan(gap(float(value))) for value in values]), a, b, 2)
         fb = gap(b)

@@ -209,21 +209,21 @@ def _follower_limits(scene: Mechanism, asked: Sequence[Symbol], values: Mapping[
 
 
 def limits_on_paper(
-    found: Mapping[str, Limits], structure: Structure, elements: Sequence[Element], values: Mapping[str, float],
+    exact: Mapping[str, Limits], structure: Structure, elements: Sequence[Element], values: Mapping[str, float],
     scales: Scales, hand: Instrument,
 ) -> dict[str, Limits]:  # fmt: skip
     """Limit positions, found by exact hands on paper of the mechanism's size, drawn at a scale by any hands."""
-    mm, key, found_again = 1.0 / scales.length, structure.scene.drivers[0].key, dict[str, Limits]()
+    mm, key, on_paper = 1.0 / scales.length, structure.scene.drivers[0].key, dict[str, Limits]()
     if hand.faultless or structure.scene.cams:
-        return {pair: limits.scaled(structure.scene.size * mm) for pair, limits in found.items()}
-    for pair, limits in found.items():
+        return {pair: limits.scaled(structure.scene.size * mm) for pair, limits in exact.items()}
+    for pair, limits in exact.items():
         drawn = []
         for limit in (limits.low, limits.high):
             there = {**values, key: limit.value}
             assembly = assembly_at(structure, elements, there, Assembly(there, limit.poses))
             drawn.append(LimitPosition(limit.value, place(structure, elements, mm, assembly, hand).poses))
-        found_again[pair] = Limits(drawn[0], drawn[1], limits.swing)
-    return found_again
+        on_paper[pair] = Limits(drawn[0], drawn[1], limits.swing)
+    return on_paper
 
 
 def _short(why: str, link: str, value: float) -> Problem:

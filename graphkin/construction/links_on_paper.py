@@ -39,9 +39,9 @@ SAME_HOLE = 1e-9
 DEAD = 1e-7  # sine of a crossing below which a group is at a dead point
 
 
-def apart(one: Poses, other: Poses) -> float:
+def apart(poses: Poses, other: Poses) -> float:
     """The distance of links from others of the same names, on paper (mm, and of directions)."""
-    return added_up(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) for n, p in one.items())
+    return added_up(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) for n, p in poses.items())
 
 
 @dataclass
@@ -80,10 +80,10 @@ class PlacedLinks:
             for point in link.points:
                 if point in self.pricked:
                     continue
-                lies, own = self._settled(name, pose, known), link.points[point]
-                same = next((p for p in known if abs(link.points[p] - own) * self.mm < SAME_HOLE), None)
+                lies, local = self._settled(name, pose, known), link.points[point]
+                same = next((p for p in known if abs(link.points[p] - local) * self.mm < SAME_HOLE), None)
                 self.pricked[point] = (
-                    self.pricked[same] if same else self.instrument.point(lies.origin + lies.axis * own * self.mm)
+                    self.pricked[same] if same else self.instrument.point(lies.origin + lies.axis * local * self.mm)
                 )
                 known.append(point)
             self.poses[name] = self._settled(name, pose, known)
@@ -162,17 +162,16 @@ class RigidBody:
         axis = unit((world[1] - world[0]) / (local[1] - local[0]))
         return self.placed(Pose(world[0] - axis * local[0], axis))
 
-    def shifted(self, base: Pose, way: complex) -> dict[str, Pose]:
+    def shifted(self, base: Pose, shift: complex) -> dict[str, Pose]:
         """Its links, with its base link displaced."""
-        return self.placed(Pose(base.origin + way, base.axis))
+        return self.placed(Pose(base.origin + shift, base.axis))
 
 
 def travel(slide: Pair, poses: Poses, mm: float) -> float:
     """The travel of a sliding link along its guide, from the guide's origin to its own (mm); ``mm`` of paper for one m.
     """
-    guide = poses[slide.b]
-    start = guide.place(slide.guide.through * mm)
-    return dot(poses[slide.a].origin - start, guide.axis * slide.guide.direction)
+    start = poses[slide.b].place(slide.guide.through * mm)
+    return dot(poses[slide.a].origin - start, slide.along(poses))
 
 
 def reading(structure: Structure, driver: Driver, poses: Poses, mm: float) -> float:
@@ -281,15 +280,15 @@ def drive(paper: PlacedLinks, element: Driven) -> tuple[Pose, Steps]:
     name, driver, pair = element.link, element.driver, element.pair
     value = paper.values[driver.key]
     if driver.turns:
-        own, to, base = True, "", 1 + 0j
+        forward, to, base = True, "", 1 + 0j
         if isinstance(driver, Driver):
-            own = driver.link == name
-            to = driver.relative_to if own else driver.link
+            forward = driver.link == name
+            to = driver.relative_to if forward else driver.link
             base = paper.poses[to].axis
-        axis = unit(base * paper.instrument.angle(direction(math.degrees(value if own else -value))))
+        axis = unit(base * paper.instrument.angle(direction(math.degrees(value if forward else -value))))
         hinge = paper.point(pair.b, pair.point)
         pose = Pose(hinge - axis * (paper.links[name].points[pair.point] * paper.mm), axis)
-        value = value if own else -value
+        value = value if forward else -value
         return pose, (Step("lay off", "angle", link=name, value=value, point=pair.point, base=to),)
     known = pair.b if name == pair.a else pair.a
     pose = across(pair, name, paper.poses[known], paper.instrument.length(value * paper.mm), paper.mm)
@@ -305,12 +304,12 @@ def _arcs(gap: float, poses: list[Poses], steps: Callable[[int], Steps], cross: 
     return Intersection(gap, math.sqrt(max(gap, 0.0)), tuple(poses), steps, cross)
 
 
-def _rrr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Intersection:
+def _rrr(paper: PlacedLinks, dyad: Dyad, first: RigidBody, second: RigidBody) -> Intersection:
     """Arcs about both outer hinges meet in the inner hinge.  The sine of the angle between the bars is twice the area
     of the triangle over r1 r2, the area by Heron's formula in the order that loses no figures (Kahan)."""
     letter, about = dyad.inner.point, (dyad.outer_first.point, dyad.outer_second.point)
-    (p1, local1), (p2, local2) = one.hinge(dyad.outer_first), two.hinge(dyad.outer_second)
-    inner1, inner2 = one.point(letter), two.point(letter)
+    (p1, local1), (p2, local2) = first.hinge(dyad.outer_first), second.hinge(dyad.outer_second)
+    inner1, inner2 = first.point(letter), second.point(letter)
     r1, r2 = paper.instrument.compass(abs(inner1 - local1)), paper.instrument.compass(abs(inner2 - local2))
     if r1 == 0.0 or r2 == 0.0:
         return LOST
@@ -323,17 +322,17 @@ def _rrr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Inte
         return (Step("cross", "arcs", strokes=arcs, points=about, point=letter, radii=(r1, r2)),)
 
     poses: list[Poses] = [
-        {**one.through((local1, inner1), (p1, q)), **two.through((local2, inner2), (p2, q))} for q in places
+        {**first.through((local1, inner1), (p1, q)), **second.through((local2, inner2), (p2, q))} for q in places
     ]
     return _arcs(product / (2 * r1 * r2) ** 2, poses, steps)
 
 
-def _rrp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Intersection:
+def _rrp(paper: PlacedLinks, dyad: Dyad, first: RigidBody, second: RigidBody) -> Intersection:
     """An arc about the outer hinge meets the path of the inner hinge, parallel to the outer guide, which passes the
     outer hinge at the distance h: they cross with the sine sqrt(1 - h^2 / r^2)."""
     letter, outer, slide = dyad.inner.point, dyad.outer_first, dyad.outer_second
-    (p, local), (start, step) = one.hinge(outer), two.rail(slide)
-    inner, q0 = one.point(letter), start.place(two.point(letter))
+    (p, local), (start, step) = first.hinge(outer), second.rail(slide)
+    inner, q0 = first.point(letter), start.place(second.point(letter))
     radius = paper.instrument.compass(abs(inner - local))
     if radius == 0.0:
         return LOST
@@ -348,21 +347,21 @@ def _rrp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Inte
         )
 
     poses: list[Poses] = [
-        {**one.through((local, inner), (p, q)), **two.shifted(start, dot(q - q0, step) * step)} for q in places
+        {**first.through((local, inner), (p, q)), **second.shifted(start, dot(q - q0, step) * step)} for q in places
     ]
     return _arcs((radius - off) * (radius + off) / radius**2, poses, steps)
 
 
-def _rpr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Intersection:
+def _rpr(paper: PlacedLinks, dyad: Dyad, first: RigidBody, second: RigidBody) -> Intersection:
     """The guide passes one pivot at a distance e and goes through the other, or parallel to it: a tangent to a circle
     about the pivot, found by the circle over the distance d of both (Thales); its foot lies sqrt(d^2 - e^2) away."""
     slide, pivots = dyad.inner, (dyad.outer_second.point, dyad.outer_first.point)
-    (p1, local1), (p2, local2) = one.hinge(dyad.outer_first), two.hinge(dyad.outer_second)
+    (p1, local1), (p2, local2) = first.hinge(dyad.outer_first), second.hinge(dyad.outer_second)
     # the sliding body as seen from the guiding one, at travel 0
-    at_zero = across(slide, slide.a, two.rel[slide.b], 0.0, paper.mm)
-    turn = at_zero.axis * one.rel[slide.a].axis.conjugate()
-    g = two.rel[slide.b].axis * slide.guide.direction
-    c0 = at_zero.origin + turn * (local1 - one.rel[slide.a].origin) - local2
+    at_zero = across(slide, slide.a, second.rel[slide.b], 0.0, paper.mm)
+    turn = at_zero.axis * first.rel[slide.a].axis.conjugate()
+    g = second.rel[slide.b].axis * slide.guide.direction
+    c0 = at_zero.origin + turn * (local1 - first.rel[slide.a].origin) - local2
     offset = cross(g, c0)  # of the pivot from the guide's parallel through the other pivot
     if abs(offset) > 1e-9 * abs(c0):
         offset = paper.instrument.compass(offset)
@@ -384,35 +383,36 @@ def _rpr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Inte
     poses: list[Poses] = []
     for axis in axes:
         turned = unit(axis * turn)
-        poses.append({**one.placed(Pose(p1 - turned * local1, turned)), **two.placed(Pose(p2 - axis * local2, axis))})
+        sliding, guiding = Pose(p1 - turned * local1, turned), Pose(p2 - axis * local2, axis)
+        poses.append({**first.placed(sliding), **second.placed(guiding)})
     return _arcs(square / size**2, poses, steps, 1.0 if lined or not roots else roots[0] / span)
 
 
-def _prp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Intersection:
+def _prp(paper: PlacedLinks, dyad: Dyad, first: RigidBody, second: RigidBody) -> Intersection:
     """The paths of the inner hinge, each parallel to an outer guide, cross in it."""
     letter, slides = dyad.inner.point, (dyad.outer_first, dyad.outer_second)
-    (start1, step1), (start2, step2) = one.rail(slides[0]), two.rail(slides[1])
-    q1, q2 = start1.place(one.point(letter)), start2.place(two.point(letter))
+    (start1, step1), (start2, step2) = first.rail(slides[0]), second.rail(slides[1])
+    q1, q2 = start1.place(first.point(letter)), start2.place(second.point(letter))
     sine, q = cross(step1, step2), cross_lines(q1, step1, q2, step2)
     if q is None:
         return LOST
-    poses = {**one.shifted(start1, q - q1), **two.shifted(start2, q - q2)}
-    told = Step("cross", "paths", strokes=(Bar(q1, q, ""), Bar(q2, q, "")), point=letter,
-                pairs=(slides[0].key, slides[1].key))  # fmt: skip
-    return Intersection(sine, abs(sine), (poses,), lambda _: (told,))
+    poses = {**first.shifted(start1, q - q1), **second.shifted(start2, q - q2)}
+    crossing = Step("cross", "paths", strokes=(Bar(q1, q, ""), Bar(q2, q, "")), point=letter,
+                    pairs=(slides[0].key, slides[1].key))  # fmt: skip
+    return Intersection(sine, abs(sine), (poses,), lambda _: (crossing,))
 
 
-def _rpp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Intersection:
+def _rpp(paper: PlacedLinks, dyad: Dyad, first: RigidBody, second: RigidBody) -> Intersection:
     """The second body is pushed along its outer guide until the inner guide passes the outer hinge, or the sliding
     point is at it: the displacement is split along both guides."""
     outer, inner, slide = dyad.outer_first, dyad.inner, dyad.outer_second
-    (p, local), (start, step) = one.hinge(outer), two.rail(slide)
-    resting = two.placed(start)
-    mine, other = (inner.a, inner.b) if inner.a in one.rel else (inner.b, inner.a)
+    (p, local), (start, step) = first.hinge(outer), second.rail(slide)
+    resting = second.placed(start)
+    mine, other = (inner.a, inner.b) if inner.a in first.rel else (inner.b, inner.a)
     at_zero = across(inner, mine, resting[other], 0.0, paper.mm)
-    axis = unit(at_zero.axis * one.rel[mine].axis.conjugate())
-    hung = one.placed(Pose(p - axis * local, axis))
-    along = unit((resting if inner.b in two.rel else hung)[inner.b].axis * inner.guide.direction)
+    axis = unit(at_zero.axis * first.rel[mine].axis.conjugate())
+    hung = first.placed(Pose(p - axis * local, axis))
+    along = unit(inner.along(resting if inner.b in second.rel else hung))
     # the second body may shift by s * step, and along the guide: s * step = want - t * along
     want, sine = hung[mine].origin - at_zero.origin, cross(step, along)
     if sine == 0.0:
@@ -420,8 +420,8 @@ def _rpp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Inte
     shift = step * (cross(want, along) / sine)
     base = p - want
     strokes = (Bar(base, base + shift, ""), Bar(base + shift, p, ""))
-    told = Step("cross", "guide to point", strokes=strokes, point=outer.point, pairs=(slide.key, inner.key))
-    return Intersection(sine, abs(sine), ({**hung, **two.shifted(start, shift)},), lambda _: (told,))
+    crossing = Step("cross", "guide to point", strokes=strokes, point=outer.point, pairs=(slide.key, inner.key))
+    return Intersection(sine, abs(sine), ({**hung, **second.shifted(start, shift)},), lambda _: (crossing,))
 
 
 # The one place in this room where the kinds of dyads are told apart.
@@ -450,9 +450,9 @@ def refuse(structure: Structure, element: Dyad, intersection: Intersection) -> N
     """Raise Unsolvable where the loci of a dyad miss each other ("not assembled") or only touch ("dead point")."""
     missed = intersection.gap < -1e-14 and not element.is_two_lines
     if missed or not intersection.poses or intersection.sine < DEAD:
-        found = "the two loci of the group do not" if missed else "the group stands at a dead point its"
+        said = "the two loci of the group do not" if missed else "the group stands at a dead point its"
         wanted = "choose a driver value at which the mechanism" if missed else "move the driver off this position"
-        problem = Problem(named_with_contact(structure, element), Phrase(found, kind=element.kind), Phrase(wanted))
+        problem = Problem(named_with_contact(structure, element), Phrase(said, kind=element.kind), Phrase(wanted))
         raise Unsolvable("not assembled" if missed else "dead point", problem)
 
 
@@ -538,14 +538,14 @@ def walk(
         step = min(step, longest, end - t)
         going = t > begin
         guess = _ahead(before, at, step / last) if going else at
-        found = near(t + step, guess, at)
+        poses = near(t + step, guess, at)
         allowed = surprise if going else at_first or surprise
-        if found is None or moved(guess, found) > allowed + (0.3 * moved(at, found) if going else 0.0):
+        if poses is None or moved(guess, poses) > allowed + (0.3 * moved(at, poses) if going else 0.0):
             step /= 2
             if step < shortest:
                 return
             continue
-        before, at, t, last = at, found, (end if step >= end - t else t + step), step
+        before, at, t, last = at, poses, (end if step >= end - t else t + step), step
         step *= 2
         yield t, at
 
@@ -560,7 +560,7 @@ def _ahead(before: Poses, at: Poses, times: float) -> dict[str, Pose]:
     return made
 
 
-def moved(one: Poses, other: Poses, size: float = 1.0) -> float:
+def moved(poses: Poses, other: Poses, size: float = 1.0) -> float:
     """The greatest displacement of a link (in the size of the mechanism, and of its direction)."""
-    apart = (abs(p.origin - other[n].origin) / size + abs(p.axis - other[n].axis) for n, p in one.items())
+    apart = (abs(p.origin - other[n].origin) / size + abs(p.axis - other[n].axis) for n, p in poses.items())
     return max(apart, default=0.0)

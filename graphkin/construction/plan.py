@@ -105,8 +105,8 @@ class Task:
         gone = {n for e in self.opened.elements if e not in self.elements for n in e.members}
         without = {"left out elements": gone, "left out accelerations": placed - pushed}
         names = [link.name for link in self.structure.scene.links]
-        told = {key: [name for name in names if name in links] for key, links in without.items()}
-        return tuple(Phrase(key, links=links_named(links)) for key, links in told.items() if links)
+        links_by_key = {key: [name for name in names if name in links] for key, links in without.items()}
+        return tuple(Phrase(key, links=links_named(links)) for key, links in links_by_key.items() if links)
 
     @property
     def in_order(self) -> Iterator[tuple[Order, Element]]:
@@ -124,17 +124,17 @@ def positioned(
     """The position on a board without polygons; its steps, which need no readings, only if they are wanted."""
     board = Board(instrument)
     triangles = [(inversion, inversion.drawn(board, scales, task.values)) for inversion in task.triangles]
-    values = {**task.values, **{v.key: v.near(task.values[v.key], found[0]) for v, found in triangles}}
+    values = {**task.values, **{v.key: v.near(task.values[v.key], motion[0]) for v, motion in triangles}}
     assembly = replace(task.assembly, values=values)
     told_on = board if with_steps else None
     paper = place(task.opened, task.elements, 1.0 / scales.length, assembly, instrument, told_on)
     polygons = Polygons(board, task.opened, paper, scales, own_values)
-    polygons.given.update({inversion.key: found[1:] for inversion, found in triangles})
+    polygons.given.update({inversion.key: motion[1:] for inversion, motion in triangles})
     polygons.at_contacts = task.touching
     polygons.chains.update(task.chains)
     polygons.plans.update(task.plans)
-    for inversion, found in triangles:
-        for step in inversion.carried_over(found):
+    for inversion, motion in triangles:
+        for step in inversion.carried_over(motion):
             board.do(step)
     return polygons
 
@@ -318,8 +318,8 @@ class Plan(Task):
         barred = any(slot.bar not in whole.by_name for slot in scene.slots)
         if not barred and not whole.contacts and not any(cam.flat for cam in whole.cams):
             return None
-        own = {d.key: self.values[d.key] for d in whole.drivers}
-        other = _plan(cams_in_place(analyse(whole), self.asked, own, bars=False), self.asked)
+        values = {d.key: self.values[d.key] for d in whole.drivers}
+        other = _plan(cams_in_place(analyse(whole), self.asked, values, bars=False), self.asked)
         return other._touching() or (other if barred else None)
 
     def _touching(self) -> Plan | None:
@@ -368,15 +368,15 @@ def _plan(
     if opened is not structure and any(isinstance(e, LargerGroup) for e in elements):
         # groups that remain are found by trial, driven triangles with them
         opened, elements = structure, tuple(needed(structure, asked))
-    own = {d.key: d.values[0] for d in scene.drivers}
-    values = own | {key: value for key, value in (at or {}).items() if key in own}
+    given = {d.key: d.values[0] for d in scene.drivers}
+    values = given | {key: value for key, value in (at or {}).items() if key in given}
     triangles: tuple[Inversion, ...] = ()
     start: Assembly | None = None
     if opened is not structure:
         taken, start = own_assembly(structure, elements)
-        own = {**start.values}
-        triangles = tuple(v.followed(own, values) for v in taken)
-        values |= {v.key: v.near(own[v.key], v.value(values)) for v in triangles}
+        given = {**start.values}
+        triangles = tuple(v.followed(given, values) for v in taken)
+        values |= {v.key: v.near(given[v.key], v.value(values)) for v in triangles}
     elif near is not None and {n for e in elements for n in e.members} <= near.poses.keys():
         size = near.scales.length / near.scene.size
         start = Assembly(near.drivers, {name: pose.scaled(size) for name, pose in near.poses.items()})
@@ -400,16 +400,16 @@ def _planned(task: Task, room: Room | None) -> Plan:
 
         size = NATURAL.length / task.structure.scene.size
         poses = {name: pose.scaled(size) for name, pose in polygons.paper.poses.items()}
-        found = limits_asked(task.structure, needed(task.structure, task.asked), asked, task.values, poses)
-        task = replace(task, limits=found)
+        limits = limits_asked(task.structure, needed(task.structure, task.asked), asked, task.values, poses)
+        task = replace(task, limits=limits)
         exact = finished(task, polygons)
     if exact.has_forces:
         growing = _growing(task, exact)
         moves = any(driver.values[1] for driver in task.structure.scene.drivers)
         task = replace(task, acting=acting_loads(exact, exact if moves else growing[0]), growing=growing)
         exact = replace(exact, acting=task.acting, growing=task.growing)
-    own = {f.name: getattr(task, f.name) for f in fields(Task)} | {"chains": polygons.chains, "plans": polygons.plans}
-    return Plan(**own, scales=chosen_scales(task.structure.scene, exact.extents, room), exact=exact)
+    kept = {f.name: getattr(task, f.name) for f in fields(Task)} | {"chains": polygons.chains, "plans": polygons.plans}
+    return Plan(**kept, scales=chosen_scales(task.structure.scene, exact.extents, room), exact=exact)
 
 
 def _growing(task: Task, here: Sheet) -> tuple[Sheet, ...]:
@@ -532,17 +532,17 @@ class Inversion:
             rate, second = (polygons.rates[order][other].value for order in ORDERS)
         else:
             # the other link cannot turn on the held one: all its points move alike
-            along = paper.poses[pair.b].axis * pair.guide.direction * (1 if pair.a == other else -1)
+            along = pair.along(paper.poses) * (1 if pair.a == other else -1)
             points = map(PointRef, self.structure.links[other].points)
             end = next(ref for ref in points if ref in polygons.ends["velocity"])
             rate, second = (dot(along, polygons.ends[order][end]) * scales.of(order) for order in ORDERS)
         return self.read(paper), rate, second
 
-    def carried_over(self, found: Sequence[float]) -> Iterator[Step]:
+    def carried_over(self, motion: Sequence[float]) -> Iterator[Step]:
         """The results carried over to each diagram: value, rate and second rate (SI) at the common pair."""
         t = self.triangle
         kinds = ("angle", "omega", "alpha") if t.pair.turns else ("travel", "velocity", "acceleration")
-        for diagram, kind, value in zip(DIAGRAMS, kinds, found, strict=True):
+        for diagram, kind, value in zip(DIAGRAMS, kinds, motion, strict=True):
             yield Step("carry over", "held still", diagram, held=t.held, link=t.links[0], pairs=(t.driver.key,),
                        kind=kind, value=value)  # fmt: skip
 

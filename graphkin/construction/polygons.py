@@ -170,7 +170,7 @@ class Polygons:
     def guide_names(self, slide: Pair) -> tuple[str, ...]:
         """The name of a guide in a direction: two letters on it, else its name."""
         start = self.paper.place(slide.b, slide.guide.through)
-        along = self.paper.poses[slide.b].axis * slide.guide.direction
+        along = slide.along(self.paper.poses)
         on = [
             (dot(z - start, along), p)
             for p, z in self.places.items()
@@ -304,9 +304,9 @@ class Polygons:
             at = added_up((part.span for part in parts if part.span is not None), ends[start])
             self._reach_by(ref, at, Step("image", "rates", order, refs=(self.label(start),), link=name, data=parts))
             return
-        own = self.links[name].points
-        if {a.point, b.point, ref.point} <= own.keys():  # the shape of the link is given
-            ratio = (own[ref.point] - own[a.point]) / (own[b.point] - own[a.point])
+        points = self.links[name].points
+        if {a.point, b.point, ref.point} <= points.keys():  # the shape of the link is given
+            ratio = (points[ref.point] - points[a.point]) / (points[b.point] - points[a.point])
         else:
             ratio = (here - self.places[a.point]) / bar
         at = self.board.instrument.point(ends[a] + (ends[b] - ends[a]) * ratio)
@@ -351,8 +351,8 @@ class Polygons:
         ] if order == "acceleration" else [("v", Size("rate", links, names), square, 1j * omega * arm)]  # fmt: skip
         between = self.label(end), self.label(start)
         return tuple(
-            Term(replace(Symbol(kind, *between), seen=self.held), True, True, size, way, span=span)
-            for kind, size, way, span in parts if span
+            Term(replace(Symbol(kind, *between), seen=self.held), True, True, size, direction, span=span)
+            for kind, size, direction, span in parts if span
         )
 
 
@@ -423,11 +423,11 @@ def _pivot(plot: Polygons, of: PointRef) -> PointRef:
     """The point of the frame on the same link."""
     ground = plot.links[plot.ground].points
     points = (point for name in _holders(plot, of) for point in plot.links[name].points)
-    found = next((point for point in points if point in ground and point != of.point), None)
-    if found is None:
+    pivot = next((point for point in points if point in ground and point != of.point), None)
+    if pivot is None:
         said = Phrase("its link has no fixed pivot to which"), Phrase("name the other point too for example an_c")
         raise CallError(Problem(f"{of}", *said))
-    return PointRef(found)
+    return PointRef(pivot)
 
 
 def _guide_of(plot: Polygons, of: PointRef, to: PointRef, symbol: Symbol) -> str:

@@ -41,7 +41,7 @@ from graphkin.construction.reduced_mechanism import PlacedElements, ReducedMecha
 from graphkin.construction.sheet import Board
 from graphkin.construction.steps import FINDS_A_POINT, Mark, Reason, Step
 from graphkin.errors import Unsolvable
-from graphkin.plane import Pose, Poses, added_up, dot, unit
+from graphkin.plane import Pose, Poses, added_up, unit
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import (
     Driven,
@@ -141,12 +141,12 @@ def place(
 
 def _dyad_steps(board: Board, paper: PlacedLinks, dyad: Dyad, intersection: Intersection, index: int) -> Steps:
     """The steps of a dyad's loci; on the board the words for its assembly, and the remarks on its accuracy."""
-    whose, one, two = group_named(dyad), dyad.outer_first, dyad.outer_second
+    whose, outer_first, outer_second = group_named(dyad), dyad.outer_first, dyad.outer_second
     of = dyad.inner.point if dyad.inner.turns else whose
     board.notice("mechanism", "sharp crossing", of, size=intersection.sharpness)
-    if not dyad.inner.turns and one.turns and two.turns:
-        apart = abs(paper.point(one.b, one.point) - paper.point(two.b, two.point))
-        board.notice("mechanism", "short arm", whose, one.point, two.point, size=apart)
+    if not dyad.inner.turns and outer_first.turns and outer_second.turns:
+        apart = abs(paper.point(outer_first.b, outer_first.point) - paper.point(outer_second.b, outer_second.point))
+        board.notice("mechanism", "short arm", whose, outer_first.point, outer_second.point, size=apart)
     which = "one assembly" if dyad.is_two_lines else f"{dyad.kind} {index}"
     first, inner, last = (pair.key for pair in dyad.pairs)
     board.assembly[whose] = Phrase(which, first=first, inner=inner, last=last)
@@ -156,11 +156,11 @@ def _dyad_steps(board: Board, paper: PlacedLinks, dyad: Dyad, intersection: Inte
 def _record(board: Board, paper: PlacedLinks, element: Element, steps: Steps, named: set[str]) -> None:
     """Record the placing of an element's links, and their points except those ``named``."""
     links, (ground, *_) = paper.links, paper.poses
-    found: set[str] = set()
+    crossed: set[str] = set()
     left = list(element.members)
 
     def known(name: str) -> int:
-        return len(links[name].points.keys() & (named | found))
+        return len(links[name].points.keys() & (named | crossed))
 
     def mark(name: str) -> None:
         left.remove(name)
@@ -174,7 +174,7 @@ def _record(board: Board, paper: PlacedLinks, element: Element, steps: Steps, na
     for step in steps:
         board.do(replace(step, base="") if step.base == ground else step)
         if step.reason in FINDS_A_POINT:
-            found.add(step.point)
+            crossed.add(step.point)
         if isinstance(element, LargerGroup):  # what the next lines start from
             laid = step.link if step.reason == "angle" else ""
             for name in [n for n in left if n == laid or known(n) > 1]:
@@ -184,7 +184,7 @@ def _record(board: Board, paper: PlacedLinks, element: Element, steps: Steps, na
 
 
 def assembly_at(
-    structure: Structure, elements: Sequence[Element], values: Mapping[str, float], near: Assembly | None = None
+    structure: Structure, elements: Sequence[Element], values: Mapping[str, float], near: Assembly | None
 ) -> Assembly:
     """The assembly of some elements at driver values (rad, m), to which those of rolling links are added.
 
@@ -233,9 +233,9 @@ def assembly_at(
 def poses_at(placed: PlacedElements, values: Mapping[str, float]) -> Poses:
     """The poses of some elements' links at driver values (rad, m), on paper of the mechanism's size, followed from the
     scene's own position; errors as for `assembly_at`."""
-    own = {d.key: d.values[0] for d in placed.structure.scene.drivers}
+    start = {d.key: d.values[0] for d in placed.structure.scene.drivers}
     poses = own_position(placed.at_start).poses
-    return poses if values == own else moved_to(placed, own, values, poses)
+    return poses if values == start else moved_to(placed, start, values, poses)
 
 
 def cams_in_place(
@@ -299,7 +299,7 @@ def moved_to(
 
 
 def found_near(
-    placed: PlacedElements, values: Mapping[str, float], guess: Poses, start: Poses | None = None
+    placed: PlacedElements, values: Mapping[str, float], guess: Poses, start: Poses
 ) -> dict[str, Pose] | None:
     """All links of the elements at driver values, near a guessed position, on paper of the mechanism's size; None where
     they do not fit nearby.  Rolling links are followed from ``start``."""
@@ -307,18 +307,17 @@ def found_near(
     ground = structure.scene.frame.name
     values = structure.followed(values)
     paper = PlacedLinks(structure.links, 1.0 / structure.scene.size, values, {ground: Pose(0j, 1 + 0j)})
-    from_there = guess if start is None else start
 
     def choose(_: int, element: Dyad | LargerGroup) -> Poses | None:
         if isinstance(element, Dyad):
             return met_near(paper, element, guess)
         drawing = placed.best(element, paper, guess)
         if drawing is not None and element.rolling:
-            return fitted(placed.last[element].rolled_from(from_there, paper.mm), paper, guess)
+            return fitted(placed.last[element].rolled_from(start, paper.mm), paper, guess)
         return None if drawing is None else closed_from(drawing, paper, guess)
 
     def rolled(driver: Rolled) -> float:
-        return rolled_near(structure, paper, driver, from_there, guess)
+        return rolled_near(structure, paper, driver, start, guess)
 
     return dict(paper.poses) if assembled(paper, placed.elements, choose, rolled) else None
 
@@ -365,26 +364,27 @@ def _group_by_sketch(placed: PlacedElements, paper: PlacedLinks, group: LargerGr
         fits = [fit for reduced in some for fit in all_fits(reduced, paper)] + sketched
     if not fits:
         raise stuck("not assembled", group_named(group), "no trial position closes this group here")
-    found = _without_twins(structure, paper, group, fits)
-    candidates = [paper.fresh(poses) for poses in found]
-    return found[pick(structure.scene, group.links, candidates, None)]
+    positions = _without_twins(structure, paper, group, fits)
+    candidates = [paper.fresh(poses) for poses in positions]
+    return positions[pick(structure.scene, group.links, candidates, None)]
 
 
 def _fits_by_sketch(placed: PlacedElements, paper: PlacedLinks, group: LargerGroup) -> Iterator[dict[str, Pose]]:
     """Positions of a group near its sketch, up to the first that agrees with it: drawn at trial values of the sketch,
     in the assembly nearest to it, and improved until they fit."""
     structure = placed.structure
-    told, rough = {**structure.scene.sketch, **structure.scene.drawn}, sketched_poses(structure, group, paper)
+    places, rough = {**structure.scene.sketch, **structure.scene.drawn}, sketched_poses(structure, group, paper)
 
     def off(drawn: PlacedLinks) -> float:
-        return added_up(abs(z - told[p]) for p, z in paper.fresh(drawn.poses).items() if p in told)
+        return added_up(abs(z - places[p]) for p, z in paper.fresh(drawn.poses).items() if p in places)
 
     for reduced in placed.of[group]:
         if not rough.keys() >= {name for driver in reduced.trial for name in driver.links}:
             continue
         values = reduced.values(rough, paper.mm)
         drawings = (drawn for _, drawn in each_assembly(reduced.opened(paper, values), reduced.elements))
-        near = min(((off(drawn), dict(drawn.poses)) for drawn in drawings), key=lambda one: one[0], default=None)
+        offs = ((off(drawn), dict(drawn.poses)) for drawn in drawings)
+        near = min(offs, key=lambda drawing: drawing[0], default=None)
         fit = None if near is None else fitted(reduced, paper, near[1], values)
         if fit is not None:
             yield fit
@@ -398,7 +398,7 @@ def sketched_poses(structure: Structure, group: LargerGroup, known: PlacedLinks)
     scene, mm = structure.scene, known.mm
     places = {p: z * mm for p, z in {**scene.sketch, **scene.drawn}.items()}
     places |= {p: known.point(n, p) for n in known.poses for p in structure.links[n].points}
-    own = {n: {p: z * mm for p, z in structure.links[n].points.items() if p in places} for n in group.members}
+    points_of = {n: {p: z * mm for p, z in structure.links[n].points.items() if p in places} for n in group.members}
     axes = {name: pose.axis for name, pose in known.poses.items()}
     # the second link's direction is the first's times this
     joined = [(p.b, p.a, p.guide.direction * p.turn) for p in group.pairs if not p.turns]
@@ -412,29 +412,29 @@ def sketched_poses(structure: Structure, group: LargerGroup, known: PlacedLinks)
                 axes[base] = axes[name] * turn.conjugate()
 
     spread()
-    for name, points in own.items():
+    for name, points in points_of.items():
         apart = [(abs(points[b] - points[a]), a, b) for a, b in combinations(points, 2) if places[a] != places[b]]
         if apart and name not in axes:
             _, a, b = max(apart)
             axes[name] = unit((places[b] - places[a]) / (points[b] - points[a]))
     spread()
-    found = dict(known.poses)
-    for name, points in own.items():
+    poses = dict(known.poses)
+    for name, points in points_of.items():
         if name in axes and points:
             point, place = next(iter(points.items()))
-            found[name] = Pose(places[point] - axes[name] * place, axes[name])
-    return found
+            poses[name] = Pose(places[point] - axes[name] * place, axes[name])
+    return poses
 
 
 def _is_told(structure: Structure, paper: PlacedLinks, poses: Poses) -> bool:
     """Whether all points lie near their sketched places."""
-    told = {**structure.scene.sketch, **structure.scene.drawn}
-    off = (abs(z - told[p]) for p, z in paper.fresh(poses).items() if p in told)
+    places = {**structure.scene.sketch, **structure.scene.drawn}
+    off = (abs(z - places[p]) for p, z in paper.fresh(poses).items() if p in places)
     return max(off, default=0.0) <= ROUGHLY * structure.scene.size
 
 
 def _without_twins(
-    structure: Structure, paper: PlacedLinks, group: LargerGroup, found: Sequence[dict[str, Pose]]
+    structure: Structure, paper: PlacedLinks, group: LargerGroup, fits: Sequence[dict[str, Pose]]
 ) -> list[dict[str, Pose]]:
     """The positions without doubles: of positions with equal places of all points the one with the sliding link on the
     positive side.  A fit at a value of the grid is met from both sides, and others differ only in the sense of a bar
@@ -442,15 +442,15 @@ def _without_twins(
     slides = [p for p in group.pairs if not p.turns and p.a in group.members and p.b in group.members]
 
     def positive(poses: Poses) -> float:
-        ways = ((poses[s.a].origin - poses[s.b].origin) / poses[s.b].axis - paper.mm * s.guide.through for s in slides)
-        return added_up(dot(s.guide.direction, way) for s, way in zip(slides, ways, strict=True))
+        return added_up(travel(slide, poses, paper.mm) for slide in slides)
 
     kept: list[tuple[dict[str, Pose], dict[str, complex]]] = []
-    for poses in sorted(found, key=positive, reverse=True):
+    size = structure.scene.size
+    for poses in sorted(fits, key=positive, reverse=True):
         places = paper.fresh(poses)
         # of links without points the links themselves
-        twins = (max((abs(z - other[p]) for p, z in places.items()), default=moved(poses, one) * structure.scene.size)
-                 for one, other in kept)  # fmt: skip
-        if all(apart > TWINS * structure.scene.size for apart in twins):
+        apart = (max((abs(z - other[p]) for p, z in places.items()), default=moved(poses, kept_poses) * size)
+                 for kept_poses, other in kept)  # fmt: skip
+        if all(distance > TWINS * size for distance in apart):
             kept.append((poses, places))
-    return [poses for poses in found if any(poses is one for one, _ in kept)]
+    return [poses for poses in fits if any(poses is kept_poses for kept_poses, _ in kept)]

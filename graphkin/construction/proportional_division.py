@@ -32,10 +32,10 @@ def divide(trials: Sequence[ArrayLike], gaps: Sequence[ArrayLike]) -> Array:
     trials : the values of each trial, shape (tried + 1, tried)
     gaps : of each, shape (tried + 1, open)
     """
-    first = found = np.array(trials[0])
+    first = values = np.array(trials[0])
     for share, trial in zip(shares(gaps), trials[1:], strict=True):
-        found = found + share * (np.array(trial) - first)
-    return np.asarray(found)
+        values = values + share * (np.array(trial) - first)
+    return np.asarray(values)
 
 
 def magnified(places: Sequence[Sequence[complex]], gaps: Sequence[ArrayLike]) -> float:

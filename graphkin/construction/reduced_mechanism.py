@@ -286,11 +286,11 @@ class RemovedConstraint:
         if driver is not None:
             return travel(self.slides[0], poses, mm) - paper.values[driver.key] * mm
         if self.kind == "guides":
-            one, two = (self._slid(slide, poses).axis for slide in self.slides)
-            return cmath.phase(two / one)
+            first, second = (self._slid(slide, poses).axis for slide in self.slides)
+            return cmath.phase(second / first)
         if self.kind == "bar":
-            (p, one), (q, two) = self._hinges(paper)
-            return abs(two - one) - abs(q - p)
+            (p, first), (q, second) = self._hinges(paper)
+            return abs(second - first) - abs(q - p)
         (slide,), lies, other = self.slides, self.placed(paper), poses[self.other_side]
         assert lies is not None
         block, rail = (lies, other) if slide.a == self.left_out else (other, lies)

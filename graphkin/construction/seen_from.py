@@ -46,17 +46,18 @@ def contours(
         if along is not None or driven:
             kept.append((both, turns))
     rows = np.zeros((len(kept), len(links), 3))
-    for row, ((one, two), weights) in zip(rows, kept, strict=True):
-        row[links.index(one)], row[links.index(two)] = weights, -weights
+    for row, ((members, two), weights) in zip(rows, kept, strict=True):
+        row[links.index(members)], row[links.index(two)] = weights, -weights
     _, sizes, motions = np.linalg.svd(rows.reshape(len(kept), -1))
     free = motions[int(np.sum(sizes > ALIKE)) :].T.reshape(len(links), 3, -1)
     sets: list[list[int]] = []
     for i in range(len(links)):
-        home = next((one for one in sets if np.abs(free[one[0]] - free[i]).max(initial=0.0) < 10 * ALIKE), None)
+        off = (np.abs(free[members[0]] - free[i]).max(initial=0.0) for members in sets)
+        home = next((members for members, apart in zip(sets, off, strict=True) if apart < 10 * ALIKE), None)
         if home is None:
             sets.append([i])
         else:
             home.append(i)
-    found = [tuple(links[i] for i in one) for one in sets if len(one) > 1]
+    alike = [tuple(links[i] for i in members) for members in sets if len(members) > 1]
     already = links_alike(links, ((*both, 0.0) for both, _, _, driven in joints if driven))
-    return [one for one in found if not already[one[0]].issuperset(one)]
+    return [members for members in alike if not already[members[0]].issuperset(members)]

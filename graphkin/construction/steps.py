@@ -364,7 +364,7 @@ class Step:
         if isinstance(data, RateTrial):
             return _assumed([one for one in data.assumed if one[1]] or data.assumed)
         assert isinstance(data, Superposed)
-        open_at = ", ".join(f"{name} ({way})" for name, way in zip(data.closing, data.ways, strict=True))
+        open_at = ", ".join(f"{name} ({direction})" for name, direction in zip(data.closing, data.ways, strict=True))
         apart = true_minus("; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in data.apart))
         of_links = [(f"{'ω' if one.kind == 'omega' else 'α'}_{{{one.link}}}", value) for one, value in data.found]
         rates = true_minus(", ".join(f"{name} = {amount(value, 5)}" for name, value in of_links))

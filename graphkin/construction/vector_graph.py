@@ -64,8 +64,8 @@ class RelativeMotion:
     @classmethod
     def of_link(cls, start: PointRef, end: PointRef, link: str, unknown: Unknown | None = None) -> RelativeMotion:
         """The relative motion of two points of one link."""
-        way = Direction("square", (start.point, end.point))
-        return cls(start, end, (start, end), way, link=link, unknown=unknown)
+        direction = Direction("square", (start.point, end.point))
+        return cls(start, end, (start, end), direction, link=link, unknown=unknown)
 
     @property
     def bar(self) -> tuple[str, str]:
@@ -183,17 +183,17 @@ class VectorGraph:
                     self._add_bar(a, b, name)
         given = {j.pair.key for j in joints if not j.pair.turns}.union(driven)
         for s in slides:
-            way, unknown = Direction("along", guide_names[s.key]), Unknown("sliding", s.key)
+            direction, unknown = Direction("along", guide_names[s.key]), Unknown("sliding", s.key)
             for b, a, labels in self._coincident(letters, s.b, s.a):
-                self._add(RelativeMotion(b, a, labels, way, slide=s, unknown=None if s.key in given else unknown))
+                self._add(RelativeMotion(b, a, labels, direction, slide=s, unknown=None if s.key in given else unknown))
         for j in (j for j in joints if j.pair.turns):
             for a, b, labels in self._coincident(letters, j.a, j.b):
                 self._add(RelativeMotion(a, b, labels, Direction("square", (j.pair.point, labels[0].point)), joint=j))
         for c in contacts:
             # against the frame where it can be: its point stands in the pole
             a, b = (PointRef(c.name, link) for link in sorted(c.links, key=lambda link: link != frame))
-            way, unknown = Direction("along", ("t-t",)), Unknown("slipping", c.name)
-            self._add(RelativeMotion(a, b, (a, b), way, contact=c.name, unknown=unknown))
+            direction, unknown = Direction("along", ("t-t",)), Unknown("slipping", c.name)
+            self._add(RelativeMotion(a, b, (a, b), direction, contact=c.name, unknown=unknown))
         for relation, (letter, both) in rolling.items():
             a, b = (PointRef(letter, link) for link in both)
             self._add(RelativeMotion(a, b, (a, b), Direction("along", ("n-n",)), rolling=relation))
@@ -202,9 +202,9 @@ class VectorGraph:
                 self._add(RelativeMotion(a, b, labels, Direction("found", ()), held=held))
         self.under: list[RelativeMotion] = []  # for links that turn alike one edge between coincident points of theirs
         if wide:
-            found = {(e.slide or e.joint or e.held, *e.between): e for n in self.nodes for e in self.edges[n]
+            by_pair = {(e.slide or e.joint or e.held, *e.between): e for n in self.nodes for e in self.edges[n]
                      if e.forward and (e.slide or e.joint or e.held) and "/" not in "".join(e.between)}  # fmt: skip
-            self.under = list(found.values())
+            self.under = list(by_pair.values())
 
     def copy(self) -> VectorGraph:
         """A copy of the graph, to which special points may be added."""
@@ -284,13 +284,13 @@ class VectorGraph:
             self._add(RelativeMotion.of_link(a, b, link, turning if turning.name in self.inside else None))
 
     def _coincident(
-        self, letters: Sequence[str], one: str, two: str
+        self, letters: Sequence[str], link: str, other: str
     ) -> Iterator[tuple[PointRef, PointRef, tuple[PointRef, PointRef]]]:
         """Coincident points of two links: their nodes, and their names."""
         for letter in letters:
-            a, b = node(self.links, letter, one), node(self.links, letter, two)
+            a, b = node(self.links, letter, link), node(self.links, letter, other)
             if a in self.owners and b in self.owners and a != b:
-                yield a, b, (PointRef(letter, one), PointRef(letter, two))
+                yield a, b, (PointRef(letter, link), PointRef(letter, other))
 
     def add(self, name: str, letter: str, at: complex) -> PointRef:
         """Add a point of a link, such as a special point."""
@@ -300,9 +300,9 @@ class VectorGraph:
 
     def tie(self, names: tuple[str, str], letter: str, at: complex) -> None:
         """Add the special point of two links: a point of each, whose relative motion is found first."""
-        one, two = (self._added(PointRef(letter, name), name, at) for name in names)
-        self._add(RelativeMotion(one, two, (one, two), Direction("found", ()), tied=True))
-        self._carry_over({names[0]: one, names[1]: two}, at)
+        first, second = (self._added(PointRef(letter, name), name, at) for name in names)
+        self._add(RelativeMotion(first, second, (first, second), Direction("found", ()), tied=True))
+        self._carry_over({names[0]: first, names[1]: second}, at)
 
     def _carry_over(self, refs: dict[str, PointRef], at: complex) -> None:
         """Add a special point also on the links that turn with its links."""
@@ -318,8 +318,8 @@ class VectorGraph:
                     if name not in refs:
                         refs[name] = self._added(PointRef(letter, name), name, at)
                 labels = PointRef(letter, sides[0]), PointRef(letter, sides[1])
-                way = Direction("square", (edge.joint.pair.point, letter)) if edge.joint else edge.direction
-                self._add(replace(edge, start=refs[sides[0]], end=refs[sides[1]], labels=labels, direction=way))
+                direction = Direction("square", (edge.joint.pair.point, letter)) if edge.joint else edge.direction
+                self._add(replace(edge, start=refs[sides[0]], end=refs[sides[1]], labels=labels, direction=direction))
                 left.remove(edge)
                 grown = True
 

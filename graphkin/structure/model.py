@@ -13,7 +13,7 @@ from functools import cached_property
 from typing import Any, ClassVar, Literal, TypeVar
 
 from graphkin.errors import CallError, did_you_mean
-from graphkin.plane import added_up
+from graphkin.plane import Poses, added_up
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
 from graphkin.scene.pairs import LawCam, PlacedGuide, SlidingPair
 from graphkin.scene.symbol import Symbol, centre_links
@@ -65,6 +65,10 @@ class Pair:
     def other(self, link: str) -> str:
         """The other link of the pair."""
         return self.b if link == self.a else self.a
+
+    def along(self, poses: Poses) -> complex:
+        """The unit vector along its guide, in the guide's sense, with the links in these poses."""
+        return poses[self.b].axis * self.guide.direction
 
 
 def slide_pair(scene: Mechanism, s: SlidingPair) -> Pair:

@@ -12,7 +12,7 @@ import pytest
 import graphkin
 from graphkin import solver
 from graphkin.construction import group_position
-from graphkin.construction.centres import find_centres, measured
+from graphkin.construction.centres import find_centres
 from graphkin.construction.plan import draft
 from graphkin.construction.reduced_mechanism import reduced_mechanisms
 from graphkin.construction.steps import TrialPositions
@@ -51,10 +51,10 @@ def far_from_solver(scene: Mechanism, turned: float) -> tuple[float, float]:
     driver = scene.drivers[0]
     at = {driver.key: driver.values[0] + math.radians(turned)}
     sheet, motion = draft(scene, at), solver.solve(scene, at)
-    mm, turning = 1.0 / sheet.scales.length, measured(sheet)
+    mm = 1.0 / sheet.scales.length
     names = [link.name for link in scene.links]
     place = max(abs(sheet.poses[n].origin / mm - complex(motion.poses[n].z[0])) for n in names) / scene.size
-    rate = max(abs(turning[n].omega - float(motion.omega(n)[0])) for n in names) / abs(driver.values[1])
+    rate = max(abs(sheet.omega[n].value - float(motion.omega(n)[0])) for n in names) / abs(driver.values[1])
     return place, rate
 
 

@@ -61,8 +61,8 @@ class ForceVector:
     @property
     def term(self) -> Term:
         """Its term in the vector equation of its polygon."""
-        sized, way = self.by != "closing", self.direction or NO_DIRECTION
-        return Term(self.symbol, sized, sized or self.direction is not None, None, way, self.part, self.turned)
+        sized, direction = self.by != "closing", self.direction or NO_DIRECTION
+        return Term(self.symbol, sized, sized or self.direction is not None, None, direction, self.part, self.turned)
 
     def between(self, tail: complex, tip: complex) -> ForceVector:
         """The vector at its place in a polygon (mm)."""

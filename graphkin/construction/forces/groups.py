@@ -147,9 +147,9 @@ class CutFree:
             symbol = symbol if link == pair.a else symbol.opposite
         return ForceVector(symbol, link, at=at, by="closing", off=off)
 
-    def set_balance(self, balance: ForceVector, found: ForceVector) -> None:
+    def set_balance(self, balance: ForceVector, acting: ForceVector) -> None:
         """Set a balancing load, as found on one of its two links."""
-        whole = found.on(balance.link)
+        whole = acting.on(balance.link)
         self.balances[balance.symbol] = whole.force or whole.moment
 
     def set_slide(self, slide: Pair, force: ForceVector, couple: ForceVector, inside: Collection[str]) -> None:
@@ -413,7 +413,7 @@ def _inner_force(
 
 def _close_driven(
     cut: CutFree, group: ForceGroup, chain: Chain, pair: Pair, on: ForceVector, push: ForceVector,
-    more: Iterable[ForceVector] = (), inside: Collection[str] = (),
+    more: Iterable[ForceVector], inside: Collection[str],
 ) -> list[ForceVector]:  # fmt: skip
     """Close the polygon of a link at a driven pair: the force of the pair on it, then the moment or the force that
     drives it there, then the couple of a sliding pair.

@@ -55,11 +55,11 @@ class DrawnPosition:
     @cached_property
     def hosts(self) -> Mapping[str, Mapping[str, str]]:
         """For each hinge its guests, each with its host."""
-        found = dict[str, Mapping[str, str]]()
+        hosts = dict[str, Mapping[str, str]]()
         for point, names in self.structure.hinges.items():
             blocks = {block: of for block, (of, _) in self.blocks.items() if {block, of} <= {*names}}
-            found[point] = {**blocks, **hosts_at(self.structure.scene, point, names)}
-        return found
+            hosts[point] = {**blocks, **hosts_at(self.structure.scene, point, names)}
+        return hosts
 
     @cached_property
     def holders(self) -> Mapping[str, tuple[str, ...]]:
@@ -130,7 +130,7 @@ class DrawnPosition:
 
     def along(self, slide: Pair) -> complex:
         """The direction of a guide."""
-        return self.sheet.poses[slide.b].axis * slide.guide.direction
+        return slide.along(self.sheet.poses)
 
     def balance(self, driver: Driver) -> ForceVector:
         """The balancing load in place of a driver, of size 1: the scene's own, else a moment where it turns and a force
@@ -219,9 +219,9 @@ def _balanced_groups(structure: Structure) -> tuple[Element, ...]:
     said = scene.loading.balance
     if said is None or len(scene.drivers) != 1:
         return structure.elements
-    own = scene.drivers[0]
+    given = scene.drivers[0]
     frame = scene.frame.name
-    if own.turns and (own.link, own.relative_to) == (said.link, frame) and not said.is_force:
+    if given.turns and (given.link, given.relative_to) == (said.link, frame) and not said.is_force:
         return structure.elements
     slide = next((s for s in structure.slides if {s.a, s.b} == {said.link, frame}), None)
     driver: Driver = Driver(said.link, frame, 0.0, 0.0, 0.0)

@@ -256,7 +256,7 @@ def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[l
     for slide in (pair for pair in (*inner, *outer) if not pair.turns and pair.key not in rolling):
         stands = slide.key not in known or (slide.slot and slide.key in here.replaced_pairs)
         at = here.places[slide.pin] if stands and slide.pin else known[slide.key].at
-        along = here.sheet.poses[slide.b].axis * slide.guide.direction
+        along = slide.along(here.sheet.poses)
         colour = here.colour(slide.a)
         parts += symbols.block(on_page(at), phase(along), colour)
         ends = [at - 8.0 * along, at + 8.0 * along]

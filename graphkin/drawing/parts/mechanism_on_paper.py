@@ -170,7 +170,7 @@ class MechanismOnPaper:
         found = []
         for slide in sheet.structure.slides:
             if slide.a in sheet.poses and slide.b in sheet.poses and slide.key not in touching:
-                along = sheet.poses[slide.b].axis * slide.guide.direction
+                along = slide.along(sheet.poses)
                 at = sheet.poses[slide.a].origin + clear.get(slide.key, 0.0) * along
                 found.append(Slider(slide, at, along, slide.key in driven))
         return tuple(found)
@@ -183,7 +183,7 @@ class MechanismOnPaper:
             slide = next((s for s in self.sheet.structure.slides if s.key == contact.block), None)
             at = self.places.get(contact.name)
             if slide is not None and at is not None and slide.b in self.sheet.poses:
-                found.append(Slider(slide, at, self.sheet.poses[slide.b].axis * slide.guide.direction, False))
+                found.append(Slider(slide, at, slide.along(self.sheet.poses), False))
         return tuple(found)
 
     @cached_property
