@@ -16,7 +16,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, get_args
 
 from graphkin.errors import CallError, Problem, as_list, did_you_mean, unfit
-from graphkin.scene.asked import quantity_of
+from graphkin.scene.asked import known_symbol
+from graphkin.scene.force_names import force_of, no_force
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.scene import SceneLike, mechanism_of
 from graphkin.scene.scene_tables import Convention, SheetWishes
@@ -277,11 +278,14 @@ def asked_symbols(
         return scene.question.find
     asked, problems = list[Symbol](), list[Problem]()
     for text in [find] if isinstance(find, Symbol) else as_list("find", find, Phrase("give symbols v_b omega_3")):
-        symbol = quantity_of(f"find {text!s:.120}", str(text), scene, drawn)
-        if isinstance(symbol, Symbol):
-            asked.append(symbol)
-        else:
+        where = f"find {text!s:.120}"
+        symbol = known_symbol(where, str(text), scene, drawn)
+        if not isinstance(symbol, Symbol):
             problems += symbol
+        elif (no_such := no_force(scene, where, symbol)) is not None:
+            problems.append(no_such)
+        else:
+            asked.append(force_of(scene, symbol) or symbol)
     if problems:
         raise CallError(*problems)
     return tuple(asked)

@@ -9,7 +9,8 @@ from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from graphkin.errors import CallError, Problem
-from graphkin.scene.asked import quantity_of, spelling_of
+from graphkin.scene.asked import known_symbol, spelling_of
+from graphkin.scene.force_names import no_force
 from graphkin.scene.model import Mechanism
 from graphkin.scene.spelling import is_blank, plain_text, read_cell, read_way, unit_factor
 from graphkin.scene.symbol import KINDS, Printed, Symbol
@@ -208,8 +209,9 @@ def _columns(
 
 
 def _unknown(scene: Mechanism, text: str, where: Wording) -> list[Problem]:
-    known = quantity_of("", text, scene)
-    return [] if isinstance(known, Symbol) else [Problem(where, p.found, p.wanted) for p in known]
+    known = known_symbol("", text, scene)
+    wrong = [no_force(scene, "", known)] if isinstance(known, Symbol) else known
+    return [Problem(where, problem.found, problem.wanted) for problem in wrong if problem is not None]
 
 
 def _mark(text: str) -> float | None:

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Literal
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.bodies import Reading
-from graphkin.scene.force_names import force_of, no_force
 from graphkin.scene.model import Driver, Mechanism, StatedValues
 from graphkin.scene.scene_tables import Positions, StrokeStart
 from graphkin.scene.symbol import Printed, Symbol, centre_links, no_quantity, stated
@@ -69,15 +68,6 @@ def known_symbol(where: str, text: str, scene: Mechanism | Reading, drawn: bool 
         return [Problem(where, "is given by tables alone", "ask a drawing for", text=text,
                         instead=_drawn_instead(symbol, scene))]
     return symbol
-
-
-def quantity_of(where: str, text: str, scene: Mechanism, drawn: bool = True) -> Symbol | list[Problem]:
-    """As `known_symbol`, of a mechanism whose forces are known: a load that is a moment is marked."""
-    symbol = known_symbol(where, text, scene, drawn)
-    if not isinstance(symbol, Symbol):
-        return symbol
-    no_such = no_force(scene, where, symbol)
-    return force_of(scene, symbol) or symbol if no_such is None else [no_such]
 
 
 def _drawn_instead(symbol: Symbol, scene: Mechanism | Reading) -> str:
