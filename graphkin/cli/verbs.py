@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
+import graphkin
 from graphkin.cli.options import Given, command, named_numbers, processes, split_words
 from graphkin.cli.output import (
     answering,
@@ -48,11 +49,10 @@ UNCHECKED = {"instrument": "exact", "ok": False, "status": "", "why": "", "readi
 def check(given: Given) -> None:
     """Measure the drawn diagrams and compare every reading with the analytic solver."""
     from graphkin.api.arguments import known_words, write_files
-    from graphkin.api.checked import check as checking
 
     known_words(language=given.lang, convention=given.convention, instrument=given.instrument)
     with answering(UNCHECKED):
-        checked = given.call(checking)
+        checked = given.call(graphkin.check)
     language = given.lang or checked.mechanism.question.sheet.language
     if given.out is not None:
         from graphkin.api.report_text import report_text
@@ -100,11 +100,10 @@ def _print_readings(checked: Checked, language: str) -> None:
 def draw(given: Given) -> None:
     """Draw the mechanism, the velocity and the acceleration polygon; measure and check them."""
     from graphkin.api.arguments import known_words
-    from graphkin.api.drawn import draw as drawing
 
     known_words(given.formats, text=given.text)
     with answering(UNCHECKED):
-        drawn = given.call(drawing)
+        drawn = given.call(graphkin.draw)
         paths = drawn.write(given.out, given.formats, given.text)
     complain(*(Problem(f"figure {name}", why) for name, why in drawn.not_drawn.items()))
     if given.speaks:
@@ -117,13 +116,12 @@ def draw(given: Given) -> None:
 )
 def audit(given: Given) -> None:
     """Judge the scene's printed values, or people's answers: right, within drafting accuracy, or wrong and why."""
-    from graphkin.api.audited import audit as auditing
 
     def wrong(text: str, _: str) -> Problem:
         return Problem("grading", f'"{text[:40]}"', "write equations 20 drawing 30 values 50")
 
     points = named_numbers([text for text in map(str.strip, given.grading.split(",")) if text], wrong) or None
-    audited = given.call(auditing, grading=points)
+    audited = given.call(graphkin.audit, grading=points)
     paths = audited.write(given.out) if given.out is not None else []
     if given.speaks:
         first = len(audited.heads) - 7
@@ -147,7 +145,6 @@ def audit(given: Given) -> None:
 def centres(given: Given) -> None:
     """All instant centres, how each was found, and the velocities by centres."""
     from graphkin.api.arguments import known_words
-    from graphkin.api.centred import centres as finding
     from graphkin.api.centred import centres_text
 
     known_words(given.formats, text=given.text)
@@ -156,13 +153,12 @@ def centres(given: Given) -> None:
     if given.motion and given.centrode is not None:
         raise CallError.of("--motion", "stands beside centrode", "write one of the two")
     if given.centrode is not None:
-        from graphkin.api.centred import centrodes
 
-        rolled = given.call(centrodes, link=given.centrode)
+        rolled = given.call(graphkin.centrodes, link=given.centrode)
         finish(given, rolled, rolled.write(given.out, given.formats, given.text), files=True)
         return
     with answering({"links": [], "centres": {}, "ok": False}):
-        found = given.call(finding)
+        found = given.call(graphkin.centres)
     none_wanted = given.json and given.out is None
     paths = [] if none_wanted else found.write(given.out, given.formats, given.text, given.motion)
     if given.speaks:
@@ -176,9 +172,8 @@ def centres(given: Given) -> None:
 @command("file of design", "out", "format", "lang of sheets", "instrument", "seed", "json", "quiet")
 def design(given: Given) -> None:
     """Find the lengths of a mechanism for what it shall do: drawn, measured, checked; write it as a scene."""
-    from graphkin.api.designed import design as designing
     with answering({"ok": False, "status": "", "why": "", "lengths": {}, "readings": []}):
-        designed = given.call(designing)
+        designed = given.call(graphkin.design)
         paths = designed.write(given.out, given.formats)
     if given.speaks:
         language = languages(given.lang or designed.given.sheet.language)[0]
@@ -203,10 +198,8 @@ def design(given: Given) -> None:
 @command("scene", "out", "format", "lang of sheets", "step", "json", "quiet")
 def cam(given: Given) -> None:
     """Cams drawn by inversion: pressure angles, curvature, undercutting, profile as CSV and DXF; discs measured."""
-    from graphkin.api.cams import cam as looking
-
     with answering({"ok": False, "status": "", "why": "", "cams": {}}):
-        found = given.call(looking)
+        found = given.call(graphkin.cam)
         paths = found.write(given.out, given.formats)
     if given.speaks:
         print_paths(paths)
@@ -226,12 +219,11 @@ def solve(given: Given) -> None:
     """The analytic solution alone, at one position or over a turn."""
     from graphkin.api.arguments import known_words, write_files
     from graphkin.api.solved import refused
-    from graphkin.api.solved import solve as solving
 
     known_words(language=given.lang, convention=given.convention, instrument=given.instrument)
     values = given.values
     with answering(lambda error: refused(given.scene, values, error)):
-        solved = given.call(solving)
+        solved = given.call(graphkin.solve)
     if given.out is not None:
         write_files(given.out, {"solution.json": solved.json()})
     drawn = solved.loops(given.lang) if given.loops and solved.ok else None
@@ -284,7 +276,6 @@ def _print_solution(solved: Solved, lang: str | None) -> None:
 )  # fmt: skip
 def sweep(given: Given) -> None:
     """Tables and motion diagrams over a turn, limit positions, strokes and K; and the same over designs."""
-    from graphkin.api.sweep import sweep as sweeping
     from graphkin.drawing.write.pdf import leave_undocumented
     from graphkin.scene import mechanism_of
 
@@ -295,8 +286,8 @@ def sweep(given: Given) -> None:
         progress_bar(given.speaks, target) as progress,
     ):
         swept = given.call(
-            sweeping, out=target, designs=_replaced(given.set or ()), designs_file=given.designs, progress=progress,
-            workers=None if given.scheduler else processes(given.workers),
+            graphkin.sweep, out=target, designs=_replaced(given.set or ()), designs_file=given.designs,
+            progress=progress, workers=None if given.scheduler else processes(given.workers),
         )  # fmt: skip
     outcomes = swept.by_design
     wrong = all(outcome.status == "wrong scene" for outcome in outcomes)
@@ -335,9 +326,7 @@ study = typer.Typer(no_args_is_help=True, help="The charts of the methods agains
 @command("scene", "out of speed-accuracy", "repeats", "format of speed-accuracy", "lang", "json", "quiet")
 def speed_accuracy(given: Given) -> None:
     """Cost of a position against the largest error, for all methods, measured on this machine."""
-    from graphkin.api.studied import speed_accuracy as racing
-
-    found = given.call(racing)
+    found = given.call(graphkin.speed_accuracy)
     finish(given, found, found.write(given.out, given.formats))
 
 
@@ -345,9 +334,7 @@ def speed_accuracy(given: Given) -> None:
 @command("out of stability", "format of stability", "lang", "json", "quiet")
 def stability(given: Given) -> None:
     """Errors beside every kind of singular position: how fast they grow, where methods stop and how they say so."""
-    from graphkin.api.studied import stability as measuring
-
-    found = measuring(language=given.lang or "en")
+    found = graphkin.stability(language=given.lang or "en")
     finish(given, found, found.write(given.out, given.formats))
 
 
@@ -388,19 +375,17 @@ def handout(given: Given) -> None:
 
 
 def _papers(given: Given) -> None:
-    from graphkin.api.handouts import handout as handing
 
     with short_bar(given.speaks) as progress:
-        made = given.call(handing, progress=progress, exports=split_words(given.export))
+        made = given.call(graphkin.handout, progress=progress, exports=split_words(given.export))
         paths = made.write(given.out)
     _tell_written(given, made, paths, made.lesson.language)
 
 
 def _design(given: Given) -> None:
-    from graphkin.api.designed import design as designing
     from graphkin.api.task_papers import write_design_papers
 
-    designed = designing(given.scene, language=given.lang)
+    designed = graphkin.design(given.scene, language=given.lang)
     files = write_design_papers(designed, given.out, given.formats)
     if given.json:
         print_json(designed.data | {"files": [str(path) for path in files]})
@@ -409,10 +394,9 @@ def _design(given: Given) -> None:
 
 
 def _course(given: Given) -> None:
-    from graphkin.api.course_designs import course_design
 
     with short_bar(given.speaks) as progress:
-        made = given.call(course_design, progress=progress)
+        made = given.call(graphkin.course_design, progress=progress)
         paths = made.write(given.out)
     _tell_written(given, made, paths, given.lang or made.mechanism.question.sheet.language)
 
@@ -426,14 +410,13 @@ def _tell_written(given: Given, made: Handout | CourseDesigns, paths: Sequence[P
 
 def _problem_set(given: Given) -> None:
     from graphkin.api.handouts import papers_of
-    from graphkin.api.problem_sets import problem_set
     from graphkin.scene import mechanism_of
 
     target = given.out if given.out is not None else Path(mechanism_of(given.scene).name)
     papers = papers_of(given.scene, given.formats, given.lang, given.convention, split_words(given.export))
     with progress_bar(given.speaks, target) as progress:
         made = given.call(
-            problem_set, out=target, workers=processes(given.workers), render=papers, progress=progress
+            graphkin.problem_set, out=target, workers=processes(given.workers), render=papers, progress=progress
         )
     if given.json:
         print_json(made.data)
@@ -489,22 +472,18 @@ def _begin(given: Given, file: Path | None) -> None:
 
 def _list(given: Given) -> None:
     from graphkin.api.arguments import known_words
-    from graphkin.api.scene_list import scenes as listed
     known_words(language=given.lang)
-    found, language = listed(), given.lang or _spoken_here()
+    found = graphkin.scenes()
     if given.json:
         print_json(found.data)
     if not given.speaks:
         return
+    # without a wish that of the terminal
+    locale = next((value for name in ("LC_ALL", "LC_MESSAGES", "LANG") if (value := os.environ.get(name))), "")
+    language = given.lang or ("zh" if locale.lower().startswith("zh") else "en")
     heads = [word(head, language) for head in ("scene in a list", "title in a list")]
     rows = [[n, z if language == "zh" else t, str(f)] for n, t, z, f in found.rows]
     print_table([*heads, "F"], rows, right=(2,))
-
-
-def _spoken_here() -> str:
-    """The language of the terminal: Chinese where its locale is, else English."""
-    locale = next((value for name in ("LC_ALL", "LC_MESSAGES", "LANG") if (value := os.environ.get(name))), "")
-    return "zh" if locale.lower().startswith("zh") else "en"
 
 
 def _hand_out(given: Given, text: str, path: Path | None) -> None:
@@ -536,9 +515,7 @@ def _must_be_new(path: Path) -> None:
 @command("scene", "lang", "json", "quiet")
 def explain(given: Given) -> None:
     """Say in words what was understood: links, joints, mobility, drivers, groups, assembly, units."""
-    from graphkin.api.explained import explain as explaining
-
-    explained = given.call(explaining)
+    explained = given.call(graphkin.explain)
     if given.json and not explained.ok:
         print_failed(explained.status, [Problem(explained.mechanism.name, explained.why)], explained.data)
     elif given.json:
@@ -553,11 +530,9 @@ def explain(given: Given) -> None:
 @command("source", "out of convert", "lossy", "json", "quiet")
 def convert(given: Given) -> None:
     """Make a scene of another program's mechanism, or give a scene to another program."""
-    from graphkin.api.converted import convert as converting
-
     if given.out is not None:
         _must_be_new(given.out)
-    made = converting(given.source, out=given.out, lossy=given.lossy)
+    made = graphkin.convert(given.source, out=given.out, lossy=given.lossy)
     if given.json:
         print_json(made.data)
     elif given.out is None:
