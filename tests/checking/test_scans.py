@@ -56,6 +56,14 @@ def test_a_right_drawing_is_right_line_by_line_however_it_lies_on_the_scanner(di
     assert all(abs(line.read - line.exact) < 1e-9 for line in result.lines)
 
 
+def test_a_program_reads_each_line_beside_the_exact_one():
+    own = ends("velocity")
+    audited = graphkin.audit(scanned("velocity", {"pole": own["pole"], "B": own["B"]}, {"C": 1.1 * own["C"]}))
+    lines = {line["line"]: line for line in audited.data["scans"]["velocity"]["lines"]}
+    assert pytest.approx(abs(own["C"])) == lines["v_C"]["exact_mm"]
+    assert pytest.approx(1.1 * abs(own["C"])) == lines["v_C"]["on_paper_mm"]
+
+
 @pytest.mark.parametrize("turn", [-5, 3])
 def test_a_direction_set_wrong_is_named_and_not_what_follows_from_it(turn):
     own = ends("velocity")
