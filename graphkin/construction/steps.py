@@ -233,7 +233,8 @@ class Step:
     kind : the given or read quantity; "driven" for a special point with a driver in its leg
     held : the link held still, from which it is seen; "" for the frame
     value, other : the given or read value (rad, m, rad/s, ...), and the value added to it
-    per_mm : the scale of a plan with constant lengths; 0 for the diagram's scale
+    plan, per_mm : the velocity plan of wheels that it helps to draw, by its number from 1, and the scale of that plan,
+        whose lengths are constant; 0 on a diagram
     mm, radii : lengths on paper; a scale changes these, and those in ``data``
     data : of trials and their division, and the parts by a link's rates, laid off in order
     """
@@ -260,6 +261,7 @@ class Step:
     direction: Direction = NO_DIRECTION
     value: float = 0.0
     other: float = 0.0
+    plan: int = 0
     per_mm: float = 0.0
     mm: float = 0.0
     radii: tuple[float, ...] = ()

@@ -431,7 +431,8 @@ def rolled(
             plan = train_plan(begun, here, scene.units.rates.metres, hand)
             if plan is None:
                 continue
-            drawn, steps = (*drawn, plan), list(_steps(scene, plan))
+            drawn = *drawn, plan
+            steps = [replace(step, plan=len(drawn)) for step in _steps(scene, plan)]
         step = plan.step(here)
         assert step is not None
         return drawn, step.value, step.mm, steps

@@ -33,7 +33,7 @@ from graphkin.construction.steps import DiagramName
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import FigurePage
 from graphkin.drawing.figures.forces import group_equation, group_picture, lever_figure
-from graphkin.drawing.figures.train import moving_plans, train_figure
+from graphkin.drawing.figures.train import train_pages
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers import pictures
 from graphkin.papers.blocks import (
@@ -472,45 +472,45 @@ def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterato
     """The solution stage by stage; ``lead`` comes before the first."""
     layers: dict[str, pictures.Layers] = {}
     first: int | None = None  # of steps that the next figure of their diagram shows too
-    figure = train_figure(lesson.sheet, language=lesson.language, convention=lesson.convention)
-    orders: list[str] = [plan.order for plan in moving_plans(lesson.sheet)] if figure is not None else []
     # velocity plans of what rolls, and those of the tangential accelerations, each a figure
-    plans = dict(zip(orders, map(pictures.bare_picture, (figure, *figure.further) if figure else ()), strict=True))
+    plans = train_pages(lesson.sheet, lesson.language, lesson.convention)
     count = 0  # of the figures
     for stage, after in zip(lesson.stages, (*lesson.stages[1:], None), strict=True):
         if stage.diagram not in layers:
             layers[stage.diagram] = pictures.parts(lesson, stage.diagram)
         opening = lead if stage is lesson.stages[0] else ()
-        if stage.equation is None and all(step.per_mm for step in stage.steps):  # drawn on the plan of a train alone
-            plan = plans.pop(stage.diagram, None)
-            count += plan is not None
-            yield Together(tuple(_plan_blocks(lesson, stage.diagram, plan, count, stage)))
-        elif _leads_on(stage, after):
+        shown = [plans.pop(n) for n in dict.fromkeys(step.plan for step in stage.steps) if n in plans]
+        if stage.equation is None and all(step.plan for step in stage.steps):  # drawn on the plans of trains alone
+            yield Together(tuple(_plan_blocks(lesson, stage.diagram, shown, count, stage)))
+            count += len(shown)
+            continue
+        if _leads_on(stage, after):
             yield Together((*_told(lesson, stage, count + 1), *step_items(lesson, stage, len(stage.steps) > 1)))
             first = stage.first
         else:
             count += 1
             yield Together(tuple(_stage(lesson, stage, layers[stage.diagram], opening, first or stage.first, count)))
             first = None
-        if stage.diagram in plans and any(step.per_mm for step in stage.steps):
-            count += 1
-            yield Together(tuple(_plan_blocks(lesson, stage.diagram, plans.pop(stage.diagram), count)))
-    for order, plan in plans.items():
+        if shown:
+            yield Together(tuple(_plan_blocks(lesson, stage.diagram, shown, count)))
+            count += len(shown)
+    for plan, page in plans.items():
+        yield Together(tuple(_plan_blocks(lesson, lesson.sheet.trains[plan - 1].order, [page], count)))
         count += 1
-        yield Together(tuple(_plan_blocks(lesson, order, plan, count)))
     yield from _force_blocks(lesson, count)
 
 
 def _plan_blocks(
-    lesson: Lesson, order: str, figure: Drawing | None, count: int, stage: Stage | None = None
+    lesson: Lesson, order: str, pages: Iterable[Drawing], count: int, stage: Stage | None = None
 ) -> Iterator[Heading | StepItem | Picture]:
-    """A velocity plan with its steps; without a figure where no part of it moves."""
+    """The pages of velocity plans with their steps, none where no part of them moves, after ``count`` figures."""
     title = said("plan" if order == "velocity" else "plan accelerations", lesson.language)
     yield Heading(title)
     if stage is not None:
         yield from step_items(lesson, stage, len(stage.steps) > 1)
-    if figure is not None:
-        yield Picture(figure, numbered(count, title), floats=True)
+    for page in pages:
+        count += 1
+        yield Picture(pictures.bare_picture(page), numbered(count, title), floats=True)
 
 
 def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:

@@ -30,7 +30,7 @@ from graphkin.drawing.boxes import FigurePage
 from graphkin.drawing.figures.centres import background, centre_marks, near_box
 from graphkin.drawing.figures.constructions import cam_pictures, scaled_cam
 from graphkin.drawing.figures.forces import group_equation, group_picture, lever_figure
-from graphkin.drawing.figures.train import moving_plans, train_figure
+from graphkin.drawing.figures.train import train_pages
 from graphkin.drawing.ink.primitives import Group, Primitive
 from graphkin.drawing.parts.insets import polygon_with_insets, strip_height
 from graphkin.drawing.parts.mechanism import mechanism_piece
@@ -287,14 +287,12 @@ def _drawings(lesson: Lesson, piece: Piece, frames: Frames) -> Iterator[tuple[Fi
 def _plans(lesson: Lesson) -> Iterator[Figure]:
     """The velocity plans of rolling links, each shown from its last step on."""
     sheet, language = lesson.sheet, lesson.language
-    figure = train_figure(sheet, language=language, convention=lesson.convention)
-    for plan, page in zip(moving_plans(sheet), (figure, *figure.further) if figure else (), strict=True):
-        drawn_by = [replace(step, strokes=()) for step in (*plan.lines.values(), *plan.travels.values())]
-        last = [step.number for step in sheet.steps if replace(step, number=0) in drawn_by][-1:]
-        bare = bare_picture(page)
-        drawn = replace(bare, children=(Group(bare.children, classes=(f"step-{last[0]}",)),)) if last else bare
-        title = said("plan" if plan.order == "velocity" else "plan accelerations", language)
-        yield _figure(f"plan-{plan.order}", drawn, _caption(title))
+    for plan, page in train_pages(sheet, language, lesson.convention).items():
+        last, bare = max((step.number for step in sheet.steps if step.plan == plan), default=0), bare_picture(page)
+        drawn = replace(bare, children=(Group(bare.children, classes=(f"step-{last}",)),)) if last else bare
+        order = sheet.trains[plan - 1].order
+        title = said("plan" if order == "velocity" else "plan accelerations", language)
+        yield _figure(f"plan-{order}", drawn, _caption(title))
 
 
 def _cams(lesson: Lesson) -> Iterator[Figure]:

@@ -9,6 +9,8 @@ import pytest
 
 import tests.papers
 from graphkin.api.handouts import handout
+from graphkin.papers.blocks import Picture, laid_out
+from graphkin.papers.documents import solution
 from tests import EVERYTHING
 from tests.construction.test_trains import FOUND_LATER
 
@@ -104,6 +106,15 @@ def test_each_velocity_plan_stands_there_from_its_own_last_step_on():
     two, six = (s["n"] for s in position["steps"] if s["text"].startswith("Velocity plan: line of link"))
     assert f'class="step-{two}"' in first
     assert f'class="step-{six}"' in later
+
+
+def test_every_velocity_plan_is_a_figure_of_the_solution_on_paper():
+    lesson = handout(FOUND_LATER, positions=1, formats=("html",)).lesson
+    figures = (block for block in laid_out(solution(lesson).blocks) if isinstance(block, Picture))
+    captions = [words for figure in figures for _, words in figure.caption]
+    plans = ["Figure 2. Velocity plan", "Figure 4. Velocity plan",
+             "Figure 5. Plan of tangential accelerations", "Figure 7. Plan of tangential accelerations"]  # fmt: skip
+    assert plans == [caption for caption in captions if "lan" in caption]
 
 
 def test_a_template_without_one_of_its_values_is_refused():

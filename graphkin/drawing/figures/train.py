@@ -45,15 +45,17 @@ def train_figure(sheet: Sheet, *, language: str | None = None, convention: str |
     language : "en", "zh" or "both"; the scene's own if None
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
     """
-    page = FigurePage.of(sheet, "plan", language, convention)
-    pages = [_page(page, plan) for plan in moving_plans(sheet)]
+    pages = [*train_pages(sheet, language, convention).values()]
     return replace(pages[0], further=tuple(pages[1:])) if pages else None
 
 
-def moving_plans(sheet: Sheet) -> list[TrainPlan]:
-    """The plans with motion: these have a page."""
-    moving = ((*plan.velocities.values(), *(line.value for line in plan.lines.values())) for plan in sheet.trains)
-    return [plan for plan, values in zip(sheet.trains, moving, strict=True) if any(values)]
+def train_pages(sheet: Sheet, language: str | None, convention: str | None) -> dict[int, Drawing]:
+    """The pages of the plans with motion, by the numbers of these; parameters as for `train_figure`."""
+    page = FigurePage.of(sheet, "plan", language, convention)
+    return {
+        number: _page(page, plan) for number, plan in enumerate(sheet.trains, 1)
+        if any((*plan.velocities.values(), *(line.value for line in plan.lines.values())))
+    }  # fmt: skip
 
 
 def _page(page: FigurePage, plan: TrainPlan) -> Drawing:
