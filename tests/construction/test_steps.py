@@ -14,7 +14,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.words import area
 
 pytestmark = pytest.mark.quick
-NO_LENGTHS = {"value", "other", "per_mm", "number", "equation"}
+NO_LENGTHS = {"value", "other", "plan", "per_mm", "number", "equation"}
 
 
 def reasons() -> set[str]:
