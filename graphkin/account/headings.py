@@ -161,14 +161,22 @@ def remarks(sheet: Sheet) -> list[Phrase]:
 
 def structure_words(scene: Mechanism, language: str) -> list[str]:
     """Sentences on the joints: the links with their points, and the pairs that are no turning pairs."""
-    said = [say(Phrase("fixed link", link=scene.frame.name, points=listed([*scene.frame.points] or ["-"])), language)]
+    fixed, name = [*scene.frame.points], scene.frame.name
+    said = [say(Phrase("fixed link", link=name, points=listed(fixed)) if fixed else
+                Phrase("fixed link bare", link=name), language)]  # fmt: skip
+    slots = {slot.bar: slot for slot in scene.slots if slot.of or slot.block}  # the others stand for cams
     for link in scene.links:
-        if link.points:
-            said.append(say(Phrase("link joins", link=link.name, points=listed([*link.points])), language))
+        slot = slots.get(link.name)
+        points = [point for point in link.points if slot is None or (slot.block and point != slot.centre)]
+        if points:
+            said.append(say(Phrase("link joins", link=link.name, points=listed(points)), language))
     for pair in scene.slidings:
         said.append(say(Phrase("link slides", link=pair.link, guide=pair.on), language))
     for pin in scene.pins:
         said.append(say(Phrase("pin runs", point=pin.point, link=pin.of, guide=pin.on), language))
+    for slot in slots.values():
+        runs = {"point": slot.point, "link": slot.of or slot.bar, "guide": slot.on, "centre": slot.centre}
+        said.append(say(Phrase("runs on circle", **runs), language))
     for contact in scene.contacts:
         key = "rolls on" if contact.rolling else "touches"
         said.append(say(Phrase(key, first=contact.links[0], second=contact.links[1], contact=contact.name), language))

@@ -33,7 +33,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import put_at, value_at
 from graphkin.solver import Motion, solve
 from graphkin.solver.values import exact_values
-from graphkin.structure import Dyad, LargerGroup, Pair, analyse
+from graphkin.structure import Dyad, LargerGroup, Pair, analyse, group_named
 from graphkin.words import Phrase, Wording, as_data, from_data
 
 LEAST_READING = 10.0  # mm on paper
@@ -274,13 +274,10 @@ def _flat(motion: Motion, bounds: Bounds) -> Iterator[Phrase]:
         if not isinstance(dyad, Dyad) or (not bounds.transmission and bounds.pressure >= math.pi / 2):
             continue
         angle = float(motion.value(Symbol("transmission", name="-".join(dyad.links)))[0])
-        first, second = dyad.links
         if dyad.kind == "RRR" and angle < bounds.transmission:
-            small = f"{math.degrees(angle):.0f}"
-            yield Phrase("unfit transmission", first=first, second=second, degrees=small)
+            yield Phrase("unfit transmission", group=group_named(dyad), degrees=f"{math.degrees(angle):.0f}")
         if dyad.kind != "RRR" and math.pi / 2 - angle > bounds.pressure:
-            large = f"{90 - math.degrees(angle):.0f}"
-            yield Phrase("unfit pressure", first=first, second=second, degrees=large)
+            yield Phrase("unfit pressure", group=group_named(dyad), degrees=f"{90 - math.degrees(angle):.0f}")
 
 
 def _uncut(scene: Mechanism) -> Iterator[Phrase]:

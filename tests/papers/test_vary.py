@@ -100,8 +100,9 @@ def test_a_key_is_right_to_five_percent_at_every_level_unless_the_scene_allows_m
 @pytest.mark.parametrize(
     ("scene", "bound", "why"),
     [
-        ("four-bar-coupler-point", {"transmission": 90}, "the transmission angle of 2 and 3 is"),
-        ("slider-crank-offset", {"pressure": 1}, "the pressure angle of 2 and 3 is"),
+        ("four-bar-coupler-point", {"transmission": 90}, "the transmission angle of links 2, 3 is"),
+        ("disc-on-disc", {"transmission": 85}, "the transmission angle of link 2 and the bar OB is 79 degrees only"),
+        ("slider-crank-offset", {"pressure": 1}, "the pressure angle of links 2, 3 is"),
     ],
 )
 def test_transmission_and_pressure_angles_are_held(scene, bound, why):

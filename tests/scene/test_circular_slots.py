@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 import graphkin
+from graphkin.account.headings import structure_words
 from graphkin.errors import SceneError
 from graphkin.scene import mechanism_of
 from graphkin.scene.force_names import joints
@@ -65,6 +66,19 @@ def test_it_is_drawn_and_checked(scene: dict[str, Any]) -> None:
 def test_a_pin_in_one_counts_as_a_higher_pair() -> None:
     count = graphkin.prepare(with_pin(), find=["v_C"]).ready.range.structure.mobility
     assert (2, 2, 1, 1) == (count.links, count.lower, count.higher, count.value)
+
+
+@pytest.mark.parametrize(
+    ("scene", "told"),
+    [
+        (with_pin(), ["Link 2 joins B, C.", "Point C of link 2 runs in a circular slot of link 0 about M."]),
+        (with_block(), ["Link 2 joins B, C.", "Link 3 joins C.",
+                        "Point C of link 3 runs in a circular slot of link 0 about M."]),
+    ],
+)  # fmt: skip
+def test_a_figure_is_described_with_it(scene: dict[str, Any], told: list[str]) -> None:
+    assert ["The fixed link 0 has the points A, M.", "Link 1 joins A, B.", *told] == structure_words(
+        mechanism_of(scene), "en")
 
 
 def test_the_structure_tells_it_and_the_mobility_after_its_replacement() -> None:
