@@ -45,7 +45,7 @@ def scale_of(sheet: Sheet, diagram: DiagramName) -> float:
     return sheet.scales.of(diagram) / unit_of(sheet, diagram).si
 
 
-def arm_written(sheet: Sheet, bar: tuple[str, str], mm: float, most: int = MOST) -> str:
+def arm_written(sheet: Sheet, bar: tuple[str, str], mm: float, most: int) -> str:
     """A length in the unit of rates, for their products and quotients: the given length where a link has both ends,
     however a hand has drawn it, else the value of its mm on paper."""
     held = (link.points for link in sheet.structure.links.values())

@@ -50,15 +50,10 @@ def place_of(centres: Centres, centre: Centre) -> tuple[float, float] | None:
     return x, y
 
 
-def points_asked(centres: Centres) -> tuple[Symbol, ...]:
-    """The absolute velocities of points that the scene asks for; of every moving pin if it asks for nothing."""
-    asked = centres.scene.question.find
-    return tuple(s for s in asked if s.kind == "v" and s.to is None) if asked else centres.moving_pins
-
-
 def velocity_sentences(centres: Centres) -> tuple[Phrase, ...]:
     """Sentences on every link's rate from the link before it in its chain, then on every asked point's speed from its
-    link's rate, and on the sliding velocity of every pin along a moving guide.
+    link's rate (on every moving pin's if the scene asks for nothing), and on the sliding velocity of every pin along a
+    moving guide.
 
     In the gaps of the phrases a pair of links is a centre, a `Symbol` a velocity, a `PointRef` a point; distances are
     those of the figure (mm).
@@ -75,7 +70,9 @@ def velocity_sentences(centres: Centres) -> tuple[Phrase, ...]:
         else:
             rates[turning.link] = _Rate("0" if nothing else amount(turning.omega))
     links = [of_links[name] for name in moving if name in of_links]
-    speeds = {s: abs(centres.velocity(s) or 0.0) for s in points_asked(centres)}
+    asked = [s for s in centres.scene.question.find if s.kind == "v" and s.to is None]
+    wanted = asked if centres.scene.question.find else centres.moving_pins
+    speeds = {s: abs(centres.velocity(s) or 0.0) for s in wanted}
     least = STILL * max(speeds.values(), default=0.0)
     points = [_of_point(centres, rates, s) for s, speed in speeds.items() if speed > least]
     slidings = (_of_sliding(centres, rates, *pin) for pin in _pins_on_guides(centres))

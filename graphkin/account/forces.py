@@ -114,8 +114,8 @@ class ForceStage:
         """The step that draws a force on the links cut free."""
         return self.known if vector.known else self.number_of("moments", vector.symbol, vector.part) or self.closing
 
-    def in_polygon(self, vector: ForceVector, link: str = "") -> int:
-        """The step that draws a force in the polygon of the group, or of one link."""
+    def in_polygon(self, vector: ForceVector, link: str) -> int:
+        """The step that draws a force in the polygon of one link, or ("") of the group."""
         if link:
             return self.number_of("inside", None, link) or self.closing
         laid = vector.known or vector in laid_off(self.group)

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 from graphkin.account.notation import unit_of
 from graphkin.account.spoken import spoken_vector
@@ -110,18 +110,6 @@ def facts(sheet: Sheet, figure: str) -> dict[str, object]:
     }
 
 
-def _plain_symbol(language: str) -> Callable[[object], str]:
-    """The writer of symbols without marks between point and link, ``v_B3/B2``, and of a found direction as a line."""
-    plain = plain_in(language)
-
-    def written(thing: object) -> str:
-        if isinstance(thing, Direction) and thing.relation != "towards":
-            return ("∥" if thing.relation == "along" else "⊥") + "".join(thing.names)
-        return plain(thing).replace("@", "")
-
-    return written
-
-
 def figure_title(sheet: Sheet, figure: str, language: str) -> str:
     """Title of a figure as one line."""
     parts = []
@@ -208,7 +196,15 @@ def _vectors(sheet: Sheet, diagram: DiagramName, language: str) -> list[str]:
 
 
 def _sentence(said: Phrase, language: str) -> str:
-    text = as_plain(rich_text(said, language, _plain_symbol(language)), "_")
+    """A phrase as a sentence: symbols without marks between point and link, ``v_B3/B2``, directions as lines."""
+    plain = plain_in(language)
+
+    def shown(thing: object) -> str:
+        if isinstance(thing, Direction) and thing.relation != "towards":
+            return ("∥" if thing.relation == "along" else "⊥") + "".join(thing.names)
+        return plain(thing).replace("@", "")
+
+    text = as_plain(rich_text(said, language, shown), "_")
     return _capital(text).rstrip("。.") + word("full stop", language)
 
 

@@ -209,13 +209,8 @@ class InPolygon(Telling):
         size = Size("rate", (seen.to.link, to.link), slip, twice=True)
         turning = self.sheet.omega[seen.to.link].value - self.sheet.omega[to.link].value
         rule = Phrase("rule of size", symbol=size, rule=bound(rule_sum(self.sheet, size, "acceleration")))
-        return Phrase(
-                "written carried over coriolis",
-                symbol=step.symbol, vector=told, rule=rule, slip=slip, sense=sense_of(turning),
-            )  # fmt: skip
-
-    def _carried_over_lines(self, language: str) -> Iterable[Phrase]:
-        return filter(None, [self._carried_over()])
+        gaps = {"symbol": step.symbol, "vector": told, "rule": rule, "slip": slip, "sense": sense_of(turning)}
+        return Phrase("written carried over coriolis", **gaps)
 
     def _laid_sums(self) -> Iterable[str]:
         """The rule of a vector in numbers, and its length on paper."""
@@ -359,9 +354,6 @@ class InPolygon(Telling):
         value = f"{bound(plan_sum(step))}{_turning(step.value, language)}" if step.value else "0"
         yield f"{rate_name(step.kind, step.link)} = {value}"
 
-    def _plan_sums(self) -> Iterator[str]:
-        yield f"{rate_name(self.step.kind, self.step.link)} = {plan_sum(self.step)}"
-
     def _summed_lines(self, language: str) -> Iterator[str]:
         """``ω_2 = ω_3 + ω_23 = −0.04162 + 0.08323 = 0.04161 rad/s``: of a link with a known rate relative to a link of
         known rate."""
@@ -475,10 +467,11 @@ class InPolygon(Telling):
     }  # fmt: skip
     sums: ClassVar[Mapping[Reason, Callable[[InPolygon], Iterable[str]]]] = {
         **dict.fromkeys((*ROLES, "before its turn"), _laid_sums), "rates": _by_rates_sums, "rate": _rate_sums,
-        "plan": _plan_sums,
+        "plan": lambda told: [f"{rate_name(told.step.kind, told.step.link)} = {plan_sum(told.step)}"],
     }
     lines: ClassVar[Mapping[Reason, Callable[[InPolygon, str], Iterable[str | Phrase]]]] = {
-        **dict.fromkeys(ROLES, _carried_over_lines), "similar": _image_lines, "division": _image_lines,
+        **dict.fromkeys(ROLES, lambda told, language: filter(None, [told._carried_over()])),
+        "similar": _image_lines, "division": _image_lines,
         "rates": _by_rates_lines, "rate": _rate_lines, "sum of rates": _summed_lines,
         "held still": _held_still_lines, "plan": _plan_lines, "open ends": _superposed_lines,
     }  # fmt: skip

@@ -168,11 +168,11 @@ _SIGNS = str.maketrans({sign: command for sign, command in _IN_LATEX.items() if 
 
 def as_latex(markup: str) -> str:
     """A line as LaTeX, all of it in mathematics."""
-    return "".join(_words_in_latex(p) if isinstance(p, str) else _symbol_in_latex(p) for p in parsed(markup))
-
-
-def _words_in_latex(words: str) -> str:
-    return " ".join(_IN_LATEX.get(word, word.translate(_SIGNS)) for word in words.split(" "))
+    return "".join(
+        _symbol_in_latex(part) if not isinstance(part, str)
+        else " ".join(_IN_LATEX.get(text, text.translate(_SIGNS)) for text in part.split(" "))
+        for part in parsed(markup)
+    )  # fmt: skip
 
 
 def _symbol_in_latex(atoms: Sequence[Atom]) -> str:

@@ -258,11 +258,6 @@ def _number(value: float) -> str:
 _INERTIA = {"chinese": ("F", "I"), "us": ("F", "i"), "british": ("F", "i"), "russian": ("Φ", "")}
 
 
-def part_mark(convention: Convention, part: str) -> str:
-    """The superscript of a part of a force, normal or tangential."""
-    return {"t": "τ"}.get(part, part) if convention == "russian" else part
-
-
 def force_letters(convention: Convention, symbol: Symbol, part: str = "") -> str:
     r"""A force, moment, shift or arm as a symbol without dollar signs: ``F_{R56}``, ``F^{t}_{R45}``, ``M_{2}``.
 
@@ -270,7 +265,7 @@ def force_letters(convention: Convention, symbol: Symbol, part: str = "") -> str
     ('F^{t}_{R45}', 'R^{+}_{45}')
     """
     letter, index = _named(convention, symbol)
-    above = part_mark(convention, part) + ("+" if symbol.plus else "")
+    above = ("τ" if part == "t" and convention == "russian" else part) + ("+" if symbol.plus else "")
     return letter + (f"^{{{above}}}" if above else "") + (f"_{{{index}}}" if index else "")
 
 

@@ -40,14 +40,6 @@ _POINT = r"[A-Z][a-z]*\d*"
 _POINT_NAMES = re.compile(f"(?:{_POINT})+")
 
 
-def names_in_letters(letters: Letters, text: str) -> list[str] | None:
-    """A list of points or bars, ``O4A, B``, each in the letters of a convention; None for another text."""
-    names = text.split(", ")
-    if not all(map(_POINT_NAMES.fullmatch, names)):
-        return None
-    return ["".join(letters.point(name) for name in re.findall(_POINT, bar)) for bar in names]
-
-
 @dataclass(frozen=True)
 class NamedPoint:
     """A point of a polygon (mm from the pole) and its letter.
@@ -219,10 +211,11 @@ class Voice:
             return Markup(self.letters.direction(thing, self.sheet.scene.frame.name))
         if isinstance(thing, Size):
             return word("given", language).lower() if thing == GIVEN else Markup(self.letters.size(thing))
-        names = names_in_letters(self.letters, str(thing))
-        if names is None:
+        names = str(thing).split(", ")  # of points or bars: ``O4A, B``
+        if not all(map(_POINT_NAMES.fullmatch, names)):
             return in_markup(str(thing))
-        return Markup(names[0]) if len(names) == 1 else ", ".join(f"${name}$" for name in names)
+        lettered = ["".join(map(self.letters.point, re.findall(_POINT, bar))) for bar in names]
+        return Markup(lettered[0]) if len(lettered) == 1 else ", ".join(f"${bar}$" for bar in lettered)
 
     def point(self, ref: PointRef) -> str:
         """A point, with the link as a further index where coincident points are distinguished."""

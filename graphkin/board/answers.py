@@ -20,7 +20,7 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from graphkin.api.arguments import known_words
+from graphkin.api.arguments import known_words, placed
 from graphkin.board import building, pictures
 from graphkin.board.building import pulled
 from graphkin.board.pictures import FigureOptions
@@ -33,6 +33,7 @@ from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import LARGEST_FILE, NEW, new_scene, parsed, put, resolved, safe_name
 from graphkin.scene.tables import as_sentence
+from graphkin.solver import solved_here
 from graphkin.structure import mobility_of
 from graphkin.words import LANGUAGES, Phrase, area, say
 
@@ -208,7 +209,7 @@ def _pull(desk: Desk, asked: Message) -> Answer:
     """A point pulled to a place: the figures that follow, and the changed text when the point is let go."""
     scene, raw = asked.scene(desk), parsed(asked.text)
     to = complex(asked.x, asked.y) * scene.units.metres
-    changes, at = pulled(raw, pictures.motion_at(scene, asked.at), asked.point, to, asked.lengths)
+    changes, at = pulled(raw, solved_here(*placed(scene, asked.at or None)), asked.point, to, asked.lengths)
     now = {**(asked.at or {}), **at} or None
     if asked.final:
         text = changed(asked.text, changes) if changes else asked.text

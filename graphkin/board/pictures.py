@@ -21,7 +21,6 @@ from graphkin.api.report_text import plain_said, reading_words
 from graphkin.board.building import movable
 from graphkin.construction import Plan, execute, plan
 from graphkin.construction.scales import Scales
-from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName
 from graphkin.drawing.figures.diagrams import figure_in_motion
 from graphkin.drawing.write.svg import svg_element
@@ -53,7 +52,7 @@ class FigureOptions:
 
 
 @lru_cache(maxsize=16)
-def scene_of(text: str, name: str, folder: Path | None = None) -> Mechanism:
+def scene_of(text: str, name: str, folder: Path | None) -> Mechanism:
     """The mechanism of a scene's text.
 
     Parameters
@@ -101,11 +100,6 @@ def reach(scene: Mechanism) -> tuple[float, float, DriverRange]:
     values = sorted(float(v) for v in over.value(np.array(over.ends)))
     low, high = (0.0, 360.0) if over.full else (scene.unit_of(over.driver).of(v) for v in values)
     return low, high, over
-
-
-def motion_at(scene: Mechanism, at: Mapping[str, float] | None) -> Motion:
-    """The exact motion at a position of the drivers.  Raises Unsolvable where the mechanism does not reach it."""
-    return solved_here(*placed(scene, at or None))
 
 
 def drawn_at(structure: Structure, at: Mapping[str, float] | None, options: FigureOptions) -> tuple[Drawn, Motion]:
@@ -220,7 +214,9 @@ def _in_motion(moved: _Moved, at: Mapping[str, float] | None, options: FigureOpt
     moved.last = what
     sheet = execute(replace(what, scales=options.scales or what.scales))
     words = {"language": options.language, "convention": options.convention}
-    there = [name for name in options.figures if name in _IN_MOTION and _is_there(sheet, name)]
+    there = [name for name in options.figures if name in _IN_MOTION]
+    if not sheet.vectors("acceleration"):
+        there = [name for name in there if name != "acceleration"]
     drawn = {name: figure_in_motion(sheet, _IN_MOTION[name], **words) for name in there}
     figures = {name: svg_element(figure, named=True) for name, figure in drawn.items()}
     if rest and not said:
@@ -253,10 +249,6 @@ def _is_fast(what: Plan) -> bool:
     fastest = max((abs(z) for z in sheet.ends["velocity"].values()), default=0.0) * sheet.scales.velocity
     rates = (abs(d.values[1]) * (scene.size if d.turns else 1.0) for d in scene.drivers)
     return not fastest <= FAST * max(rates, default=0.0)
-
-
-def _is_there(sheet: Sheet, figure: str) -> bool:
-    return figure != "acceleration" or bool(sheet.vectors("acceleration"))
 
 
 def _last(scene: Mechanism, at: Mapping[str, float]) -> dict[str, float]:

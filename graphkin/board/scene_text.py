@@ -81,7 +81,9 @@ def _set(place: Any, last: str, value: Any, top: bool = False) -> None:
 
     item: Any
     if isinstance(value, Mapping):
-        item = tomlkit.inline_table() if _is_inline(place) or (_is_small(value) and not top) else tomlkit.table()
+        nested = any(isinstance(part, Mapping) for part in value.values())
+        small = len(value) <= 4 and "points" not in value and not nested
+        item = tomlkit.inline_table() if _is_inline(place) or (small and not top) else tomlkit.table()
         if _is_inline(item):
             item.update(value)
         else:
@@ -101,10 +103,6 @@ def _is_inline(place: Any) -> bool:
     from tomlkit.items import InlineTable
 
     return isinstance(place, InlineTable)
-
-
-def _is_small(value: Mapping[str, Json]) -> bool:
-    return len(value) <= 4 and not any(isinstance(item, Mapping) for item in value.values()) and "points" not in value
 
 
 _HOLDERS = ("links", "masses", "loads", "springs")  # tables of tables, each with a head of its own

@@ -57,10 +57,6 @@ class Address:
     def hosts(self) -> tuple[str, ...]:
         return f"127.0.0.1:{self.port}", f"localhost:{self.port}"
 
-    def knows(self, secret: str) -> bool:
-        """Whether a secret is that of the address; compared in constant time."""
-        return secrets.compare_digest(secret.encode(), self.secret.encode())
-
 
 def needs_live() -> None:
     """Raises CallError where the page's extra is not installed."""
@@ -108,7 +104,8 @@ def application(desk: Desk, address: Address) -> Starlette:
         origin = call.headers.get("origin")
         if origin is not None and origin not in origins:
             return "calls of other pages are refused"
-        if not address.knows(call.path_params.get("secret", "")):
+        given = call.path_params.get("secret", "")
+        if not secrets.compare_digest(given.encode(), address.secret.encode()):  # in constant time
             return "the secret of this address is wrong: open the one that graphkin printed"
         return ""
 
@@ -124,7 +121,7 @@ def application(desk: Desk, address: Address) -> Starlette:
         if why := refused(request):
             return headed(PlainTextResponse(why, 403))
         nonce = secrets.token_urlsafe(16)
-        body = _file_of_page().replace("NONCE", nonce)
+        body = (STATIC / "board.html").read_text(encoding="utf-8").replace("NONCE", nonce)
         return headed(Response(body, media_type="text/html"), nonce)
 
     async def static(request: Request) -> Response:
@@ -156,10 +153,6 @@ def application(desk: Desk, address: Address) -> Starlette:
         Route("/{path:path}", elsewhere, methods=["GET", "HEAD", "POST", "PUT", "DELETE", "OPTIONS", "PATCH"]),
     ]  # fmt: skip
     return Starlette(routes=routes)
-
-
-def _file_of_page() -> str:
-    return (STATIC / "board.html").read_text(encoding="utf-8")
 
 
 def _answered(desk: Desk, text: str) -> str:

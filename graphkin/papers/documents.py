@@ -343,12 +343,13 @@ def result_cells(lesson: Lesson) -> Iterator[dict[str, str]]:
     """The cells of each result, by the keys of their heads."""
     scales, units = lesson.report.scales, lesson.sheet.scene.units
     for line, row in zip(key_rows(lesson), lesson.results, strict=True):
-        placed = row.symbol.scope == "position"
+        placed, is_length = row.symbol.scope == "position", row.symbol.is_vector or row.symbol.measure == "length"
         size = line.exact if placed else abs(line.exact)
         read, right = measured(row.reading, scales, units, row), exact(row, units)
         tolerance, accept = accepted(size, line.tolerance or 0.0, -math.inf if placed else 0.0)
         yield {
-            "quantity": f"${lesson.letters.vector(row.symbol)}$", "on paper": length_on_paper(row),
+            "quantity": f"${lesson.letters.vector(row.symbol)}$",
+            "on paper": written(paper(row.reading, row)) if is_length else "–",  # a rate has no length of its own
             "measured": unsigned(row, written(read)), "exact": unsigned(row, written(right)), "value": number(size, 5),
             "course difference": f"{100 * abs(float(read) / float(right) - 1.0):.2f}" if float(right) else "–",
             "tolerance": tolerance, "accept": accept, "unit": line.unit, "sense": way(row, lesson.language),
@@ -410,25 +411,17 @@ def answers_template(
     more : keys of the heads of their further columns
     """
     lead = [word(key, language) for key in ("name in a class", "id in a class", *more)]
-    heads = [head for s in asked for head in (head_of(s, units), *_way_head(s, language))]
+    heads = list[str]()
+    for symbol in asked:
+        heads.append(head_of(symbol, units))
+        heads += [f"{symbol} {word('direction of', language)}"] if symbol.is_vector else []
     return table.Table.of([*lead, *heads], [[*line, *[""] * len(heads)] for line in lines])
-
-
-def _way_head(symbol: Symbol, language: str) -> list[str]:
-    """The head of the column for the direction of a vector; none for another quantity."""
-    return [f"{symbol} {word('direction of', language)}"] if symbol.is_vector else []
 
 
 def head_of(symbol: Symbol, units: Units) -> str:
     """A quantity with its unit, as the head of a column."""
     unit = symbol.unit(units).text
     return f"{symbol} ({unit})" if unit else str(symbol)
-
-
-def length_on_paper(row: Compared) -> str:
-    """The length on paper of a drawn length; a rate has none of its own."""
-    is_length = row.symbol.is_vector or row.symbol.measure == "length"
-    return written(paper(row.reading, row)) if is_length else "–"
 
 
 def unsigned(row: Compared, text: str) -> str:
@@ -513,6 +506,16 @@ def _plan_blocks(
         yield Picture(pictures.bare_picture(page), numbered(count, title), floats=True)
 
 
+def force_stages(lesson: Lesson) -> Iterator[tuple[ForceStage, Said, tuple[StepItem, ...]]]:
+    """The stages of the forces, each with the load that its steps tell from those without it (none where there is but
+    one), and its steps."""
+    forces, language = lesson.forces, lesson.language
+    for stage in () if forces is None else ForceAccount(lesson.scaled, forces, lesson.letters).stages():
+        several = forces is not None and len(forces.states) > 1 and bool(stage.group.links)
+        load = said("force with load" if stage.again else "force without load", language) if several else ()
+        yield stage, load, tuple(StepItem(s.number, s.words(language), s.lines(language)) for s in stage.steps)
+
+
 def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
     """Force polygons group by group, and Zhukovsky's lever; ``count`` figures come before them."""
     sheet, forces, language = lesson.sheet, lesson.forces, lesson.language
@@ -521,11 +524,9 @@ def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
     statement = Paragraph(spoken(scale_statement(lesson.scaled, lesson.letters.convention, "force"), language))
     lead: tuple[Heading | Paragraph, ...] = (Heading(said("forces", language)), statement)
     lever = lever_figure(sheet, forces, language=language, convention=lesson.convention)
-    for turn, stage in enumerate(ForceAccount(lesson.scaled, forces, lesson.letters).stages()):
-        steps = (StepItem(step.number, step.words(language), step.lines(language)) for step in stage.steps)
+    for turn, (stage, load, steps) in enumerate(force_stages(lesson)):
         title = stage.heading(language)
-        if len(forces.states) > 1 and stage.group.links:
-            load = said("force with load" if stage.again else "force without load", language)
+        if load:
             title = tuple((each, f"{name}  ({text})") for (each, name), (_, text) in zip(title, load, strict=True))
         count += bool(stage.group.links)
         yield Together((*lead, Heading(title, 3), *_force_pictures(lesson, stage, f"-{turn}", count), *steps))

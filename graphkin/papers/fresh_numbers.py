@@ -205,8 +205,11 @@ def _fit(source: Tables, made: OwnTables, free: Callable[[KeyPath], bool]) -> No
         if driver.get("law", {}).get("duration"):
             _set_moment(value_at(made, path), driver["law"])
     rolling = any(contact.get("rolling") for contact in made.get("contacts", {}).values())
-    for name, link in made.get("links", {}).items():
-        _rims(source["links"][name], link)
+    for name, link in made.get("links", {}).items():  # a bar's end stays on the rim of a disc
+        was, points = source["links"][name], link.get("points", ())
+        for key, disc in link.get("discs", {}).items():
+            if disc.get("centre") in points and len(points) == 2 and was.get("length") == was["discs"][key].get("r"):
+                disc["r"] = link["length"]
     if made.get("gears") or rolling:
         scene = mechanism_of(source)
         if not _teeth(scene, made, free):
@@ -241,14 +244,6 @@ def _set_moment(driver: OwnTables, law: Tables) -> None:
         begin, end = law.get("from", 0.0), law["to"]
         within = EARLY + (1.0 - 2.0 * EARLY) * (driver["angle"] % 360.0) / 360.0
         driver["angle"] = float(round(begin + within * (end - begin)))
-
-
-def _rims(was: Tables, link: OwnTables) -> None:
-    """Keep a bar's end on the rim of a disc."""
-    points = link.get("points", ())
-    for name, disc in link.get("discs", {}).items():
-        if disc.get("centre") in points and len(points) == 2 and was.get("length") == was["discs"][name].get("r"):
-            disc["r"] = link["length"]
 
 
 def _axle_key(made: Tables, carrier: str, axes: tuple[str, str]) -> KeyPath | None:

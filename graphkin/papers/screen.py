@@ -16,7 +16,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 from markupsafe import Markup
 
-from graphkin.account.forces import ForceAccount, ForceStage, ForceStep
+from graphkin.account.forces import ForceStage, ForceStep
 from graphkin.account.given import drivers
 from graphkin.account.headings import FIGURE_WORDS, number, term
 from graphkin.account.notation import Letters, scale_statement
@@ -44,11 +44,11 @@ from graphkin.files import Json
 from graphkin.jobs import Progress
 from graphkin.papers.blocks import Block, Heading, Said, StepItem, said
 from graphkin.papers.documents import (
+    force_stages,
     given,
     results_blocks,
     scene_title,
     solution,
-    solution_blocks,
     stage_title,
     step_items,
     way,
@@ -77,10 +77,10 @@ Figure: TypeAlias = dict[str, str]
 def handout_page(
     lesson: Lesson,
     views: Sequence[Lesson],
-    start: int = 0,
-    progress: Progress | None = None,
-    moving: Mapping[str, object] | None = None,
-    worked: Iterable[Block] | None = None,
+    start: int,
+    progress: Progress | None,
+    moving: Mapping[str, object],
+    worked: Iterable[Block],
 ) -> str:
     """The worked solution as a page to step through.
 
@@ -89,21 +89,23 @@ def handout_page(
     lesson : the solution on paper, for printing
     views : a lesson for each position of the driver on the screen
     start : the index of the given position
-    progress : called with the number of finished positions and of all moving : the motion that the page plays
-        (`motion_data`)
-    worked : the stages of the solution, if they are made already
+    progress : called with the number of finished positions and of all
+    moving : the motion that the page plays (`motion_data`)
+    worked : the stages of the solution (`solution_blocks`)
     """
-    stages = tuple(solution_blocks(lesson, tuple(given(lesson))) if worked is None else worked)
+    stages = tuple(worked)
     whole = solution(lesson, stages)
     first = languages(lesson.language)[0]
-
     paper = lesson.sheet.scene.question.sheet.paper
     data = {
         **positions_data(views, progress),
         "start": start,
-        "moving": dict(moving or {}),
+        "moving": moving,
         "room": _tolerances(lesson),
-        "words": {key: _to_fill(of, lesson.language) for key, of in SPOKEN.items()},
+        "words": {  # sentences whose gaps the page fills by their names
+            name: _side_by_side(said(key, lesson.language, **{gap: f"{{{gap}}}" for gap in gaps_of(key)}))
+            for name, key in SPOKEN.items()
+        },
     }
     keys = said("keys", lesson.language)
     shown = said("positions words" if len(views) > 1 else "position words", lesson.language, count=len(views))
@@ -140,12 +142,7 @@ def _side_by_side(words: Said) -> str:
     return " / ".join(text for _, text in words)
 
 
-def _to_fill(key: str, language: str) -> str:
-    """A sentence whose gaps the page fills by their names."""
-    return _side_by_side(said(key, language, **{gap: f"{{{gap}}}" for gap in gaps_of(key)}))
-
-
-def positions_data(views: Sequence[Lesson], progress: Progress | None = None) -> dict[str, object]:
+def positions_data(views: Sequence[Lesson], progress: Progress | None) -> dict[str, object]:
     """Names, figures and steps of the positions for the page, and the stages of all of them, each once.
 
     Values are grouped by key over all positions, those of figures and steps row by row (None where a position has
@@ -315,7 +312,7 @@ def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
         return
     sheet, first = lesson.scaled, languages(language)[0]
     scale = words_html(scale_statement(sheet, lesson.letters.convention, "force"), first)
-    for turn, stage in enumerate(ForceAccount(sheet, forces, lesson.letters).stages()):
+    for turn, (stage, load, items) in enumerate(force_stages(lesson)):
         name, svg, group = str(stage.figure), "", stage.group
         title = said_html(stage.heading(language))
         if group.links:
@@ -325,11 +322,9 @@ def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
             figures.append(_figure(name, drawn, said_html(whose), scale, named=True))
             equation = group_equation(page, group)
             svg = "" if equation is None else svg_element(equation)
-        if len(forces.states) > 1 and group.links:
-            load = said("force with load" if stage.again else "force without load", language)
-            title += f" <small>{said_html(load)}</small>"
-        steps = ((StepItem(s.number, s.words(language), s.lines(language)), s) for s in stage.steps)
-        yield {"title": title, "svg": svg}, name, [(item, _force_found(lesson, stage, step)) for item, step in steps]
+        title += f" <small>{said_html(load)}</small>" if load else ""
+        found = (_force_found(lesson, stage, step) for step in stage.steps)
+        yield {"title": title, "svg": svg}, name, [*zip(items, found, strict=True)]
     lever = lever_figure(sheet, forces, language=language, convention=lesson.convention)
     if lever is not None:
         figures.append(_figure("lever", lever, said_html(said("lever", language))))
@@ -419,7 +414,10 @@ def motion_data(
     tracks: list[Track] = []
 
     def place(z: Array) -> int:
-        track = _track(z, rows)
+        track: Track = []
+        for at in np.asarray(z)[rows].tolist():
+            sound = math.isfinite(at.real) and math.isfinite(at.imag)
+            track += [round(at.real, 2) + 0.0, round(-at.imag, 2) + 0.0] if sound else [None, None]
         if track not in tracks:
             tracks.append(track)
         return tracks.index(track)
@@ -455,14 +453,6 @@ def motion_data(
         "acceleration": _vectors(motion, sheet, letters, "acceleration", place),
         "tracks": tracks,
     }
-
-
-def _track(z: Array, rows: Sequence[int]) -> Track:
-    track: Track = []
-    for place in np.asarray(z)[rows].tolist():
-        sound = math.isfinite(place.real) and math.isfinite(place.imag)
-        track += [round(place.real, 2) + 0.0, round(-place.imag, 2) + 0.0] if sound else [None, None]
-    return track
 
 
 def _guide(motion: Motion, on: str, guide: str, size: float, length: float) -> list[Array]:
