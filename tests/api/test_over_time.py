@@ -143,6 +143,12 @@ def test_the_angle_between_two_links_counts_its_whole_turns_over_the_time():
     }
 
 
+def test_a_size_that_is_least_where_the_law_begins_is_told_there():
+    law = {"table": [[0, 20], [0.1, 60], [0.2, 130], [0.3, 220]]}
+    speed = graphkin.sweep(crank(time=0.1, law=law), find=["v_B"], positions=5).data["outputs"]["v_B"]
+    assert [0, 0.3] == [speed["least"]["time"], speed["greatest"]["time"]]
+
+
 def test_a_scene_with_a_law_is_written_and_read_again(tmp_path):
     for name, given in (("crank", crank(angle=50, law=LAW)), ("five-bar", five_bar())):
         scene = graphkin.read(given)
