@@ -27,7 +27,12 @@ def how_found(centres: Centres, centre: Centre, name: Callable[[LinkPair], str])
         return Phrase(key, centre=centre.pair, joint=centre.joint)
     if centre.way:
         return Phrase(f"centre {centre.way}", centre=centre.pair, kept=", ".join(centres.kept))
+    through = [line.through for line in centre.lines]
+    endless = [all(not isinstance(end, str) and centres.of(*end).point is None for end in ends) for ends in through]
     first, second = (line_through(line, name, lambda pin: f"n({pin})") for line in centre.lines)
+    if any(endless):
+        line, infinite = (second, first) if endless[0] else (first, second)
+        return Phrase("centre at infinity on", centre=centre.pair, line=line, infinite=infinite)
     key = "centre crossing far" if far else "centre crossing"
     return Phrase(key, centre=centre.pair, first=first, second=second)
 
@@ -119,7 +124,8 @@ def _of_link(
         "centre": new.pair,
     }  # fmt: skip
     if new.point is None:  # it only translates
-        return _Rate("0" if nothing else amount(turning.omega)), Phrase("centre slides", **gaps)
+        key = "centre slides otherwise" if common.point is None else "centre slides"
+        return _Rate("0" if nothing else amount(turning.omega)), Phrase(key, **gaps)
     if common.point is None:  # it turns as the other does
         return _Rate("0") if nothing else known, Phrase("centre turns alike", **gaps)
     near, far = _apart(new.point, common.point), None if its.point is None else _apart(common.point, its.point)

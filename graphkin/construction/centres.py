@@ -548,7 +548,8 @@ CERTAIN = 1e-6  # of the driver's own: a link whose motion may err by more waits
 
 
 def _chained(centres: Centres) -> dict[str, Turning]:
-    """The motion of every link from the links before it, the shortest chains first."""
+    """The motion of every link from the links before it, the shortest chains first; from one translating link to
+    another, whose common centre lies at infinity too, only where no other chain leads there."""
     frame = centres.scene.frame.name
     moving = [d for d in centres.scene.drivers if d.values[1] != 0.0]
     if not moving:
@@ -562,8 +563,9 @@ def _chained(centres: Centres) -> dict[str, Turning]:
         known = [t for t in found.values() if t.link != frame and (last or len(t.chain) == steps)]
         for name in (name for name in centres.names if name not in found):
             # from one link to the next by their common centre
-            chains = [_carried(t, centres.of(t.link, frame), centres.of(name, t.link), centres.of(name, frame),
-                               (*t.chain, name)) for t in known]  # fmt: skip
+            threes = [(t, centres.of(t.link, frame), centres.of(name, t.link), centres.of(name, frame)) for t in known]
+            chains = [_carried(t, *three, (*t.chain, name)) for t, *three in threes
+                      if last or any(centre.point is not None for centre in three)]  # fmt: skip
             best = min((t for t in chains if t is not None), key=lambda turning: turning.error, default=None)
             if best is not None and (last or best.error <= max(largest, CERTAIN * abs(best.strength))):
                 fresh[name] = best

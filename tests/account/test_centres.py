@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
-from graphkin.account.centres import velocity_sentences
+from graphkin.account.centres import how_found, velocity_sentences
 from graphkin.api.centred import centres as checked_centres
 from graphkin.construction.centres import find_centres
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol
-from graphkin.words import written
+from graphkin.words import say, written
 from tests.bench.attack import mechanism
 from tests.mechanisms import random_scene
 
@@ -54,6 +55,40 @@ def test_a_residue_is_no_rate_of_a_velocity_by_centres() -> None:
     found = checked_centres(scene, at=121.65525060596437)
     told = [str(arg) for phrase in velocity_sentences(found.centres) for arg in phrase.gaps.values()]
     assert [] == [text for text in told if "e-" in text or "e−" in text]
+
+
+def told(scene: str | dict[str, Any]) -> list[str]:
+    """The construction of every centre, then the sentences on velocities."""
+
+    def name(pair: object) -> str:
+        return f"P{''.join(sorted(pair))}" if isinstance(pair, tuple) else str(pair)
+
+    centres = find_centres(mechanism_of(scene))
+    phrases = (*(how_found(centres, c, name) for c in centres.found), *velocity_sentences(centres))
+    return [say(phrase, "en", name) for phrase in phrases]
+
+
+def test_a_link_that_slides_has_the_velocity_of_a_link_that_turns_at_their_common_centre() -> None:
+    # both slides go their own ways: they have no velocity in common
+    said = told("elliptic-trammel")
+    assert "link 3 translates with the velocity that link 2 has at P23" in said
+    assert "P13 lies at infinity on P12P23, for P14P34 is the line at infinity" in said
+
+
+def test_velocities_of_two_slides_that_push_each_other_differ_square_to_the_direction_of_their_centre() -> None:
+    guides = {"x": {"through": [0, 0], "angle": 0}, "y": {"through": [0, 0], "angle": 90}}
+    wedge = {
+        "frame": {"guides": guides},
+        "links": {
+            "1": {"on": "0.x", "guides": {"s": {"through": [0, 10], "angle": 30}}},
+            "2": {"points": ["P"], "on": "0.y"},
+        },
+        "pins": {"P": {"of": "2", "in": "1.s"}},
+        "driver": {"slide": "1", "travel": -30, "velocity": 12},
+    }
+    said = told(wedge)
+    assert "P12 lies at infinity on n(P/1), for P01P02 is the line at infinity" in said
+    assert said[-1].endswith("P12 lies at infinity: their velocities differ by one square to that direction")
 
 
 def unit_of(number: str) -> float:
