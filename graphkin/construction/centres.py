@@ -563,8 +563,8 @@ def _chained(centres: Centres) -> dict[str, Turning]:
         known = [t for t in found.values() if t.link != frame and (last or len(t.chain) == steps)]
         for name in (name for name in centres.names if name not in found):
             # from one link to the next by their common centre
-            threes = [(t, centres.of(t.link, frame), centres.of(name, t.link), centres.of(name, frame)) for t in known]
-            chains = [_carried(t, *three, (*t.chain, name)) for t, *three in threes
+            threes = [(centres.of(t.link, frame), centres.of(name, t.link), centres.of(name, frame)) for t in known]
+            chains = [_carried(t, *three, (*t.chain, name)) for t, three in zip(known, threes, strict=True)
                       if last or any(centre.point is not None for centre in three)]  # fmt: skip
             best = min((t for t in chains if t is not None), key=lambda turning: turning.error, default=None)
             if best is not None and (last or best.error <= max(largest, CERTAIN * abs(best.strength))):
