@@ -213,11 +213,13 @@ def matrix_latex(matrix: MatrixEquation) -> str:
 
 @dataclass(frozen=True)
 class LoopText:
-    """The loops of a position; the command prints ``plain`` or ``latex``."""
+    """The loops of a position; the command prints ``plain`` or ``latex``.  ``rolling`` tells that cams, gears or rolling
+    contacts give rates that the loops alone leave open."""
 
     scene: Mechanism
     blocks: tuple[LoopBlock, ...]
     language: str = "en"
+    rolling: bool = False
 
     @cached_property
     def data(self) -> list[dict[str, Json]]:
@@ -277,6 +279,8 @@ class LoopText:
                 lines += [f"  {word(matrix.key, self.language)}", *matrix_lines(matrix)]
                 lines.append("  " + ", ".join(map(plain_words, matrix.solution)))
             lines.append("")
+        if self.rolling:
+            lines.append(word("loops and rolling", self.language))
         return "\n".join(lines or [word("no loops", self.language)]).rstrip()
 
     @property
@@ -304,4 +308,9 @@ def loops_text(motion: Motion, language: str) -> LoopText:
     axes = {name: complex(pose.u[k]) for name, pose in motion.poses.items()}
     travels = {s.key: float(motion.slide(s.key).travel[k]) for s in motion.slides}
     travels = {key: value for key, value in travels.items() if math.isfinite(value)}
-    return LoopText(motion.scene, loops_in_numbers(motion.structure, axes, travels), language)
+    blocks = loops_in_numbers(motion.structure, axes, travels)
+    in_loops = {name for block in blocks for loop in block.loops for name in loop.links}
+    structure = motion.structure
+    rolling = any(not e.driver.given for e in structure.driven) or any(g.rolling for g in structure.larger_groups)
+    left = any(not in_loops.issuperset(group.links) for group in structure.groups)
+    return LoopText(motion.scene, blocks, language, rolling and (left or not blocks))

@@ -24,3 +24,9 @@ def test_a_power_of_ten_is_no_index_for_a_terminal():
 ])  # fmt: skip
 def test_a_line_is_set_in_latex_symbol_by_symbol(latex: str, markup: str):
     assert latex == as_latex(markup)
+
+
+@pytest.mark.parametrize("scene", ["geared-five-bar", "cam-flat-face"])
+def test_where_gears_or_cams_move_links_it_is_not_said_that_nothing_but_the_driver_moves(scene: str):
+    said = graphkin.solve(scene).loops().plain
+    assert "cams, gears or rolling contacts move what no loop of bars and guides alone gives" == said
