@@ -213,8 +213,8 @@ def matrix_latex(matrix: MatrixEquation) -> str:
 
 @dataclass(frozen=True)
 class LoopText:
-    """The loops of a position; the command prints ``plain`` or ``latex``.  ``rolling`` tells that cams, gears or rolling
-    contacts give rates that the loops alone leave open."""
+    """The loops of a position; the command prints ``plain`` or ``latex``.  ``rolling`` tells that cams, gears or
+    rolling contacts give rates that the loops alone leave open."""
 
     scene: Mechanism
     blocks: tuple[LoopBlock, ...]
