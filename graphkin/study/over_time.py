@@ -71,7 +71,8 @@ class TimeAxis(Axis):
         return np.asarray(quantity.values(None, self.motion), dtype=float)
 
     def values(self, quantity: Quantity, places: Array) -> Array:
-        within = (places >= self.left) & (places <= self.right)  # a law says nothing of what comes before and after it
+        low, high = self.ends
+        within = (places >= low) & (places <= high)  # a law says nothing of what comes before and after it
         values = np.full(np.shape(places), np.nan)
         values[within] = quantity.values(None, over_time(self.structure, places[within], extended=False))
         if quantity.measure != "angle":
