@@ -364,7 +364,8 @@ def _polished(way: CurveParameter, curves: Sequence[Curve], turns: Sequence[Sequ
 
 
 def _extremes(way: CurveParameter, curves: Sequence[Curve]) -> list[tuple[Extreme, ...]]:
-    """The extremes of each curve, and of a position over a range that ends its values at the ends."""
+    """The extremes of each curve, and of a position its values where the motion ends (not where it is followed no
+    further)."""
     reach = way.reach
     low, high = reach.ends
     turns = [
@@ -378,8 +379,8 @@ def _extremes(way: CurveParameter, curves: Sequence[Curve]) -> list[tuple[Extrem
     for curve, own, places, fine in zip(curves, turns, offsets, values, strict=True):
         ends: list[list[Extreme]] = [[], []]
         if not reach.full and curve.quantity.is_position:
-            ends = [[Extreme("end", at, driver_value(reach, at), way.end(curve, k))]
-                    for k, at in enumerate((low, high))]  # fmt: skip
+            ends = [[Extreme("end", at, driver_value(reach, at), way.end(curve, k))] if limited else []
+                    for k, (at, limited) in enumerate(zip((low, high), reach.limited, strict=True))]  # fmt: skip
         inner = []
         for turn, place, value in zip(own, places.tolist(), fine.tolist(), strict=True):
             # at a jump both values stand at one place

@@ -32,7 +32,8 @@ class Output:
 
     position : its angle or travel over the turn; the extremes are the limit positions, in which the mechanism is at a
         dead point when the output drives it
-    turned : its angle over the range of the driver (rad; 0 for a slide, and for a link that comes back)
+    turned : its angle, or its travel where the motion is followed no further, over the range of the driver (rad, m; 0
+        for what comes back)
     """
 
     position: Traced
@@ -65,13 +66,15 @@ class Output:
         return self.high.value - self.low.value if self.low and self.high else None
 
     @property
-    def without(self) -> Literal["goes away", "not computed", "does not move", "turns on"]:
+    def without(self) -> Literal["goes away", "not computed", "does not move", "turns on", "slides on"]:
         """The phrase for an output without a stroke."""
         if self.unbounded:
             return "goes away"
         if self.not_computed:
             return "not computed"
-        return "does not move" if self.position.constant is not None else "turns on"
+        if self.position.constant is not None:
+            return "does not move"
+        return "turns on" if self.quantity.is_angle else "slides on"
 
     @property
     def unbounded(self) -> bool:
@@ -429,10 +432,17 @@ def output_slides(motion: Motion) -> tuple[str, ...]:
 
 
 def _output(reach: DriverRange, position: Traced) -> Output:
-    if position.constant is None and position.quantity.is_angle and reach.full:
-        turned = float(np.diff(position.quantity.values(reach, reach.at_ends))[0])
-        return Output(position, turned if abs(turned) > 1.0 else 0.0)
-    return Output(position)
+    if position.constant is not None or not (reach.full or not all(reach.limited)):
+        return Output(position)
+    at_ends = position.quantity.values(reach, reach.at_ends)
+    turned = float(np.diff(at_ends)[0])
+    if reach.full:
+        return Output(position, turned if position.quantity.is_angle and abs(turned) > 1.0 else 0.0)
+    # where the motion is followed no further, it comes back if its own limits hold it there
+    places, room = [e.value for e in position.extremes], BESIDE * (1.0 + abs(turned))
+    open_ends = at_ends[~np.array(reach.limited)]
+    held = len(places) > 1 and min(places) - room <= min(open_ends) and max(open_ends) <= max(places) + room
+    return Output(position, 0.0 if held else turned)
 
 
 BESIDE = 1e-9
@@ -480,7 +490,12 @@ def _elsewhere(reach: DriverRange, dyads: list[int], own: Stretch) -> list[Stret
             joined.append((low, high))
     # what the motion reaches stands by itself, of a driver that turns at the beginning
     apart = [part for low, high in joined for part in ((low, min(high, own.low)), (max(low, own.high), high))]
-    apart = [(low, high) for low, high in apart if high - low > 2 * BESIDE]
+    # beyond where it is followed no further the motion goes on
+    beyond = [(own.low, own.open_low), (own.high, own.open_high)]
+    apart = [
+        (low, high) for low, high in apart
+        if high - low > 2 * BESIDE and not any(is_open and end in (low, high) for end, is_open in beyond)
+    ]  # fmt: skip
     if turning:
         # with their middles in (-pi, pi]
         shifts = (2 * np.pi * float(np.ceil(((low + high) / 2 - np.pi - 1e-9) / (2 * np.pi))) for low, high in apart)

@@ -169,10 +169,9 @@ def design_row(turn: TurnStudy) -> dict[str, float | str | None]:
     scene = turn.scene
     length = scene.units.length
     cells: dict[str, float | str | None] = {}
-    low, high = turn.ranges[0].low, turn.ranges[0].high
-    unit = scene.unit_of(scene.drivers[0])
-    cells[f"range_low ({unit.text})"] = unit.of(low)
-    cells[f"range_high ({unit.text})"] = unit.of(high)
+    own, unit = turn.ranges[0], scene.unit_of(scene.drivers[0])
+    cells[f"range_low ({unit.text})"] = None if own.open_low else unit.of(own.low)
+    cells[f"range_high ({unit.text})"] = None if own.open_high else unit.of(own.high)
     for output in turn.outputs:
         quantity, stroke = output.quantity, output.stroke
         name = quantity.of

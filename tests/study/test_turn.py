@@ -6,6 +6,7 @@ import json
 import math
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -124,6 +125,54 @@ def test_position_at_the_end_of_the_motion_keeps_its_digits() -> None:
 def test_rates_that_grow_without_bound_have_no_zeros_there() -> None:
     alpha = next(t for t in turn_of("sixbar-AE70").curves if t.quantity.name == "alpha_4")
     assert alpha.zeros == (0.0,)
+
+
+WEDGE: dict[str, Any] = {
+    "frame": {"guides": {"x": {"through": [0, 0], "angle": 0}, "y": {"through": [0, 0], "angle": 90}}},
+    "links": {
+        "1": {"on": "0.x", "guides": {"s": {"through": [0, 10], "angle": 30}}},
+        "2": {"points": ["P"], "on": "0.y"},
+    },
+    "pins": {"P": {"of": "2", "in": "1.s"}},
+    "driver": {"slide": "1", "travel": -30, "velocity": 12},
+}
+
+
+def discs(first: float, second: float) -> dict[str, Any]:
+    """Two discs that roll on each other; the second moves a slide by a rod on its crank of 10."""
+    links: dict[str, Any] = {
+        "1": {"points": ["A"], "discs": {"k": {"centre": "A", "r": first}}},
+        "2": {"points": ["D"], "at": {"Q": [10, 0]}, "discs": {"k": {"centre": "D", "r": second}}},
+        "3": {"points": ["Q", "T"], "length": 80},
+        "4": {"points": ["T"], "on": "0"},
+    }
+    return {
+        "frame": {"points": {"A": [0, 0], "D": [50, 0]}},
+        "links": links,
+        "contacts": {"K": {"between": ["1.k", "2.k"], "rolling": True}},
+        "driver": {"link": "1", "angle": 0, "omega": 3},
+    }
+
+
+def test_a_slide_that_is_followed_no_further_has_no_stroke_and_goes_on() -> None:
+    (output,) = study_turn(driver_range(mechanism_of(WEDGE))).outputs
+    assert (None, "slides on", ()) == (output.stroke, output.without, output.position.extremes)
+
+
+def test_what_lies_beyond_a_motion_that_is_followed_no_further_is_no_other_assembly() -> None:
+    found = study_turn(driver_range(mechanism_of(WEDGE))).ranges
+    assert [(True, True, True)] == [(r.reached, r.open_low, r.open_high) for r in found]
+
+
+def test_a_wheel_whose_motion_does_not_close_turns_on_and_on() -> None:
+    (output,) = turn_of("gears-epicyclic").outputs
+    assert (None, "turns on") == (output.stroke, output.without)
+
+
+def test_limit_positions_are_not_where_a_motion_is_followed_no_further() -> None:
+    wheel, slide = study_turn(driver_range(mechanism_of(discs(21, 29)))).outputs
+    assert (None, "turns on") == (wheel.stroke, wheel.without)
+    assert {0.12, 0.14} == {round(e.value, 9) for e in slide.position.extremes}
 
 
 FOUR_BAR = scenes.four_bar(150, 500, 300, 400)
