@@ -491,11 +491,10 @@ def _elsewhere(reach: DriverRange, dyads: list[int], own: Stretch) -> list[Stret
     # what the motion reaches stands by itself, of a driver that turns at the beginning
     apart = [part for low, high in joined for part in ((low, min(high, own.low)), (max(low, own.high), high))]
     # beyond where it is followed no further the motion goes on
-    beyond = [(own.low, own.open_low), (own.high, own.open_high)]
+    beyond = [end for end, limited in zip((own.low, own.high), own.ends, strict=True) if not limited]
     apart = [
-        (low, high) for low, high in apart
-        if high - low > 2 * BESIDE and not any(is_open and end in (low, high) for end, is_open in beyond)
-    ]  # fmt: skip
+        (low, high) for low, high in apart if high - low > 2 * BESIDE and not any(end in (low, high) for end in beyond)
+    ]
     if turning:
         # with their middles in (-pi, pi]
         shifts = (2 * np.pi * float(np.ceil(((low + high) / 2 - np.pi - 1e-9) / (2 * np.pi))) for low, high in apart)

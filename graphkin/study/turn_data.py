@@ -170,8 +170,8 @@ def design_row(turn: TurnStudy) -> dict[str, float | str | None]:
     length = scene.units.length
     cells: dict[str, float | str | None] = {}
     own, unit = turn.ranges[0], scene.unit_of(scene.drivers[0])
-    cells[f"range_low ({unit.text})"] = None if own.open_low else unit.of(own.low)
-    cells[f"range_high ({unit.text})"] = None if own.open_high else unit.of(own.high)
+    for name, value, limited in zip(("low", "high"), (own.low, own.high), own.ends, strict=True):
+        cells[f"range_{name} ({unit.text})"] = unit.of(value) if limited or turn.reach.full else None
     for output in turn.outputs:
         quantity, stroke = output.quantity, output.stroke
         name = quantity.of
