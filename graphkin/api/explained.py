@@ -16,8 +16,7 @@ from graphkin.api.results import OfScene, Result
 from graphkin.construction import EXACT, execute, plan
 from graphkin.errors import GraphkinError, Unsolvable
 from graphkin.files import Json
-from graphkin.scene.force_names import forces_named
-from graphkin.scene.model import Driver, Mechanism, PlacedLink
+from graphkin.scene.model import Driver, Mechanism, PlacedLink, forces_named
 from graphkin.scene.pairs import PlacedGuide
 from graphkin.scene.scene import SceneLike
 from graphkin.structure import LargerGroup, Structure, group_named, mobility_of

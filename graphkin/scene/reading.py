@@ -27,9 +27,8 @@ from graphkin.scene.bodies import (
     with_carriages,
 )
 from graphkin.scene.drivers import drives, placed_driver, stated_driver
-from graphkin.scene.force_names import no_force
 from graphkin.scene.loads import loading_of
-from graphkin.scene.model import Loading, Mechanism, PlacedLink, Question
+from graphkin.scene.model import Loading, Mechanism, PlacedLink, Question, no_force
 from graphkin.scene.pairs import LawCam
 from graphkin.scene.pictures import background_of, scans_of
 from graphkin.scene.scene_tables import Frame, Guide, Link, SceneTables

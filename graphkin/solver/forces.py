@@ -17,8 +17,7 @@ from functools import cached_property
 import numpy as np
 
 from graphkin.plane import cross
-from graphkin.scene.force_names import ForceJoint, joints
-from graphkin.scene.model import EDGE, LoadOn, SpringOn
+from graphkin.scene.model import EDGE, ForceJoint, LoadOn, SpringOn, joints
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.cams import cam_angle, cam_at
 from graphkin.solver.constraints import solve_all

@@ -10,8 +10,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from graphkin.errors import CallError
-from graphkin.scene.force_names import force_of
-from graphkin.scene.model import Dimension, Mechanism, dimensions
+from graphkin.scene.model import Dimension, Mechanism, dimensions, force_of
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Measure
 from graphkin.solver.bounds import error_bounds

@@ -20,8 +20,7 @@ import numpy as np
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.files import Json
 from graphkin.files import json_text as one_line
-from graphkin.scene.force_names import no_force
-from graphkin.scene.model import Mechanism
+from graphkin.scene.model import Mechanism, no_force
 from graphkin.scene.scene_tables import LoadPhase
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.search import changes

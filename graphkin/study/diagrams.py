@@ -24,8 +24,7 @@ from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece
 from graphkin.drawing.text import rich
 from graphkin.errors import GraphkinError, Unsolvable
-from graphkin.scene.force_names import forces_named
-from graphkin.scene.model import Mechanism
+from graphkin.scene.model import Mechanism, forces_named
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Unit
 from graphkin.solver import DriverRange

@@ -14,7 +14,7 @@ import numpy as np
 from graphkin.account.spoken import spoken_words
 from graphkin.drawing import Box, chart
 from graphkin.drawing.ink.primitives import Stroke
-from graphkin.scene.force_names import forces_named
+from graphkin.scene.model import forces_named
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange
 from graphkin.solver.forces import forces_of

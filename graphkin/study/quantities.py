@@ -10,8 +10,7 @@ from functools import partial
 
 import numpy as np
 
-from graphkin.scene.force_names import forces_named
-from graphkin.scene.model import Mechanism
+from graphkin.scene.model import Mechanism, forces_named
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Measure, Unit
 from graphkin.solver import DriverRange, Motion, listed_points, own_slides

@@ -19,7 +19,7 @@ from graphkin.construction.forces.groups import CutFree
 from graphkin.errors import Unsolvable
 from graphkin.plane import cross
 from graphkin.scene import mechanism_of
-from graphkin.scene.force_names import joints
+from graphkin.scene.model import joints
 from graphkin.scene.symbol import Symbol
 from tests.mechanisms import KINDS, floating_cylinder, random_scene, redriven
 from tests.solver.test_forces import CASES, PLACES, loaded, number, scene_of

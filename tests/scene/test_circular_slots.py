@@ -12,7 +12,7 @@ import graphkin
 from graphkin.account.headings import structure_words
 from graphkin.errors import SceneError
 from graphkin.scene import mechanism_of
-from graphkin.scene.force_names import joints
+from graphkin.scene.model import joints
 from graphkin.scene.reading import as_mapping
 
 pytestmark = pytest.mark.quick

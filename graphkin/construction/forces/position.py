@@ -21,8 +21,7 @@ from graphkin.construction.links_on_paper import travel
 from graphkin.construction.sheet import Sheet
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot, unit
-from graphkin.scene.force_names import ForceJoint, hosts_at, joints
-from graphkin.scene.model import Driver, LinkMass, LoadOn, SpringOn
+from graphkin.scene.model import Driver, ForceJoint, LinkMass, LoadOn, SpringOn, hosts_at, joints
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Element, LargerGroup, Pair, Structure, analyse
 from graphkin.words import Phrase
