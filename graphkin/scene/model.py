@@ -1,5 +1,5 @@
-"""The one model of a mechanism: links, pairs, drivers, sizes; its question; the joints that carry forces, and its forces
-by name; and the numbers in which designs of one mechanism differ.
+"""The one model of a mechanism: links, pairs, drivers, sizes; its question; the numbers in which designs of one
+mechanism differ; the joints that carry forces, and its forces by name.
 
 Plane quantities are complex numbers (x + iy), lengths in m, angles in rad, times in s.
 A scene is a value: nothing stores results in it.
@@ -16,7 +16,16 @@ from typing import Any, Literal
 from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.laws import MotionLaw
 from graphkin.scene.pairs import CircularSlot, LawCam, PlacedContact, PlacedGear, PlacedGuide, SlidingPair
-from graphkin.scene.scene_tables import Disc, Flywheel, LoadPhase, Positions, SceneTables, SheetWishes, Vary, no_position
+from graphkin.scene.scene_tables import (
+    Disc,
+    Flywheel,
+    LoadPhase,
+    Positions,
+    SceneTables,
+    SheetWishes,
+    Vary,
+    no_position,
+)
 from graphkin.scene.symbol import PointRef, Printed, Symbol
 from graphkin.scene.tables import Measure, Unit, Units
 
