@@ -142,8 +142,9 @@ def place(
 def _dyad_steps(board: Board, paper: PlacedLinks, dyad: Dyad, intersection: Intersection, index: int) -> Steps:
     """The steps of a dyad's loci; on the board the words for its assembly, and the remarks on its accuracy."""
     whose, outer_first, outer_second = group_named(dyad), dyad.outer_first, dyad.outer_second
-    of = dyad.inner.point if dyad.inner.turns else whose
-    board.notice("mechanism", "sharp crossing", of, size=intersection.sharpness)
+    point, turned = dyad.inner.point, Symbol("omega", link=(dyad.links or dyad.members)[0])
+    result, finds = (point, Symbol("v", PointRef(point))) if dyad.inner.turns else (whose, turned)
+    board.notice("mechanism", "sharp crossing", result, size=intersection.sharpness, finds=finds)
     if not dyad.inner.turns and outer_first.turns and outer_second.turns:
         apart = abs(paper.point(outer_first.b, outer_first.point) - paper.point(outer_second.b, outer_second.point))
         board.notice("mechanism", "short arm", whose, outer_first.point, outer_second.point, size=apart)

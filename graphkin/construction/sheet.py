@@ -35,7 +35,7 @@ from graphkin.plane import Pose, cross, cross_lines
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene_tables import DIAGRAMS, Diagram
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import group_named, leading, links_for
+from graphkin.structure import leading, links_for
 from graphkin.structure.model import Element, LargerGroup, Structure
 from graphkin.words import Phrase, gaps_of
 
@@ -80,12 +80,14 @@ class Remark:
         contact is drawn at the contact itself, or as a pin on the pitch curve, not by its replacement
     of : the thing found there, or its subject
     size : the sine of the angle of a sharp crossing, the factor of magnification, else a length on paper (mm)
+    finds : the quantity that a sharp crossing finds, of a place its velocity
     """
 
     diagram: DiagramName
     key: Remarkable
     of: tuple[str | Symbol | Phrase, ...]
     size: float = 0.0
+    finds: Symbol | None = None
 
     @property
     def holds(self) -> bool:
@@ -468,10 +470,7 @@ def _residues(sheet: Sheet) -> set[Symbol]:
     )
     # the largest vector that leads to one (mm), and how sharp the crossings are
     fastest, pushed = (greatest_before(structure, mm.items()) for mm in (velocity, acceleration))
-    crossings = [
-        (r.diagram, _crossing(structure, r), 1.0 / max(r.size, 1e-9))
-        for r in sheet.noticed if r.key == "sharp crossing"
-    ]  # fmt: skip
+    crossings = [(r.diagram, r.finds, 1.0 / max(r.size, 1e-9)) for r in sheet.noticed if r.finds is not None]
     sharp_before, sharp = (
         greatest_before(structure, ((symbol, lean) for diagram, symbol, lean in crossings if diagram in diagrams))
         for diagrams in (("mechanism", "velocity"), ("mechanism", "velocity", "acceleration"))
@@ -503,15 +502,6 @@ def _residues(sheet: Sheet) -> set[Symbol]:
         if nothing and mm != 0.0:
             zero.add(symbol)
     return zero
-
-
-def _crossing(structure: Structure, remark: Remark) -> Symbol:
-    """The quantity that a crossing finds: its own, or the velocity of a point or of a group."""
-    (of,) = remark.of
-    if isinstance(of, Phrase):
-        group = next(g for g in structure.groups if group_named(g) == of)
-        return Symbol("omega", link=(group.links or group.members)[0])
-    return of if isinstance(of, Symbol) else Symbol("v", PointRef(of))
 
 
 # -- the board on which it grows ---------------------------------------------------------------------------------------
@@ -567,9 +557,12 @@ class Board:
         self.steps[-1] = replace(last, strokes=(*last.strokes, mark))
         return True
 
-    def notice(self, diagram: DiagramName, key: Remarkable, *of: str | Symbol | Phrase, size: float = 0.0) -> None:
+    def notice(
+        self, diagram: DiagramName, key: Remarkable, *of: str | Symbol | Phrase, size: float = 0.0,
+        finds: Symbol | None = None,
+    ) -> None:  # fmt: skip
         """Note a possible remark, for this scale or another."""
-        self.noticed.append(Remark(diagram, key, of, size))
+        self.noticed.append(Remark(diagram, key, of, size, finds))
 
     def cross(
         self, diagram: DiagramName, p: complex, d: complex, q: complex, e: complex, what: str | Symbol
@@ -586,6 +579,7 @@ class Board:
         if sine < PARALLEL or at is None:
             said = Phrase("the two lines that should find it are"), Phrase("move the driver off this position")
             raise Unsolvable("dead point", Problem(str(what), *said))
-        self.notice(diagram, "sharp crossing", what, size=sine)
+        finds = what if isinstance(what, Symbol) else Symbol("v", PointRef(what))
+        self.notice(diagram, "sharp crossing", what, size=sine, finds=finds)
         self.notice(diagram, "off the sheet", what, size=max(abs(at - p), abs(at - q)))
         return self.instrument.point(at)
