@@ -17,8 +17,7 @@ from typing import TYPE_CHECKING, get_args
 
 from graphkin.errors import CallError, Problem, as_list, did_you_mean, unfit
 from graphkin.scene.asked import known_symbol
-from graphkin.scene.force_names import force_of, no_force
-from graphkin.scene.model import Driver, Mechanism
+from graphkin.scene.model import Driver, Mechanism, force_of, no_force
 from graphkin.scene.scene import SceneLike, mechanism_of
 from graphkin.scene.scene_tables import Convention, SheetWishes
 from graphkin.scene.symbol import Symbol

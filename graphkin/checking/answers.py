@@ -10,8 +10,7 @@ from typing import Literal
 
 from graphkin.errors import CallError, Problem
 from graphkin.scene.asked import known_symbol, spelling_of
-from graphkin.scene.force_names import no_force
-from graphkin.scene.model import Mechanism
+from graphkin.scene.model import Mechanism, no_force
 from graphkin.scene.spelling import is_blank, plain_text, read_cell, read_way, unit_factor
 from graphkin.scene.symbol import KINDS, Printed, Symbol
 from graphkin.table import Rows, table_of
