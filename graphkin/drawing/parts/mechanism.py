@@ -24,9 +24,11 @@ from graphkin.drawing.ink.primitives import (
     Polygon,
     Polyline,
     Primitive,
+    Segment,
     Stroke,
     Text,
     on_page,
+    page_direction,
 )
 from graphkin.drawing.ink.symbols import POINTER, arrowhead
 from graphkin.drawing.parts.dimensioning import drawn_lengths
@@ -47,7 +49,7 @@ from graphkin.drawing.parts.touching import (
     within_round_body,
 )
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.obstacles import RateArrowClearance
+from graphkin.drawing.place.obstacles import clearest_arc
 from graphkin.drawing.place.piece import Piece, cut_to, dated, ink_box, joined, kept_in, middle_of
 from graphkin.drawing.text import plain, symbol
 from graphkin.plane import added_up, cross, dot, unit
@@ -357,9 +359,8 @@ def mechanism_piece(sheet: Sheet, letters: Letters, room: tuple[float, float] | 
     strokes far beyond its points are cut at the edge of the room.
     """
     here = MechanismOnPaper(sheet, letters)
-    clear = clearance(here)
     placed = contact_marks(here), links(here), _springs(here), compass_arcs(here), trial_marks_in_mechanism(sheet)
-    bare = joined((*placed, joints(here), drivers(here, clear), found_rates(here, clear)))
+    bare = joined((*placed, joints(here), rate_arrows(here)))
     around = ink_box(bare.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     if room is None or _fits(around, room):
         piece = _with_lengths(here, bare, None, room)
@@ -415,49 +416,58 @@ def _with_lengths(
     return joined((bare, dated(lengths, here.stands), link_names(here, panel), _marks(here)))
 
 
-DRIVER_RADIUS, RADIUS = 6.5, 5.5
+LEAST_RADII = {"mechanism": 6.5, "answers": 5.5}  # mm, of the arcs of drivers and of measured rates
 
 
-def clearance(here: MechanismOnPaper) -> RateArrowClearance:
-    """The strokes from which arcs keep clear."""
-    segments = [segment for shape in here.shapes for segment in shape.segments]
-    segments += [(z, z + 0.01) for z in here.places.values()]
+def _in_the_way(here: MechanismOnPaper) -> Iterator[Segment]:
+    """The strokes on the page from which arcs keep clear."""
+    for shape in here.shapes:
+        yield from ((on_page(a), on_page(b)) for a, b in shape.segments)
+    yield from ((on_page(z), on_page(z) + 0.01) for z in here.places.values())
     for point in here.scene.frame.points:
         if here.moving(point):
-            z, foot = here.places[point], here.foot(point)
-            down = complex(math.cos(foot), math.sin(foot))
-            end = z + symbols.FOOT_HEIGHT * down
-            segments += [(z, end + 3.2j * down), (z, end - 3.2j * down), (end + 4.5j * down, end - 4.5j * down)]
+            at, down = on_page(here.places[point]), page_direction(here.foot(point))
+            end = at + symbols.FOOT_HEIGHT * down
+            yield from ((at, end + 3.2j * down), (at, end - 3.2j * down), (end + 4.5j * down, end - 4.5j * down))
     for b in here.sliders:
         reach = GUIDE_LENGTH / 2 if here.ground in (b.slide.a, b.slide.b) else symbols.BLOCK_LENGTH / 2
-        side = 1j * b.along * symbols.BLOCK_WIDTH / 2
-        segments += [(b.at + s * side - reach * b.along, b.at + s * side + reach * b.along) for s in (-1, 1)]
-    return RateArrowClearance(segments)
+        at, along = on_page(b.at), on_page(b.along)
+        for side in (symbols.BLOCK_WIDTH / 2 * 1j * along, -symbols.BLOCK_WIDTH / 2 * 1j * along):
+            yield at + side - reach * along, at + side + reach * along
 
 
-def drivers(here: MechanismOnPaper, clear: RateArrowClearance) -> Piece:
-    """The drivers with their senses."""
-    pieces = [Piece({"mechanism": ()})]
+def rate_arrows(here: MechanismOnPaper) -> Piece:
+    """Arrows of the drivers, and arcs of the angular velocities and accelerations measured on the drawing, clear of
+    bars, joints, feet and each other."""
+    around, pieces = [*_in_the_way(here)], [Piece({"mechanism": (), "answers": ()})]
+
+    def arc(layer: str, id: str, kind: str, link: str, other: str, rate: float, since: int | None) -> None:
+        centres = [on_page(z) for z in _centres_of_turn(here, link, other)]
+        (centre, radius, middle), taken = clearest_arc(centres, LEAST_RADII[layer], around)
+        around.extend(taken)
+        sign, heads = ("ω", 1) if kind == "omega" else ("α", 2)
+        parts = symbols.sense_arc(centre, radius, middle, 1 if rate > 0 else -1, colour=here.colour(link), heads=heads)
+        index = link if other == here.ground else link + other
+        letter, at = symbol(f"{sign}_{{{index}}}"), centre + radius * page_direction(middle)
+        name = Label.of(letter, at, f"label-{id}", toward=(middle,))
+        pieces.append(dated(Piece({layer: (Group(parts, id=id, classes=("sense",)),)}, (name,)), since))
+
     for driver in here.scene.drivers:
+        link = driver.link
         if not driver.turns:
             pieces.append(_slide_arrow(here, driver))
-        elif driver.link in here.sheet.poses:
-            rates = ("omega", driver.rate), ("alpha", driver.second)
-            pieces += [_driver_arc(here, clear, driver, kind, rate) for kind, rate in rates if rate]
+        elif link in here.sheet.poses:
+            for kind, tail, value in (("omega", "", driver.rate), ("alpha", "-alpha", driver.second)):
+                if value:
+                    arc("mechanism", f"driver-{link}{tail}", kind, link, driver.relative_to, value, here.since(link))
+    drawn = [step for step in here.sheet.steps if step.finds_rate or step.reason == "given on plan"]
+    found = {(step.kind, step.link): step.number for step in drawn}
+    named = here.scene.whole.by_name  # not of bars that stand for cams
+    for kind, rates in (("omega", here.sheet.omega), ("alpha", here.sheet.alpha)):
+        for link, rate in rates.items():
+            if rate.is_own and link in named and abs(rate.value) >= 1e-12:
+                arc("answers", f"{kind}-{link}", kind, link, here.ground, rate.value, found.get((kind, link)))
     return joined(pieces)
-
-
-def _driver_arc(
-    here: MechanismOnPaper, clear: RateArrowClearance, driver: Driver, kind: str, rate: float
-) -> Piece:
-    other, speed = driver.relative_to, kind == "omega"
-    markup = f"{'ω' if speed else 'α'}_{{{driver.link}{'' if other == here.ground else other}}}"
-    centres = _centres_of_turn(here, driver.link, other)
-    place = clear.arc(centres, DRIVER_RADIUS)
-    sense = 1 if rate > 0 else -1
-    id = f"driver-{driver.link}{'' if speed else '-alpha'}"
-    piece = _arc("mechanism", place, sense, 1 if speed else 2, here.colour(driver.link), markup, id)
-    return dated(piece, here.since(driver.link))
 
 
 def _slide_arrow(here: MechanismOnPaper, driver: Driver) -> Piece:
@@ -478,24 +488,6 @@ def _slide_arrow(here: MechanismOnPaper, driver: Driver) -> Piece:
     return dated(piece, here.since(driver.key.split("/")[0]))
 
 
-def found_rates(here: MechanismOnPaper, clear: RateArrowClearance) -> Piece:
-    """Angular velocities and accelerations measured on the drawing."""
-    pieces = [Piece({"answers": ()})]
-    drawn = [step for step in here.sheet.steps if step.finds_rate or step.reason == "given on plan"]
-    found = {(step.kind, step.link): step.number for step in drawn}
-    named = here.scene.whole.by_name  # not of bars that stand for cams
-    for sign, kind, own, heads in (("ω", "omega", here.sheet.omega, 1), ("α", "alpha", here.sheet.alpha, 2)):
-        for link, rate in own.items():
-            if not rate.is_own or link not in named or abs(rate.value) < 1e-12:
-                continue
-            place = clear.arc(_centres_of_turn(here, link, here.ground), RADIUS)
-            sense = 1 if rate.value > 0 else -1
-            markup, colour = f"{sign}_{{{link}}}", here.colour(link)
-            arc = _arc("answers", place, sense, heads, colour, markup, f"{kind}-{link}")
-            pieces.append(dated(arc, found.get((kind, link))))
-    return joined(pieces)
-
-
 def _centres_of_turn(here: MechanismOnPaper, link: str, other: str) -> list[complex]:
     """The centres for an arc of sense: the pivot of the link, else places along it."""
     mine = here.scene.by_name[link].points
@@ -510,17 +502,6 @@ def _centres_of_turn(here: MechanismOnPaper, link: str, other: str) -> list[comp
         a, b = shape.longest
         return [a + share * (b - a) for share in (0.5, 0.34, 0.66)]
     return [here.sheet.poses[link].origin]
-
-
-def _arc(
-    layer: str, place: tuple[complex, float, float], sense: int, heads: int, colour: str, markup: str, id: str
-) -> Piece:
-    """An arc at its place (centre, radius, middle direction), with its symbol."""
-    centre, radius, middle = place
-    parts = symbols.sense_arc(on_page(centre), radius, middle, sense, colour=colour, heads=heads)
-    text = Text(0j, symbol(markup), "start", strokes.BLACK, f"label-{id}", ("label",))
-    top = on_page(centre + radius * complex(math.cos(middle), math.sin(middle)))
-    return Piece({layer: (Group(parts, id=id, classes=("sense",)),)}, (Label(text, top, (middle,)),))
 
 
 def _springs(here: MechanismOnPaper) -> Piece:

@@ -222,35 +222,36 @@ _MIDDLES = np.arange(20) * (2 * math.pi / 20)
 _SPREAD = np.linspace(-HALF_SPAN, HALF_SPAN, 5)
 
 
-class RateArrowClearance:
-    """Segments (mm) from which arcs keep clear; placed arcs are added to them."""
+def clearest_arc(
+    centres: Sequence[complex], radius: float, around: Sequence[Segment]
+) -> tuple[tuple[complex, float, float], tuple[Segment, ...]]:
+    """The clearest place for an arc with its name about one of some page points.
 
-    def __init__(self, segments: Sequence[tuple[complex, complex]]) -> None:
-        self.segments = list(segments)
+    Parameters
+    ----------
+    centres : page points in order of preference
+    radius : the least radius (mm)
+    around : segments from which it keeps clear
 
-    def arc(self, centres: Sequence[complex], radius: float) -> tuple[complex, float, float]:
-        """Centre, radius (mm) and middle direction (rad) of the clearest arc about one of some centres.
-
-        ``radius`` is the least radius; centres are in order of preference.
-        """
-        ends = np.array(self.segments, dtype=complex).reshape(-1, 2)
-        reach = radius + ARC_RADII[-1] - ARC_RADII[0] + LABEL_AT + CLEAR_LABEL
-        near = ends[(distances(np.array(centres, dtype=complex), ends) < reach).any(axis=0)]
-        radii = np.array([radius + r - ARC_RADII[0] for r in ARC_RADII])
-        ways = np.exp(1j * (_MIDDLES[:, None] + _SPREAD))  # middle x sample
-        arcs = np.array(centres)[:, None, None, None] + radii[:, None, None] * ways
-        names = np.array(centres)[:, None, None] + (radii[:, None] + LABEL_AT) * np.exp(1j * _MIDDLES)
-        cost = 10.0 * np.clip(CLEAR_ARC - least_distance(arcs, near), 0.0, None).sum(axis=-1)
-        cost += 2.0 * np.clip(CLEAR_LABEL - least_distance(names, near), 0.0, None)
-        cost += 0.35 * (radii - radius)[:, None] + 0.5 * np.arange(len(centres))[:, None, None]
-        cost += 0.05 * np.abs(np.angle(np.exp(1j * (_MIDDLES - math.radians(50)))))
-        c, r, m = np.unravel_index(int(np.argmin(np.round(cost, 6))), cost.shape)
-        found = centres[int(c)], float(radii[r]), float(_MIDDLES[m])
-        course = [complex(z) for z in arcs[c, r, m]]
-        self.segments += pairwise(course)
-        name = complex(names[c, r, m])
-        self.segments.append((name - 1.2, name + 1.2))
-        return found
+    Returns
+    -------
+    centre, radius (mm) and middle direction (rad), and the segments from which others keep clear of it
+    """
+    ends = np.array(around, dtype=complex).reshape(-1, 2)
+    reach = radius + ARC_RADII[-1] - ARC_RADII[0] + LABEL_AT + CLEAR_LABEL
+    near = ends[(distances(np.array(centres, dtype=complex), ends) < reach).any(axis=0)]
+    radii = np.array([radius + r - ARC_RADII[0] for r in ARC_RADII])
+    ways = np.exp(-1j * (_MIDDLES[:, None] + _SPREAD))  # middle x sample
+    arcs = np.array(centres)[:, None, None, None] + radii[:, None, None] * ways
+    names = np.array(centres)[:, None, None] + (radii[:, None] + LABEL_AT) * np.exp(-1j * _MIDDLES)
+    cost = 10.0 * np.clip(CLEAR_ARC - least_distance(arcs, near), 0.0, None).sum(axis=-1)
+    cost += 2.0 * np.clip(CLEAR_LABEL - least_distance(names, near), 0.0, None)
+    cost += 0.35 * (radii - radius)[:, None] + 0.5 * np.arange(len(centres))[:, None, None]
+    cost += 0.05 * np.abs(np.angle(np.exp(1j * (_MIDDLES - math.radians(50)))))
+    c, r, m = np.unravel_index(int(np.argmin(np.round(cost, 6))), cost.shape)
+    name = complex(names[c, r, m])
+    taken = (*pairwise(arcs[c, r, m].tolist()), (name - 1.2, name + 1.2))
+    return (centres[int(c)], float(radii[r]), float(_MIDDLES[m])), taken
 
 
 def least_distance(points: NDArray[Any], segments: Points) -> Floats:
