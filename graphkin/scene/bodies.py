@@ -369,10 +369,10 @@ def check_held(reading: Reading) -> None:
     if reading.unsure or lost:
         return
     bare = {problem.where for problem in reading.problems}
-    hint = Phrase("share a point with another link or slide", frame=reading.frame.name)
     for apart in islands(reading):
         if f"links.{apart[0]}" in bare:
             continue
+        hint = Phrase("share a point with another link or slide", frame=reading.frame.name)
         if len(apart) == 1:
             reading.say(f"links.{apart[0]}", "nothing holds this link", hint)
         else:
