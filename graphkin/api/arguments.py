@@ -237,9 +237,7 @@ def value_at(scene: Mechanism, name: str) -> float:
     if name not in known:
         wanted = did_you_mean(name, known) if known else Phrase("name positions in positions")
         raise CallError.of(Phrase("position", name=name), "there is no position of that name", wanted)
-    places = named_positions(scene)
-    assert places is not None
-    return places.values[name]
+    return named_positions(scene)[name]
 
 
 def _driver(scene: Mechanism, name: str) -> Driver:

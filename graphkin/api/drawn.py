@@ -194,8 +194,7 @@ def _forces(drawn: Drawn) -> tuple[Any, ...] | None:
 def _positions(drawn: Drawn) -> tuple[Any, ...]:
     from graphkin.solver.named_positions import named_positions
 
-    places = named_positions(drawn.mechanism)
-    return (shown_positions(drawn.whole, places.values if places else {}),)
+    return (shown_positions(drawn.whole, named_positions(drawn.mechanism)),)
 
 
 SUPPLIES: Mapping[str, Callable[[Drawn], tuple[Any, ...] | None]] = {

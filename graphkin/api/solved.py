@@ -194,13 +194,13 @@ class Solved(OfScene, Result):
             yield from block._entries()
 
     def _entries(self) -> Iterator[dict[str, Json]]:
-        from graphkin.solver.named_positions import named_positions
+        from graphkin.solver.named_positions import name_at, named_positions
         from graphkin.solver.values import entries
 
-        places = named_positions(self.mechanism) if self.motion.ok.any() else None
+        places = named_positions(self.mechanism) if self.motion.ok.any() else {}
         asked = {name: self._plain(name) for name in self.find}
         for k, entry in enumerate(entries(self.motion, self.forces)):
-            if places is not None and (name := places.name_of(float(self.motion.values[k, 0]))):
+            if places and (name := name_at(self.mechanism, places, float(self.motion.values[k, 0]))):
                 entry["name"] = name
             if self.times:
                 entry["time"] = self.times[k]

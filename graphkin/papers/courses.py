@@ -88,10 +88,8 @@ def scheme_of(name: str, scene: Mechanism, asked: Sequence[Symbol], count: int) 
     """
     structure = solver.structure_of(scene)
     key = scene.drivers[0].key
-    named = named_positions(scene)
-    if named is not None and named.names.names:
-        drivers = dict(named.values)
-    else:
+    drivers = dict(named_positions(scene))
+    if not drivers:
         drivers = {str(k): row[key] for k, row in enumerate(positions(structure, None, count)[0], 1)}
     shown, places = asked_in_tables(scene, asked), {}
     for place, value in drivers.items():

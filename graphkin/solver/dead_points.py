@@ -72,15 +72,6 @@ def _same(structure: Structure, one: DeadPoint, two: DeadPoint) -> bool:
     return abs(structure.scene.drivers[0].wrapped(float(one.value - two.value))) < SAME
 
 
-def nearest_dead_point(structure: Structure, i: int, signs: Mapping[int, float], value: float) -> DeadPoint | None:
-    """The dead point of a group within a hundredth of a radian (of the size) of a value of the only driver."""
-    if len(structure.scene.drivers) != 1 or not all(e.explicit for e in structure.elements[: i + 1]):
-        return None
-    near = BESIDE * structure.scene.drivers[0].span(structure.scene.size)
-    found = _of_group(Path.of_driver(structure, np.zeros(1)), [*signs], i, value - near, value + near, signs)
-    return min(found, key=lambda p: abs(float(p.value) - value), default=None)
-
-
 def _of_group(
     path: Path, before: Sequence[int], i: int, low: float, high: float, signs: Mapping[int, float]
 ) -> Iterator[DeadPoint]:
@@ -278,12 +269,16 @@ def _fold_where(structure: Structure, solved: GroupSolved, values: Array) -> Wor
 
 
 def _where(structure: Structure, i: int, values: Array, modes: Mapping[int, Array]) -> Wording:
-    """The place of the dead point, and its distance."""
-
+    """The place of a group's dead point within a hundredth of a radian (of the size) of the value of the only driver,
+    and its distance."""
+    if len(structure.scene.drivers) != 1 or not all(e.explicit for e in structure.elements[: i + 1]):
+        return ""
+    driver, value = structure.scene.drivers[0], float(values[0])
     signs = {j: float(np.ravel(f)[0]) for j, f in modes.items() if j in structure.dyads and j < i}
-    value = float(values[0])
-    point = nearest_dead_point(structure, i, signs, value)
+    near = BESIDE * driver.span(structure.scene.size)
+    found = _of_group(Path.of_driver(structure, np.zeros(1)), [*signs], i, value - near, value + near, signs)
+    point = min(found, key=lambda p: abs(float(p.value) - value), default=None)
     if point is None:
         return ""
-    away = float(abs(point.value - meant_value(structure.scene.drivers[0], value)))
+    away = float(abs(point.value - meant_value(driver, value)))
     return lies_at(structure, float(point.value), away if away > 1e-30 else 0.0)

@@ -14,7 +14,7 @@ from graphkin.scene.pairs import PlacedContact
 from graphkin.scene.symbol import Symbol
 from graphkin.search import resolve
 from graphkin.solver.driver_range import DriverRange, range_of
-from graphkin.solver.motion import _between, contact_motion
+from graphkin.solver.motion import angle_between, contact_normal, contact_pressure
 from graphkin.solver.pose import Array
 from graphkin.structure import Structure
 
@@ -136,13 +136,13 @@ def disc_course(structure: Structure, disc: DiscCam, angle: Array) -> tuple[Arra
         motion_of_follower = np.full(len(angle), scene.frame.guides[pair.guide].direction)
     other = contact.discs[1 - side]
     pitch = None if other is None else (motion.position(other.centre, disc.follower) - axis) * back
-    pressure = _between(contact_motion(motion, contact).normal, motion_of_follower)
+    pressure = angle_between(contact_normal(motion, contact), motion_of_follower)
     return np.abs(value - disc.lowest), (place - axis) * back, pitch, pressure
 
 
 def _pressures(reach: DriverRange, contact: PlacedContact, follower: str, offset: Array) -> Array:
     """Pressure angles of the follower; NaN where it rests."""
-    return np.asarray(contact_motion(reach.motion(offset, unit=True), contact).pressure[follower])
+    return contact_pressure(reach.motion(offset, unit=True), contact)[follower]
 
 
 def _greatest(reach: DriverRange, contact: PlacedContact, follower: str) -> tuple[float, float]:

@@ -324,17 +324,9 @@ class DriverRange:
         return part >= 0, np.clip(part, 0.0, self.ahead.reach), np.clip(-part, 0.0, self.behind.reach)
 
     @cached_property
-    def _own_forms(self) -> dict[int, Array]:
-        return {i: f[0] for i, f in self.ahead.mode(np.zeros(1)).items()}
-
-    @cached_property
     def change_points(self) -> tuple[ChangePoint, ...]:
         """The change points of the range, at which two assemblies of a group meet and the motion continues smoothly."""
         return self.ahead.change_points + (() if self.full else self.behind.change_points)
-
-    @property
-    def _assembled(self) -> Callable[[], tuple[Phrase, ...]]:
-        return partial(assembly_words, self.structure, self._own_forms)
 
     # the motion
 
@@ -403,7 +395,9 @@ class DriverRange:
 
     def _motion(self, part: Array, values: Array, drive: Drive, good: Array, extended: bool = True) -> Motion:
         why = "" if good.all() or not extended else self.limit_why
-        found = motion_of(self.structure, drive, self.modes(part), self._assembled, good, why, extended)
+        at_start = {i: mode[0] for i, mode in self.ahead.mode(np.zeros(1)).items()}
+        words = partial(assembly_words, self.structure, at_start)
+        found = motion_of(self.structure, drive, self.modes(part), words, good, why, extended)
         return replace(found, values=values, turned=self.turned(part))
 
     def angle(self, motion: Motion, link: str) -> Array:

@@ -21,7 +21,7 @@ from graphkin.scene.model import EDGE, ForceJoint, LoadOn, SpringOn, joints
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.cams import cam_angle, cam_at
 from graphkin.solver.constraints import solve_all
-from graphkin.solver.motion import SLIGHT, Motion, contact_motion, pitch_point
+from graphkin.solver.motion import SLIGHT, Motion, contact_normal, pitch_point
 from graphkin.solver.pose import Array, known_where
 from graphkin.structure import Pair
 from graphkin.words import Phrase, Wording
@@ -79,10 +79,10 @@ def _lines(motion: Motion, joint: ForceJoint) -> tuple[Sequence[complex | Array]
         at, _ = pitch_point(motion, gear)
         way = at - motion.position(gear.axes[0], gear.carrier)
         return [np.asarray(1j * way / np.abs(way))], at
-    meeting = contact_motion(motion, contact)
     if joint.kind == "rolling":
-        return both, meeting.place
-    return [meeting.normal * (1j if joint.kind == "gear" else 1.0)], meeting.place
+        return both, motion.position(contact.name)
+    normal = contact_normal(motion, contact)
+    return [normal * (1j if joint.kind == "gear" else 1.0)], motion.position(contact.name)
 
 
 def balances(motion: Motion) -> list[PairForce]:

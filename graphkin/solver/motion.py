@@ -289,42 +289,34 @@ ROUNDED = 1e-12
 """An angle (rad) between a normal and a way that fall together."""
 
 
-@dataclass(frozen=True)
-class ContactMotion:
-    """A contact at n positions.
-
-    place : complex, shape (n,) (m)
-    normal : unit complex, out of the first body
-    slip : complex, velocity of the first body's point minus that of the second's (m/s)
-    pressure : for each moving body the angle between normal and velocity of its point at the contact, 0 .. pi/2 (rad),
-        NaN where it rests
-    """
-
-    place: Array
-    normal: Array
-    slip: Array
-    pressure: dict[str, Array]
-
-
-def contact_motion(motion: Motion, contact: PlacedContact) -> ContactMotion:
-    """Place, normal, slip and pressure angles of a contact."""
-    place = motion.position(contact.name)
+def contact_normal(motion: Motion, contact: PlacedContact) -> Array:
+    """The normal of a contact, out of its first body, unit complex, shape (n,)."""
     disc, link = contact.round[0], contact.round_links[0]
-    normal = (place - motion.position(disc.centre, link)) / (disc.r if link == contact.one else -disc.r)
+    arm = motion.position(contact.name) - motion.position(disc.centre, link)
+    normal = arm / (disc.r if link == contact.one else -disc.r)
     with np.errstate(invalid="ignore"):  # of positions that are none
-        normal = normal / np.abs(normal)
+        return np.asarray(normal / np.abs(normal))
+
+
+def contact_slip(motion: Motion, contact: PlacedContact) -> Array:
+    """The velocity of the first body's point at a contact minus that of the second's, complex, shape (n,) (m/s)."""
     one, two = (motion.velocity(contact.name, link) for link in contact.links)
-    ground = motion.scene.frame.name
+    return np.asarray(one - two)
+
+
+def contact_pressure(motion: Motion, contact: PlacedContact) -> dict[str, Array]:
+    """For each moving body of a contact the angle between the normal and the velocity of its point there, 0 .. pi/2
+    (rad), NaN where it rests, shape (n,)."""
+    normal = contact_normal(motion, contact)
+    velocities = {link: motion.velocity(contact.name, link) for link in contact.links}
     rates = max((abs(d.values[1]) for d in motion.scene.drivers), default=0.0)
-    fast = np.maximum(np.abs(one), np.abs(two)) + rates * motion.scene.size
-    pressure = {}
-    for link, v in zip(contact.links, (one, two), strict=True):
-        if link != ground:
-            pressure[link] = np.where(np.abs(v) > STANDS * fast, _between(normal, v), np.nan)
-    return ContactMotion(place, normal, np.asarray(one - two), pressure)
+    fast = np.maximum(*map(np.abs, velocities.values())) + rates * motion.scene.size
+    velocities.pop(motion.scene.frame.name, None)
+    return {link: np.where(np.abs(velocity) > STANDS * fast, angle_between(normal, velocity), np.nan)
+            for link, velocity in velocities.items()}  # fmt: skip
 
 
-def _between(normal: Array, way: Array) -> Array:
+def angle_between(normal: Array, way: Array) -> Array:
     """The angle between the lines of a normal and of a direction (rad), 0 .. pi/2; 0 where it is rounding alone."""
     across = np.conj(normal) * way
     angle = np.arctan2(np.abs(across.imag), np.abs(across.real))

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import replace
 
 import numpy as np
 
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
 from graphkin.scene.model import Driver, Mechanism
-from graphkin.scene.scene_tables import Positions, StrokeStart
+from graphkin.scene.scene_tables import StrokeStart
 from graphkin.scene.symbol import Symbol
 from graphkin.search import last_true
 from graphkin.solver.driver_range import DriverRange, range_of
@@ -23,70 +22,61 @@ TRIES = 24
 SAME = 1e-9
 
 
-@dataclass(frozen=True)
-class PlacesByName:
-    """The positions that a scene names, and their values of the first driver."""
+def named_positions(scene: Mechanism) -> Mapping[str, float]:
+    """The value of the first driver at each position that a scene names (rad, m), an angle within half a turn of the
+    driver's own; empty where it names none.
 
-    names: Positions
-    reach: DriverRange
-
-    @cached_property
-    def values(self) -> Mapping[str, float]:
-        """The value of the first driver at each position (rad, m), an angle within half a turn of the driver's own.
-
-        Raises
-        ------
-        Unsolvable : a position lies on the stroke of a slide, but there is no whole turn
-        """
-        sense = -1.0 if self.reach.driver.values[1] < 0 else 1.0
-        own = self.reach.scene.drivers[0].values[0]
-        found = {name: self._value(self.names.place(name, self.first, sense)) for name in self.names.names}
-        if self.reach.driver.turns:
-            return {name: own + math.remainder(value - own, math.tau) for name, value in found.items()}
-        return found
-
-    @cached_property
-    def first(self) -> float:
-        """The value at position 1: by default the driver's own."""
-        first = self.names.first
-        return self.reach.scene.drivers[0].values[0] if first is None else self._value(first)
-
-    def _value(self, place: float | StrokeStart | None) -> float:
-        assert place is not None
-        return self._on_stroke(place) if isinstance(place, StrokeStart) else place
-
-    def _on_stroke(self, place: StrokeStart) -> float:
-        """The driver's value at a place of a stroke."""
-        sliding, guiding = place.stroke.split("/")
-        symbol = Symbol("stroke", link=sliding, other=guiding)
-        found = self.reach.extremes(symbol)
-        begin, end = (found.low_offset, found.high_offset) if place.sense > 0 else (found.high_offset, found.low_offset)
-        span = (end - begin) % math.tau
-        start = found.low if place.sense > 0 else found.high
-        goal = start + place.sense * place.at * found.stroke
-
-        def before(part: Array) -> Array:
-            travel = self.reach.motion((begin + part) % math.tau).slide(place.stroke).travel
-            return np.asarray(place.sense * (travel - goal) < 0.0)
-
-        part = span * place.at if place.at in (0.0, 1.0) else last_true(before, 0.0, span)
-        return float(self.reach.value(np.array((begin + part) % math.tau)))
-
-    def name_of(self, value: float) -> str:
-        """The name of the position at a driver's value (rad, m), without whole turns; "" if it has none."""
-        turning = self.reach.driver.turns
-        for name, own in self.values.items():
-            off = math.remainder(value - own, math.tau) if turning else (value - own) / self.reach.scene.size
-            if abs(off) < SAME:
-                return name
-        return ""
+    Raises
+    ------
+    Unsolvable : a position lies on the stroke of a slide, but there is no whole turn
+    """
+    positions = scene.question.positions
+    if positions is None:
+        return {}
+    reach = range_of(structure_of(scene))
+    driver, first = reach.scene.drivers[0], first_position(reach)
+    sense, own = -1.0 if driver.values[1] < 0 else 1.0, driver.values[0]
+    values = {name: _value(reach, positions.place(name, first, sense)) for name in positions.names}
+    if driver.turns:
+        return {name: own + math.remainder(value - own, math.tau) for name, value in values.items()}
+    return values
 
 
-def named_positions(scene: Mechanism) -> PlacesByName | None:
-    """The positions that a scene names; None where it names none.  Raises Unsolvable."""
-    if scene.question.positions is None:
-        return None
-    return PlacesByName(scene.question.positions, range_of(structure_of(scene)))
+def first_position(reach: DriverRange) -> float:
+    """The value of the first driver at position 1 (rad, m): by default the driver's own.  Raises as
+    ``named_positions``."""
+    positions = reach.scene.question.positions
+    first = None if positions is None else positions.first
+    return reach.scene.drivers[0].values[0] if first is None else _value(reach, first)
+
+
+def _value(reach: DriverRange, place: float | StrokeStart | None) -> float:
+    """The driver's value at a place, which may lie on a stroke."""
+    assert place is not None
+    if not isinstance(place, StrokeStart):
+        return place
+    sliding, guiding = place.stroke.split("/")
+    limits = reach.extremes(Symbol("stroke", link=sliding, other=guiding))
+    ends = (limits.low_offset, limits.low), (limits.high_offset, limits.high)
+    (begin, start), (end, _) = ends if place.sense > 0 else ends[::-1]
+    span, goal = (end - begin) % math.tau, start + place.sense * place.at * limits.stroke
+
+    def before(part: Array) -> Array:
+        travel = reach.motion((begin + part) % math.tau).slide(place.stroke).travel
+        return np.asarray(place.sense * (travel - goal) < 0.0)
+
+    part = span * place.at if place.at in (0.0, 1.0) else last_true(before, 0.0, span)
+    return float(reach.value(np.array((begin + part) % math.tau)))
+
+
+def name_at(scene: Mechanism, positions: Mapping[str, float], value: float) -> str:
+    """The name of the position at a driver's value (rad, m), without whole turns; "" if it has none."""
+    driver = scene.drivers[0]
+    for name, own in positions.items():
+        off = math.remainder(value - own, math.tau) if driver.turns else (value - own) / scene.size
+        if abs(off) < SAME:
+            return name
+    return ""
 
 
 def standing(scene: Mechanism) -> Mechanism:
@@ -108,9 +98,7 @@ def standing(scene: Mechanism) -> Mechanism:
         for _ in range(3):
             try:
                 here = _at(scene, first, guess)
-                places = named_positions(here)
-                assert places is not None
-                value = places.values[first.position]
+                value = named_positions(here)[first.position]
             except (Unsolvable, SceneError) as error:
                 stop = stop or error
                 break

@@ -32,7 +32,10 @@ def limit_why(
     assert isinstance(group, Dyad | LargerGroup)
     column = moved[0] if len(moved) else 0
     driver = scene.drivers[column]
-    where = {"links": group_words(structure, group), "ending": _ending(group), "driver": driver.key,
+    ending = Phrase("reach the end of their motion")
+    if isinstance(group, Dyad) and group.is_two_lines:
+        _, _, ending = dyad_words(group)
+    where = {"links": group_words(structure, group), "ending": ending, "driver": driver.key,
              "value": driver_text(scene, driver, values[column])}  # fmt: skip
     if between is None:
         return Phrase("end on the straight way there", **where)
@@ -43,12 +46,6 @@ def limit_why(
 def group_words(structure: Structure, group: Dyad | LargerGroup) -> Phrase:
     """The links and blocks of a group in words; of a dyad that replaces a contact, that."""
     return named_with_contact(structure, group) if isinstance(group, Dyad) else group_named(group)
-
-
-def _ending(group: Dyad | LargerGroup) -> Phrase:
-    if isinstance(group, Dyad) and group.is_two_lines:
-        return dyad_words(group)[2]
-    return Phrase("reach the end of their motion")
 
 
 def lies_at(structure: Structure, value: float, away: float, about: bool = False) -> Phrase:

@@ -63,11 +63,6 @@ class FreeDatum:
     at: Callable[[float], float | None] = field(compare=False)
 
 
-def crank_angle(K: float) -> float:
-    """Acute angle of the crank between the limit positions, 180 (K - 1) / (K + 1), in radians."""
-    return math.pi * (K - 1.0) / (K + 1.0)
-
-
 def _refused(where: str, found: Wording, wanted: Wording) -> Unsolvable:
     return Unsolvable("not assembled", Problem(f"design.{where}", found, wanted))
 
@@ -79,14 +74,14 @@ def _quick_return(K: float, most: float | None = None) -> float:
 
 
 def _lag(K: float, most: float | None = None) -> float:
-    """The acute angle of the crank between its limit positions (rad), 0 for K = 1."""
+    """The acute angle of the crank between its limit positions (rad), pi (K - 1) / (K + 1), 0 for K = 1."""
     if K < 1.0:
         raise _refused("K", Phrase("is below 1", key=f'{K:.6g}'), Phrase("k is the longer of two ways over"))
     if most is not None and most <= K:
         raise _refused(
             "K", Phrase("cannot be reached", key=f"{K:.6g}"), Phrase("k must be below here", most=f"{most:.6g}")
         )
-    return crank_angle(K)
+    return math.pi * (K - 1.0) / (K + 1.0)
 
 
 @singledispatch

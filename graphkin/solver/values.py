@@ -28,10 +28,17 @@ from graphkin.solver.cams import cam_angle, cam_at, slip_of
 from graphkin.solver.driver_range import DriverRange, range_of
 from graphkin.solver.forces import Action, Forces, actions, balances, forces_of, without_line
 from graphkin.solver.mobility import structure_of
-from graphkin.solver.motion import Motion, contact_motion, listed_points, own_slides, pitch_point
+from graphkin.solver.motion import (
+    Motion,
+    contact_normal,
+    contact_pressure,
+    contact_slip,
+    listed_points,
+    own_slides,
+    pitch_point,
+)
 from graphkin.solver.pose import Array, Pose, aimed
 from graphkin.structure import Dyad, LargerGroup, Structure, part_of
-from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, Wording, say
 
 
@@ -303,8 +310,7 @@ def _without(found: Wording, wanted: Wording) -> Unsolvable:
 
 def _mean_speed(reach: DriverRange, link: str) -> float:
     """Mean angular velocity of a link over a cycle (rad/s)."""
-    ends: Motion = reach.motion(np.array(reach.ends))
-    turned = float(np.diff(reach.angle(ends, link))[0])
+    turned = float(np.diff(reach.angle(reach.at_ends, link))[0])
     driver = reach.driver
     return float(np.rint(turned / (2 * np.pi)) * 2 * np.pi / abs(reach.wide) * abs(driver.rate))
 
@@ -417,20 +423,20 @@ def head(motion: Motion) -> dict[str, Json]:
     scene = motion.scene
     force = {"force": scene.units.force} if scene.loading else {}
     speed = {"speed": scene.units.speed} if scene.units.speed else {}
+    units = [(d.key, scene.unit_of(d, radians=True)) for d in scene.drivers]
+    # the links whose two assemblies meet at each change point on the way, and the drivers' values there
+    passed: list[Json] = [
+        {"links": list(point.links),
+         "driver": {key: unit.of(value) for (key, unit), value in zip(units, point.values, strict=True)}}
+        for point in motion.passed
+    ]  # fmt: skip
     return {
         "title": scene.question.title,
         "units": {"length": scene.units.length, **speed, "time": "s", "angle": "rad", **force},
         "mobility": motion.structure.mobility.value,
-        **({"passed": [_change_point(motion.scene, one) for one in motion.passed]} if motion.passed else {}),
+        **({"passed": passed} if passed else {}),
         "groups": [_group(g, words) for g, words in zip(motion.structure.groups, motion.assembly, strict=True)],
     }
-
-
-def _change_point(scene: Mechanism, one: ChangePoint) -> dict[str, Json]:
-    """A change point on the way: the links whose two assemblies meet, and the drivers' values there."""
-    values = zip(scene.drivers, one.values, strict=True)
-    at = {d.key: scene.unit_of(d, radians=True).of(v) for d, v in values}
-    return {"links": list(one.links), "driver": at}
 
 
 def entries(motion: Motion, forces: Forces | None = None) -> Iterator[dict[str, Json]]:
@@ -490,10 +496,10 @@ def _of_motion(motion: Motion, angles: Mapping[str, Array]) -> Columns:
             contact=(cam.axis + touching.contact) / metres, normal=touching.normal,
             slip=slip_of(cam, touching, np.asarray(turn.omega)) / fast, pressure=touching.pressure)  # fmt: skip
     for contact in scene.contacts:
-        meeting = contact_motion(motion, contact)
-        put("contacts", contact.name, position=meeting.place / metres, normal=meeting.normal, slip=meeting.slip / fast)
-        own = found["contacts"][contact.name]
-        pressure = {link: _plain(angle, np.isfinite(angle)) for link, angle in meeting.pressure.items()}
+        put("contacts", contact.name, position=motion.position(contact.name) / metres,
+            normal=contact_normal(motion, contact), slip=contact_slip(motion, contact) / fast)  # fmt: skip
+        own, angles_there = found["contacts"][contact.name], contact_pressure(motion, contact)
+        pressure = {link: _plain(angle, np.isfinite(angle)) for link, angle in angles_there.items()}
         kind = ["rolling" if contact.rolling else "sliding"] * BLOCK
         found["contacts"][contact.name] = {"kind": kind, **own, "pressure": pressure}
     for gear in scene.gears:

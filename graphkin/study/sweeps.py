@@ -24,7 +24,7 @@ from graphkin.scene.model import Dimension, Mechanism, dimensions, same_but_for_
 from graphkin.solver import DriverRange, driver_range, over_time, structure_of
 from graphkin.solver.forces import forces_of
 from graphkin.solver.kernel import pays
-from graphkin.solver.named_positions import named_positions
+from graphkin.solver.named_positions import first_position
 from graphkin.solver.pose import Array
 from graphkin.solver.prepared import PreparedMechanism, prepare
 from graphkin.structure import Structure
@@ -71,10 +71,10 @@ class FollowedDesign:
     @cached_property
     def start(self) -> dict[str, float]:
         """Driver values of the first row, if it is not the scene's own position.  Raises Unsolvable."""
-        places = named_positions(self.scene) if not self.at else None
-        if places is None or not places.reach.full:
+        reach = None if self.at or self.scene.question.positions is None else driver_range(self.structure)
+        if reach is None or not reach.full:
             return dict(self.at)
-        return {self.scene.drivers[0].key: places.first}
+        return {self.scene.drivers[0].key: first_position(reach)}
 
     @cached_property
     def reach(self) -> DriverRange:

@@ -6,7 +6,7 @@ import pytest
 from graphkin import check, read, solve, solver, sweep
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
-from graphkin.solver.motion import contact_motion
+from graphkin.solver.motion import contact_normal
 from graphkin.structure import analyse
 
 
@@ -37,7 +37,7 @@ def test_at_a_contact_the_relative_acceleration_has_a_part_along_the_normal_one_
     scene,
 ):
     motion = solver.solve(mechanism_of(scene))
-    normal = contact_motion(motion, motion.scene.contacts[0]).normal[0]
+    normal = contact_normal(motion, motion.scene.contacts[0])[0]
     an, ar, ak = (motion.value(Symbol.parse(f"{kind}_K@1/K@2"))[0] / normal for kind in ("an", "ar", "ak"))
     whole = (motion.acceleration("K", "1") - motion.acceleration("K", "2"))[0] / normal
     assert (0.0, 0.0) == pytest.approx((an.imag, ar.real), abs=1e-14 * abs(whole))
