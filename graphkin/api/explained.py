@@ -19,7 +19,7 @@ from graphkin.files import Json
 from graphkin.scene.model import Driver, Mechanism, PlacedLink, forces_named
 from graphkin.scene.pairs import PlacedGuide
 from graphkin.scene.scene import SceneLike
-from graphkin.structure import LargerGroup, Structure, group_named, mobility_of
+from graphkin.structure import LargerGroup, Structure, mobility_of
 from graphkin.table import Table
 from graphkin.words import Phrase, Wording, class_of, sense_of, word
 
@@ -270,7 +270,7 @@ def _groups(structure: Structure, scene: Mechanism) -> Iterator[Phrase]:
         assembly = dict(execute(plan(structure, None, ()), EXACT).assembly)
     for group in structure.groups:
         larger = Phrase("explained group kind" if group.order > 2 else "explained rolling kind")
-        kind, named = larger if isinstance(group, LargerGroup) else group.kind, group_named(group)
+        kind, named = larger if isinstance(group, LargerGroup) else group.kind, group.named
         yield Phrase("explained group", links=named, kind=kind, order=class_of(group.order))
         if named in assembly:
             yield Phrase("explained assembly", assembly=assembly[named])

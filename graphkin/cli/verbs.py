@@ -247,14 +247,13 @@ def solve(given: Given) -> None:
 def _print_solution(solved: Solved, lang: str | None) -> None:
     from graphkin.api.arguments import passed_words
     from graphkin.api.solution_text import solution_tables
-    from graphkin.structure import group_named
     scene, blocks = solved.mechanism, solved.blocks()
     head: Mapping[str, Any] = solved.head
     first = next(blocks)
     language = lang or scene.question.sheet.language
     tell(f"{scene.question.title_in(language)}   F = {head['mobility']}")
     for group, assembly in zip(first.motion.structure.groups, first.motion.assembly, strict=True):
-        gaps = {"links": group_named(group), "order": class_of(group.order), "assembly": assembly}
+        gaps = {"links": group.named, "order": class_of(group.order), "assembly": assembly}
         larger = Phrase("solved larger group", **gaps)
         tell(say(Phrase("solved group", kind=group.kind, **gaps) if group.order == 2 else larger, language))
     for said in passed_words(scene, first.motion.passed):

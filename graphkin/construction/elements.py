@@ -53,7 +53,7 @@ from graphkin.plane import added_up, dot, unit
 from graphkin.scene.model import Driver
 from graphkin.scene.pairs import LawCam
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Pair, Rolled, driver_pair, group_named
+from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Pair, Rolled, driver_pair
 from graphkin.words import links_named
 from graphkin.words.written import MOST, figures, on_paper
 
@@ -75,7 +75,7 @@ def draw_element(plot: Polygons, order: Order, element: Element) -> None:
             chain = _graph_of(plot, element).equation(plot.ends["velocity"])
             if chain is None:
                 # every dyad has an equation with two unknowns, but its points must be apart on the sheet
-                raise stuck("not drawn", group_named(element), "points of theirs fall together on any sheet")
+                raise stuck("not drawn", element.named, "points of theirs fall together on any sheet")
             plot.chains[element] = chain
         known_turns(plot, order, element)
         draw_equation(plot, order, element, plot.chains[element])
@@ -187,7 +187,7 @@ def _take(plot: Polygons, order: Order, group: LargerGroup, plans: Iterable[Grou
         if MUCH_BETTER * best[0] >= len(candidate.tried) ** 0.5:
             break  # none can be so much better
     if best is None or not best[0]:
-        raise stuck("dead point", group_named(group), "no drawing tells how this group moves here")
+        raise stuck("dead point", group.named, "no drawing tells how this group moves here")
     plot.plans[group] = best[1]
     _draw_by(plot, order, group, best[1])
 
@@ -587,7 +587,7 @@ class Trials:
             plot.do(Step("trial", "polygon", order, tuple(strokes), data=assumption))
         shared = [ref for ref in ends[0] if all(ref in end for end in ends)]
         places = [[end[ref] for ref in shared] for end in ends]
-        plot.board.notice(order, "magnified", group_named(self.group), size=magnified(places, apart))
+        plot.board.notice(order, "magnified", self.group.named, size=magnified(places, apart))
         true = self._as_noted(rates, apart)
         edges = [edge for edge, _ in plan.open_ends]
         closing = tuple(edge.link or (edge.slide.key if edge.slide else "") for edge in edges)

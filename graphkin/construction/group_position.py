@@ -34,7 +34,7 @@ from graphkin.plane import Pose, Poses
 from graphkin.scene.model import Driver
 from graphkin.scene.symbol import Symbol
 from graphkin.search import last_true, zero_between
-from graphkin.structure import Driven, Dyad, group_named
+from graphkin.structure import Driven, Dyad
 from graphkin.words import Phrase
 
 POINTS = 7  # trial positions drawn
@@ -141,7 +141,7 @@ def _fit(paper: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> dict[st
 
 
 def _refused(reduced: ReducedMechanism, said: Phrase) -> Unsolvable:
-    return Unsolvable("not assembled", Problem(group_named(reduced.group), said))
+    return Unsolvable("not assembled", Problem(reduced.group.named, said))
 
 
 def _between(start: Pose, end: Pose, part: float) -> Pose:
@@ -206,7 +206,7 @@ def _trial_positions(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses
     )  # fmt: skip
     driven, left_out = tuple(d.key for d in reduced.trial), tuple(n for n in reduced.left_out if n not in rolling)
     group = reduced.group
-    positions = TrialPositions(group.links, group_named(group), driven, left_out, point, POINTS, rolling, instead)
+    positions = TrialPositions(group.links, group.named, driven, left_out, point, POINTS, rolling, instead)
     if tried:
         positions = _measured(positions, known, reduced, poses, tried[:: BETWEEN if alone else 1])
     return Step("trial", "positions", strokes=strokes, data=positions)

@@ -42,7 +42,6 @@ from graphkin.structure import (
     LargerGroup,
     Structure,
     analyse,
-    group_named,
     needed,
     pick,
     pins_on_circles,
@@ -588,7 +587,7 @@ def own_assembly(structure: Structure, elements: Sequence[Element]) -> tuple[lis
         inversions = [Inversion(t, analyse(_held(structure.scene, t))) for t in group.triangles]
         assemblies = list(_assemblies(paper, parts, inversions))
         if not assemblies:
-            raise stuck("not assembled", group_named(group), "no assembly of the group fits together here")
+            raise stuck("not assembled", group.named, "no assembly of the group fits together here")
         index = pick(structure.scene, group.links, [paper.fresh(poses) for _, _, poses in assemblies], None)
         triangles, paper.values, poses = assemblies[index]
         taken.extend(triangles)

@@ -52,7 +52,6 @@ from graphkin.structure import (
     Structure,
     analyse,
     cams_replaced,
-    group_named,
     leading,
     needed,
     pick,
@@ -125,7 +124,7 @@ def place(
     for element in assemble(paper, elements, chosen):
         if board is None:
             continue
-        placed.append((instrument.acts, Phrase("placing", links=group_named(element))))
+        placed.append((instrument.acts, Phrase("placing", links=element.named)))
         if isinstance(element, Driven):
             _, steps = drive(so_far, element)
         elif isinstance(element, LargerGroup):
@@ -141,7 +140,7 @@ def place(
 
 def _dyad_steps(board: Board, paper: PlacedLinks, dyad: Dyad, intersection: Intersection, index: int) -> Steps:
     """The steps of a dyad's loci; on the board the words for its assembly, and the remarks on its accuracy."""
-    whose, outer_first, outer_second = group_named(dyad), dyad.outer_first, dyad.outer_second
+    whose, outer_first, outer_second = dyad.named, dyad.outer_first, dyad.outer_second
     point, turned = dyad.inner.point, Symbol("omega", link=(dyad.links or dyad.members)[0])
     result, finds = (point, Symbol("v", PointRef(point))) if dyad.inner.turns else (whose, turned)
     board.notice("mechanism", "sharp crossing", result, size=intersection.sharpness, finds=finds)
@@ -223,7 +222,7 @@ def assembly_at(
                 drawing = placed.best(element, paper, poses)
                 best = None if drawing is None else drawing.reduced
             if best is None:
-                raise stuck("dead point", group_named(element), "every trial drawing is at a dead point")
+                raise stuck("dead point", element.named, "every trial drawing is at a dead point")
             reduced[element] = best.rolled_from(poses, paper.mm)
         paper.poses.update({name: poses[name] for name in element.members})
     rolling = [e.driver for e in elements if isinstance(e, Driven) and isinstance(e.driver, Rolled)]
@@ -364,7 +363,7 @@ def _group_by_sketch(placed: PlacedElements, paper: PlacedLinks, group: LargerGr
         some = list(by_driver.values())[:TRIALS]
         fits = [fit for reduced in some for fit in all_fits(reduced, paper)] + sketched
     if not fits:
-        raise stuck("not assembled", group_named(group), "no trial position closes this group here")
+        raise stuck("not assembled", group.named, "no trial position closes this group here")
     positions = _without_twins(structure, paper, group, fits)
     candidates = [paper.fresh(poses) for poses in positions]
     return positions[pick(structure.scene, group.links, candidates, None)]

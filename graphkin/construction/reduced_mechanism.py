@@ -31,7 +31,6 @@ from graphkin.structure import (
     Pair,
     RollingRelation,
     Structure,
-    group_named,
     regrouped,
     started,
     unrolled,
@@ -123,7 +122,7 @@ def reduced_mechanisms(structure: Structure, group: LargerGroup, more_than: int 
         reduced = list(islice(_reduced(structure, group, known, count), MOST_KEPT if count > 1 else None))
         if reduced:
             return reduced
-    raise Unsolvable("not drawn", Problem(group_named(group), Phrase("nothing can be left out so that only")))
+    raise Unsolvable("not drawn", Problem(group.named, Phrase("nothing can be left out so that only")))
 
 
 def _reduced(structure: Structure, group: LargerGroup, known: set[str], count: int) -> Iterator[ReducedMechanism]:

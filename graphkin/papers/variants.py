@@ -33,7 +33,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import put_at, value_at
 from graphkin.solver import Motion, solve
 from graphkin.solver.values import exact_values
-from graphkin.structure import Dyad, LargerGroup, Pair, analyse, group_named
+from graphkin.structure import Dyad, LargerGroup, Pair, analyse
 from graphkin.words import Phrase, Wording, as_data, from_data
 
 LEAST_READING = 10.0  # mm on paper
@@ -275,9 +275,9 @@ def _flat(motion: Motion, bounds: Bounds) -> Iterator[Phrase]:
             continue
         angle = float(motion.value(Symbol("transmission", name="-".join(dyad.links)))[0])
         if dyad.kind == "RRR" and angle < bounds.transmission:
-            yield Phrase("unfit transmission", group=group_named(dyad), degrees=f"{math.degrees(angle):.0f}")
+            yield Phrase("unfit transmission", group=dyad.named, degrees=f"{math.degrees(angle):.0f}")
         if dyad.kind != "RRR" and math.pi / 2 - angle > bounds.pressure:
-            yield Phrase("unfit pressure", group=group_named(dyad), degrees=f"{90 - math.degrees(angle):.0f}")
+            yield Phrase("unfit pressure", group=dyad.named, degrees=f"{90 - math.degrees(angle):.0f}")
 
 
 def _uncut(scene: Mechanism) -> Iterator[Phrase]:

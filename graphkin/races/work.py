@@ -23,7 +23,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion
 from graphkin.solver.pose import Array
-from graphkin.structure import Dyad, Structure, group_named
+from graphkin.structure import Dyad, Structure
 from graphkin.study.equations import Equations, Solution, reference, refined
 from graphkin.version import __version__
 from graphkin.words import Phrase
@@ -171,7 +171,7 @@ def work_of(scene: Mechanism, mp: MPContext, count: int) -> Work:
     structure = solver.structure_of(scene)
     larger = next((group for group in structure.groups if not isinstance(group, Dyad)), None)
     if larger is not None:
-        raise CallError.of(group_named(larger), "have no closed form", "solve such a mechanism with solve")
+        raise CallError.of(larger.named, "have no closed form", "solve such a mechanism with solve")
     outputs = compared_points(structure)
     if not outputs or not any(d.values[1] for d in scene.drivers):
         raise CallError.of(scene.name or "scene", "nothing moves that could be looked at", "give the driver a rate")

@@ -23,7 +23,6 @@ from graphkin.structure import (
     Dyad,
     LargerGroup,
     Structure,
-    group_named,
     named_with_contact,
     pick,
     started,
@@ -108,7 +107,7 @@ def _started(structure: Structure) -> Mapping[str, Pose]:
         dead = group.condition[0] * SINGULAR > 1 if isinstance(group, GroupSolved) else (
             abs(group.sine[0]) < state.singular[0])  # fmt: skip
         if dead:
-            raise Unsolvable("dead point", Problem(group_named(there.elements[i]), "they start in a dead point",
+            raise Unsolvable("dead point", Problem(there.elements[i].named, "they start in a dead point",
                                                    "let what rolls start a little beside it"))
     return state.poses
 
@@ -190,7 +189,7 @@ def _choose_place(structure: Structure, i: int, group: LargerGroup, before: Stat
     drive, known = before.drive, before.poses
     found = _assemblies(structure, group, drive, known)
     if not len(found):
-        raise Unsolvable("not assembled", Problem(group_named(group),
+        raise Unsolvable("not assembled", Problem(group.named,
                                                   "no assembly of this group was found in"))
     placed = [{**known, **Constraints(structure, group, known, drive).poses(place[None])} for place in found]
     candidates = [new_places(structure, i, group.links, poses) for poses in placed]

@@ -18,7 +18,7 @@ from graphkin.solver.engine import SINGULAR, State, closes, positions
 from graphkin.solver.larger_groups import GroupSolved
 from graphkin.solver.pose import Array, Drive
 from graphkin.solver.sentences import dyad_words, group_words, lies_at
-from graphkin.structure import Dyad, LargerGroup, Structure, group_named
+from graphkin.structure import Dyad, LargerGroup, Structure
 from graphkin.words import Phrase, Wording
 
 MARGIN = 1e-3
@@ -51,7 +51,7 @@ def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
     Unsolvable : it has a larger group, whose dead points are known only along its motion
     """
     for group in structure.larger_groups:
-        where = group_named(group)
+        where = group.named
         raise Unsolvable("dead point", Problem(where, "dead points are found for groups of two"))
     if not all(e.explicit for e in structure.elements):
         where = Phrase("cams named", cams=", ".join(cam.link for cam in structure.scene.cams))
@@ -175,7 +175,7 @@ def _beyond_limits(
         for k, s, either in zip(near.tolist(), side.tolist(), left_open.tolist(), strict=True):
             here = {j: f[k : k + 1] for j, f in modes.items() if j <= i}
             if s < 0:
-                links, place = group_named(group), _where(structure, i, values[k], here)
+                links, place = group.named, _where(structure, i, values[k], here)
                 status[k] = "not assembled"
                 reasons[k] = Phrase("just beyond the end of their motion", links=links, place=place)
             elif either:
@@ -197,7 +197,7 @@ def _apart(structure: Structure, i: int, values: Array, modes: Mapping[int, Arra
         solved = positions(structure, Drive(nudged, one, 0 * one), modes, i + 1, rates=False).groups[i]
         assert isinstance(solved, DyadSolution)
         if max(abs(complex(np.ravel(pose.z)[0])) for pose in (solved.first, solved.second)) > FAR_OFF * size:
-            links = group_named(group)
+            links = group.named
             return Phrase("have parallel guides that lie apart", links=links)
     return ""
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.solver.pose import Array
-from graphkin.structure import Dyad, LargerGroup, Pair, Structure, group_named, named_with_contact
+from graphkin.structure import Dyad, LargerGroup, Pair, Structure, named_with_contact
 from graphkin.words import Phrase, Wording
 
 ROUNDING = 5e-15
@@ -45,7 +45,7 @@ def limit_why(
 
 def group_words(structure: Structure, group: Dyad | LargerGroup) -> Phrase:
     """The links and blocks of a group in words; of a dyad that replaces a contact, that."""
-    return named_with_contact(structure, group) if isinstance(group, Dyad) else group_named(group)
+    return named_with_contact(structure, group) if isinstance(group, Dyad) else group.named
 
 
 def lies_at(structure: Structure, value: float, away: float, about: bool = False) -> Phrase:

@@ -105,6 +105,18 @@ Coordinate = tuple[str, str]
 """("angle", link) or ("travel", sliding pair)."""
 
 
+def _named(links: Sequence[str], members: Sequence[str]) -> Phrase:
+    """The members of a group in words: its links of the file, and what stands in it for pins in slots and for contacts:
+    ``links 2, 3``, ``link 2 and the block at B``, ``the blocks at P``."""
+    blocks = [name.split("/")[0] for name in members if "/" in name]
+    parts = [links_named(links)] if links else []
+    if blocks:
+        parts.append(Phrase(about("blocks at points", blocks), points=listed([*dict.fromkeys(blocks)])))
+    bars = (name for name in members if name not in links and "/" not in name)
+    named: Phrase = joined("one and other", (*parts, *(Phrase("bar of name", bar=bar) for bar in bars)))
+    return named
+
+
 @dataclass(frozen=True)
 class RollingRelation:
     """A sum of coordinates with factors that keeps its value; ``links`` are the links that it ties."""
@@ -155,8 +167,8 @@ class Driven:
     ``pair`` joins it (``a``) to a known link (``b``); for a slide driver it is the slide itself, in which the
     driven link may be the sliding or the guiding one.  It has the properties of groups: ``links`` and ``members`` hold
     this link alone; ``drivers`` has the driver unless that is a cam or rolling; ``outside`` are the known links of its
-    pair; it is ``explicit``, given by formulas of the drivers alone, unless it follows a cam, whose law has pieces, or
-    rolls.
+    pair, ``named`` its words; it is ``explicit``, given by formulas of the drivers alone, unless it follows a cam,
+    whose law has pieces, or rolls.
     """
 
     link: str
@@ -173,6 +185,7 @@ class Driven:
     rolled: Rolled | None = field(init=False, repr=False, compare=False)
     explicit: bool = field(init=False, repr=False, compare=False)
     outside: frozenset[str] = field(init=False, repr=False, compare=False)
+    named: Phrase = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         driver = self.driver
@@ -181,6 +194,7 @@ class Driven:
             drivers=(driver,) if isinstance(driver, Driver) else (),
             rolled=driver if isinstance(driver, Rolled) else None, explicit=driver.given,
             outside=frozenset((*self.pair.links, *driver.links, *driver.through)) - {self.link},
+            named=_named((self.link,), (self.link,)),
         )  # fmt: skip
 
 
@@ -200,9 +214,9 @@ class Dyad:
     ``links`` are the real links of the group in the order of the file.
 
     From these follow its ``bodies``, all ``members`` (blocks of pins included), ``pairs`` in the order of its kind,
-    the ``outer`` ones, the driven ``joints`` and ``drivers`` inside its bodies, the known links ``outside``, whether it
-    ``is_two_lines``: two straight lines cross in it, so that it has one assembly only, and whether it
-    ``is_slider_on_bar``: one body slides on the other, and both turn about known points.
+    the ``outer`` ones, the driven ``joints`` and ``drivers`` inside its bodies, the known links ``outside``, its words
+    ``named``, whether it ``is_two_lines``: two straight lines cross in it, so that it has one assembly only, and
+    whether it ``is_slider_on_bar``: one body slides on the other, and both turn about known points.
     """
 
     kind: DyadKind
@@ -224,6 +238,7 @@ class Dyad:
     joints: tuple[DrivenJoint, ...] = field(init=False, repr=False, compare=False)
     drivers: tuple[Driver, ...] = field(init=False, repr=False, compare=False)
     outside: frozenset[str] = field(init=False, repr=False, compare=False)
+    named: Phrase = field(init=False, repr=False, compare=False)
     is_two_lines: bool = field(init=False, repr=False, compare=False)
     is_slider_on_bar: bool = field(init=False, repr=False, compare=False)
 
@@ -235,6 +250,7 @@ class Dyad:
             bodies=(first, second), members=members, pairs=(outer[0], self.inner, outer[1]), outer=outer,
             joints=first.joints + second.joints, drivers=drivers, outside=frozenset(hung.difference(members)),
             is_two_lines=self.kind in ("PRP", "RPP"), is_slider_on_bar=self.kind == "RPR",
+            named=_named(self.links, members),
         )  # fmt: skip
 
 
@@ -277,14 +293,16 @@ class LargerGroup:
 
     kind: str = field(init=False, repr=False, compare=False)
     outside: frozenset[str] = field(init=False, repr=False, compare=False)
+    named: Phrase = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         names = {name for pair in self.pairs for name in pair.links}
         names.update(name for driver in self.drivers for name in (*driver.links, *driver.through))
         names.update(name for relation in self.rolling for name in relation.links)
         self.__dict__.update(
-            kind="group of " + ", ".join(self.links), outside=frozenset(names.difference(self.members))
-        )
+            kind="group of " + ", ".join(self.links), outside=frozenset(names.difference(self.members)),
+            named=_named(self.links, self.members),
+        )  # fmt: skip
 
 
 Element = Driven | Dyad | LargerGroup
@@ -390,18 +408,6 @@ class Structure:
         return next(s for s in self.slides if s.key == key)
 
 
-def group_named(group: Element) -> Phrase:
-    """The members of a group in words: its links of the file, and what stands in it for pins in slots and for contacts:
-    ``links 2, 3``, ``link 2 and the block at B``, ``the blocks at P``."""
-    blocks = [name.split("/")[0] for name in group.members if "/" in name]
-    parts = [links_named(group.links)] if group.links else []
-    if blocks:
-        parts.append(Phrase(about("blocks at points", blocks), points=listed([*dict.fromkeys(blocks)])))
-    bars = (name for name in group.members if name not in group.links and "/" not in name)
-    named: Phrase = joined("one and other", (*parts, *(Phrase("bar of name", bar=bar) for bar in bars)))
-    return named
-
-
 def named_with_contact(structure: Structure, dyad: Dyad) -> Phrase:
     """The links and blocks of a group in words; where one of them replaces a contact, that: ``contact K of links 1,
     2``."""
@@ -409,7 +415,7 @@ def named_with_contact(structure: Structure, dyad: Dyad) -> Phrase:
     contact = next((c for c in structure.scene.contacts if not c.carrier and c.block in inside), None)
     if contact is not None:
         return Phrase("contact of links", contact=contact.name, links=', '.join(contact.links))
-    return group_named(dyad)
+    return dyad.named
 
 
 N = TypeVar("N", bound=Hashable)

@@ -27,7 +27,7 @@ from graphkin.drawing.text import plain, rich, symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import dot
 from graphkin.scene.pairs import LawCam
-from graphkin.structure import Driven, Dyad, Element, LargerGroup, Pair, Structure, group_named, replacement_told
+from graphkin.structure import Driven, Dyad, Element, LargerGroup, Pair, Structure, replacement_told
 from graphkin.words import Phrase, class_of, languages, say
 
 DIAGRAM = (96.0, 84.0)  # mm, room of the numbered diagram
@@ -168,7 +168,7 @@ def _told(sheet: Sheet, element: Element, language: str) -> str:
     if not isinstance(element, Driven):
         inner, outer = _joints(element)
         group = Phrase(
-            "structure group", links=group_named(element), order=class_of(element.order),
+            "structure group", links=element.named, order=class_of(element.order),
             kind="" if isinstance(element, LargerGroup) else f" {element.kind}",
             inner=", ".join(p.key for p in inner), outer=", ".join(p.key for p in outer),
         )  # fmt: skip
