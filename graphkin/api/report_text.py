@@ -222,10 +222,16 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
         lines.append("  " + say(Phrase("also assembles", assembly=_between(scene, other)), language))
     if turn.not_searched:
         lines.append("  " + say(Phrase("not looked for", links=links_named(turn.not_searched)), language))
+    turning = {output.quantity.of for output in turn.outputs if output.turned}
+    turning |= {driver.link} if turn.reach.full else set()
     for loop in turn.loops:
-        turning = semicolon + say(Phrase("turns fully", links=", ".join(loop.turns)), language) if loop.turns else ""
-        head = f"{word('basic mechanism', language)} {', '.join(loop.links)}{colon}"
-        lines.append(f"{head}{word(loop.name, language)}{turning}")
+        parts = [f"{word('basic mechanism', language)} {', '.join(loop.links)}{colon}{word(loop.name, language)}"]
+        # a link that its own lengths would let turn may be held back by the links before it
+        for key, links in (("turns fully", turning.intersection(loop.turns)),
+                           ("could turn fully", set(loop.turns) - turning)):  # fmt: skip
+            named = ", ".join(link for link in loop.turns if link in links)
+            parts += [say(Phrase(key, links=named), language)] if links else []
+        lines.append(semicolon.join(parts))
     for output in turn.outputs:
         lines += _output(turn, output, language)
     for least in turn.transmission:

@@ -254,3 +254,15 @@ def test_designs_have_the_numbers_of_the_scenes_that_they_say() -> None:
         alone = graphkin.sweep(shaper.replace("links.2.length", length), find=find, positions=12)
         for name in find:
             assert alone[name] == pytest.approx(swept[name][k], rel=1e-12, abs=1e-9)
+
+
+def test_a_link_that_swings_is_not_said_to_turn_fully() -> None:
+    # the rocker of the four-bar would be a crank of the slider by its lengths alone
+    said = graphkin.sweep("sixbar-420rpm", positions=4).text
+    assert "Mechanism 1, 2, 3, 6: crank-rocker; turns fully: 1" in said
+    assert "Mechanism 3, 4, 5, 6: in-line slider-crank; its lengths alone would let turn fully: 3" in said
+
+
+def test_nothing_is_said_to_turn_fully_where_no_link_on_the_frame_does() -> None:
+    said = graphkin.sweep(four_bar(300, 100, 330, 350), positions=4).text
+    assert "double-rocker (its coupler can turn fully)\n" in said
