@@ -17,7 +17,7 @@ from graphkin.construction.steps import (
     Bar,
     CompassArc,
     Mark,
-    Missed,
+    MeasuredGap,
     Reason,
     TrialPositions,
     TrialRow,
@@ -258,7 +258,7 @@ class InMechanism(Telling):
         """All moved quantities of trial positions, and all gaps."""
         return joined("moved too", map(self._moved, table.moved)), joined("missed too", map(self._missed, table.missed))
 
-    def _missed(self, missed: Missed) -> Phrase:
+    def _missed(self, missed: MeasuredGap) -> Phrase:
         """A measured gap: between the ends of a bar, from a guide, or of a list."""
         if missed.kind != "guide":
             named = "".join(missed.names) if missed.kind == "bar" else ", ".join(missed.names)

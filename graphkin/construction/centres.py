@@ -367,45 +367,33 @@ def _normals(links: Centres) -> Iterator[CentreRelation]:
 # -- Kennedy's theorem -------------------------------------------------------------------------------------------------
 
 
-@dataclass
 class CircleDiagram:
-    """The circle diagram while it is filled.
+    """The circle diagram while it is filled, at first with the common normals alone.
 
-    Parameters
-    ----------
     links : the links of the centres
-    normals : pairs with a common normal
+    normals : the number of common normals of each pair
     table : the centres so far, in their order
     lines : the known lines of each missing centre
     best : the crossing of two of them with the least error
     ranked : of sure crossings the error in powers of ten and the pair's index in the order of links, the least first;
         those in the table are skipped
-    reached : centres that closed triangles of the circle diagram can give in turn, if no two lines coincide
-    joined : by link the links of such centres with it
+    joined : by link the links of centres with it that closed triangles of the circle diagram can give in turn, if no
+        two lines coincide
+    reached : these centres
     placed : by link the centres of known place with others
     """
 
-    links: Centres
-    normals: Counter[LinkPair]
-    table: dict[LinkPair, Centre]
-    lines: dict[LinkPair, list[CentreRelation]]
-    best: dict[LinkPair, Centre]
-    ranked: list[tuple[int, int, LinkPair]]
-    reached: set[LinkPair]
-    joined: dict[str, set[str]]
-    placed: dict[str, dict[str, Centre]]
-
-    @classmethod
-    def empty(cls, links: Centres, normals: Sequence[CentreRelation]) -> CircleDiagram:
-        """The diagram with only the common normals drawn."""
-        lines: dict[LinkPair, list[CentreRelation]] = {pair: [] for pair in links.pairs}
-        joined: dict[str, set[str]] = {name: set() for name in links.names}
-        diagram = cls(links, Counter(line.pair for line in normals), {}, lines, {}, [], set(), joined,
-                      {name: {} for name in links.names})  # fmt: skip
+    def __init__(self, links: Centres, normals: Sequence[CentreRelation]) -> None:
+        self.links, self.normals = links, Counter(line.pair for line in normals)
+        self.table: dict[LinkPair, Centre] = {}
+        self.lines: dict[LinkPair, list[CentreRelation]] = {pair: [] for pair in links.pairs}
+        self.best: dict[LinkPair, Centre] = {}
+        self.ranked: list[tuple[int, int, LinkPair]] = []
+        self.placed: dict[str, dict[str, Centre]] = {name: {} for name in links.names}
+        self.joined: dict[str, set[str]] = {name: set() for name in links.names}
         for line in normals:
-            diagram.draw(line)
-        diagram.reached |= diagram.reached_with([p for p in links.pairs if diagram.normals[p] >= 2], joined)
-        return diagram
+            self.draw(line)
+        self.reached = self.reached_with([p for p in links.pairs if self.normals[p] >= 2], self.joined)
 
     def take(self, centre: Centre) -> None:
         """Add a centre, and all lines that it completes."""
@@ -496,7 +484,7 @@ class CircleDiagram:
 def _with_table(links: Centres, instrument: Instrument) -> Centres:
     """The centres of links on paper."""
     normals, motions, chart = list(_normals(links)), measured(links), links.chart
-    diagram = CircleDiagram.empty(links, normals)
+    diagram = CircleDiagram(links, normals)
     for centre in _permanent(links):
         if centre.pair not in diagram.table:
             diagram.take(centre)

@@ -181,7 +181,7 @@ def _take(plot: Polygons, order: Order, group: LargerGroup, plans: Iterable[Grou
         if not candidate.tried:
             best = 1.0, candidate
             break
-        quality, made = Trials(plot, order, group, candidate).judged()
+        quality, made = TrialPolygons(plot, order, group, candidate).judged()
         if best is None or quality > MUCH_BETTER * best[0]:
             best = quality, made
         if MUCH_BETTER * best[0] >= len(candidate.tried) ** 0.5:
@@ -199,7 +199,7 @@ def _draw_by(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan) 
         for _, first, second in plan.parallel:
             plot.board.notice("mechanism", "parallel legs", first, second)
     if plan.tried:
-        trials = Trials(plot, order, group, plan).with_assumptions()
+        trials = TrialPolygons(plot, order, group, plan).with_assumptions()
         plot.plans[group] = trials.plan
         trials.assume(plot, trials.true_rates())
     _complete(plot, order, group)
@@ -446,7 +446,7 @@ def _against(plan: GroupPlan) -> bool:
 
 
 @dataclass(frozen=True)
-class Trials:
+class TrialPolygons:
     """The trial polygons of a group by a plan that assumes rates.
 
     An open end is an edge whose ends should meet, and whether it is measured ``across`` it or along.
@@ -535,7 +535,7 @@ class Trials:
             left = left - np.outer(left @ e, e)
         return quality, replace(plan, open_ends=tuple(keys[k] for k in chosen))
 
-    def with_assumptions(self) -> Trials:
+    def with_assumptions(self) -> TrialPolygons:
         """Rates to assume that make the trial polygons about as large as the true one: round ones on either side of it,
         all on the one side in the first trial, each in its turn on the other in those that follow; the nearer to the
         true ones, the further a trial polygon would reach beyond the true one."""

@@ -27,8 +27,8 @@ import numpy as np
 from graphkin.construction.instruments import EXACT
 from graphkin.construction.links_on_paper import PlacedLinks, Steps, drive, meet, walk
 from graphkin.construction.proportional_division import divide, shares
-from graphkin.construction.reduced_mechanism import ReducedMechanism, best_first, drawn_near, fitted
-from graphkin.construction.steps import Bar, CompassArc, Missed, Step, Stroke, TrialCurve, TrialPositions, TrialRow
+from graphkin.construction.reduced_mechanism import ReducedMechanism, TrialDrawing, best_first, fitted
+from graphkin.construction.steps import Bar, CompassArc, MeasuredGap, Step, Stroke, TrialCurve, TrialPositions, TrialRow
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Pose, Poses
 from graphkin.scene.model import Driver
@@ -156,11 +156,11 @@ def _placed_by_hand(paper: PlacedLinks, reduced: ReducedMechanism, guess: Poses)
     if reduced.trial:
         at, slopes = _by_hand(paper, reduced, poses, values)
         values = values - np.linalg.solve(slopes, at)
-    last = drawn_near(reduced, paper, poses, values)
+    last = TrialDrawing.of(reduced, paper, poses, values)
     if last is None:
         raise _refused(reduced, Phrase("the last trial drawing does not close"))
-    paper.pricked.update(last.pricked)
-    paper.poses.update(reduced.put_back(last))
+    paper.pricked.update(last.drawn.pricked)
+    paper.poses.update(reduced.put_back(last.drawn))
     paper.settle([r.left_out for r in reduced.removed if r.left_out])
 
 
@@ -168,36 +168,32 @@ def _by_hand(
     paper: PlacedLinks, reduced: ReducedMechanism, poses: Poses, values: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """The gaps of a trial drawing as hands find and read them, and their change with the trial values."""
-    drawn = drawn_near(reduced, paper, poses, values)
-    if drawn is None:
+    drawing = TrialDrawing.of(reduced, paper, poses, values)
+    if drawing is None:
         raise _refused(reduced, Phrase("a trial drawing does not close"))
     size = paper.mm * reduced.structure.scene.size
     gaps = [
         gap if constraint.is_angle else paper.instrument.read(gap * size) / size
-        for gap, constraint in zip(reduced.gaps(drawn), reduced.removed, strict=True)
+        for gap, constraint in zip(drawing.gaps, reduced.removed, strict=True)
     ]
     exact = replace(paper, instrument=EXACT, pricked={})
     step, slopes = 1e-6, []
     for change in step * np.eye(len(values)):
-        low, high = (drawn_near(reduced, exact, poses, values + sign * change) for sign in (-1, 1))
+        low, high = (TrialDrawing.of(reduced, exact, poses, values + sign * change) for sign in (-1, 1))
         if low is None or high is None:
             where = Phrase("links", links=", ".join(reduced.group.links))
             raise Unsolvable("dead point", Problem(where, "the trial drawing is at a dead point"))
-        slopes.append((np.array(reduced.gaps(high)) - np.array(reduced.gaps(low))) / (2 * step))
+        slopes.append((high.gaps - low.gaps) / (2 * step))
     return np.array(gaps), np.array(slopes).T
 
 
 # -- what is drawn and measured in trial positions ---------------------------------------------------------------------
 
 
-Tried = tuple[np.ndarray, PlacedLinks]
-"""The values of the trial drivers (rad, or the mechanism's size), and the trial drawing."""
-
-
 def _trial_positions(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, values: np.ndarray) -> Step:
     """The step of the trial positions of a group with these final poses and values."""
     tried, alone = _trial_drawings(known, reduced, poses, values), len(values) == 1
-    point, strokes = _curve(known, reduced, poses, [drawn for _, drawn in tried]) if alone else ("", ())
+    point, strokes = _curve(known, reduced, poses, [trial.drawn for trial in tried]) if alone else ("", ())
     rolling = tuple(r.name for r in reduced.removed if r.rolling is not None)
     angles = [d for d in reduced.structure.scene.drivers if d.turns]
     instead = tuple(
@@ -212,7 +208,9 @@ def _trial_positions(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses
     return Step("trial", "positions", strokes=strokes, data=positions)
 
 
-def _trial_drawings(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, values: np.ndarray) -> list[Tried]:
+def _trial_drawings(
+    known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, values: np.ndarray
+) -> list[TrialDrawing]:
     """Drawings at trial values about the place sought: of one trial driver on either side of it, of several each
     further one with another of them changed; so near that all can be drawn, none where even the nearest cannot."""
     exact, count, last = replace(known, instrument=EXACT), len(values), (POINTS - 1) * BETWEEN
@@ -221,15 +219,15 @@ def _trial_drawings(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses,
     else:
         away, steps = STEP, np.vstack([np.zeros(count), np.eye(count)]) - BEFORE
     for _ in range(6):
-        drawn: dict[int, PlacedLinks] = {}
+        drawings: dict[int, TrialDrawing] = {}
         for i in sorted(range(len(steps)), key=lambda i: float(np.abs(steps[i]).max())):
-            beside = next((drawn[j].poses for j in (i - 1, i + 1) if count == 1 and j in drawn), poses)
-            made = drawn_near(reduced, exact, beside, values + away * steps[i])
-            if made is None:
+            beside = next((drawings[j].drawn.poses for j in (i - 1, i + 1) if count == 1 and j in drawings), poses)
+            drawing = TrialDrawing.of(reduced, exact, beside, values + away * steps[i])
+            if drawing is None:
                 break
-            drawn[i] = made
+            drawings[i] = drawing
         else:
-            return [(values + away * steps[i], drawn[i]) for i in range(len(steps))]
+            return [drawings[i] for i in range(len(steps))]
         away /= 2.0
     return []
 
@@ -268,8 +266,9 @@ def _curve(
 
 
 def _measured(
-    positions: TrialPositions, known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, tried: Sequence[Tried]
-) -> TrialPositions:
+    positions: TrialPositions, known: PlacedLinks, reduced: ReducedMechanism, poses: Poses,
+    tried: Sequence[TrialDrawing],
+) -> TrialPositions:  # fmt: skip
     """Trial positions with their gaps, and the divisions of these, in degrees and mm on paper.
 
     Of the trials of one driver the two on either side of the wanted place are divided, then the trial with a gap of the
@@ -283,40 +282,37 @@ def _measured(
     exact = replace(known, instrument=EXACT)
     moved = [_moved(known, reduced, driver) for driver in reduced.trial]
 
-    def misses(gaps: Sequence[float] | np.ndarray) -> tuple[float, ...]:
-        pairs = zip(gaps, reduced.removed, strict=True)
-        return tuple(float(math.degrees(gap) if r.is_angle else gap * size) for gap, r in pairs)
-
-    def row(values: np.ndarray, gaps: Sequence[float] | np.ndarray) -> TrialRow:
+    def row(trial: TrialDrawing) -> TrialRow:
         shown = (math.degrees(v + ahead) if symbol.measure == "angle" else v * size
-                 for v, (symbol, ahead) in zip(values, moved, strict=True))  # fmt: skip
-        return tuple(map(float, shown)), misses(gaps)
+                 for v, (symbol, ahead) in zip(trial.at, moved, strict=True))  # fmt: skip
+        pairs = zip(trial.gaps, reduced.removed, strict=True)
+        misses = (math.degrees(gap) if r.is_angle else gap * size for gap, r in pairs)
+        return tuple(map(float, shown)), tuple(map(float, misses))
 
-    at, gaps = [values for values, _ in tried], [np.array(reduced.gaps(drawn)) for _, drawn in tried]
-    trials, before, alone = tuple(map(row, at, gaps)), 0, len(moved) == 1
+    trials, before, alone, left = tuple(map(row, tried)), 0, len(moved) == 1, [*tried]
     if alone:
-        over = [i for i, (first, second) in enumerate(pairwise(gaps)) if first[0] * second[0] < 0.0]
+        over = [i for i, (first, second) in enumerate(pairwise(tried)) if first.gaps[0] * second.gaps[0] < 0.0]
         sides = min(over, key=lambda i: abs(i + 0.5 - BEFORE * (len(tried) - 1)), default=None)
         before = (sides or 0) + 1
-        at, gaps = ([], []) if sides is None else (at[sides : sides + 2], gaps[sides : sides + 2])
+        left = [] if sides is None else left[sides : sides + 2]
     parts: tuple[float, ...] = ()
     divided: list[TrialRow] = []
     replaced: list[int] = []
-    while gaps and len(divided) < DIVISIONS:
+    while left and len(divided) < DIVISIONS:
+        gaps = [trial.gaps for trial in left]
         sizes = np.linalg.svd(np.array([gap - gaps[0] for gap in gaps[1:]]), compute_uv=False)
         if sizes[-1] <= LEAST * sizes[0] or not sizes[0]:
             break
-        divided_values = divide(at, gaps)
-        drawn = drawn_near(reduced, exact, poses, divided_values)
-        if drawn is None:
+        nearer = TrialDrawing.of(reduced, exact, poses, divide([trial.at for trial in left], gaps))
+        if nearer is None:
             break
-        left_open = np.array(reduced.gaps(drawn))
         parts = parts or tuple(map(float, shares(gaps)))
-        divided.append(row(divided_values, left_open))
-        if all(abs(miss) < UNSEEN for miss in misses(left_open)):
+        divided.append(row(nearer))
+        if all(abs(miss) < UNSEEN for miss in divided[-1][1]):
             break
-        gone = int(left_open[0] * gaps[1][0] >= 0.0) if alone else int(np.argmax([np.abs(gap).max() for gap in gaps]))
-        at[gone], gaps[gone] = divided_values, left_open
+        same_sense = nearer.gaps[0] * gaps[1][0] >= 0.0
+        gone = int(same_sense) if alone else int(np.argmax([np.abs(gap).max() for gap in gaps]))
+        left[gone] = nearer
         replaced.append(gone + 1)
     missed = []
     for r in reduced.removed:
@@ -328,7 +324,7 @@ def _measured(
         if r.kind == "bar":
             first, second = (reduced.structure.links[r.left_out].points[point] for point in names)
             length = abs(second - first) * known.mm
-        missed.append(Missed(r.kind, names, length, r.is_angle))
+        missed.append(MeasuredGap(r.kind, names, length, r.is_angle))
     return replace(
         positions, moved=tuple(symbol for symbol, _ in moved), missed=tuple(missed), trials=trials,
         divided=tuple(divided), before=before, parts=() if alone else parts, replaced=() if alone else tuple(replaced),

@@ -37,7 +37,7 @@ from graphkin.construction.links_on_paper import (
     travel,
     walk,
 )
-from graphkin.construction.reduced_mechanism import PlacedElements, ReducedMechanism, closed_from, fitted
+from graphkin.construction.reduced_mechanism import PlacedElements, ReducedMechanism, fitted
 from graphkin.construction.sheet import Board
 from graphkin.construction.steps import FINDS_A_POINT, Mark, Reason, Step
 from graphkin.errors import Unsolvable
@@ -314,7 +314,7 @@ def found_near(
         drawing = placed.best(element, paper, guess)
         if drawing is not None and element.rolling:
             return fitted(placed.last[element].rolled_from(start, paper.mm), paper, guess)
-        return None if drawing is None else closed_from(drawing, paper, guess)
+        return None if drawing is None else drawing.closed()
 
     def rolled(driver: Rolled) -> float:
         return rolled_near(structure, paper, driver, start, guess)

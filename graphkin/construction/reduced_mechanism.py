@@ -389,7 +389,7 @@ class PlacedElements:
         """The trial drawing of a group by the reduced mechanism that finds it best near a guess, which becomes the last
         that served; None where all are at dead points."""
         last = self.last.get(group)
-        best = trial_drawing(last.rolled_from(guess, known.mm), known, guess) if last is not None else None
+        best = TrialDrawing.of(last.rolled_from(guess, known.mm), known, guess) if last is not None else None
         if best is not None and best.quality > GOOD / 2:
             return best
         best = _best_of(self.of[group], known, guess)
@@ -433,97 +433,110 @@ class PlacedElements:
 
 @dataclass(frozen=True)
 class TrialDrawing:
-    """A trial drawing of a larger group: the trial values, the drawing, its gaps, their change with the values, and the
-    quality with which it finds the group (0: not at all)."""
+    """A drawing of a larger group at trial values, each dyad in the assembly nearest to a guess.
+
+    Parameters
+    ----------
+    known, guess : the links drawn before, and the expected poses
+    at : the trial values (rad, or travel in the mechanism's size), shape (trial drivers,)
+    drawn : all links
+    gaps : the misfit of each left-out constraint (in the mechanism's size, or rad), shape (constraints,)
+    """
 
     reduced: ReducedMechanism
+    known: PlacedLinks
+    guess: Poses
     at: Array
     drawn: PlacedLinks
-    gap: Array
-    slope: Array
-    quality: float
+    gaps: Array
 
+    @classmethod
+    def of(
+        cls, reduced: ReducedMechanism, known: PlacedLinks, guess: Poses, values: Sequence[float] | Array | None = None
+    ) -> TrialDrawing | None:
+        """The drawing at some values, or at those of the guess; None where it does not close."""
+        at = np.array(reduced.values(guess, known.mm) if values is None else values, dtype=float)
+        paper = reduced.opened(known, [float(value) for value in at])
 
-def trial_drawing(
-    reduced: ReducedMechanism, known: PlacedLinks, guess: Poses, values: Sequence[float] | None = None
-) -> TrialDrawing | None:
-    """A trial drawing near a guess, with its quality: a small gap should mean a small error of every link, and no link
-    should move much more than the trial driver."""
-    at = np.array(reduced.values(guess, known.mm) if values is None else values)
-    drawn = drawn_near(reduced, known, guess, at)
-    if drawn is None:
-        return None
-    group = {n: pose for n, pose in drawn.poses.items() if n in reduced.group.members}
-    gap = np.array(reduced.gaps(drawn))
-    quality, slopes, each = 1.0, [], []
-    size = known.mm * reduced.structure.scene.size
-    for step in NUDGE * np.eye(len(at)):
-        nudged = drawn_near(reduced, known, guess, at + step)
-        if nudged is None:
+        def choose(_: int, dyad: Dyad | LargerGroup) -> Poses | None:
+            assert isinstance(dyad, Dyad)
+            return met_near(paper, dyad, guess)
+
+        if not assembled(paper, reduced.elements, choose):
             return None
-        slopes.append((np.array(reduced.gaps(nudged)) - gap) / NUDGE)
-        grown = max(moved(group, nudged.poses, size), 1e-12) / NUDGE
-        each.append(slopes[-1] / grown)
-        quality = min(quality, 2.0 / grown)
-    least = float(np.linalg.svd(np.array(each), compute_uv=False)[-1]) if len(at) > 1 else abs(float(each[0][0]))
-    return TrialDrawing(reduced, at, drawn, gap, np.array(slopes).T, quality * least)
+        return cls(reduced, known, guess, at, paper, np.array(reduced.gaps(paper)))
+
+    def moved_by(self, step: np.ndarray) -> TrialDrawing | None:
+        """The drawing at other trial values."""
+        return TrialDrawing.of(self.reduced, self.known, self.guess, self.at + step)
+
+    @cached_property
+    def _nudged(self) -> tuple[Array, float] | None:
+        """The change of the gaps with the trial values, and the quality; None where a nudged drawing does not close."""
+        group = {n: pose for n, pose in self.drawn.poses.items() if n in self.reduced.group.members}
+        size = self.known.mm * self.reduced.structure.scene.size
+        quality, slopes, each = 1.0, [], []
+        for step in NUDGE * np.eye(len(self.at)):
+            nudged = self.moved_by(step)
+            if nudged is None:
+                return None
+            slopes.append((nudged.gaps - self.gaps) / NUDGE)
+            grown = max(moved(group, nudged.drawn.poses, size), 1e-12) / NUDGE
+            each.append(slopes[-1] / grown)
+            quality = min(quality, 2.0 / grown)
+        several = len(self.at) > 1
+        least = float(np.linalg.svd(np.array(each), compute_uv=False)[-1]) if several else abs(float(each[0][0]))
+        return np.array(slopes).T, quality * least
+
+    @property
+    def quality(self) -> float:
+        """The quality with which it finds the group: a small gap should mean a small error of every link, and no link
+        should move much more than the trial driver; 0 where it does not find the group at all."""
+        return 0.0 if self._nudged is None else self._nudged[1]
+
+    def closed(self) -> dict[str, Pose] | None:
+        """The poses of the group: the trial values by repeated proportional division of the gaps, beginning here
+        (secant; with several trial drivers Broyden's method, Math. Comp. 19, 1965); None where that finds none."""
+        here = self
+        if not self.reduced.trial:  # everything stands as it is given
+            return self.reduced.put_back(self.drawn)
+        if self._nudged is None:
+            return None
+        slopes, _ = self._nudged
+        for _ in range(ROUNDS):
+            try:
+                step = np.linalg.solve(slopes, -here.gaps)
+            except np.linalg.LinAlgError:
+                break
+            if not np.abs(step).max() <= 1.0:
+                break  # nowhere near, or nothing but rounding is left
+            following = here.moved_by(step)
+            if following is None:
+                break
+            if np.abs(following.gaps).max() >= np.abs(here.gaps).max() and np.abs(here.gaps).max() < FIT:
+                break
+            if not step.any():
+                break
+            slopes = slopes + np.outer(following.gaps - here.gaps - slopes @ step, step) / (step @ step)
+            here = following
+            if not here.gaps.any():
+                break
+        return self.reduced.put_back(here.drawn) if np.abs(here.gaps).max() < FIT else None
 
 
 def fitted(
     reduced: ReducedMechanism, known: PlacedLinks, guess: Poses, values: Sequence[float] | None = None
 ) -> dict[str, Pose] | None:
-    """A larger group near a guess: the trial values by repeated proportional division of the trial drawings' gaps
-    (secant; with several trial drivers Broyden's method, Math. Comp. 19, 1965)."""
-    if not reduced.trial:  # everything stands as it is given
-        drawn = drawn_near(reduced, known, guess, ())
-        return None if drawn is None else reduced.put_back(drawn)
-    start = trial_drawing(reduced, known, guess, values)
-    return None if start is None else closed_from(start, known, guess)
-
-
-def closed_from(start: TrialDrawing, known: PlacedLinks, guess: Poses) -> dict[str, Pose] | None:
-    """``fitted``, beginning with a trial drawing."""
-    reduced, at, drawn, gap, slope = start.reduced, start.at, start.drawn, start.gap, start.slope
-    for _ in range(ROUNDS):
-        try:
-            step = np.linalg.solve(slope, -gap)
-        except np.linalg.LinAlgError:
-            break
-        if not np.abs(step).max() <= 1.0:
-            break  # nowhere near, or nothing but rounding is left
-        following = drawn_near(reduced, known, guess, at + step)
-        if following is None:
-            break
-        left = np.array(reduced.gaps(following))
-        if np.abs(left).max() >= np.abs(gap).max() and np.abs(gap).max() < FIT:
-            return reduced.put_back(drawn)
-        if not step.any():
-            break
-        slope = slope + np.outer(left - gap - slope @ step, step) / (step @ step)
-        at, drawn, gap = at + step, following, left
-        if not gap.any():
-            break
-    return reduced.put_back(drawn) if np.abs(gap).max() < FIT else None
-
-
-def drawn_near(
-    reduced: ReducedMechanism, known: PlacedLinks, guess: Poses, values: Sequence[float] | np.ndarray
-) -> PlacedLinks | None:
-    """A trial drawing of a group, each dyad in the assembly nearest to a guess."""
-    paper = reduced.opened(known, [float(v) for v in values])
-
-    def choose(_: int, dyad: Dyad | LargerGroup) -> Poses | None:
-        assert isinstance(dyad, Dyad)
-        return met_near(paper, dyad, guess)
-
-    return paper if assembled(paper, reduced.elements, choose) else None
+    """The poses of a larger group near a guess, from trial drawings at some values, or at those of the guess."""
+    start = TrialDrawing.of(reduced, known, guess, values)
+    return None if start is None else start.closed()
 
 
 def _best_of(candidates: Sequence[ReducedMechanism], known: PlacedLinks, guess: Poses) -> TrialDrawing | None:
     """The trial drawing that finds the group best, or the first that finds it well; None if none can be drawn."""
     best: TrialDrawing | None = None
     for reduced in candidates:
-        now = trial_drawing(reduced.rolled_from(guess, known.mm), known, guess)
+        now = TrialDrawing.of(reduced.rolled_from(guess, known.mm), known, guess)
         if now is not None and now.quality > (0.0 if best is None else best.quality):
             best = now
             if now.quality > GOOD:
@@ -538,6 +551,6 @@ def best_first(
     others."""
     placed = PlacedElements(structure, [group])
     for some in (placed.of[group], placed.further(group)):
-        tried = (trial_drawing(reduced.rolled_from(guess, known.mm), known, guess) for reduced in some)
-        for drawing in sorted(filter(None, tried), key=lambda drawing: -drawing.quality):
-            yield drawing.reduced
+        tried = (TrialDrawing.of(reduced.rolled_from(guess, known.mm), known, guess) for reduced in some)
+        served = [drawing for drawing in tried if drawing is not None and drawing.quality]
+        yield from (drawing.reduced for drawing in sorted(served, key=lambda drawing: -drawing.quality))

@@ -498,7 +498,7 @@ Stroke = Vector | ConstructionVector | TrialCurve | Ray | CompassArc | Bar | Mar
 
 
 @dataclass(frozen=True)
-class Missed:
+class MeasuredGap:
     """The measured gap of a left-out part, with the ``names`` of its ends and the ``length`` of a bar (mm on paper):
     degrees for an ``angle``, else mm."""
 
@@ -537,7 +537,7 @@ class TrialPositions(OnPaper):
     rolling: tuple[str, ...] = ()
     instead: tuple[tuple[str, str, float], ...] = ()
     moved: tuple[Symbol, ...] = ()
-    missed: tuple[Missed, ...] = ()
+    missed: tuple[MeasuredGap, ...] = ()
     trials: tuple[TrialRow, ...] = ()
     divided: tuple[TrialRow, ...] = ()
     before: int = 0
