@@ -172,9 +172,7 @@ def problem_set(
     workers = known_workers(executor, workers)
     if spread is not None and not isinstance(spread, Spread):
         raise CallError.of("spread", "found value", "give a spread", value=f'{spread!r:.60}')
-    source, name = _source(scene)
-    if find is not None:
-        source["find"] = [str(s) for s in asked_symbols(as_scene(source), find)]
+    source, name = _source(scene, find)
     given = as_scene(source)
     jobs, unused = _jobs(source, variants, seed, rows, spread or Spread())
     folder = path_of(out) if out is not None else None
@@ -182,7 +180,9 @@ def problem_set(
     left: list[Path] = []
     if folder is not None:
         write_files(folder, {})
-        left = half_written(folder, name)
+        # what a killed process has left half-written
+        pattern = re.compile(rf"\.{re.escape(name)}-.*\.[a-z0-9_]{{8}}")
+        left = [path for path in folder.glob(".*") if pattern.fullmatch(path.name)]
 
     def keep(variant: Variant, files: Mapping[str, bytes]) -> list[str]:
         if folder is None:
@@ -219,20 +219,18 @@ def problem_set(
     return ProblemSet(given, made, unused, folder, speaking)
 
 
-def half_written(folder: Path, stem: str) -> list[Path]:
-    """The files of this stem that a killed process has left half-written in a folder."""
-    pattern = re.compile(rf"\.{re.escape(stem)}-.*\.[a-z0-9_]{{8}}")
-    return [path for path in folder.glob(".*") if pattern.fullmatch(path.name)]
-
-
-def _source(scene: SceneLike) -> tuple[OwnTables, str]:
-    """The mapping of a scene file, as it was written if possible, and the scene's name."""
+def _source(scene: SceneLike, find: Iterable[str | Symbol] | None = None) -> tuple[OwnTables, str]:
+    """The mapping of a scene file, as it was written if possible, with what is asked, and the scene's name."""
     read = as_scene(scene)
     if isinstance(scene, Mechanism) or read.drawn:
         # drawn points tie every number to the position: lengths stand on their own
-        return as_mapping(read), read.name
-    source, name = written(scene)
-    return dict(source), safe_name(name)
+        source, name = as_mapping(read), read.name
+    else:
+        tables, name = written(scene)
+        source, name = dict(tables), safe_name(name)
+    if find is not None:
+        source["find"] = [str(s) for s in asked_symbols(as_scene(source), find)]
+    return source, name
 
 
 def _jobs(
@@ -310,9 +308,7 @@ def drawn_schemes(
     SceneError, CallError : the scene or the call is wrong
     Unsolvable : a variant that makes no good problem with any numbers
     """
-    source, _ = _source(scene)
-    if find is not None:
-        source["find"] = [str(s) for s in asked_symbols(as_scene(source), find)]
+    source, _ = _source(scene, find)
     jobs, _ = _jobs(source, variants, seed, None, Spread())
     made: dict[str, Mechanism] = {}
     lines: list[tuple[str, ...]] = []
