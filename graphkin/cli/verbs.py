@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -359,7 +359,7 @@ def handout(given: Given) -> None:
     if given.template == "course-design":
         if given.export:
             raise CallError.of("template course-design", "with export", "leave one of them out")
-        _course(given)
+        _papers(given, graphkin.course_design)
         return
     if given.students is not None:
         raise CallError.of("students", "without a course design", "add template course-design")
@@ -370,41 +370,30 @@ def handout(given: Given) -> None:
             raise CallError.of("variants", "with at or positions", "a set draws positions of its own one")
         _problem_set(given)
     else:
-        _papers(given)
+        _papers(given, graphkin.handout, exports=split_words(given.export))
 
 
-def _papers(given: Given) -> None:
-
+def _papers(given: Given, function: Callable[..., Handout | CourseDesigns], **others: Any) -> None:
+    """Write the papers that a public function makes; name the files, and deviations from the request."""
     with short_bar(given.speaks) as progress:
-        made = given.call(graphkin.handout, progress=progress, exports=split_words(given.export))
+        made = given.call(function, progress=progress, **others)
         paths = made.write(given.out)
-    _tell_written(given, made, paths, made.lesson.language)
+    for note in made.notes:
+        tell(f"graphkin: {say(note, languages(given.lang or made.mechanism.question.sheet.language)[0])}", err=True)
+    finish(given, made, paths, files=True)
+
+
+NOT_OF_DESIGNS = ("at", "position", "find", "convention", "positions", "variants", "rows", "export")
 
 
 def _design(given: Given) -> None:
     from graphkin.api.task_papers import write_design_papers
 
+    refusal = Phrase("goes with a scene not with a design"), Phrase("leave it out")
+    if wishes := [name for name in NOT_OF_DESIGNS if getattr(given, name) not in (None, "", [])]:
+        raise CallError(*(Problem(f"--{name}", *refusal) for name in wishes))
     designed = graphkin.design(given.scene, language=given.lang)
-    files = write_design_papers(designed, given.out, given.formats)
-    if given.json:
-        print_json(designed.data | {"files": [str(path) for path in files]})
-    elif not given.quiet:
-        print_paths(files)
-
-
-def _course(given: Given) -> None:
-
-    with short_bar(given.speaks) as progress:
-        made = given.call(graphkin.course_design, progress=progress)
-        paths = made.write(given.out)
-    _tell_written(given, made, paths, given.lang or made.mechanism.question.sheet.language)
-
-
-def _tell_written(given: Given, made: Handout | CourseDesigns, paths: Sequence[Path], language: str) -> None:
-    """Name the written files, and deviations from the request."""
-    for note in made.notes:
-        tell(f"graphkin: {say(note, languages(language)[0])}", err=True)
-    finish(given, made, paths, files=True)
+    finish(given, designed, write_design_papers(designed, given.out, given.formats), files=True)
 
 
 def _problem_set(given: Given) -> None:

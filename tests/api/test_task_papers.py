@@ -68,3 +68,11 @@ def test_a_cam_has_its_papers(name):
 
 def test_a_design_is_told_from_a_scene():
     assert [True, False] == [is_design("rocker-limits"), is_design("shaper-scheme-2")]
+
+
+def test_a_wish_for_papers_that_only_a_scene_has_is_refused_for_a_design(tmp_path):
+    call = ["handout", "rocker-limits", "--format", "html", "--export", "moodle", "--variants", "3", "--at", "40"]
+    done = run(*call, cwd=tmp_path)
+    refused = [line.partition(":")[2].partition(":")[0].strip() for line in done.stderr.splitlines()]
+    assert (2, ["--at", "--variants", "--export"]) == (done.returncode, refused)
+    assert [] == [*tmp_path.iterdir()]
