@@ -297,7 +297,7 @@ class ForceAccount:
         scale = Neutral(f"× {amount(self.sheet.scales.length, 12)} m/mm")
         told: list[Wording] = [Phrase("force arms", arms=Neutral(",  ".join(arms)), scale=scale)] if arms else []
         through = [self.name(t.symbol) for t in equation.terms if t not in with_moments(equation)]
-        told += [Phrase("force no arm", forces=listed(through))] if through else []
+        told += [Phrase("force no arm", forces=Neutral(",  ".join(through)))] if through else []
         scene, point = self.sheet.scene, equation.about
         point = f"({point})" if point in scene.by_name and point not in scene.holders else point
         terms, arm, total = balance(self.sheet, equation)

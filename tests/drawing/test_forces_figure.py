@@ -182,7 +182,7 @@ def test_a_sum_of_moments_comes_to_nought_as_it_is_written(name: str) -> None:
 
 def test_a_force_through_the_point_of_moments_is_named_as_such_and_left_out_of_the_sum() -> None:
     lines = [line for stage in stages_of("boom-lifted") for step in stage.steps for line in step.lines("en")]
-    at = lines.index("Through that point, without an arm: $F_{I2}$, $G_{2}$.")
+    at = lines.index("through that point, without an arm: $F_{I2}$,  $G_{2}$")
     assert lines[at - 1] == "arms on paper: $G_{3}$ 14.71 mm,  $F^{t}_{R43}$ 52.00 mm; in m: × 0.01 m/mm"
     assert lines[at + 1] == "$ΣM_{B}$ = 0.24525·0.147128 − $F^{t}_{R43}$·0.52 = 0;  $F^{t}_{R43}$ = 0.069391 kN"
 
