@@ -93,10 +93,18 @@ def mobility_text(scene: Mechanism, language: str, drivers: int | None = None) -
 
 
 @lru_cache(maxsize=16)
+def _analysed(scene: Mechanism) -> Structure:
+    """The structure of a scene, with which its range and its last drawing are kept."""
+    return solver.structure_of(scene)
+
+
 def reach(scene: Mechanism) -> tuple[float, float, DriverRange]:
     """The range of a scene's first driver: its least and greatest value in its own unit, and the range itself.  Raises
     GraphkinError where it cannot be found."""
-    over = driver_range(scene)
+    structure = _analysed(scene)
+    if "range on the page" not in structure.kept:
+        structure.kept["range on the page"] = driver_range(structure)
+    over: DriverRange = structure.kept["range on the page"]
     values = sorted(float(v) for v in over.value(np.array(over.ends)))
     low, high = (0.0, 360.0) if over.full else (scene.unit_of(over.driver).of(v) for v in values)
     return low, high, over
@@ -136,9 +144,9 @@ def shown(
     ------
     Unsolvable : the scene's own position cannot be assembled
     """
-    structure = _moved(scene).structure
+    structure = _analysed(scene)
     if quick and options.instrument == "exact":
-        return _in_motion(_moved(scene), at, options)
+        return _in_motion(structure, at, options)
     said = ""
     try:
         drawn, motion = drawn_at(structure, at, options)
@@ -174,44 +182,33 @@ def _answer(
 _IN_MOTION: Mapping[str, DiagramName] = {n: n for n in ("mechanism", "velocity", "acceleration")}
 
 
-@dataclass
-class _Moved:
-    """A scene while a hand moves it: its structure, and the last drawing, from which the assembly is followed."""
-
-    structure: Structure
-    last: Plan | None = None
-
-    def plan(self, values: Mapping[str, float] | None) -> Plan:
-        """The plan of the drawing at values of the drivers.  Raises Unsolvable for a position that is not reached."""
-        asked = asked_here(tuple(self.structure.scene.question.find))
-        try:
-            return plan(self.structure, values, asked, near=None if self.last is None else self.last.exact)
-        except Unsolvable:  # the way from there may be barred
-            return plan(self.structure, values, asked)
+def _plan(structure: Structure, values: Mapping[str, float] | None) -> Plan:
+    """The plan of the drawing at values of the drivers, its assembly followed from the last drawing.  Raises Unsolvable
+    for a position that is not reached."""
+    asked, last = asked_here(tuple(structure.scene.question.find)), structure.kept.get("last drawing")
+    try:
+        return plan(structure, values, asked, near=None if last is None else last.exact)
+    except Unsolvable:  # the way from there may be barred
+        return plan(structure, values, asked)
 
 
-@lru_cache(maxsize=16)
-def _moved(scene: Mechanism) -> _Moved:
-    return _Moved(solver.structure_of(scene))
-
-
-def _in_motion(moved: _Moved, at: Mapping[str, float] | None, options: FigureOptions) -> dict[str, Json]:
+def _in_motion(structure: Structure, at: Mapping[str, float] | None, options: FigureOptions) -> dict[str, Json]:
     """The picture while a hand moves: without a check, and with names that may overlap."""
     rest = tuple(name for name in options.figures if name not in _IN_MOTION)
-    others = moved.structure, at, replace(options, figures=rest)
-    scene, values = placed(moved.structure.scene, at or None)
-    moved = moved if scene is moved.structure.scene else _moved(scene)
+    others = structure, at, replace(options, figures=rest)
+    scene, values = placed(structure.scene, at or None)
+    structure = structure if scene is structure.scene else _analysed(scene)
     said = ""
     try:
-        what = moved.plan(values)
+        what = _plan(structure, values)
         if _is_fast(what):  # beside a limit of the motion the solver has the last word, in fifty digits
-            solved_here(moved.structure, values, asked_here(tuple(scene.question.find)))
+            solved_here(structure, values, asked_here(tuple(scene.question.find)))
     except Unsolvable as error:
         if not at or len(scene.drivers) != 1:
             raise
-        said = _said(_exactly(moved.structure, values, error), _spoken(options.language, scene))
-        what = moved.plan(driver_values(scene, _last(scene, at)))
-    moved.last = what
+        said = _said(_exactly(structure, values, error), _spoken(options.language, scene))
+        what = _plan(structure, driver_values(scene, _last(scene, at)))
+    structure.kept["last drawing"] = what
     sheet = execute(replace(what, scales=options.scales or what.scales))
     words = {"language": options.language, "convention": options.convention}
     there = [name for name in options.figures if name in _IN_MOTION]
