@@ -213,7 +213,7 @@ def _shape(scene: Mechanism, link: PlacedLink, letters: Letters) -> Iterator[Phr
             yield Phrase("point along", point=name, place=place, origin=origin, axis=axis)
         else:
             bar = f"${letters.point(link.bar[0])}{letters.point(point)}$" if link.bar else name
-            yield Phrase("held at angle", bar=bar, angle=number(math.degrees(cmath.phase(z))), axis=axis)
+            yield Phrase("held at angle", bar=bar, angle=number(degrees(z)), axis=axis)
     guides = used_guides(scene, link)
     alone = not pairs and len(link.bar) < 2 and len(guides) == 1 and not beside and not _carries_its_axis(scene, link)
     for guide in guides:
@@ -252,7 +252,7 @@ def used_guides(scene: Mechanism, link: PlacedLink) -> list[PlacedGuide]:
 
 def as_line(way: complex) -> float:
     """The angle of a line (degrees), above -90 to 90."""
-    angle = math.degrees(cmath.phase(way))
+    angle = degrees(way)
     return 90.0 if abs(abs(angle) - 90.0) < 1e-9 else math.remainder(angle, 180.0) + 0.0
 
 

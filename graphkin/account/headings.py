@@ -16,7 +16,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.tables import Measure
 from graphkin.version import __version__
 from graphkin.words import Neutral, Phrase, as_plain, in_all, languages, listed, rich_text, say, word
-from graphkin.words.written import amount, in_markup, on_paper, product, true_minus
+from graphkin.words.written import amount, in_markup, on_paper, pointing, product, true_minus
 
 FIGURE_WORDS: Mapping[DiagramName, str] = {
     "mechanism": "mechanism", "velocity": "velocity polygon", "acceleration": "acceleration polygon", "force": "forces",
@@ -185,11 +185,10 @@ def _vectors(sheet: Sheet, diagram: DiagramName, language: str) -> list[str]:
         if vector.span == 0.0:
             said.append(say(Phrase("vector is zero", vector=words), language))
             continue
-        angle = math.degrees(math.atan2(vector.span.imag, vector.span.real))
         size = on_paper(abs(vector.span))
         phrase = Phrase(
             "vector is", vector=words, size=product(size, amount(per_mm, 12)), unit=unit.written, length=size,
-            angle=true_minus(f"{angle:.1f}"),
+            angle=pointing(vector.span),
         )  # fmt: skip
         said.append(say(phrase, language))
     return said

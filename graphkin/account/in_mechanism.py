@@ -22,7 +22,7 @@ from graphkin.construction.steps import (
     TrialPositions,
     TrialRow,
 )
-from graphkin.plane import cross, dot, unit
+from graphkin.plane import cross, degrees, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Markup, Neutral, Phrase, in_turn, joined, listed, sense_of
 from graphkin.words.written import in_markup, on_paper, true_minus
@@ -53,7 +53,7 @@ class InMechanism(Telling):
         for guide in self.sheet.scene.frame.guides.values():
             if guide.name:
                 through = guide.through / self.sheet.scales.length
-                angle = _degrees(math.degrees(cmath.phase(guide.direction)))
+                angle = _degrees(guide.direction)
                 told.append(Phrase("place of a guide", guide=guide.name, angle=angle, **_coordinates(through)))
         return listed(told) if told else None
 
@@ -124,7 +124,7 @@ class InMechanism(Telling):
         own = self.sheet.structure.links[link].points
         if laid and abs(cmath.phase(own[name] - own[pivot])) < STRAIGHT:
             return Phrase("points at", link=link, point=name, bar=pivot + name, length=on_paper(abs(span)))
-        angle = _degrees(math.degrees(cmath.phase(span)))
+        angle = _degrees(span)
         return Phrase("place polar", pivot=pivot, angle=angle, bar=pivot + name, length=on_paper(abs(span)), point=name)
 
     # -- points that are found -----------------------------------------------------------------------------------------
@@ -310,7 +310,7 @@ def _along(p: tuple[str, complex], q: tuple[str, complex], name: str, at: comple
     (one, a), (_, b) = p, q
     if abs(at - a) < SAME or abs(cross(b - a, at - a)) < STRAIGHT * abs(b - a) * abs(at - a):
         return _on_line(p, q, name, at)
-    turn = math.degrees(cmath.phase((at - a) / (b - a)))
+    turn = degrees((at - a) / (b - a))
     return Phrase(
         "place turned", pivot=one, angle=number(abs(turn), 4), sense=sense_of(turn), base=one + q[0],
         bar=one + name, length=on_paper(abs(at - a)), point=name,
@@ -330,8 +330,8 @@ def _coordinates(z: complex) -> dict[str, str]:
     return {k: true_minus(on_paper(mm if abs(mm) >= SAME else 0.0)) for k, mm in (("x", z.real), ("y", z.imag))}
 
 
-def _degrees(angle: float) -> str:
-    return true_minus(number(round(angle, 2) + 0.0))
+def _degrees(direction: complex) -> str:
+    return true_minus(number(round(degrees(direction), 2) + 0.0))
 
 
 # -- trials in words ---------------------------------------------------------------------------------------------------

@@ -228,16 +228,11 @@ def completions(text: str, line: int, column: int) -> list[dict[str, Wording]]:
         return [{"label": name, "detail": tables[name]} for name in sorted(tables)]
     entry = _ENTRY.match(before)
     if entry is None:
-        return [{"label": key, "detail": detail} for key, detail in _keys_of(head).items()]
+        by_kind = [("driver", "<one>", kind) for kind in ("<angle>", "<slide>")]
+        paths = by_kind if head[:1] == ("driver",) else [head]
+        keys = {key: detail for path in paths for key, detail in SCENE.keys_at(path).items()}
+        return [{"label": key, "detail": detail} for key, detail in keys.items()]
     return [{"label": name, "detail": ""} for name in _names(text, _parts(entry[2])[-1], before.count('"') % 2 == 1)]
-
-
-def _keys_of(head: tuple[str, ...]) -> dict[str, Wording]:
-    from graphkin.scene.scene_tables import SCENE
-
-    if head[:1] == ("driver",):
-        return {k: d for kind in ("<angle>", "<slide>") for k, d in SCENE.keys_at(("driver", "<one>", kind)).items()}
-    return SCENE.keys_at(head)
 
 
 def _names(text: str, key: str, quoted: bool) -> list[str]:

@@ -5,7 +5,6 @@ as CSV, and the table for a class.
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -58,13 +57,13 @@ from graphkin.papers.blocks import (
 )
 from graphkin.papers.lesson import Lesson, Stage
 from graphkin.papers.paper import A4, Paper, paper_of
-from graphkin.plane import added_up
+from graphkin.plane import added_up, degrees
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
 from graphkin.words import Phrase, about, languages, say, sense_of, word
 from graphkin.words.symbols import plain_words
-from graphkin.words.written import LEAST, amount, in_markup, true_minus
+from graphkin.words.written import LEAST, amount, in_markup, pointing
 
 BOUND = "\u00a0"  # between a number and its unit no line ends
 RPM = 30.0 / math.pi
@@ -330,13 +329,9 @@ def key_rows(lesson: Lesson) -> tuple[KeyRow, ...]:
             on_paper=mm,
             exact=lesson.in_unit(symbol, size),
             tolerance=lesson.in_unit(symbol, COVERAGE * spread.deviation) if spread is not None and bounded else None,
-            direction=round(_degrees(row.exact), 3) + 0.0 if symbol.is_vector and size > 0.0 else None,
+            direction=round(degrees(complex(row.exact)), 3) + 0.0 if symbol.is_vector and size > 0.0 else None,
         ))  # fmt: skip
     return tuple(rows)
-
-
-def _degrees(value: complex | float) -> float:
-    return math.degrees(cmath.phase(complex(value)))
 
 
 def result_cells(lesson: Lesson) -> Iterator[dict[str, str]]:
@@ -436,8 +431,7 @@ def way(row: Compared, language: str) -> str:
     if value == 0.0 or row.symbol.scope not in ("motion", "force") or row.symbol.kind in ("h", "arm"):
         return ""
     if row.symbol.is_vector:
-        angle = round(_degrees(value), 1) + 0.0
-        return true_minus(f"{180.0 if angle == -180.0 else angle:.1f}°")
+        return f"{pointing(complex(value))}°"
     key = "counter-clockwise" if value.real > 0 else "clockwise"
     return " ".join(word(key, each) for each in languages(language))
 

@@ -155,12 +155,13 @@ def true_minus(text: str) -> str:
 
 
 def pointing(span: complex) -> str:
-    """The direction of a vector in degrees, to a tenth.
+    """The direction of a vector in degrees, to a tenth, above -180 to 180.
 
-    >>> pointing(2j), pointing(1 - 1j)
-    ('90.0', '−45.0')
+    >>> pointing(2j), pointing(1 - 1j), pointing(-1 - 1e-9j), pointing(1 - 1e-9j)
+    ('90.0', '−45.0', '180.0', '0.0')
     """
-    return true_minus(f"{math.degrees(cmath.phase(span)) + 0.0:.1f}")
+    angle = round(math.degrees(cmath.phase(span)), 1) + 0.0
+    return true_minus(f"{180.0 if angle == -180.0 else angle:.1f}")
 
 
 def in_markup(text: str) -> str:
