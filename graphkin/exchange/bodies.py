@@ -188,8 +188,10 @@ class Bodies:
             if name != FRAME and len(points) == 1 and name not in sliding:
                 del self.bodies[name]
                 self.left.append(Phrase("lost point of one", link=name))
-        self.lost += [Phrase("lost driver of", link=d.body) for d in self.drives if d.body not in self.bodies]
-        self.drives = [d for d in self.drives if d.body in self.bodies]
+        slid = {(s.body, s.point) for s in self.slides}
+        kept = [d for d in self.drives if ((d.body, d.point) in slid if d.point else d.body in self.bodies)]
+        self.lost += [Phrase("lost driver of", link=d.body) for d in self.drives if d not in kept]
+        self.drives = kept
 
     def _lines(self) -> tuple[dict[str, dict[str, BodySlide]], list[tuple[BodySlide, str]]]:
         """The lines of each body by their names, and with each slide the name of its line."""
@@ -264,7 +266,9 @@ class Bodies:
 
 
 def number(value: float) -> float:
-    """A number as people write it, without the rounding of its last digits."""
+    """A number as people write it, without the rounding of its last digits.  Raises CallError for infinity and NaN."""
+    if not math.isfinite(value):
+        raise CallError.of(Phrase("the file"), "found value", "a finite number is wanted", value=value)
     near = float(f"{value:.15g}")
     return int(near) if near == int(near) and abs(near) < 1e15 else near
 

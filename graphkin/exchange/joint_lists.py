@@ -191,7 +191,7 @@ class _SharedJoint:
 
     def __init__(self, text: str, title: str) -> None:
         cells = text[1:].split(",")
-        if len(cells) < 5:
+        if len(cells) < 5 or not cells[0]:
             raise CallError.of(title, "is no joint of pmks", "copy the whole link", text=text[:30])
         flags = _whole(text[:1], title)
         self.slides, self.driven, self.grounded, self.welded = (bool(flags >> k & 1) for k in range(4))
@@ -205,7 +205,8 @@ def _block(made: Bodies, ends: list[str], joints: dict[str, _SharedJoint], links
     """Add a block that slides on a line of the frame or of its carrier; a welded block is part of its link."""
     line = next((joints[k] for k in ends if k in joints and joints[k].slides), None)
     pin = next((joints[k] for k in ends if k in joints and not joints[k].slides), None)
-    if line is None or pin is None or not (line.grounded or line.carrier in links):
+    carried = line is not None and line.carrier in links and len([end for end in line.ends if end in made.names]) == 2
+    if line is None or pin is None or not (line.grounded or carried):
         made.lost.append(Phrase("lost block on nothing", name="".join(ends)))
         return
     angle, through, on = line.angle, line.place, FRAME

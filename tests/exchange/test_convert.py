@@ -277,6 +277,29 @@ def test_a_number_of_400_digits_in_a_link_of_pmks_is_refused():
         convert(PMKS_PLUS.replace(in_base_64(C.real), "1" * 400))
 
 
+def test_a_joint_of_pmks_without_a_name_is_refused():
+    with pytest.raises(CallError, match="is no joint of PMKS"):
+        convert(PMKS_PLUS.replace("4D,D", "4,"))
+
+
+def test_a_block_of_pmks_whose_line_has_an_unknown_end_slides_on_nothing():
+    with pytest.raises(CallError, match=r"block BP \(it slides on nothing\): would be lost"):
+        convert(SLOT.replace("0,CD,C,D", "0,CD,C,Z"))
+
+
+def test_the_driver_of_a_slide_that_is_lost_is_lost_with_it():
+    without_cylinder = RAM.replace("c5cae9,G,N", "c5cae9,,N")
+    assert ("slide of PC on GN", "driver of PC") == convert(without_cylinder, lossy=True).left
+
+
+@pytest.mark.parametrize("rate", ["NaN", "1e400"])
+def test_a_rate_that_is_no_finite_number_is_refused(rate: str, tmp_path: Path):
+    crank = json.dumps(OLDER).replace('"angle": 1.0', f'"angle": {rate}')
+    (tmp_path / "a.json").write_text(crank)
+    with pytest.raises(CallError, match="a finite number is wanted"):
+        convert(tmp_path / "a.json")
+
+
 def test_a_number_of_400_digits_in_a_file_of_pylinkage_is_refused(tmp_path: Path):
     (tmp_path / "a.json").write_text('{"joints": [{"type": "Static", "x": 1%s, "y": 0}]}' % ("0" * 400))
     with pytest.raises(CallError, match="is no mechanism of pylinkage"):
