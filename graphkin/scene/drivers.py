@@ -75,7 +75,8 @@ def drives(reading: Reading) -> dict[str, model.Driver]:
 def _law(where: str, driver: Driver | DrivenSlide, reading: Reading) -> MotionLaw | None:
     """The law of a driver, at the moment that the file asks for."""
     if driver.law is None:
-        if driver.time is not None:
+        law_is_wrong = any(str(problem.where).startswith(f"{where}.law") for problem in reading.problems)
+        if driver.time is not None and not law_is_wrong:
             reading.say(f"{where}.time", "tells the moment of a law", "write law with it")
         return None
     value, given = ("angle", driver.angle) if isinstance(driver, Driver) else ("travel", driver.travel)

@@ -483,9 +483,9 @@ class Form(Generic[AnyTable]):
             noun = Phrase(f"noun {'scale' if last.endswith('scale') else _NOUNS.get(last, 'length')}")
             return Phrase(which, value=shown(value), noun=noun), Phrase("a must be positive", noun=noun)
         if kind == "greater_than_equal":
-            return found, Phrase("no number of a scene may be below", limit=f"{ctx['ge']:g}")
+            return found, Phrase("the least that is possible here", limit=f"{ctx['ge']:g}")
         if kind == "less_than_equal":
-            return found, Phrase("no number of a scene may exceed", limit=f"{ctx['le']:g}")
+            return found, Phrase("the most that is possible here", limit=f"{ctx['le']:g}")
         if kind in ("too_short", "too_long") and loc == ("links",):
             return Phrase("there is none"), Phrase("a scene has moving links links.1 and so")
         if kind in ("too_short", "too_long"):
@@ -601,7 +601,7 @@ def _take_out(raw: OwnTables, path: KeyPath) -> KeyPath:
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 _NOUNS = {
     "count": "count", "g": "gravity", "mass": "mass", "rate": "rate", "weight": "weight", "delta": "fluctuation",
-    "K": "number", "swing": "number",
+    "K": "number", "swing": "number", "duration": "time", "within": "number",
 }  # fmt: skip
 """What must be positive, where it is no length."""
 _KINDS = {

@@ -161,7 +161,7 @@ def test_the_greatest_offset_is_just_not_reached():
         ({"kind": "slider-crank", "stroke": 50}, "design.K: is missing"),
         ({**SLIDER, "stroke": -5}, "design.stroke: found -5, a negative length"),
         ({**SLIDER, "strok": 5}, 'did you mean "stroke"'),
-        ({**SLIDER, "offset": -1}, "design.offset: found -1; no number of a scene may be below 0"),
+        ({**SLIDER, "offset": -1}, "design.offset: found -1; 0 is the least that is possible here"),
         ({"kind": "slider"}, 'did you mean "slider-crank"? the kinds are slider-crank, crank-rocker, guide-bar'),
         ({"kind": "four-bar"}, "limits, three-positions, function"),
         ({"kind": "three-positions", "positions": [{"B": [0, 0], "C": [1, 0]}]}, "found 1 of them"),

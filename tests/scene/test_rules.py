@@ -390,3 +390,23 @@ def test_a_start_where_nothing_rolls_is_refused() -> None:
 def test_a_mass_that_is_wrong_is_something_to_balance() -> None:
     [sentence] = messages(changed(FOUR_BAR, ("[driver]", '[masses.2]\nmass = 2\n[balance]\non = "1"\n[driver]')))
     assert sentence.startswith("masses.2.at: is missing")
+
+
+LAW = 'link = "1"\ntime = 0.2\nlaw = { from = 0, to = 90, duration = -1, by = "345" }'
+
+
+def test_a_time_below_nought_is_no_negative_length_and_the_law_beside_it_is_not_missed() -> None:
+    with pytest.raises(SceneError) as refusal:
+        mechanism_of_text(changed(FOUR_BAR, (DRIVER, LAW)), "test")
+    assert "driver.law.duration: found -1, a negative time; a time must be positive" == str(refusal.value)
+
+
+def test_what_may_not_be_below_nought_is_not_said_of_all_numbers() -> None:
+    spring = '[springs.T]\nbetween = ["A", "C"]\nrate = 1\nfree = -1\n[driver]'
+    with pytest.raises(SceneError, match=r"springs\.T\.free: found -1; 0 is the least that is possible here"):
+        mechanism_of_text(changed(FOUR_BAR, ("[driver]", spring)), "test")
+
+
+def test_a_key_with_a_stroke_is_told_to_stand_in_quotation_marks() -> None:
+    with pytest.raises(SceneError, match='keys such as "v_B/C", in quotation marks'):
+        mechanism_of_text(changed(FOUR_BAR, ("[driver]", "[printed]\nd_B/D = 350\n[driver]")), "test")
