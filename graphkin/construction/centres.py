@@ -542,14 +542,14 @@ def _chained(centres: Centres) -> dict[str, Turning]:
     moving = [d for d in centres.scene.drivers if d.values[1] != 0.0]
     if not moving:
         return {name: Turning(name, 0.0, 0.0, (name,)) for name in centres.names}
-    found = {frame: Turning(frame, 0.0, 0.0, (frame,)), **_driven(centres, moving[0])}
-    steps = max(len(t.chain) for t in found.values())
-    largest = CERTAIN * max(abs(t.strength) for t in found.values())
-    while len(found) < len(centres.names):
+    turnings = {frame: Turning(frame, 0.0, 0.0, (frame,)), **_driven(centres, moving[0])}
+    steps = max(len(t.chain) for t in turnings.values())
+    largest = CERTAIN * max(abs(t.strength) for t in turnings.values())
+    while len(turnings) < len(centres.names):
         fresh: dict[str, Turning] = {}
         last = steps > len(centres.names)  # no further chain gives anything better
-        known = [t for t in found.values() if t.link != frame and (last or len(t.chain) == steps)]
-        for name in (name for name in centres.names if name not in found):
+        known = [t for t in turnings.values() if t.link != frame and (last or len(t.chain) == steps)]
+        for name in (name for name in centres.names if name not in turnings):
             # from one link to the next by their common centre
             threes = [(centres.of(t.link, frame), centres.of(name, t.link), centres.of(name, frame)) for t in known]
             chains = [_carried(t, *three, (*t.chain, name)) for t, three in zip(known, threes, strict=True)
@@ -559,9 +559,9 @@ def _chained(centres: Centres) -> dict[str, Turning]:
                 fresh[name] = best
         if not fresh and last:
             break
-        found.update(fresh)
+        turnings.update(fresh)
         steps += 1
-    return found
+    return turnings
 
 
 def _driven(centres: Centres, driver: Driver) -> dict[str, Turning]:

@@ -490,10 +490,10 @@ class Inversion:
         mm, assembly = mm or 1.0 / self.structure.scene.size, Assembly(values, {}, {0: self.branch})
         return place(self.structure, self.structure.elements, mm, assembly, instrument, board)
 
-    def followed(self, own: Mapping[str, float], values: Mapping[str, float]) -> Inversion:
+    def followed(self, at_start: Mapping[str, float], values: Mapping[str, float]) -> Inversion:
         """The inversion in the assembly at some driver values, followed from the scene's own."""
         key, elements = self.triangle.driver.key, self.structure.elements
-        near = Assembly({key: own[key]}, self.placed(own).poses)
+        near = Assembly({key: at_start[key]}, self.placed(at_start).poses)
         return replace(self, branch=assembly_at(self.structure, elements, {key: values[key]}, near).branches[0])
 
     def value(self, values: Mapping[str, float]) -> float:

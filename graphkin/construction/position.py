@@ -278,8 +278,8 @@ def moved_to(
     scene = placed.structure.scene
     first, goal = [own[d.key] for d in scene.drivers], [values[d.key] for d in scene.drivers]
     limits: list[Mapping[str, float]] = []
-    for way in ways(scene.drivers, first, goal, placed.structure.rolls):
-        target = dict(zip((d.key for d in scene.drivers), way, strict=True))
+    for end in ways(scene.drivers, first, goal, placed.structure.rolls):
+        target = dict(zip((d.key for d in scene.drivers), end, strict=True))
         length = max(abs(target[d.key] - own[d.key]) / d.span(scene.size) for d in scene.drivers)
         longest = 1.0 / max(1, math.ceil(length / (STEP if placed.of else LONG_STEP)))
 

@@ -406,8 +406,8 @@ def without_residues(sheet: Sheet) -> Sheet:
     if not zero:
         return sheet
     rates = {"omega": dict(sheet.omega), "alpha": dict(sheet.alpha)}
-    for (kind, found), scale in zip(rates.items(), (sheet.scales.velocity, sheet.scales.acceleration), strict=True):
-        for name, rate in found.items():
+    for (kind, of_links), scale in zip(rates.items(), (sheet.scales.velocity, sheet.scales.acceleration), strict=True):
+        for name, rate in of_links.items():
             if rate.vector in zero:  # a driver's own rate on top of one that came from a residue stays
                 residue = rate.mm / rate.arm_mm * scale / sheet.scales.length if rate.arm_mm else 0.0
                 value = 0.0 if abs(rate.value) <= 2.0 * residue else rate.value

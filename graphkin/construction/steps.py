@@ -271,11 +271,11 @@ class Step:
     def phrase(self) -> Phrase:
         """The step as a phrase, without the letters of any school."""
         key = self.sentence
-        told = Phrase(key, **{name: self.gap(name) for name in gaps_of(key)})
+        phrase = Phrase(key, **{name: self.gap(name) for name in gaps_of(key)})
         for block, link, turned in self.data.instead if isinstance(self.data, TrialPositions) else ():
             angle = f"{math.degrees(turned) + 0.0:.6g}"
-            told = Phrase("driven in its stead", told=told, block=block, link=link, angle=angle)
-        return told
+            phrase = Phrase("driven in its stead", told=phrase, block=block, link=link, angle=angle)
+        return phrase
 
     @property
     def sentence(self) -> str:
@@ -364,11 +364,11 @@ class Step:
         """The rates of trials and their gaps; of several rates the first by its symbol, with its value."""
         data = self.data
         if isinstance(data, RateTrial):
-            return _assumed([one for one in data.assumed if one[1]] or data.assumed)
+            return _assumed([pair for pair in data.assumed if pair[1]] or data.assumed)
         assert isinstance(data, Superposed)
         open_at = ", ".join(f"{name} ({direction})" for name, direction in zip(data.closing, data.ways, strict=True))
         apart = true_minus("; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in data.apart))
-        of_links = [(f"{'ω' if one.kind == 'omega' else 'α'}_{{{one.link}}}", value) for one, value in data.found]
+        of_links = [(f"{'ω' if rate.kind == 'omega' else 'α'}_{{{rate.link}}}", value) for rate, value in data.found]
         rates = true_minus(", ".join(f"{name} = {amount(value, 5)}" for name, value in of_links))
         names = ", ".join(name for name, _ in of_links)
         return {"open_at": open_at, "apart": apart, "names": names, "rates": rates, **_assumed(data.found)}

@@ -339,10 +339,10 @@ def _dyad(structure: Structure, bodies: list[Body], pairs: list[Pair], links: tu
     one on each other, or have three sliding pairs."""
     if len(bodies) != 2:
         return None
-    one, two = bodies
+    first_body, second_body = bodies
     of_sides: dict[tuple[bool, bool], dict[str, Pair]] = {}  # by the bodies that they hold
     for pair in pairs:
-        sides = not {*one.links}.isdisjoint(pair.links), not {*two.links}.isdisjoint(pair.links)
+        sides = not {*first_body.links}.isdisjoint(pair.links), not {*second_body.links}.isdisjoint(pair.links)
         if all(sides) or not any({*body.links}.issuperset(pair.links) for body in bodies):
             # links held together by a driver at this very point hang on it once
             of_sides.setdefault(sides, {}).setdefault(pair.point or pair.key, pair)
@@ -354,12 +354,12 @@ def _dyad(structure: Structure, bodies: list[Body], pairs: list[Pair], links: tu
         return None
     kind, begins = _KINDS[outer_first.letter + middle.letter + outer_second.letter]
     rank = _ranks(structure)
-    own_one, own_two = (next(rank(n) for n in pair.links if n in body.links)
-                        for pair, body in ((outer_first, one), (outer_second, two)))  # fmt: skip
-    if begins == "the other" or (begins == "as written" and own_two < own_one) or (
-            begins == "what slides" and middle.a in two.links):
-        one, two, outer_first, outer_second = two, one, outer_second, outer_first
-    return Dyad(kind, one, two, middle, outer_first, outer_second, links)
+    sides_of = (outer_first, first_body), (outer_second, second_body)
+    first_rank, second_rank = (next(rank(n) for n in pair.links if n in body.links) for pair, body in sides_of)
+    if begins == "the other" or (begins == "as written" and second_rank < first_rank) or (
+            begins == "what slides" and middle.a in second_body.links):
+        first_body, second_body, outer_first, outer_second = second_body, first_body, outer_second, outer_first
+    return Dyad(kind, first_body, second_body, middle, outer_first, outer_second, links)
 
 
 def _rolls_like_a_dyad(

@@ -61,16 +61,16 @@ def joint_of_dyad(structure: Structure, dyad: Dyad) -> TransmissionAngle:
             joint = _at_contact(structure, contact, moved[0]) if moved else None
             if joint is not None:
                 return joint
-    inner, one, two = dyad.inner, dyad.outer_first, dyad.outer_second
+    inner, outer_first, outer_second = dyad.inner, dyad.outer_first, dyad.outer_second
     if inner.turns:
         here = _spot(structure, inner)
         first, second = (
-            (_spot(structure, pair), here) if pair.turns else _guide(pair) for pair in (one, two)
+            (_spot(structure, pair), here) if pair.turns else _guide(pair) for pair in (outer_first, outer_second)
         )
-        return TransmissionAngle(first, second, one.turns != two.turns)
-    if one.turns and two.turns:
-        return TransmissionAngle(_guide(inner), (_spot(structure, two), _spot(structure, one)), True)
-    other = two if not two.turns else one
+        return TransmissionAngle(first, second, outer_first.turns != outer_second.turns)
+    if outer_first.turns and outer_second.turns:
+        return TransmissionAngle(_guide(inner), (_spot(structure, outer_second), _spot(structure, outer_first)), True)
+    other = outer_first if outer_second.turns else outer_second
     return TransmissionAngle(_guide(inner), _guide(other))
 
 
