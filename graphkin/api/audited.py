@@ -239,6 +239,8 @@ def audit(
         standing, values = placed(given, at)
         solved_here(standing, values)  # a position that cannot be had
         scans = judge_scans(execute(plan(standing, values, ())))
+    if answers is None and variants is not None:
+        raise CallError.of("variants", "without answers", "leave it out")
     scheme = scheme_of(given, grading)
     people, unused = (stated_answers(given), ()) if answers is None else as_answers(given, answers)
     people = with_signs(people)

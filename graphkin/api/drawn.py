@@ -29,7 +29,7 @@ from graphkin.construction import EXACT, Instrument, Plan, execute, plan
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.figures import figure_kinds
 from graphkin.drawing.figures.positions import shown_positions
-from graphkin.errors import CallError, Unsolvable, as_list, unfit
+from graphkin.errors import CallError, Problem, Unsolvable, as_list, unfit
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
@@ -279,6 +279,11 @@ def draw(
     known_words(formats, language, convention, instrument, known_languages=ON_SHEETS)
     given = as_scene(scene)
     wanted = known_figures(given, figures)
+    places = tuple(as_list("beside", beside, Phrase("give names of positions or driver values 1")))
+    alone = [("driver", "structure", driver), ("beside", "polygons", places)]
+    if wishes := [(name, figure) for name, figure, wish in alone if wish and figure not in wanted]:
+        raise CallError(*(Problem(name, "is of one figure alone", "ask for this figure", figure=figure)
+                          for name, figure in wishes))  # fmt: skip
     asked = drawn_symbols(given, find)
     given = for_paper(given, () if any(figure_kinds()[name].of_all for name in wanted) else asked_here(asked))
     given, values = placed(given, at)
@@ -287,7 +292,6 @@ def draw(
     motion = solved_here(structure, values, asked_here(asked))
     what = plan(structure, values, asked_here(asked))
     whole = with_elsewhere(checked(what, motion, hand), asked, seed)
-    places = tuple(as_list("beside", beside, Phrase("give names of positions or driver values 1")))
     by_name = figures is not None
     drawn = Drawn(whole, what, motion, wanted, seed, language, convention, driver, places, by_name)
     return drawn.saved(out, formats)

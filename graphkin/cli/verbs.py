@@ -427,6 +427,8 @@ def scenes(given: Given) -> None:
     """List the scenes that come along, print one, copy one out, or begin a new one."""
     from graphkin import scene as room
 
+    if given.set and given.new is None:
+        raise CallError.of("--set", "without a new scene", "write scenes new kind")
     if given.new is not None:
         # the one name that is given is that of the file
         _begin(given, Path(given.name) if given.name is not None else given.file)

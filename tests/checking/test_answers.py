@@ -26,6 +26,11 @@ def test_a_table_is_read_as_people_write_it(tmp_path, encoding):
     assert ("备注",) == audited.unused
 
 
+def test_variants_without_answers_are_refused(tmp_path):
+    with pytest.raises(CallError, match="variants: without answers"):
+        graphkin.audit("shaper-scheme-2", variants=tmp_path)
+
+
 def test_a_force_of_a_scene_without_loads_is_no_head(tmp_path):
     (tmp_path / "a.csv").write_text("name,v_D,F_2/3\nx,480,5\n")
     with pytest.raises(CallError, match="column F_2/3: F_2/3 is a force"):

@@ -60,6 +60,14 @@ def test_a_driver_that_is_no_link_is_refused() -> None:
         _ = graphkin.draw("shaper-scheme-2", figures=["structure"], driver="9").figures
 
 
+@pytest.mark.parametrize("wish", [{"driver": "3"}, {"beside": [10, 50]}])
+def test_what_belongs_to_one_figure_is_refused_without_it(wish):
+    (name,) = wish
+    with pytest.raises(CallError, match=f"{name}: is of the figure .* alone; ask for it"):
+        graphkin.draw("shaper-scheme-2", figures=["velocity"], **wish)
+
+
+
 def test_a_cam_stays_in_its_panel_and_its_rollers_own_turning_is_told() -> None:
     root = drawn("cam-offset-roller")
     cam = next(e for e in root.iter("{http://www.w3.org/2000/svg}g") if e.get("id") == "cam-1")

@@ -38,3 +38,8 @@ def test_the_lengths_are_those_that_were_given(tmp_path):
 def test_what_is_wrong_is_told(args, said):
     answer = run("scenes", "--new", *args)
     assert (2, said) == (answer.returncode, answer.stderr.strip())
+
+
+def test_lengths_without_a_new_scene_are_refused():
+    done = run("scenes", "--set", "crank=12.5")
+    assert (2, "graphkin: --set: without --new") == (done.returncode, done.stderr.partition(";")[0])
