@@ -609,8 +609,10 @@ def _loose_ends(structure: Structure) -> Iterator[Problem]:
             hangs: Wording = Phrase("so that it hangs on one joint alone", joint=joints[0]) if joints else ""
             yield Problem(where, "no other link has its point",
                           meant if like else Phrase("write the same name in the link that"), point=point, link=hangs)
-        if not ends and len(joints) == 1 and link.name not in driven and structure.mobility.value > len(scene.drivers):
-            if joints[0] in hinges:
+        if not ends and len(joints) == 1 and structure.mobility.value > len(scene.drivers):
+            if link.name in driven:
+                yield Problem(where, "its driver moves it but nothing else", "join it to another link too")
+            elif joints[0] in hinges:
                 yield Problem(where, "it hangs on alone and turns there freely", "join it to another link too or leave",
                               joints=joints[0])
             else:

@@ -84,6 +84,11 @@ def test_a_driven_link_does_not_turn_freely_and_a_wheel_that_meshes_with_none_do
     assert text.startswith("links.4: it hangs on O alone")
 
 
+def test_a_driven_link_to_which_nothing_is_joined_is_named_as_such() -> None:
+    first = said(train("1", {"between": ["3", "4"], "teeth": [25, -70]}))[0]
+    assert "links.1: its driver moves it, but nothing else is joined to it; join it to another link too" == first
+
+
 def test_a_wheel_that_rolls_does_not_turn_freely() -> None:
     wheel = {"points": ["P"], "discs": {"k": {"centre": "P", "r": 10}}}
     rail = {"points": {"O": [0, 0]}, "guides": {"f": {"through": [0, -55], "angle": 0}}}
