@@ -1,4 +1,4 @@
-"""Leaders go round what they do not name: joints, arrowheads, vectors."""
+"""Leaders go round what they do not name: joints, arrowheads, vectors; numbers of steps stand at their own vector."""
 
 from __future__ import annotations
 
@@ -9,8 +9,10 @@ import pytest
 import shapely
 
 from graphkin import draw
-from graphkin.drawing import Text
+from graphkin.drawing import Box, Text
 from graphkin.drawing.ink.primitives import Circle, Group, Line, walk
+from graphkin.drawing.parts.polygon import step_numbers
+from graphkin.drawing.place.obstacles import Obstacles
 from graphkin.drawing.text import text_box
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -212,3 +214,11 @@ def test_a_vector_that_is_carried_over_has_its_name_in_a_crowd_too():
 def test_the_leader_of_a_rings_numeral_ends_before_it(violations):
     drawing = draw("double-butterfly", at=110, figures=["acceleration"], language="en", convention="russian")
     assert [] == violations(drawing.figures["acceleration"].content("svg"))
+
+
+@pytest.mark.parametrize(("other", "above"), [(53.6, True), (60.0, False)])
+def test_the_number_of_a_step_stands_where_no_other_vector_is_nearer(other: float, above: bool) -> None:
+    ends = (20 + 50j, 80 + 50j), (20 + 1j * other, 80 + 1j * other)
+    arrows = [(step, each, None) for step, each in zip((7, 8), ends, strict=True)]
+    (number,) = step_numbers(arrows, {8}, Box(0.0, 0.0, 100.0, 100.0), Obstacles(solid=ends))
+    assert above == (text_box(number).centre.imag < 50.0)

@@ -104,11 +104,8 @@ def polygon_with_insets(
     around = obstacles_of(figure.drawn) + Obstacles(areas=tuple(boxes))
     keyed = {one.step for one in figure.layers["labels"] if isinstance(one, Text) and one.step is not None}
     names = {one.id: text_box(one) for one in figure.layers["labels"] if isinstance(one, Text)}
-    arrows = [
-        (step, here.drawn(vector), names.get(f"label-{vector.symbol.id}"))
-        for step, vector in here.in_order() if step not in keyed
-    ]  # fmt: skip
-    numbers = Piece({"labels": step_numbers(arrows, panel, around)})
+    arrows = [(step, here.drawn(vector), names.get(f"label-{vector.symbol.id}")) for step, vector in here.in_order()]
+    numbers = Piece({"labels": step_numbers(arrows, keyed, panel, around)})
     numerals = ring_numerals(here, around + obstacles_of(numbers.drawn))
     return joined((figure, numbers, numerals, *pieces)), senses[len(shown) :]
 

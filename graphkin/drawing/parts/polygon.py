@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from cmath import phase
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -29,7 +29,7 @@ from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primit
 from graphkin.drawing.ink.strokes import colour_of_link, colour_of_vector
 from graphkin.drawing.ink.symbols import COMPONENT, POINTER, RESULTANT, arrowhead, vector_group
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.obstacles import Obstacles, first_free, meets
+from graphkin.drawing.place.obstacles import Obstacles, distances, first_free, meets
 from graphkin.drawing.place.piece import Piece, dated, joined, obstacles_of
 from graphkin.drawing.text import LETTER, SMALLEST, plain, rich, runs_width, symbol, text_box
 from graphkin.plane import added_up, cross, dot
@@ -518,18 +518,21 @@ SHARES = np.array((0.5, 0.38, 0.62, 0.26, 0.74, 0.16, 0.84, 0.44, 0.56, 0.32, 0.
 
 
 def step_numbers(
-    arrows: Sequence[tuple[int, Segment, Box | None]], panel: Box, around: Obstacles
+    arrows: Sequence[tuple[int, Segment, Box | None]], keyed: Collection[int], panel: Box, around: Obstacles
 ) -> tuple[Text, ...]:
-    """A number in brackets beside each arrow, or beside its name, if there is room.
+    """A number in brackets beside each arrow, or beside its name, if there is room; where another arrow is nearer only
+    if there is no other place.
 
     Parameters
     ----------
     arrows : number of the step, tail and tip (page points, mm), and the box of the name
+    keyed : steps whose number stands there already
     around : all strokes and texts
     """
-    shown = [arrow for arrow in arrows if abs(arrow[1][1] - arrow[1][0]) >= LEAST]
-    if not shown:
+    long = [k for k, (step, (tail, tip), _) in enumerate(arrows) if abs(tip - tail) >= LEAST and step not in keyed]
+    if not long:
         return ()
+    shown = [arrows[k] for k in long]
     texts = [step_number(step) for step, _, _ in shown]
     boxes = [text_box(text) for text in texts]
     half = np.array([complex(box.width, box.height) / 2 for box in boxes])
@@ -540,7 +543,10 @@ def step_numbers(
     along = tails[:, None] + (tips - tails)[:, None] * SHARES
     by_vectors = (along[:, :, None] + (1j * way * off)[:, None, None] * sides).reshape(len(shown), -1)
     by_names = [_by_name(name, size) for (_, _, name), size in zip(shown, half.tolist(), strict=True)]
-    places = np.hstack((by_vectors, np.array(by_names)))
+    gaps = distances(by_vectors, np.array([ends for _, ends, _ in arrows]))  # of the middles of numbers
+    last = gaps.min(axis=-1) < gaps[np.arange(len(long)), :, long] - 1e-6
+    order = np.argsort(np.hstack((last, np.zeros((len(long), 4), dtype=bool))), axis=1, kind="stable")
+    places = np.take_along_axis(np.hstack((by_vectors, np.array(by_names))), order, axis=1)
     found = first_free([*places], half.tolist(), around, CLEAR, panel)
     return tuple(
         replace(text, at=complex(row[i]) - box.centre)
