@@ -65,6 +65,12 @@ def test_velocity_and_acceleration_that_jump_are_told():
     assert [0, 120] == [round(math.degrees(jump.degree)) for jump in graphkin.cam(scene)["1"].study.impacts]
 
 
+def test_where_the_velocity_jumps_no_jump_of_the_acceleration_is_told():
+    law = [{"to": 120, "rise": 24, "by": "uniform"}, {"to": 360, "fall": 24, "by": "harmonic"}]
+    scene = graphkin.read("cam-offset-roller").replace("cams.1.law", law)
+    assert () == graphkin.cam(scene)["1"].study.soft_impacts
+
+
 HALF = [{"to": 180, "rise": 24, "by": ""}, {"to": 360, "fall": 24, "by": ""}]
 """Rise and fall of 24 mm, each in half a turn."""
 ALONE = [{"to": 30}, {"to": 150, "rise": 24, "by": ""}, {"to": 200}, {"to": 320, "fall": 24, "by": ""}, {"to": 360}]

@@ -17,6 +17,7 @@ from graphkin.solver.driver_path import Stretch, closed
 from graphkin.solver.driver_range import range_of
 from graphkin.solver.pose import Array
 from graphkin.study.turn import ranges
+from tests.scenes import four_bar
 
 pytestmark = pytest.mark.quick
 
@@ -132,3 +133,9 @@ def test_a_short_gap_between_two_ranges_is_seen() -> None:
     expected = [LENGTHS[:2], LENGTHS[2:], [-x for x in LENGTHS[:2][::-1]], [-x for x in LENGTHS[2:][::-1]]]
     assert sorted(expected) == [pytest.approx([1000 * r.low, 1000 * r.high], abs=1e-9) for r in
                                 sorted(found, key=lambda r: r.low)]  # fmt: skip
+
+
+def test_links_that_nearly_lie_in_line_pass_no_change_point() -> None:
+    # least discriminant some 1e-11: fifty digits tell that it does not touch zero
+    reach = range_of(structure_of(mechanism_of(four_bar(149.99999999, 400, 150, 400))))
+    assert (1, ()) == (reach.turns, reach.change_points)

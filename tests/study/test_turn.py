@@ -300,6 +300,11 @@ def test_a_driven_slide_has_its_other_range() -> None:
     assert (other.low, other.high) == pytest.approx((-0.5, -0.1), abs=1e-9)
 
 
+def test_the_other_range_of_a_driven_slide_has_both_its_ends() -> None:
+    other = study_turn(driver_range(mechanism_of_text(scenes.CYLINDER, "c"))).ranges[1]
+    assert (True, True) == other.ends
+
+
 GEARED: dict[str, object] = {
     # a rocker that does not turn fully moves a pair of bars by two wheels
     "frame": {"points": {"A": [0, 0], "D": [400, 0], "G": [500, 200], "H": [700, 150]}},
