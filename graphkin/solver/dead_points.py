@@ -170,8 +170,7 @@ def _beyond_limits(
         if not all(e.explicit for e in structure.elements[:i]):
             side, left_open = np.where(discriminant[near] < 0, -1, 1), np.zeros(len(near), dtype=bool)
         else:
-            one = np.ones((len(near), values.shape[1]))
-            side, left_open = closes(structure, i, own, Drive(values[near], one, 0 * one))
+            side, left_open = closes(structure, i, own, Drive.at_unit_rates(values[near]))
         for k, s, either in zip(near.tolist(), side.tolist(), left_open.tolist(), strict=True):
             here = {j: f[k : k + 1] for j, f in modes.items() if j <= i}
             if s < 0:
@@ -189,12 +188,11 @@ def _apart(structure: Structure, i: int, values: Array, modes: Mapping[int, Arra
     group = structure.elements[i]
     if not (isinstance(group, Dyad) and group.is_two_lines):
         return ""
-    one = np.ones((1, len(values)))
     size = structure.scene.size
     for k, driver in enumerate(structure.scene.drivers):
         nudged = values[None].copy()
         nudged[0, k] += HAIR * driver.span(size)
-        solved = positions(structure, Drive(nudged, one, 0 * one), modes, i + 1, rates=False).groups[i]
+        solved = positions(structure, Drive.at_unit_rates(nudged), modes, i + 1, rates=False).groups[i]
         assert isinstance(solved, DyadSolution)
         if max(abs(complex(np.ravel(pose.z)[0])) for pose in (solved.first, solved.second)) > FAR_OFF * size:
             links = group.named
@@ -209,8 +207,7 @@ def _dead_why(structure: Structure, i: int, values: Array, modes: Mapping[int, A
     scene = structure.scene
     group = structure.elements[i]
     assert isinstance(group, Dyad | LargerGroup)
-    one = np.ones((1, len(scene.drivers)))
-    solved = positions(structure, Drive(values[None], one, 0 * one), modes, i + 1, extended=False).groups[i]
+    solved = positions(structure, Drive.at_unit_rates(values[None]), modes, i + 1, extended=False).groups[i]
     links = group_words(structure, group)
     if isinstance(solved, GroupSolved):
         if not solved.residual[0] < OPEN:

@@ -472,10 +472,6 @@ def motion_of(
     extended : False keeps 16 digits everywhere, without reasons
     """
     n = len(good)
-    if n > BLOCK:
-        blocks = (slice(first, min(first + BLOCK, n)) for first in range(0, n, BLOCK))
-        own = (({i: f[rows] if np.ndim(f) and len(f) == n else f for i, f in modes.items()}, rows) for rows in blocks)
-        return joined((motion_of(structure, drive[r], f, assembled, good[r], why, extended) for f, r in own), n)
     state = positions(structure, drive, modes, extended=extended)
     status = np.where(good, "ok", "not assembled").astype("<U13")
     reasons: list[Wording] = ["" if g else why for g in good]

@@ -81,7 +81,9 @@ def _diagnosis(scene: Mechanism) -> Problem | None:
             continue
         fits: list[Fit] = []
         for shift in (0.0, NEARBY):
-            value = own_values(scene)[None] + shift * _unit(scene)
+            # a small step of every driver: an angle, or a part of the size
+            step = shift * (scene.size if any("/" in d.key for d in scene.drivers) else 1.0)
+            value = own_values(scene)[None] + step
             state = positions(structure, Drive.at(structure, value), {i: f[None] for i, f in modes.items()})
             laid = fit(without, link, state.poses)
             if laid is None or any(dead[0] for _, dead in singular(structure, state, 1)):
@@ -92,11 +94,6 @@ def _diagnosis(scene: Mechanism) -> Problem | None:
     # a driver too many does not make a link one too many
     counted = 0 < mobility_of(scene).value < len(scene.drivers)
     return _verdict([x for x in tried if x[2] or not counted])
-
-
-def _unit(scene: Mechanism) -> float:
-    """A small step of every driver: an angle, or a part of the size."""
-    return 1.0 if not any("/" in d.key for d in scene.drivers) else scene.size
 
 
 def _verdict(tried: list[tuple[str, Fit, bool]]) -> Problem | None:
@@ -201,7 +198,7 @@ def at_given_speed(structure: Structure) -> Structure:
     name, speed = driver.given_speed
     own = own_values(scene)[None]
     modes = {i: f[None] for i, f in choose_modes(structure).items()}
-    state = positions(structure, Drive(own, np.ones((1, 1)), np.zeros((1, 1))), modes, extended=False)
+    state = positions(structure, Drive.at_unit_rates(own), modes, extended=False)
     posed = Posed(structure, state.poses, structure.slides)
     once = abs(complex(np.ravel(posed.point(PointRef(name)).v)[0]))
     if not np.isfinite(once) or once <= STANDS * scene.size or once >= scene.size / SINGULAR:

@@ -269,6 +269,11 @@ class Drive:
         value = given[None, :, 0] if value is None else value
         return cls(value, np.broadcast_to(given[:, 1], value.shape), np.broadcast_to(given[:, 2], value.shape))
 
+    @classmethod
+    def at_unit_rates(cls, value: Array) -> Drive:
+        """The drivers at these values, shape (positions, drivers), each at a unit rate."""
+        return cls(value, np.ones_like(value), np.zeros_like(value))
+
     def __len__(self) -> int:
         return len(self.value)
 
