@@ -289,7 +289,8 @@ def _traced(way: CurveParameter, curves: Sequence[Curve]) -> list[Traced]:
         if quantity.is_unsigned:
             most = max((e.value for e in extremes if e.kind != "end"), default=0.0)
             extremes = tuple(replace(e, value=0.0) if e.value <= 1e-11 * most else e for e in extremes)
-            zeros = np.array([e.offset for e in extremes if e.value == 0.0 and e.kind != "end"])
+            least = [e.offset for e in extremes if e.value == 0.0 and e.kind != "end"]
+            zeros = np.union1d(least, zeros[np.isin(zeros, reach.seams)])
         found.append(Traced(quantity, extremes, tuple(driver_value(reach, float(z)) for z in zeros)))
     return found
 
@@ -368,10 +369,12 @@ def _extremes(way: CurveParameter, curves: Sequence[Curve]) -> list[tuple[Extrem
     further)."""
     reach = way.reach
     low, high = reach.ends
+    # a rate that rests along a dwell is at no extreme there; a size is, for it is nowhere less
     turns = [
-        [t for t in c.pieces.turns(c.k, c.quantity.is_position) if t.at_seam or len(way.inside(np.array([t.place])))]
+        [turn for turn in c.pieces.turns(c.k, c.quantity.is_position or c.quantity.is_size)
+         if turn.at_seam or len(way.inside(np.array([turn.place])))]
         for c in curves
-    ]
+    ]  # fmt: skip
     offsets = _polished(way, curves, turns)
     # only what is printed takes all its digits
     values = _values(reach, [c.quantity for c in curves], offsets, extended=True)

@@ -680,3 +680,9 @@ def test_links_stand_alike_in_a_limit_position_whatever_whole_turns_one_has_made
     swept = graphkin.sweep("four-bar-coupler-point", positions=3, find=["theta_2/1"], at=start)
     stretched = min(swept.data["outputs"][0]["limit_positions"], key=lambda limit: limit["value"])
     assert [pytest.approx(stretched["driver"])] == swept.data["curves"]["theta_2/1"]["zeros"]
+
+
+def test_the_speed_of_a_follower_is_zero_where_its_rate_is_and_nowhere_less():
+    curves = graphkin.sweep("cam-offset-roller", positions=3, find=["v_2/0", "v_B"]).data["curves"]
+    assert curves["v_2/0"]["zeros"] == curves["v_B"]["zeros"]
+    assert 0.0 == min(extreme["value"] for extreme in curves["v_B"]["extremes"])
