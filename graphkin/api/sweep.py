@@ -362,7 +362,11 @@ def sweep(
         structure_of(given)  # a sentence: what drives is missing
     if moves_by_law(given):
         positions = positions if positions is None else whole_number("positions", positions, 1, MOST_MOMENTS)
-        _over_time_alone(at=at, measured=measured, **{name: tuple(names) for name, names in wishes.items()})
+        along = {"at": at, "measured": measured, **{name: names or None for name, names in wishes.items()}}
+        if wrong := [name for name, wish in along.items() if wish is not None]:  # they count along the driver
+            refusal = Phrase("does not go with a driver that moves")
+            wanted = Phrase("leave it out or give omega instead of")
+            raise CallError(*(Problem(name, refusal, wanted) for name in wrong))
     start = driver_values(given, at) or {}
     if positions is None:
         positions = (given.question.positions.count if given.question.positions else 0) or ROWS
@@ -401,14 +405,6 @@ def sweep(
     if not made.keys:
         swept.paths.extend(swept.write_figures(out, formats, text))
     return swept
-
-
-def _over_time_alone(**wishes: object) -> None:
-    """Refuse arguments that count along the driver, where drivers move by laws over time."""
-    given = [name for name, wish in wishes.items() if wish not in (None, ())]
-    if given:
-        refusal = Phrase("does not go with a driver that moves")
-        raise CallError(*(Problem(name, refusal, Phrase("leave it out or give omega instead of")) for name in given))
 
 
 def _elsewhere(scene: Mechanism, measured: AnswersLike) -> dict[Quantity, list[tuple[float, float]]]:

@@ -293,7 +293,8 @@ def computing_errors(motion: Motion, symbols: Sequence[Symbol]) -> dict[Symbol, 
     speed = np.max([none, *(np.abs(p.v) + none for p in motions)], axis=0)
     acceleration = np.max([none, *(np.abs(p.a) + none for p in motions)], axis=0)
     reach = np.max([none, *(np.abs(p.z) + none for p in motions)], axis=0)
-    rate = max((_rounded_off(d.rate) for d in motion.scene.drivers if d.turns and d.rpm), default=0)
+    in_rpm = (d.rate for d in motion.scene.drivers if d.turns and d.rpm and d.rate)
+    rate = max((abs(float(f"{given:.4g}") / given - 1.0) for given in in_rpm), default=0.0)
     first, second = COMPUTED_SHARE + rate, COMPUTED_SHARE + 2 * rate
     bounds = {}
     for symbol in symbols:
@@ -309,11 +310,6 @@ def computing_errors(motion: Motion, symbols: Sequence[Symbol]) -> dict[Symbol, 
             size = np.abs(value_of(motion, symbol))
             bounds[symbol] = np.maximum(errors[symbol.measure], rates.get(symbol.measure, COMPUTED_SHARE) * size)
     return bounds
-
-
-def _rounded_off(rate: float) -> float:
-    """The relative error of a rate (rad/s) written to four figures."""
-    return abs(float(f"{rate:.4g}") / rate - 1.0) if rate else 0.0
 
 
 def _reach_of(motion: Motion, link: str) -> float:

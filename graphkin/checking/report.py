@@ -498,7 +498,10 @@ class ReadValue(Known):
 
 def reading_row(scene: Mechanism, row: Compared, degrees: bool = False) -> dict[str, Json]:
     """A reading as in the JSON: vectors by size, others with sign; ``degrees`` for tables that people read."""
-    unit = row.symbol.unit(scene.units, radians=not degrees)
+    unit, predicted = row.symbol.unit(scene.units, radians=not degrees), dict[str, Json]()
+    if row.uncertainty is not None:  # the standard deviation, and the step that adds most to it
+        deviation, cause = finite(unit.of(row.uncertainty.deviation)), say(phrase_of(row.uncertainty.cause))
+        predicted = {"uncertainty": deviation, "cause": cause, "cause_share": row.uncertainty.share}
 
     def size(value: Value) -> float:
         return float(unit.of(abs(value) if row.symbol.is_vector else float(value.real)))
@@ -513,7 +516,7 @@ def reading_row(scene: Mechanism, row: Compared, degrees: bool = False) -> dict[
         "direction_error_rad": row.direction_error,
         "ok": row.ok,
         **({"why": say(Phrase("not determined", readings=str(row.symbol)))} if row.ok is None else {}),
-        **(_predicted(finite(unit.of(row.uncertainty.deviation)), row.uncertainty) if row.uncertainty else {}),
+        **predicted,
     }
 
 
@@ -526,12 +529,3 @@ def without_residues(row: Compared) -> Compared:
 def finite(value: float) -> float | None:
     """A number for JSON: None where it is infinite."""
     return value if math.isfinite(value) else None
-
-
-def _predicted(deviation: float | None, uncertainty: Uncertainty) -> dict[str, Json]:
-    """Standard deviation of a reading in its unit, and the step that adds most to it."""
-    return {
-        "uncertainty": deviation,
-        "cause": say(phrase_of(uncertainty.cause)),
-        "cause_share": uncertainty.share,
-    }
