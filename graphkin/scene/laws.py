@@ -250,14 +250,14 @@ class MotionLaw:
     @cached_property
     def doubts(self) -> tuple[float, float, float]:
         """How far rounding may move value, rate and second rate at any moment (rad or m, by s and by s2)."""
-        found = [0.0, 0.0, 0.0]
+        most = [0.0, 0.0, 0.0]
         for part in self.parts:
             wide = part.end - part.start
-            way = abs(part.high - part.low) + 4 * wide * max(map(abs, part.rates or (0.0,)))
+            height = abs(part.high - part.low) + 4 * wide * max(map(abs, part.rates or (0.0,)))
             later = part.end / wide  # the share of the time is rounded by so much more
-            sizes = max(abs(part.low), abs(part.high)) + way * later, way * later / wide, way * later / wide**2
-            found = [max(most, doubt * size) for most, doubt, size in zip(found, DOUBT, sizes, strict=True)]
-        return found[0], found[1], found[2]
+            sizes = max(abs(part.low), abs(part.high)) + height * later, height * later / wide, height * later / wide**2
+            most = [max(before, doubt * size) for before, doubt, size in zip(most, DOUBT, sizes, strict=True)]
+        return most[0], most[1], most[2]
 
     @cached_property
     def _runs(self) -> tuple[tuple[LiftPiece, float, float], ...]:

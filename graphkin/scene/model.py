@@ -551,24 +551,24 @@ def joints(mechanism: Mechanism) -> tuple[ForceJoint, ...]:
     guided along a circle with the link of the pin or of the slot; then sliding pairs, guiding link first, and pins in
     slots.  Redundant links carry nothing."""
     here = {mechanism.frame.name, *(link.name for link in mechanism.links if not link.redundant)}
-    found: list[ForceJoint] = []
+    pairs: list[ForceJoint] = []
     for point, holders in mechanism.holders.items():
         meeting = [name for name in holders if name in here]
         hosts = hosts_at(mechanism, point, meeting)
         first = next((name for name in meeting if name not in hosts), "")
-        found += [ForceJoint("turning", hosts.get(name, first), name, point) for name in meeting if name != first]
-    found += [ForceJoint("slot" if s.of else "sliding", s.on, s.of or s.link, s.point)
+        pairs += [ForceJoint("turning", hosts.get(name, first), name, point) for name in meeting if name != first]
+    pairs += [ForceJoint("slot" if s.of else "sliding", s.on, s.of or s.link, s.point)
               for s in mechanism.slides if {s.on, s.of or s.link} <= here]
-    found += [ForceJoint("cam", c.link, c.follower, "") for c in mechanism.driving_cams if {c.link, c.follower} <= here]
+    pairs += [ForceJoint("cam", c.link, c.follower, "") for c in mechanism.driving_cams if {c.link, c.follower} <= here]
     for contact in mechanism.contacts:
         if set(contact.links) <= here:
             # where another link holds the centres apart only the force along the tangent is the contact's
             kind = "contact" if not contact.rolling else "gear" if contact.carrier else "rolling"
-            found.append(ForceJoint(kind, *contact.links, contact.name))  # type: ignore[arg-type]
-    found += [ForceJoint("gear", *g.wheels, g.name) for g in mechanism.gears if {*g.wheels, g.carrier} <= here]
-    shared = Counter(frozenset((joint.first, joint.second)) for joint in found)
-    several = (shared[frozenset((joint.first, joint.second))] > 1 and joint.point != "" for joint in found)
-    return tuple(replace(joint, several=more) for joint, more in zip(found, several, strict=True))
+            pairs.append(ForceJoint(kind, *contact.links, contact.name))  # type: ignore[arg-type]
+    pairs += [ForceJoint("gear", *g.wheels, g.name) for g in mechanism.gears if {*g.wheels, g.carrier} <= here]
+    shared = Counter(frozenset((joint.first, joint.second)) for joint in pairs)
+    several = (shared[frozenset((joint.first, joint.second))] > 1 and joint.point != "" for joint in pairs)
+    return tuple(replace(joint, several=more) for joint, more in zip(pairs, several, strict=True))
 
 
 def forces_named(mechanism: Mechanism) -> tuple[Symbol, ...]:

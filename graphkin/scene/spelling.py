@@ -76,11 +76,8 @@ class Spelling:
     def symbol(self, text: str) -> Symbol | None:
         """The quantity of this scene that a text means; None where it means none."""
         plain = plain_text(text)
-        for one in dict.fromkeys((plain, _WORDS_ASIDE.sub("", plain).strip())):
-            found = next(self._meanings(one), None)
-            if found is not None:
-                return found
-        return None
+        spellings = dict.fromkeys((plain, _WORDS_ASIDE.sub("", plain).strip()))
+        return next((symbol for spelling in spellings for symbol in self._meanings(spelling)), None)
 
     def _meanings(self, text: str) -> Iterator[Symbol]:
         if not text or len(text) > 60:
@@ -117,9 +114,9 @@ class Spelling:
         for flags in (re.NOFLAG, re.IGNORECASE) if form in self._forms else ():
             match = re.fullmatch(self._forms[form], names, flags)
             if match is not None:
-                found = {part: self._own_case(name) for part, name in match.groupdict().items() if name}
-                if "" not in found.values():
-                    yield Symbol.of_names(kind, found)
+                named = {part: self._own_case(name) for part, name in match.groupdict().items() if name}
+                if "" not in named.values():
+                    yield Symbol.of_names(kind, named)
 
     def _own_case(self, name: str) -> str:
         """A name of the scene, written in any case; "" where several are alike."""
@@ -351,18 +348,18 @@ def _without(text: str, match: re.Match[str]) -> str:
 
 def _lines(text: str, symbol: Symbol) -> tuple[tuple[Line, ...], str]:
     """The bars along or square to which a vector is said to lie, with their senses, and the text without them."""
-    found: list[Line] = []
+    lines: list[Line] = []
     while match := _LINE.search(text):
-        found.append(Line(match["one"], match["two"], square=bool(match["square"])))
+        lines.append(Line(match["one"], match["two"], square=bool(match["square"])))
         text = _without(text, match)
     while match := _FROM_TO.search(text):
-        found.append(Line(match["one"], match["two"], directed=True))
+        lines.append(Line(match["one"], match["two"], directed=True))
         text = _without(text, match)
     match = _TOWARDS.search(text)
     if match and symbol.of is not None:
-        found.append(Line(symbol.of.point, match["two"], directed=True))
+        lines.append(Line(symbol.of.point, match["two"], directed=True))
         text = _without(text, match)
-    return tuple(found), text
+    return tuple(lines), text
 
 
 def _ways(text: str, symbol: Symbol) -> Iterator[tuple[Way, str]]:
@@ -371,9 +368,9 @@ def _ways(text: str, symbol: Symbol) -> Iterator[tuple[Way, str]]:
     quadrant = _by_quadrant(text)
     if quadrant is not None:
         yield quadrant
-    for found in (_SIDE.search(text), _SIDE_ZH.search(text)):
-        if found:
-            yield Way(*_from_axis(found)), _without(text, found)
+    for match in (_SIDE.search(text), _SIDE_ZH.search(text)):
+        if match:
+            yield Way(*_from_axis(match)), _without(text, match)
     for pattern in (_POLAR, _RADIANS, _LETTERED, _ANGLE, _DEGREES):
         match = pattern.search(text)
         if match:
@@ -528,12 +525,12 @@ def read_cell(
     factor = symbol.unit(units).si
     for said in (left, unit):
         if said:
-            found = unit_factor(said, symbol, units)
-            if found is None:
+            factor_said = unit_factor(said, symbol, units)
+            if factor_said is None:
                 key = "cell no unit" if is_unit(said, units) else "cell no words"
                 measure = Phrase(f"measure {symbol.measure}")
                 raise ValueError(Phrase(key, cell=text.strip()[:60], unit=said[:40], measure=measure))
-            factor = found
+            factor = factor_said
             break
     pointed = [_pointed(n, sign) for n in numbers]
     if way.sense:
