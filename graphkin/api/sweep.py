@@ -379,6 +379,8 @@ def sweep(
             known_ordinate(given, name, way)
         if made.keys:
             raise CallError.of("differentiate, integrate", "do not go with designs", "give one design")
+    if measured is not None and made.keys:
+        raise CallError.of("measured", "do not go with designs", "give one design")
     elsewhere = {} if measured is None else _elsewhere(given, measured)
     if find is None and elsewhere:
         find = [quantity.symbol for quantity in elsewhere]

@@ -100,3 +100,9 @@ def test_the_diagram_of_the_angle_between_two_links_has_no_leap_of_a_turn() -> N
     axis, angle = DriverAxis(reach), Quantity(Symbol.parse("theta_2/1"))
     curve = axis.curve(angle, axis.offsets, angle.values(reach, axis.motion))
     assert np.abs(np.diff(curve[:, 1])).max() < 1.0
+
+
+def test_values_measured_elsewhere_do_not_go_with_designs(tmp_path: Path) -> None:
+    (tmp_path / "class.csv").write_text("at,v_C\n90,800\n")
+    with pytest.raises(graphkin.CallError, match="measured: do not go with designs"):
+        graphkin.sweep("shaper-scheme-2", measured=tmp_path / "class.csv", designs={"links.2.length": [80, 90]})
