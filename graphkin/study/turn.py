@@ -34,10 +34,12 @@ class Output:
         dead point when the output drives it
     turned : its angle, or its travel where the motion is followed no further, over the range of the driver (rad, m; 0
         for what comes back)
+    followed : whether a slide drives it and is followed no further, so that it may go on or come to rest there
     """
 
     position: Traced
     turned: float = 0.0
+    followed: bool = False
 
     @property
     def swings(self) -> bool:
@@ -66,7 +68,7 @@ class Output:
         return self.high.value - self.low.value if self.low and self.high else None
 
     @property
-    def without(self) -> Literal["goes away", "not computed", "does not move", "turns on", "slides on"]:
+    def without(self) -> Literal["goes away", "not computed", "does not move", "no limits", "turns on", "slides on"]:
         """The phrase for an output without a stroke."""
         if self.unbounded:
             return "goes away"
@@ -74,6 +76,8 @@ class Output:
             return "not computed"
         if self.position.constant is not None:
             return "does not move"
+        if self.followed:
+            return "no limits"
         return "turns on" if self.quantity.is_angle else "slides on"
 
     @property
@@ -442,7 +446,7 @@ def _output(reach: DriverRange, position: Traced) -> Output:
     places, room = [e.value for e in position.extremes], BESIDE * (1.0 + abs(turned))
     open_ends = at_ends[~np.array(reach.limited)]
     held = len(places) > 1 and min(places) - room <= min(open_ends) and max(open_ends) <= max(places) + room
-    return Output(position, 0.0 if held else turned)
+    return Output(position) if held else Output(position, turned, not reach.driver.turns)
 
 
 BESIDE = 1e-9

@@ -154,9 +154,24 @@ def discs(first: float, second: float) -> dict[str, Any]:
     }
 
 
-def test_a_slide_that_is_followed_no_further_has_no_stroke_and_goes_on() -> None:
+def test_what_a_slide_drives_that_is_followed_no_further_has_no_limit_positions() -> None:
     (output,) = study_turn(driver_range(mechanism_of(WEDGE))).outputs
-    assert (None, "slides on", ()) == (output.stroke, output.without, output.position.extremes)
+    assert (None, "no limits", ()) == (output.stroke, output.without, output.position.extremes)
+
+
+def test_a_slide_that_comes_back_less_than_it_goes_has_no_stroke_and_goes_on() -> None:
+    # a yoke on a point beyond the rim of a wheel that rolls on a rail
+    rail = {"guides": {"rail": {"through": [0, 0], "angle": 0}, "x": {"through": [0, 90], "angle": 0}}}
+    wheel = {"points": ["C", "P"], "length": 45, "discs": {"w": {"centre": "C", "r": 30}}}
+    yoke = {"on": "0.x", "guides": {"s": {"through": [0, 0], "angle": 90}}}
+    scene = {
+        "frame": rail, "links": {"1": wheel, "2": yoke}, "pins": {"P": {"of": "1", "in": "2.s"}},
+        "contacts": {"K": {"between": ["1.w", "0.rail"], "rolling": True}},
+        "driver": {"link": "1", "angle": 0, "omega": -2}, "drawn": {"C": [0, 30], "P": [45, 30]},
+    }  # fmt: skip
+    (output,) = study_turn(driver_range(mechanism_of(scene))).outputs
+    assert output.position.extremes
+    assert (None, "slides on") == (output.stroke, output.without)
 
 
 def test_what_lies_beyond_a_motion_that_is_followed_no_further_is_no_other_assembly() -> None:
