@@ -68,7 +68,9 @@ class Output:
         return self.high.value - self.low.value if self.low and self.high else None
 
     @property
-    def without(self) -> Literal["goes away", "not computed", "does not move", "no limits", "turns on", "slides on"]:
+    def without(
+        self,
+    ) -> Literal["goes away", "not computed", "does not move", "nowhere limited", "turns on", "slides on"]:
         """The phrase for an output without a stroke."""
         if self.unbounded:
             return "goes away"
@@ -77,7 +79,7 @@ class Output:
         if self.position.constant is not None:
             return "does not move"
         if self.followed:
-            return "no limits"
+            return "nowhere limited"
         return "turns on" if self.quantity.is_angle else "slides on"
 
     @property

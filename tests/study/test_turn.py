@@ -156,7 +156,7 @@ def discs(first: float, second: float) -> dict[str, Any]:
 
 def test_what_a_slide_drives_that_is_followed_no_further_has_no_limit_positions() -> None:
     (output,) = study_turn(driver_range(mechanism_of(WEDGE))).outputs
-    assert (None, "no limits", ()) == (output.stroke, output.without, output.position.extremes)
+    assert (None, "nowhere limited", ()) == (output.stroke, output.without, output.position.extremes)
 
 
 def test_a_slide_that_comes_back_less_than_it_goes_has_no_stroke_and_goes_on() -> None:
