@@ -15,6 +15,7 @@ import pytest
 
 import graphkin
 from graphkin.words import LANGUAGES, Markup, Phrase, as_markup, as_plain, gaps_of, rich_text
+from graphkin.words.written import roman
 from tests.command import start
 
 MARK = "¤"
@@ -118,3 +119,7 @@ def test_dollar_signs_and_braces_of_a_name_are_no_marks_of_symbols():
     said = rich_text(Phrase("design measured", lengths="a$$b {c}"), "en")
     assert "measured on paper: a$b {c}" == as_plain(said)
     assert ("measured on paper: a$$b {c}",) == said
+
+
+def test_a_sixth_trial_or_inset_has_a_numeral_of_its_own():
+    assert ["I", "II", "III", "IV", "V", "VI", "VII"] == [roman(number) for number in range(1, 8)]

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from graphkin.account.headings import number
-from graphkin.account.voice import Telling, numeral
+from graphkin.account.voice import Telling
 from graphkin.construction.steps import (
     FINDS_A_POINT,
     Bar,
@@ -25,7 +25,7 @@ from graphkin.construction.steps import (
 from graphkin.plane import cross, degrees, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Markup, Neutral, Phrase, in_turn, joined, listed, sense_of
-from graphkin.words.written import in_markup, on_paper, true_minus
+from graphkin.words.written import in_markup, on_paper, roman, true_minus
 
 SAME = 1e-6  # mm
 STRAIGHT = 1e-6  # of a length: so little beside a line a point lies on it
@@ -207,7 +207,7 @@ class InMechanism(Telling):
             moved_words, missed = self._moved_and_missed(trial)
             rows = [_told_in(trial, row) for row in trial.trials]
             if len(trial.moved) > 1:
-                numbered = ([Neutral(f"${numeral(i)}$ {row[k]}") for i, row in enumerate(rows, 1)] for k in (0, 1))
+                numbered = ([Neutral(f"${roman(i)}$ {row[k]}") for i, row in enumerate(rows, 1)] for k in (0, 1))
                 values, misses = map(listed, numbered)
                 parts.append(Phrase("written tried", moved=moved_words, values=values))
                 parts.append(Phrase("written missed", missed=missed, misses=misses))
@@ -342,17 +342,17 @@ def _divided_by_parts(table: TrialPositions, told: Phrase) -> Phrase:
     for i, row in enumerate(table.divided):
         values, misses = _told_in(table, row)
         if i:
-            replaced = numeral(table.replaced[i - 1])
+            replaced = roman(table.replaced[i - 1])
             told = Phrase("trial parts again", division=told, trial=replaced, values=values, misses=misses)
         else:
-            steps = ", ".join(numeral(k) for k in range(2, len(table.trials) + 1))
+            steps = ", ".join(roman(k) for k in range(2, len(table.trials) + 1))
             parts = ", ".join(map(_two_digits, table.parts))
             told = Phrase("trial parts", division=told, parts=parts, trials=steps, values=values, misses=misses)
     return told
 
 
 def _numbered(rows: Sequence[str]) -> str:
-    return "; ".join(f"{numeral(i)} {row}" for i, row in enumerate(rows, 1))
+    return "; ".join(f"{roman(i)} {row}" for i, row in enumerate(rows, 1))
 
 
 def _told_in(table: TrialPositions, row: TrialRow) -> tuple[str, str]:

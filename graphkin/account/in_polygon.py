@@ -22,7 +22,7 @@ from graphkin.account.arithmetic import (
 )
 from graphkin.account.headings import number, term, written
 from graphkin.account.notation import unit_of
-from graphkin.account.voice import SAME, Telling, numeral
+from graphkin.account.voice import SAME, Telling
 from graphkin.construction.sheet import Rate
 from graphkin.construction.steps import (
     GIVEN,
@@ -42,7 +42,7 @@ from graphkin.construction.steps import (
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Markup, Neutral, Phrase, in_turn, joined, languages, listed, sense_of
-from graphkin.words.written import MOST, amount, on_paper, pointing, quotient, true_minus
+from graphkin.words.written import MOST, amount, on_paper, pointing, quotient, roman, true_minus
 
 SEEN = 0.005  # mm on paper: less than that is not taken off
 ON_THE_POINT = 1e-9  # of a bar: so near to its end a point divides nothing
@@ -372,7 +372,7 @@ class InPolygon(Telling):
         own = (s for s in later if s.number >= first and any(getattr(x, "symbol", None) in aids for x in s.strokes))
         last = max((s.number for s in own), default=first)
         rates = self._rates(trial.assumed)
-        told = Phrase("trial lettered", trial=numeral(trial.number), rates=rates, first=first, last=last)
+        told = Phrase("trial lettered", trial=roman(trial.number), rates=rates, first=first, last=last)
         if trial.number > 1:
             return told
         if trial.far is None:
@@ -386,7 +386,7 @@ class InPolygon(Telling):
         """The gaps of the trials, measured from letter to letter, and the proportional division in numbers."""
         divided = self._divided
         rows = true_minus("; ".join(
-            f"{numeral(i)} " + ", ".join(on_paper(mm) for mm in row) for i, row in enumerate(divided.apart, 1)
+            f"{roman(i)} " + ", ".join(on_paper(mm) for mm in row) for i, row in enumerate(divided.apart, 1)
         )) + " mm"  # fmt: skip
         found, sums = self._rates(divided.found), divisions(self.sheet, self.step, divided)
         if len(sums) > 1:
@@ -400,7 +400,7 @@ class InPolygon(Telling):
         """
         divided, symbol = self._divided, self.voice.symbol
         trials = trials_of(self.sheet, self.step, divided)
-        numerals = [Markup(numeral(trial.number)) for trial in trials]
+        numerals = [Markup(roman(trial.number)) for trial in trials]
         closing = listed([
             Phrase("open pair", pair=name) if "/" in name else Phrase("open link", link=name)
             for name in divided.closing
@@ -417,7 +417,7 @@ class InPolygon(Telling):
         ))  # fmt: skip
         if len(sums) > 1:
             parts = ", ".join(one.part for one in sums)
-            first, others = Markup(numeral(1)), listed(numerals[1:])
+            first, others = Markup(roman(1)), listed(numerals[1:])
             yield Phrase("written superposed several", parts=parts, first=first, others=others, rates=said)
         else:
             yield Phrase("written superposed", rates=said)

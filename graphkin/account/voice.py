@@ -34,7 +34,6 @@ from graphkin.words.written import in_markup
 
 SAME = 0.02  # mm: nearer end points fall together on paper
 ZERO = 0.02  # mm: a shorter vector is drawn as a dot
-NUMERALS = "I", "II", "III", "IV", "V"
 KNOWN = {"an": "normal", "ak": "coriolis"}  # components whose size and direction are known
 _POINT = r"[A-Z][a-z]*\d*"
 _POINT_NAMES = re.compile(f"(?:{_POINT})+")
@@ -301,11 +300,6 @@ class Telling:
     def written(self, language: str) -> Iterable[str | Phrase]:
         """The lines to repeat it."""
         return self.lines[self.step.reason](self, language) if self.step.reason in self.lines else ()
-
-
-def numeral(number_of: int) -> str:
-    """The numeral of a trial."""
-    return NUMERALS[(number_of - 1) % len(NUMERALS)]
 
 
 def whole_sentence(text: str, language: str) -> str:

@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from graphkin.errors import CallError
 from graphkin.plane import added_up, cross, dot
 from graphkin.structure.model import Coordinate, Driven, Dyad, Element, Pair, Structure
+from graphkin.words.written import roman
 
 
 @dataclass(frozen=True)
@@ -183,17 +184,9 @@ def _found(structure: Structure) -> list[Loop]:
         joints = element.joints if isinstance(element, Dyad) else ()
         edges = [(pair.a, pair, pair.b) for pair in (*element.pairs, *(joint.pair for joint in joints))]
         for cycle in () if isinstance(element, Driven) else _cycles(structure, element, edges, known):
-            loops.append(Loop(_roman(len(loops) + 1), _arrows(structure, cycle), element.links))
+            loops.append(Loop(roman(len(loops) + 1), _arrows(structure, cycle), element.links))
         known += edges
     return loops
-
-
-def _roman(number: int) -> str:
-    text = ""
-    for value, letters in ((10, "X"), (9, "IX"), (5, "V"), (4, "IV"), (1, "I")):
-        while number >= value:
-            text, number = text + letters, number - value
-    return text
 
 
 def _cycles(

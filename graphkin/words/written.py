@@ -164,6 +164,19 @@ def pointing(span: complex) -> str:
     return true_minus(f"{180.0 if angle == -180.0 else angle:.1f}")
 
 
+def roman(number: int) -> str:
+    """A number from 1 on in Roman numerals, as trials, insets and loops are counted.
+
+    >>> [roman(number) for number in (1, 4, 6, 9, 14)]
+    ['I', 'IV', 'VI', 'IX', 'XIV']
+    """
+    text = ""
+    for value, letters in ((10, "X"), (9, "IX"), (5, "V"), (4, "IV"), (1, "I")):
+        count, number = divmod(number, value)
+        text += count * letters
+    return text
+
+
 def in_markup(text: str) -> str:
     """A text as markup that shows it unchanged: its dollar signs begin no symbol."""
     return text.replace("$", "$$")

@@ -16,7 +16,7 @@ from typing import TypeAlias
 
 from graphkin.account.headings import term
 from graphkin.account.notation import Letters
-from graphkin.account.voice import ZERO, numeral
+from graphkin.account.voice import ZERO
 from graphkin.checking.scans import judge_scans
 from graphkin.construction.instruments import EXACT_NAME
 from graphkin.construction.scales import Scales
@@ -59,6 +59,7 @@ from graphkin.drawing.place.piece import Piece, cut_to, dated, joined, middle_of
 from graphkin.drawing.text import fitted, plain, runs_width, symbol, text_box
 from graphkin.plane import cross, unit
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.words.written import roman
 
 SMALL_INSET = 24.0, 21.0  # mm
 ROUNDING = 1e-6  # mm
@@ -199,9 +200,9 @@ def _detail_inset(here: PolygonOnPage, detail: Detail, box: Box, number: int, po
             name = replace(point.text, id=id, step=detail.crowd, since=here.since(detail))
             names.append(Label(name, spot, point.toward, rank=1))
     id, classes = f"detail-{here.diagram}-{number}", ("inset", "detail")
-    runs = fitted(f"{numeral(number)}: {_enlarged(detail.factor, here.language)}", NUMERAL, box.width - 1.6)
+    runs = fitted(f"{roman(number)}: {_enlarged(detail.factor, here.language)}", NUMERAL, box.width - 1.6)
     if runs_width(runs) > box.width - 1.6:
-        runs = fitted(f"{numeral(number)} ({detail.factor:g} : 1)", NUMERAL, box.width - 1.6)
+        runs = fitted(f"{roman(number)} ({detail.factor:g} : 1)", NUMERAL, box.width - 1.6)
     drawn = _inset(box, here.diagram, parts, runs, 1.6, id, f"label-{id}", classes, detail.crowd)
     return with_labels(dated(replace(drawn, labels=tuple(names)), here.since(detail)), inner)
 

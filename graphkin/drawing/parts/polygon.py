@@ -19,7 +19,7 @@ import numpy as np
 from graphkin.account.headings import number
 from graphkin.account.notation import Letters, pole, unit_of
 from graphkin.account.spoken import spoken_ref, spoken_vector
-from graphkin.account.voice import SAME, NamedPoint, PolygonPoints, numeral
+from graphkin.account.voice import SAME, NamedPoint, PolygonPoints
 from graphkin.construction.scales import SERIES
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import Arrow, Bar, ConstructionVector, DiagramName, Image, Mark, Ray, Step, Vector
@@ -34,6 +34,7 @@ from graphkin.drawing.place.piece import Piece, dated, joined, obstacles_of
 from graphkin.drawing.text import LETTER, SMALLEST, plain, rich, runs_width, symbol, text_box
 from graphkin.plane import added_up, cross, dot
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.words.written import roman
 
 FAR = 60.0  # mm: construction further outside than this is cut off
 SMALL = 2.0  # mm: shorter vectors are drawn again larger
@@ -350,7 +351,7 @@ def ring_numerals(here: PolygonOnPage, around: Obstacles) -> Piece:
     pieces = []
     for order, d in enumerate(here.enlarged, 1):
         id = f"label-ring-{here.diagram}-{order}"
-        text = Text(0j, plain(numeral(order), NUMERAL), id=id, classes=("label", "ring"))
+        text = Text(0j, plain(roman(order), NUMERAL), id=id, classes=("label", "ring"))
         box = text_box(text)
         half = complex(box.width, box.height) / 2
         edges = here.at(d.centre) + (d.radius + RING) * WAYS
@@ -594,7 +595,7 @@ def trial_marks_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
                 letter = here.letters.end(here.diagram, of)
                 if letter:
                     name = f"label-trial-{here.diagram}-{trial}-{aid.symbol.id}"
-                    labels.append(Label.of(symbol(f"{letter}^{{{numeral(trial)}}}", 2.5), here.at(aid.tip), name,
+                    labels.append(Label.of(symbol(f"{letter}^{{{roman(trial)}}}", 2.5), here.at(aid.tip), name,
                             colour=strokes.GREY, toward=(phase(clipped[1] - clipped[0]),), rank=5, classes=("trial",)))
         classes = (f"trial-{trial}",) if trial else ("special",)
         drawn = Group(tuple(parts), classes=classes, step=step.number)
