@@ -182,10 +182,15 @@ def given_shapes(scene: Mechanism, letters: Letters, language: str) -> list[str]
     """The shapes of links as short phrases, symbols between dollar signs: ``guide s on 3: 140 mm from C, 90° to x``.
 
     Angles are those of lines, from -90 to 90 degrees, counter-clockwise positive; places are along the guide on which
-    the link slides and to the left of it.
+    the link slides and to the left of it.  Pins and blocks in circular slots come last.
     """
     whole = scene.whole
     found = [phrase for link in whole.links if not link.redundant for phrase in _shape(whole, link, letters)]
+    for slot in whole.slots:
+        centre, point = letters.point(slot.centre), letters.point(slot.point)
+        key, bar = "block on circle" if slot.block else "pin on circle", f"${centre}{point}$"
+        runs = {"point": f"${point}$", "link": slot.of or slot.bar, "on": slot.on, "centre": f"${centre}$"}
+        found.append(Phrase(key, **runs, **({} if slot.block else {"bar": bar, "name": slot.bar})))
     told = ((_BETWEEN_CHINESE.sub("", say(phrase, each)) for each in languages(language)) for phrase in found)
     return [" ".join(dict.fromkeys(shape)) for shape in told]
 

@@ -9,7 +9,9 @@ from typing import Any
 import pytest
 
 import graphkin
+from graphkin.account.given import given_shapes
 from graphkin.account.headings import structure_words
+from graphkin.account.notation import Letters
 from graphkin.errors import SceneError
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import joints
@@ -66,6 +68,18 @@ def test_it_is_drawn_and_checked(scene: dict[str, Any]) -> None:
 def test_a_pin_in_one_counts_as_a_higher_pair() -> None:
     count = graphkin.prepare(with_pin(), find=["v_C"]).ready.range.structure.mobility
     assert (2, 2, 1, 1) == (count.links, count.lower, count.higher, count.value)
+
+
+@pytest.mark.parametrize(
+    ("scene", "language", "told"),
+    [
+        (with_pin(), "en", "$C$ of 2 in a circular slot of 0 about $M$; the bar $MC$, link s, stands for it"),
+        (with_pin(), "zh", "构件 2 上的 $C$ 在构件 0 以 $M$ 为圆心的圆弧槽中，以杆 $MC$（构件 s）代替"),
+        (with_block(), "en", "$C$ of 3 in a circular slot of 0 about $M$"),
+    ],
+)
+def test_it_is_among_the_given_data(scene: dict[str, Any], language: str, told: str) -> None:
+    assert told == given_shapes(mechanism_of(scene), Letters("chinese"), language)[-1]
 
 
 @pytest.mark.parametrize(
