@@ -209,3 +209,11 @@ def test_places_by_an_angle_and_their_angles_are_each_others_inverse() -> None:
     places = places_between(angle, -2.0, 3.0)
     assert [-2.0, 0.5 - 2.5 * np.cos(0.3), 3.0] == pytest.approx(places[[0, 1, 4]].tolist())
     assert angle.tolist() == pytest.approx(angles_between(places, -2.0, 3.0).tolist())
+
+
+def test_two_turns_nearer_to_each_other_than_the_farther_look_are_both_found() -> None:
+    def cubic(t: NDArray[np.float64]) -> NDArray[np.float64]:
+        u = np.sin(t - 1.0)
+        return np.asarray(u**3 / 3 - 1.5e-3**2 * u)
+
+    assert 6 == len(resolve(lambda t: column(cubic(t)), 0.0, 2 * np.pi, periodic=True).turns(0))
