@@ -298,6 +298,8 @@ class Step:
                 return f"relative special point{' driven' * (self.kind == 'driven')}"
             case "angle" if self.base:
                 return "lay off angle to"
+            case "frame" if not self.points:
+                return "guides of the frame"
             case "rolling":
                 return "rolling starts at angle" if self.link else "rolling starts at travel"
             case "polygon" if isinstance(data, RateTrial) and not any(value for _, value in data.assumed):

@@ -11,7 +11,7 @@ from graphkin.construction import draft
 from graphkin.construction.steps import LENGTHS, SENTENCES, CompassArc, Direction, Ray, Reason, Step, Stroke, TrialCurve
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol
-from graphkin.words import area
+from graphkin.words import area, say
 
 pytestmark = pytest.mark.quick
 NO_LENGTHS = {"value", "other", "plan", "per_mm", "number", "equation"}
@@ -71,3 +71,11 @@ def test_a_gap_of_a_sentence_is_filled_with_an_argument_of_the_step_by_its_name(
     step = Step("cross", "arcs", points=("A", "D"), point="C", radii=(12.5, 3.0))
     assert ("D", "C", "12.50", "A, D") == tuple(map(step.gap, ("points.1", "point", "radii.0", "points")))
     assert "an arc about A of 12.50 mm and one about D of 3.00 mm meet in C" == str(step.phrase)
+
+
+@pytest.mark.parametrize(("name", "sentence"), [
+    ("elliptic-trammel", "mark the guides of frame 4"), ("four-bar-coupler-point", "and guides of frame 4: A, D"),
+])  # fmt: skip
+def test_of_a_frame_without_points_only_its_guides_are_marked(name: str, sentence: str) -> None:
+    first = draft(mechanism_of(name)).steps[0]
+    assert say(first.phrase).endswith(sentence)
