@@ -109,7 +109,7 @@ def with_signs(people: Sequence[Answers]) -> tuple[Answers, ...]:
     """The answers with the numbers of a column signed where one of them has a written sign."""
     signed = {
         (who.person, who.variant, who.by, p.symbol)
-        for who in people for p in who.values if p.shows_sign and p.direction is None and not p.lines
+        for who in people for p in who.values if p.shows_sign and p.way.angle is None and not p.way.lines
     }  # fmt: skip
     if not signed:
         return tuple(people)

@@ -98,8 +98,9 @@ def _turned(case: Evidence, judged: Judged, right: Value) -> Judged | None:
     true = cmath.phase(complex(right))
     drawn = judged.bound / abs(right) if math.isfinite(judged.bound) else math.pi
     reach = max(LEAST_TURN, min(drawn, math.pi / 6))
-    directions = [(printed.direction, reach + printed.room * (1 + 1e-9), printed.either)]
-    directions += [(_angle_of(case, line), reach, not line.directed) for line in printed.lines]
+    way = printed.way
+    directions = [(way.angle, reach + way.room * (1 + 1e-9), way.either)]
+    directions += [(_angle_of(case, line), reach, not line.directed) for line in way.lines]
     for angle, room, either in directions:
         if angle is None or _near(true - angle, room, either):
             continue
@@ -200,7 +201,7 @@ def judge_table(
     for row, (values, by) in enumerate(rows):
         judged = []
         for stated in values:
-            by_line = by == "computation" and stated.symbol in signed and stated.direction is None
+            by_line = by == "computation" and stated.symbol in signed and stated.way.angle is None
             printed = replace(stated, signed=True) if by_line else stated
             one, error = Judged(printed, exact(row, printed)), errors.get(printed.symbol)
             one = _by_digits(one, by, 0.0 if error is None or by == "drawing" else float(error[row]))

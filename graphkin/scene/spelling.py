@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphkin.plane import added_up
-from graphkin.scene.symbol import KINDS, Line, PointRef, Printed, Symbol, forms_of_names, stated
+from graphkin.scene.symbol import KINDS, Line, PointRef, Printed, Symbol, Way, forms_of_names, stated
 from graphkin.scene.tables import FORCES, LENGTHS, Units
 from graphkin.words import LANGUAGES, Phrase, area
 
@@ -288,23 +288,6 @@ _UPRIGHT_LINE, _LEVEL_LINE = _said("vertical"), _said("horizontal")
 ROUGH = math.radians(45.0)  # an arrow or a word is meant for all that lies nearest to it
 
 
-@dataclass(frozen=True)
-class Way:
-    """A direction as written (rad, counter-clockwise from the x axis) with the room to either side of it, and its
-    opposite where ``either``; a sense (+1 counter-clockwise, -1 clockwise); or the lines along which it lies."""
-
-    angle: float | None = None
-    room: float = 0.0
-    sense: int = 0
-    either: bool = False
-    lines: tuple[Line, ...] = ()
-
-    @property
-    def says(self) -> bool:
-        """Whether it holds a direction, a sense or a line."""
-        return bool(self.sense or self.angle is not None or self.lines)
-
-
 def read_way(text: str, symbol: Symbol) -> Way:
     """The direction in a cell of a column of directions: an angle, an arrow, words.  Raises ValueError."""
     way, rest = way_in(plain_text(text), symbol)
@@ -540,7 +523,7 @@ def read_cell(
     made = replace(stated(symbol, pointed, units, factor), shown=text.strip())
     if len(pointed) > 1 or not symbol.is_vector:
         return made
-    return replace(made, direction=way.angle, room=way.room, either=way.either, lines=way.lines)
+    return replace(made, way=way)
 
 
 def _two_components(match: re.Match[str]) -> str:

@@ -361,15 +361,31 @@ class Line:
 
 
 @dataclass(frozen=True)
+class Way:
+    """A direction as written (rad, counter-clockwise from the x axis) with the room to either side of it, and its
+    opposite where ``either``; a sense (+1 counter-clockwise, -1 clockwise); or the lines along which it lies."""
+
+    angle: float | None = None
+    room: float = 0.0
+    sense: int = 0
+    either: bool = False
+    lines: tuple[Line, ...] = ()
+
+    @property
+    def says(self) -> bool:
+        """Whether it holds a direction, a sense or a line."""
+        return bool(self.sense or self.angle is not None or self.lines)
+
+
+@dataclass(frozen=True)
 class Printed:
     """A stated value.
 
     ``value`` (SI) is a float, or a complex number for a vector given by two components; ``step`` (SI) one unit of its
     last digit; ``digits`` the number of its significant digits; ``texts`` its numbers as written, in scene units unless
-    ``shown``, the whole cell, says otherwise.  ``direction`` (rad) is the direction of a vector given by size and
-    direction, with ``room`` (rad) to either side, and its opposite too where ``either``; the vector is said to lie
-    along each of ``lines``.  ``signed`` tells that its number is a place on the line of the motion (a guide), also
-    where it is positive; else a positive number is the size of a vector.
+    ``shown``, the whole cell, says otherwise.  ``way`` is the direction of a vector given by size and direction.
+    ``signed`` tells that its number is a place on the line of the motion (a guide), also where it is positive; else a
+    positive number is the size of a vector.
     """
 
     symbol: Symbol
@@ -378,10 +394,7 @@ class Printed:
     digits: int
     texts: tuple[str, ...]
     shown: str = ""
-    direction: float | None = None
-    room: float = 0.0
-    either: bool = False
-    lines: tuple[Line, ...] = ()
+    way: Way = Way()
     signed: bool = False
 
     @property

@@ -77,8 +77,8 @@ def test_a_rate_is_read_as_people_write_it(text, value):
 )  # fmt: skip
 def test_a_vector_is_read_with_its_unit_and_direction(text, value, degrees):
     found = read_cell(text, Symbol.parse("v_D"), Units())
-    way = None if found.direction is None else pytest.approx(degrees * 3.141592653589793 / 180)
-    assert (pytest.approx(value), way) == (found.value, found.direction)
+    way = None if found.way.angle is None else pytest.approx(degrees * 3.141592653589793 / 180)
+    assert (pytest.approx(value), way) == (found.value, found.way.angle)
 
 
 @pytest.mark.parametrize("text", ["v_x = -300 mm/s, v_y = 400 mm/s", "-300 î + 400 ĵ", "(-300|400)", "[-300 400]"])
@@ -138,7 +138,7 @@ def test_a_direction_in_another_language_is_told_as_what_is_not_read():
 
 
 def test_newtons_are_not_north():
-    assert (500.0, None) == (lambda p: (p.value, p.direction))(read_cell("500 N", Symbol.parse("F_1/2"), Units()))
+    assert (500.0, None) == (lambda p: (p.value, p.way.angle))(read_cell("500 N", Symbol.parse("F_1/2"), Units()))
 
 
 def test_a_zero_component_is_zero_to_the_accuracy_of_the_other():
