@@ -13,7 +13,9 @@ from graphkin import draw
 from graphkin.drawing import Drawing, Text
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Stroke
 from graphkin.drawing.text import rich, width
+from graphkin.drawing.write.dxf import arcs_of_profile
 from graphkin.errors import CallError
+from graphkin.scene import mechanism_of
 
 SVG = "{http://www.w3.org/2000/svg}"
 THIN = Stroke(0.18)
@@ -108,3 +110,11 @@ def test_letters_as_outlines_are_paths_and_can_still_be_found():
 def test_letters_as_outlines_need_no_font():
     svg = draw("four-bar-coupler-point", figures=["velocity"]).figures["velocity"].content("svg", text="outlines")
     assert b"@font-face" not in svg
+
+
+@pytest.mark.parametrize(("name", "most"), [
+    ("cam-offset-roller", 1000), ("cam-flat-face", 600), ("cam-swinging-roller", 900),
+])  # fmt: skip
+def test_the_profile_of_a_cam_has_no_more_arcs_than_its_bends_need(name: str, most: int) -> None:
+    (cam,) = mechanism_of(name).cams
+    assert most > len(arcs_of_profile(cam))
