@@ -44,18 +44,18 @@ from graphkin.version import __version__
 
 TYPE_CHECKING = False  # that of typing, without waiting for typing
 if TYPE_CHECKING:
-    from graphkin.api.audited import audit
     from graphkin.api.cams import cam
     from graphkin.api.centred import centres, centrodes
     from graphkin.api.checked import check
+    from graphkin.api.classroom.audited import audit
+    from graphkin.api.classroom.course_designs import course_design
+    from graphkin.api.classroom.handouts import handout
+    from graphkin.api.classroom.problem_sets import problem_set
     from graphkin.api.converted import convert
-    from graphkin.api.course_designs import course_design
     from graphkin.api.designed import design
     from graphkin.api.drawn import draw
     from graphkin.api.explained import explain
-    from graphkin.api.handouts import handout
     from graphkin.api.prepared import prepare
-    from graphkin.api.problem_sets import problem_set
     from graphkin.api.scene_list import scenes
     from graphkin.api.solved import solve
     from graphkin.api.studied import speed_accuracy, stability
@@ -71,18 +71,18 @@ __all__ = [
 ]  # fmt: skip
 
 _PLACES = {
-    "api.audited": "audit",
+    "api.classroom.audited": "audit",
     "api.cams": "cam",
     "api.centred": "centres centrodes",
     "api.checked": "check",
     "api.converted": "convert",
-    "api.course_designs": "course_design",
+    "api.classroom.course_designs": "course_design",
     "api.designed": "design",
     "api.drawn": "draw",
     "api.explained": "explain",
-    "api.handouts": "handout",
+    "api.classroom.handouts": "handout",
     "api.prepared": "prepare",
-    "api.problem_sets": "problem_set",
+    "api.classroom.problem_sets": "problem_set",
     "api.scene_list": "scenes",
     "api.solved": "solve",
     "api.studied": "speed_accuracy stability",

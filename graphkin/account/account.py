@@ -14,8 +14,8 @@ from graphkin.account.in_mechanism import InMechanism
 from graphkin.account.in_polygon import InPolygon, alike, rate_name
 from graphkin.account.notation import Letters
 from graphkin.account.voice import Telling, Voice
-from graphkin.construction.sheet import Equation, Sheet
-from graphkin.construction.steps import Arrow, Reason, Step, Term
+from graphkin.construction.board.sheet import Equation, Sheet
+from graphkin.construction.board.steps import Arrow, Reason, Step, Term
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Pair
 from graphkin.words import Phrase, languages, sense_of, word

@@ -13,10 +13,10 @@ from typing import Literal
 from graphkin.account.given import slide_index
 from graphkin.account.headings import number, written
 from graphkin.account.notation import Letters, unit_of
-from graphkin.construction.instruments import EXACT
-from graphkin.construction.links_on_paper import pushed_by_driver
-from graphkin.construction.sheet import Sheet, either_way
-from graphkin.construction.steps import ConstructionVector, DiagramName, RateTrial, Size, Step, Superposed, Vector
+from graphkin.construction.board.instruments import EXACT
+from graphkin.construction.board.sheet import Sheet, either_way
+from graphkin.construction.board.steps import ConstructionVector, DiagramName, RateTrial, Size, Step, Superposed, Vector
+from graphkin.construction.position.links_on_paper import pushed_by_driver
 from graphkin.plane import added_up
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Units

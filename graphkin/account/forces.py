@@ -17,6 +17,8 @@ from typing import Literal, TypeAlias
 
 from graphkin.account.headings import number, written
 from graphkin.account.notation import Letters, force_letters, pole
+from graphkin.construction.board.scales import Extent, fitting_scale
+from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.forces.force_sheet import (
     ForceGroup,
     ForceSheet,
@@ -27,8 +29,6 @@ from graphkin.construction.forces.force_sheet import (
     MomentEquation,
     MomentTerm,
 )
-from graphkin.construction.scales import Extent, fitting_scale
-from graphkin.construction.sheet import Sheet
 from graphkin.plane import added_up
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Neutral, Phrase, Wording, about, in_all, languages, links_named, listed, say

@@ -16,8 +16,8 @@ from functools import reduce
 
 from graphkin.account.headings import number, term, written
 from graphkin.account.notation import Letters, force_letters
+from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.forces.position import DrawnPosition
-from graphkin.construction.sheet import Sheet
 from graphkin.plane import degrees
 from graphkin.scene.drivers import asked_time, moves_by_law
 from graphkin.scene.model import Driver, LoadOn, Mechanism, PlacedLink, SpringOn

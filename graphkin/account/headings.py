@@ -10,8 +10,8 @@ from collections.abc import Mapping
 
 from graphkin.account.notation import unit_of
 from graphkin.account.spoken import spoken_vector
-from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import DiagramName, Direction, plain_in
+from graphkin.construction.board.sheet import Sheet
+from graphkin.construction.board.steps import DiagramName, Direction, plain_in
 from graphkin.scene.model import Mechanism
 from graphkin.scene.tables import Measure
 from graphkin.version import __version__

@@ -12,7 +12,7 @@ from typing import ClassVar
 
 from graphkin.account.headings import number
 from graphkin.account.voice import Telling
-from graphkin.construction.steps import (
+from graphkin.construction.board.steps import (
     FINDS_A_POINT,
     Bar,
     CompassArc,

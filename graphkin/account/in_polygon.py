@@ -23,8 +23,8 @@ from graphkin.account.arithmetic import (
 from graphkin.account.headings import number, term, written
 from graphkin.account.notation import unit_of
 from graphkin.account.voice import SAME, Telling
-from graphkin.construction.sheet import Rate
-from graphkin.construction.steps import (
+from graphkin.construction.board.sheet import Rate
+from graphkin.construction.board.steps import (
     GIVEN,
     Arrow,
     Bar,

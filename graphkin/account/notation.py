@@ -15,8 +15,8 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Literal
 
-from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import DiagramName, Direction, Size, Term
+from graphkin.construction.board.sheet import Sheet
+from graphkin.construction.board.steps import DiagramName, Direction, Size, Term
 from graphkin.scene.scene_tables import Convention
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Unit

@@ -15,8 +15,8 @@ from typing import Any, ClassVar
 
 from graphkin.account.arithmetic import times_scale
 from graphkin.account.notation import Letters, pole
-from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import (
+from graphkin.construction.board.sheet import Sheet
+from graphkin.construction.board.steps import (
     GIVEN,
     Bar,
     ConstructionVector,

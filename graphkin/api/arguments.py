@@ -127,7 +127,7 @@ def as_scene(scene: SceneLike) -> Mechanism:
     dead point is found, and its rate from the speed of a point."""
     given = mechanism_of(scene)
     if any(d.position for d in given.drivers):
-        from graphkin.solver.named_positions import standing
+        from graphkin.solver.path.named_positions import standing
 
         given = standing(given)
     if any((d.dead_point and not d.dead_point.exact) or d.given_speed for d in given.drivers):
@@ -231,7 +231,7 @@ def value_at(scene: Mechanism, name: str) -> float:
     CallError : the scene names no such position
     Unsolvable : it lies on the stroke of a slide, but the driver makes no whole turn
     """
-    from graphkin.solver.named_positions import named_positions
+    from graphkin.solver.path.named_positions import named_positions
 
     known = scene.question.positions.names if scene.question.positions else ()
     if name not in known:

@@ -18,8 +18,8 @@ from graphkin.account.notation import in_counting_order
 from graphkin.api.arguments import ON_SHEETS, At, as_scene, for_paper, known_words, own_folder, placed, write_files
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.centres import TOLERANCE, SpeedByCentres, centre_errors, velocities_by_centres
+from graphkin.construction.board.scales import Room
 from graphkin.construction.centres import Centre, Centres, LinkPair, Turning, find_centres
-from graphkin.construction.scales import Room
 from graphkin.errors import CallError, as_text, did_you_mean
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism

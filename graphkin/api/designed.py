@@ -84,7 +84,7 @@ class Designed(Result):
     def _confirmed(self) -> Sequence[Confirmed]:
         from graphkin.drawing.figures.constructions import Confirmed
         from graphkin.solver import structure_of
-        from graphkin.solver.driver_range import range_of
+        from graphkin.solver.path.driver_range import range_of
 
         task, metres = self.given.task, self.given.units.metres
 

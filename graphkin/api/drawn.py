@@ -26,7 +26,7 @@ from graphkin.api.checked import Checked, checked, with_elsewhere
 from graphkin.api.report_text import report_text
 from graphkin.api.results import OfScene, Result
 from graphkin.construction import EXACT, Instrument, Plan, execute, plan
-from graphkin.construction.sheet import Sheet
+from graphkin.construction.board.sheet import Sheet
 from graphkin.drawing.figures import figure_kinds
 from graphkin.drawing.figures.positions import shown_positions
 from graphkin.errors import CallError, Problem, Unsolvable, as_list, unfit
@@ -192,7 +192,7 @@ def _forces(drawn: Drawn) -> tuple[Any, ...] | None:
 
 
 def _positions(drawn: Drawn) -> tuple[Any, ...]:
-    from graphkin.solver.named_positions import named_positions
+    from graphkin.solver.path.named_positions import named_positions
 
     return (shown_positions(drawn.whole, named_positions(drawn.mechanism)),)
 

@@ -19,7 +19,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike, written
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Unit
-from graphkin.solver.kernel import pays
+from graphkin.solver.compiled.kernel import pays
 from graphkin.study.quantities import settled
 from graphkin.table import Column, Table, Values
 from graphkin.words import Phrase

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 from graphkin.api.arguments import passed_words
 from graphkin.api.checked import Checked
 from graphkin.checking.report import deviation, exact, measured, paper
-from graphkin.construction.sheet import Equation
-from graphkin.construction.steps import Term, plain_in
+from graphkin.construction.board.sheet import Equation
+from graphkin.construction.board.steps import Term, plain_in
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import Mechanism
 from graphkin.words import Phrase, about, as_plain, links_named, rich_text, say, word
@@ -20,7 +20,7 @@ from graphkin.words.symbols import plain_words
 from graphkin.words.written import MOST, amount
 
 if TYPE_CHECKING:
-    from graphkin.solver.driver_path import Stretch
+    from graphkin.solver.path.driver_path import Stretch
     from graphkin.study.extremes import Extreme
     from graphkin.study.turn import Output, TurnStudy
 

@@ -194,7 +194,7 @@ class Solved(OfScene, Result):
             yield from block._entries()
 
     def _entries(self) -> Iterator[dict[str, Json]]:
-        from graphkin.solver.named_positions import name_at, named_positions
+        from graphkin.solver.path.named_positions import name_at, named_positions
         from graphkin.solver.values import entries
 
         places = named_positions(self.mechanism) if self.motion.ok.any() else {}

@@ -26,7 +26,7 @@ from graphkin.board.building import pulled
 from graphkin.board.pictures import FigureOptions
 from graphkin.board.scene_text import changed, completions, line_of
 from graphkin.board.shelf import Shelf, mark_of
-from graphkin.construction.scales import Scales
+from graphkin.construction.board.scales import Scales
 from graphkin.drawing.figures import figure_kinds
 from graphkin.errors import CallError, GraphkinError, Problem, SceneError, did_you_mean
 from graphkin.files import Json
@@ -332,8 +332,8 @@ def _export(desk: Desk, asked: Message) -> Answer:
 
 
 def _papers(scene: Mechanism, asked: Message, options: FigureOptions, folder: Path) -> None:
-    from graphkin.api.handouts import handout, papers_of
-    from graphkin.api.problem_sets import problem_set
+    from graphkin.api.classroom.handouts import handout, papers_of
+    from graphkin.api.classroom.problem_sets import problem_set
     from graphkin.table import have
 
     formats = ("html", "pdf") if have("typst") else ("html",)

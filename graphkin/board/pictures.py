@@ -20,8 +20,8 @@ from graphkin.api.drawn import Drawn, drawn_figure, known_figures
 from graphkin.api.report_text import plain_said, reading_words
 from graphkin.board.building import movable
 from graphkin.construction import Plan, execute, plan
-from graphkin.construction.scales import Scales
-from graphkin.construction.steps import DiagramName
+from graphkin.construction.board.scales import Scales
+from graphkin.construction.board.steps import DiagramName
 from graphkin.drawing.figures.diagrams import figure_in_motion
 from graphkin.drawing.write.svg import svg_element
 from graphkin.errors import GraphkinError, SceneError, Unsolvable
@@ -30,7 +30,7 @@ from graphkin.papers.html import words_html
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import parsed, resolved
 from graphkin.solver import Motion, driver_range, solved_here
-from graphkin.solver.driver_range import DriverRange
+from graphkin.solver.path.driver_range import DriverRange
 from graphkin.structure import Structure, mobility_of
 from graphkin.words import Phrase, languages, say
 from graphkin.words.written import in_markup

@@ -32,8 +32,8 @@ from graphkin.checking.slip_likelihood import (
 from graphkin.checking.slips import CANCELLING, NOTHING, Evidence
 from graphkin.scene.symbol import Line, PointRef, Printed, Symbol, Value
 from graphkin.solver import Motion, listed_points
+from graphkin.solver.algebra.pose import Array
 from graphkin.solver.forces import forces_of
-from graphkin.solver.pose import Array
 from graphkin.solver.values import senses_along, value_of
 from graphkin.words import Phrase
 

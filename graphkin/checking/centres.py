@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from graphkin.checking.report import Known, in_unit
+from graphkin.construction.board.projective import normal, wedge
 from graphkin.construction.centres import Centre, Centres, LinkPair
-from graphkin.construction.projective import normal, wedge
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.solver.quantities import pole

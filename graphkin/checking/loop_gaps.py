@@ -5,8 +5,8 @@ from __future__ import annotations
 import cmath
 from collections.abc import Mapping
 
-from graphkin.construction.links_on_paper import travel
-from graphkin.construction.sheet import Sheet
+from graphkin.construction.board.sheet import Sheet
+from graphkin.construction.position.links_on_paper import travel
 from graphkin.plane import added_up
 from graphkin.scene.symbol import Symbol
 from graphkin.structure.loops import Loop, loops_of

@@ -8,10 +8,10 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from graphkin.construction.instruments import EXACT, Instrument
-from graphkin.construction.links_on_paper import travel
-from graphkin.construction.sheet import MOST_LOST, Reading, Sheet, either_way
-from graphkin.construction.steps import DiagramName, Vector
+from graphkin.construction.board.instruments import EXACT, Instrument
+from graphkin.construction.board.sheet import MOST_LOST, Reading, Sheet, either_way
+from graphkin.construction.board.steps import DiagramName, Vector
+from graphkin.construction.position.links_on_paper import travel
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.symbol import PointRef, Symbol, centre_links
 from graphkin.structure.transmission import joint_between, joint_of_follower, sliding_pair

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from graphkin.construction.scales import Scales
-from graphkin.construction.sheet import Reading, Sheet, greatest_before
-from graphkin.construction.steps import DiagramName, phrase_of
+from graphkin.construction.board.scales import Scales
+from graphkin.construction.board.sheet import Reading, Sheet, greatest_before
+from graphkin.construction.board.steps import DiagramName, phrase_of
 from graphkin.errors import CallError, Disagreement, Problem
 from graphkin.files import Json
 from graphkin.scene.symbol import PointRef, Symbol, Value
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from graphkin.checking.uncertainty import Uncertainty
     from graphkin.scene.model import Mechanism
     from graphkin.solver import Motion
-    from graphkin.solver.pose import Array
+    from graphkin.solver.algebra.pose import Array
 
 EXACT_TOLERANCE = 1e-9
 ROUNDING = 1e-14

@@ -13,8 +13,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import combinations
 
-from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import DiagramName
+from graphkin.construction.board.sheet import Sheet
+from graphkin.construction.board.steps import DiagramName
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.files import Json
 from graphkin.scene.model import PlacedScan

@@ -22,7 +22,7 @@ from graphkin.checking.readings import read_off
 from graphkin.checking.slip_likelihood import Suspect, Suspects
 from graphkin.checking.uncertainty import Uncertainty
 from graphkin.construction import AS_DRAWN, OwnValues, Plan, Sheet, Stages, execute, plan
-from graphkin.construction.steps import Order, Term
+from graphkin.construction.board.steps import Order, Term
 from graphkin.errors import GraphkinError
 from graphkin.plane import added_up, unit
 from graphkin.scene.model import LinkMass, Loading, LoadOn, Mechanism, PlacedLink

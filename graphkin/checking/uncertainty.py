@@ -27,9 +27,9 @@ from numpy.typing import NDArray
 
 from graphkin.checking.readings import read_off
 from graphkin.construction import Plan, Scales, Sheet, Stages, erring, nudged
-from graphkin.construction.instruments import Instrument
-from graphkin.construction.sheet import Reading
-from graphkin.construction.steps import Cause, Order, phrase_of
+from graphkin.construction.board.instruments import Instrument
+from graphkin.construction.board.sheet import Reading
+from graphkin.construction.board.steps import Cause, Order, phrase_of
 from graphkin.errors import Unsolvable
 from graphkin.plane import added_up
 from graphkin.scene.scene_tables import Tools

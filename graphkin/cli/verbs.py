@@ -33,8 +33,8 @@ from graphkin.words import Phrase, class_of, from_others, languages, say, word
 
 if TYPE_CHECKING:
     from graphkin.api.checked import Checked
-    from graphkin.api.course_designs import CourseDesigns
-    from graphkin.api.handouts import Handout
+    from graphkin.api.classroom.course_designs import CourseDesigns
+    from graphkin.api.classroom.handouts import Handout
     from graphkin.api.solved import Solved
 
 # -- drawings ----------------------------------------------------------------------------------------------------------
@@ -387,7 +387,7 @@ NOT_OF_DESIGNS = ("at", "position", "find", "convention", "positions", "variants
 
 
 def _design(given: Given) -> None:
-    from graphkin.api.task_papers import write_design_papers
+    from graphkin.api.classroom.task_papers import write_design_papers
 
     refusal = Phrase("goes with a scene not with a design"), Phrase("leave it out")
     if wishes := [name for name in NOT_OF_DESIGNS if getattr(given, name) not in (None, "", [])]:
@@ -397,7 +397,7 @@ def _design(given: Given) -> None:
 
 
 def _problem_set(given: Given) -> None:
-    from graphkin.api.handouts import papers_of
+    from graphkin.api.classroom.handouts import papers_of
     from graphkin.scene import mechanism_of
 
     target = given.out if given.out is not None else Path(mechanism_of(given.scene).name)

@@ -4,11 +4,11 @@ It starts from the scene and takes every later length and angle from the drawing
 solver.
 """
 
-from graphkin.construction.instruments import EXACT, Instrument, cad, erring, nudged, pencil
+from graphkin.construction.board.instruments import EXACT, Instrument, cad, erring, nudged, pencil
+from graphkin.construction.board.scales import Room, Scales
+from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.plan import Plan, Stages, draft, execute, plan
-from graphkin.construction.polygons import AS_DRAWN, OwnValues
-from graphkin.construction.scales import Room, Scales
-from graphkin.construction.sheet import Sheet
+from graphkin.construction.polygons.polygons import AS_DRAWN, OwnValues
 
 __all__ = [
     "AS_DRAWN",

@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from graphkin.construction.instruments import EXACT, Instrument
+from graphkin.construction.board.instruments import EXACT, Instrument
 from graphkin.construction.touching import CamStation, station, stations
 from graphkin.plane import cross_arcs, cross_line_arc, dot, unit
 from graphkin.scene.pairs import LawCam, SlidingFollower, SwingingFollower

@@ -21,12 +21,12 @@ from heapq import heappop, heappush
 from itertools import combinations
 from typing import Literal
 
-from graphkin.construction.instruments import EXACT, Instrument
+from graphkin.construction.board.instruments import EXACT, Instrument
+from graphkin.construction.board.projective import Line, Place, ProjectiveChart, product, wedge
+from graphkin.construction.board.scales import Scales
+from graphkin.construction.board.sheet import Sheet
+from graphkin.construction.board.steps import Superposed
 from graphkin.construction.plan import draft
-from graphkin.construction.projective import Line, Place, ProjectiveChart, product, wedge
-from graphkin.construction.scales import Scales
-from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import Superposed
 from graphkin.construction.touching import Touching
 from graphkin.plane import Pose, dot
 from graphkin.scene.model import Driver, Mechanism

@@ -18,17 +18,17 @@ from functools import cached_property
 from itertools import product
 from typing import TYPE_CHECKING
 
-from graphkin.construction.elements import draw_element
-from graphkin.construction.group_position import each_assembly
-from graphkin.construction.instruments import EXACT, Instrument
-from graphkin.construction.links_on_paper import PlacedLinks, reading, stuck, travel
-from graphkin.construction.polygons import AS_DRAWN, RATE, OwnValues, Polygons, draw_asked
-from graphkin.construction.position import Assembly, assembly_at, cams_in_place, own_position, place
-from graphkin.construction.reduced_mechanism import PlacedElements
-from graphkin.construction.scales import Room, Scales, chosen_scales
-from graphkin.construction.sheet import Board, GroupWay, Limits, Sheet, without_residues
-from graphkin.construction.steps import ORDERS, Order, Step
-from graphkin.construction.vector_graph import VectorChain, contacts_of
+from graphkin.construction.board.instruments import EXACT, Instrument
+from graphkin.construction.board.scales import Room, Scales, chosen_scales
+from graphkin.construction.board.sheet import Board, GroupWay, Limits, Sheet, without_residues
+from graphkin.construction.board.steps import ORDERS, Order, Step
+from graphkin.construction.polygons.elements import draw_element
+from graphkin.construction.polygons.polygons import AS_DRAWN, RATE, OwnValues, Polygons, draw_asked
+from graphkin.construction.polygons.vector_graph import VectorChain, contacts_of
+from graphkin.construction.position.group_position import each_assembly
+from graphkin.construction.position.links_on_paper import PlacedLinks, reading, stuck, travel
+from graphkin.construction.position.position import Assembly, assembly_at, cams_in_place, own_position, place
+from graphkin.construction.position.reduced_mechanism import PlacedElements
 from graphkin.errors import Unsolvable
 from graphkin.plane import Poses, dot
 from graphkin.scene.model import Loading, Mechanism
@@ -50,7 +50,7 @@ from graphkin.structure import (
 from graphkin.words import Phrase, links_named
 
 if TYPE_CHECKING:
-    from graphkin.construction.group_plan import GroupPlan
+    from graphkin.construction.polygons.group_plan import GroupPlan
 
 FITS = 1e-6
 """Of the size: so well a driven slide must have its travel in an assembly."""
@@ -159,7 +159,7 @@ def finished(task: Task, polygons: Polygons) -> Sheet:
             by_points = group in polygons.plans and not polygons.plans[group].tried
             groups[group] = "special points" if by_points else "superposition"
     if limits:
-        from graphkin.construction.limits import limits_on_paper
+        from graphkin.construction.position.limits import limits_on_paper
 
         hand = EXACT if task.triangles else board.instrument
         limits = limits_on_paper(limits, task.structure, task.elements, task.values, polygons.scales, hand)
@@ -395,7 +395,7 @@ def _planned(task: Task, room: Room | None) -> Plan:
 
         asked = (*asked, *strokes_of_loads(task.structure))
     if any(symbol.scope == "turn" for symbol in asked):
-        from graphkin.construction.limits import limits_asked
+        from graphkin.construction.position.limits import limits_asked
 
         size = NATURAL.length / task.structure.scene.size
         poses = {name: pose.scaled(size) for name, pose in polygons.paper.poses.items()}

@@ -14,8 +14,8 @@ from dataclasses import dataclass, field
 from functools import singledispatch
 from typing import Literal
 
-from graphkin.construction.instruments import EXACT, Instrument
-from graphkin.construction.sheet import PARALLEL
+from graphkin.construction.board.instruments import EXACT, Instrument
+from graphkin.construction.board.sheet import PARALLEL
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
 from graphkin.scene.designs import (

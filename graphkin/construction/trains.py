@@ -19,10 +19,10 @@ from typing import Literal
 
 import numpy as np
 
-from graphkin.construction.instruments import EXACT, Instrument
-from graphkin.construction.proportional_division import divide
-from graphkin.construction.scales import Extent, fitting_scale
-from graphkin.construction.steps import Bar, Order, Step, Superposed
+from graphkin.construction.board.instruments import EXACT, Instrument
+from graphkin.construction.board.proportional_division import divide
+from graphkin.construction.board.scales import Extent, fitting_scale
+from graphkin.construction.board.steps import Bar, Order, Step, Superposed
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.model import Mechanism, PlacedLink

@@ -14,8 +14,8 @@ from graphkin.account.headings import facts, figure_title, punctuation, term, ti
 from graphkin.account.notation import Letters, letters_of, scale_statement
 from graphkin.account.spoken import spoken_words
 from graphkin.account.voice import whole_sentence
-from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import DiagramName
+from graphkin.construction.board.sheet import Sheet
+from graphkin.construction.board.steps import DiagramName
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Text, map_tree

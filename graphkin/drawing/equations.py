@@ -11,8 +11,8 @@ from graphkin.account.account import WrittenLine, rule_alone
 from graphkin.account.arithmetic import bound, rule_sum, scale_of
 from graphkin.account.headings import number, term
 from graphkin.account.notation import Letters, rows_of, unit_of
-from graphkin.construction.sheet import Equation, Sheet
-from graphkin.construction.steps import GIVEN, Term
+from graphkin.construction.board.sheet import Equation, Sheet
+from graphkin.construction.board.steps import GIVEN, Term
 from graphkin.drawing.boxes import Block
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Line, Primitive, Run, Text

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from itertools import product
 
 from graphkin.construction import Room
-from graphkin.construction.sheet import Sheet
+from graphkin.construction.board.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.plane import added_up
 from graphkin.scene.model import Mechanism

@@ -20,7 +20,7 @@ from graphkin.account.notation import Letters
 from graphkin.account.voice import Voice
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import Compared, Report, deviation, exact, measured, paper
-from graphkin.construction.sheet import Reading, Sheet
+from graphkin.construction.board.sheet import Reading, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import Block, row, table
 from graphkin.drawing.ink.primitives import Primitive, Run, Text

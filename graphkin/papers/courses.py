@@ -19,7 +19,7 @@ from graphkin.papers.variants import asked_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import solved_here
-from graphkin.solver.named_positions import named_positions
+from graphkin.solver.path.named_positions import named_positions
 from graphkin.table import Table, table_of
 from graphkin.words import Phrase
 

@@ -28,7 +28,7 @@ from graphkin.account.notation import pole, scale_statement
 from graphkin.account.voice import whole_sentence
 from graphkin.checking.report import Compared, exact, measured, paper
 from graphkin.checking.uncertainty import COVERAGE
-from graphkin.construction.steps import DiagramName
+from graphkin.construction.board.steps import DiagramName
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import FigurePage
 from graphkin.drawing.figures.forces import group_equation, group_picture, lever_figure

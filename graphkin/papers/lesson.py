@@ -17,11 +17,11 @@ from graphkin.checking.readings import read_off
 from graphkin.checking.report import Compared, Report, compare, rounding_of
 from graphkin.checking.uncertainty import Uncertainty, predict
 from graphkin.construction import Plan, execute, plan
+from graphkin.construction.board.scales import Scales, next_of_series
+from graphkin.construction.board.sheet import Equation, Sheet
+from graphkin.construction.board.steps import DiagramName, Step
 from graphkin.construction.centres import Centres, find_centres
 from graphkin.construction.forces import ForceSheet, force_scale, forces_on
-from graphkin.construction.scales import Scales, next_of_series
-from graphkin.construction.sheet import Equation, Sheet
-from graphkin.construction.steps import DiagramName, Step
 from graphkin.drawing.box import Box
 from graphkin.drawing.parts.polygon import extent
 from graphkin.errors import Unsolvable
@@ -31,7 +31,7 @@ from graphkin.scene.drivers import moves_by_law
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
-from graphkin.solver.pose import Array
+from graphkin.solver.algebra.pose import Array
 from graphkin.solver.values import as_drawn, exact_values, forces_here
 from graphkin.structure import Structure
 from graphkin.words import Phrase

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 from graphkin.construction import Plan, Room, plan
-from graphkin.construction.scales import Scales
+from graphkin.construction.board.scales import Scales
 from graphkin.drawing.box import Box
 from graphkin.errors import CallError, Problem
 from graphkin.scene.model import Mechanism

@@ -8,8 +8,8 @@ from itertools import pairwise
 
 from graphkin.account.headings import FIGURE_WORDS, describe, punctuation, term
 from graphkin.account.notation import pole, rows_of, scale_statement
-from graphkin.construction.sheet import Equation
-from graphkin.construction.steps import DiagramName
+from graphkin.construction.board.sheet import Equation
+from graphkin.construction.board.steps import DiagramName
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import without_titles
 from graphkin.drawing.equations import line_to_set

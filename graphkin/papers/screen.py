@@ -23,8 +23,8 @@ from graphkin.account.notation import Letters, scale_statement
 from graphkin.account.spoken import spoken_words
 from graphkin.account.voice import capital, whole_sentence
 from graphkin.checking.uncertainty import COVERAGE
-from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import DiagramName, Step, Vector
+from graphkin.construction.board.sheet import Sheet
+from graphkin.construction.board.steps import DiagramName, Step, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import FigurePage
 from graphkin.drawing.figures.centres import background, centre_marks, near_box
@@ -58,7 +58,7 @@ from graphkin.papers.lesson import MECHANISM, Lesson, rows_in_order
 from graphkin.papers.pictures import POLYGONS, ROOM, bare_picture, equation_picture
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion, solve
-from graphkin.solver.pose import Array
+from graphkin.solver.algebra.pose import Array
 from graphkin.solver.quantities import pole
 from graphkin.words import gaps_of, languages, links_named, word
 from graphkin.words.symbols import plain_words

@@ -20,7 +20,7 @@ from pathlib import Path
 from graphkin.checking.readings import read_off
 from graphkin.checking.uncertainty import predict
 from graphkin.construction import Sheet, execute
-from graphkin.construction.steps import Ray
+from graphkin.construction.board.steps import Ray
 from graphkin.errors import GraphkinError, SceneError, Unsolvable
 from graphkin.files import OwnTables, Tables
 from graphkin.jobs import Checkpoints, Progress, Workers, key_of

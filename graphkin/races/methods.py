@@ -19,8 +19,8 @@ from graphkin.construction import EXACT, Instrument, Plan, Scales, cad, execute,
 from graphkin.construction.centres import find_centres
 from graphkin.races.work import Entry, Work, best_time, point_rates
 from graphkin.scene.symbol import Symbol
-from graphkin.solver.expressions import Code
-from graphkin.solver.pose import Array
+from graphkin.solver.algebra.expressions import Code
+from graphkin.solver.algebra.pose import Array
 from graphkin.solver.prepared import PreparedMechanism, prepare
 from graphkin.study.equations import Equations, Solution
 

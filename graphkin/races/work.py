@@ -22,7 +22,7 @@ from graphkin.errors import CallError
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion
-from graphkin.solver.pose import Array
+from graphkin.solver.algebra.pose import Array
 from graphkin.structure import Dyad, Structure
 from graphkin.study.equations import Equations, Solution, reference, refined
 from graphkin.version import __version__

@@ -18,13 +18,13 @@ from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.scene.drivers import at_time
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.solver.assemblies import choose_modes
-from graphkin.solver.bounds import Accuracy
-from graphkin.solver.driver_range import DriverRange, motion_of, range_from, range_of, stopped_why, way_to
+from graphkin.solver.algebra.bounds import Accuracy
+from graphkin.solver.algebra.pose import Array, Drive, rest
 from graphkin.solver.drivers import goal_values, own_values
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import Motion, Sliding, listed_points, own_slides
-from graphkin.solver.pose import Array, Drive, rest
+from graphkin.solver.path.assemblies import choose_modes
+from graphkin.solver.path.driver_range import DriverRange, motion_of, range_from, range_of, stopped_why, way_to
 from graphkin.solver.sentences import assembly_words
 from graphkin.structure import Structure, part_of
 from graphkin.structure.assembly import ChangePoint
@@ -195,7 +195,7 @@ def _one_driver(structure: Structure, drive: Drive, extended: bool) -> Motion:
 def _several_drivers(structure: Structure, drive: Drive, extended: bool) -> Motion:
     """The motion along the path from moment to moment; moments that are not reached are left out, and the path
     continues from before them."""
-    from graphkin.solver.continuity import follow_path
+    from graphkin.solver.path.continuity import follow_path
 
     modes = choose_modes(structure)
     assembly = partial(assembly_words, structure, modes)

@@ -25,7 +25,7 @@ from graphkin.plane import cross, dot
 from graphkin.scene.laws import SEAM, TURN, FollowerLaw, Lift, LiftPiece
 from graphkin.scene.pairs import LawCam, SlidingFollower
 from graphkin.search import intervals, last_true, resolve
-from graphkin.solver.pose import Array, turned
+from graphkin.solver.algebra.pose import Array, turned
 from graphkin.structure import Structure
 
 

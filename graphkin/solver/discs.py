@@ -13,9 +13,9 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.pairs import PlacedContact
 from graphkin.scene.symbol import Symbol
 from graphkin.search import resolve
-from graphkin.solver.driver_range import DriverRange, range_of
+from graphkin.solver.algebra.pose import Array
 from graphkin.solver.motion import angle_between, contact_normal, contact_pressure
-from graphkin.solver.pose import Array
+from graphkin.solver.path.driver_range import DriverRange, range_of
 from graphkin.structure import Structure
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from graphkin.errors import CallError, did_you_mean
 from graphkin.scene.model import Driver, Mechanism
-from graphkin.solver.pose import GIVEN, Array, turned
+from graphkin.solver.algebra.pose import GIVEN, Array, turned
 
 NEAR = 1e-14
 HALF_PI = math.pi / 2

@@ -19,10 +19,10 @@ import numpy as np
 from graphkin.plane import cross
 from graphkin.scene.model import EDGE, ForceJoint, LoadOn, SpringOn, joints
 from graphkin.scene.symbol import Symbol
+from graphkin.solver.algebra.constraints import solve_all
+from graphkin.solver.algebra.pose import Array, known_where
 from graphkin.solver.cams import cam_angle, cam_at
-from graphkin.solver.constraints import solve_all
 from graphkin.solver.motion import SLIGHT, Motion, contact_normal, pitch_point
-from graphkin.solver.pose import Array, known_where
 from graphkin.structure import Pair
 from graphkin.words import Phrase, Wording
 

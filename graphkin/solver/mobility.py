@@ -18,13 +18,13 @@ import numpy as np
 from graphkin.errors import GraphkinError, Problem, Unsolvable
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef
-from graphkin.solver.assemblies import choose_modes
+from graphkin.solver.algebra.pose import Drive
 from graphkin.solver.cams import meeting_followers
-from graphkin.solver.dead_points import SAME, DeadPoint, dead_points, singular
-from graphkin.solver.driver_path import MOST_GROUPS, not_tried
+from graphkin.solver.compiled.engine import SINGULAR, State, new_places, own_position, positions
 from graphkin.solver.drivers import meant_value, own_values, working
-from graphkin.solver.engine import SINGULAR, State, new_places, own_position, positions
-from graphkin.solver.pose import Drive
+from graphkin.solver.path.assemblies import choose_modes
+from graphkin.solver.path.dead_points import SAME, DeadPoint, dead_points, singular
+from graphkin.solver.path.driver_path import MOST_GROUPS, not_tried
 from graphkin.solver.quantities import Posed
 from graphkin.solver.redundant import Fit, fit
 from graphkin.solver.sentences import driver_text

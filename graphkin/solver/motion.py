@@ -16,8 +16,8 @@ from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.scene.pairs import PlacedContact, PlacedGear
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Measure
-from graphkin.solver.bounds import BLOCK, FEW, Accuracy
-from graphkin.solver.pose import UNIT, Array, ErrorBound, Pose
+from graphkin.solver.algebra.bounds import BLOCK, FEW, Accuracy
+from graphkin.solver.algebra.pose import UNIT, Array, ErrorBound, Pose
 from graphkin.solver.quantities import Posed, all_slides, value_of_symbol
 from graphkin.structure import Pair, Structure
 from graphkin.structure.assembly import ChangePoint

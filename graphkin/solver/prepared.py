@@ -13,18 +13,18 @@ from graphkin.errors import CallError
 from graphkin.scene.model import Dimension, Mechanism, dimensions, force_of
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Measure
-from graphkin.solver.bounds import error_bounds
-from graphkin.solver.dead_points import singular
-from graphkin.solver.driver_range import DriverRange, range_of
+from graphkin.solver.algebra.bounds import error_bounds
+from graphkin.solver.algebra.dyads import DyadSolution
+from graphkin.solver.algebra.expressions import Code, Name, Real, Vec
+from graphkin.solver.algebra.pose import GIVEN, UNIT, Array, Drive, turned
+from graphkin.solver.compiled.engine import SINGULAR, State, positions
+from graphkin.solver.compiled.kernel import LONG, Kernel
+from graphkin.solver.compiled.program import DimensionedProgram, Program, program_of
 from graphkin.solver.drivers import GivenValues, UniformGrid, quarter
-from graphkin.solver.dyads import DyadSolution
-from graphkin.solver.engine import SINGULAR, State, positions
-from graphkin.solver.expressions import Code, Name, Real, Vec
 from graphkin.solver.forces import forces_of
-from graphkin.solver.kernel import LONG, Kernel
 from graphkin.solver.mobility import structure_of
-from graphkin.solver.pose import GIVEN, UNIT, Array, Drive, turned
-from graphkin.solver.program import DimensionedProgram, Program, program_of
+from graphkin.solver.path.dead_points import singular
+from graphkin.solver.path.driver_range import DriverRange, range_of
 from graphkin.solver.quantities import VALUES, Posed, bound_of_symbol
 from graphkin.structure import Structure
 

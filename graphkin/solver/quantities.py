@@ -1,7 +1,7 @@
 """Quantities by their symbols, from the poses of the links: an entry a kind.
 
-The poses are arrays over positions, or formulas (``graphkin.solver.program``): the entries of `VALUES` up to ``s`` take
-either, so that a prepared mechanism and a motion have their velocities from the same line.
+The poses are arrays over positions, or formulas (``graphkin.solver.compiled.program``): the entries of `VALUES` up to
+``s`` take either, so that a prepared mechanism and a motion have their velocities from the same line.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from graphkin.errors import CallError, did_you_mean
 from graphkin.plane import dot
 from graphkin.scene.model import PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol, centre_links
+from graphkin.solver.algebra.pose import UNIT, Array, ErrorBound, Pose, R, V
 from graphkin.solver.cams import cam_at
-from graphkin.solver.pose import UNIT, Array, ErrorBound, Pose, R, V
 from graphkin.structure import Pair, Structure
 from graphkin.structure.model import slide_pair
 from graphkin.structure.transmission import (

@@ -12,7 +12,7 @@ import numpy as np
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.scene.pairs import SlidingPair
-from graphkin.solver.pose import Array, ErrorBound, Pose, aimed, rest
+from graphkin.solver.algebra.pose import Array, ErrorBound, Pose, aimed, rest
 from graphkin.structure import Structure
 from graphkin.structure.model import slide_pair
 from graphkin.words import Phrase, links_named

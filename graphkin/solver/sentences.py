@@ -8,7 +8,7 @@ from functools import reduce
 import numpy as np
 
 from graphkin.scene.model import Driver, Mechanism
-from graphkin.solver.pose import Array
+from graphkin.solver.algebra.pose import Array
 from graphkin.structure import Dyad, LargerGroup, Pair, Structure, named_with_contact
 from graphkin.words import Phrase, Wording
 

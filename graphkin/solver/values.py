@@ -24,8 +24,8 @@ from graphkin.scene.model import Mechanism, no_force
 from graphkin.scene.scene_tables import LoadPhase
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.search import changes
+from graphkin.solver.algebra.pose import Array, Pose, aimed
 from graphkin.solver.cams import cam_angle, cam_at, slip_of
-from graphkin.solver.driver_range import DriverRange, range_of
 from graphkin.solver.forces import Action, Forces, actions, balances, forces_of, without_line
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import (
@@ -37,7 +37,7 @@ from graphkin.solver.motion import (
     own_slides,
     pitch_point,
 )
-from graphkin.solver.pose import Array, Pose, aimed
+from graphkin.solver.path.driver_range import DriverRange, range_of
 from graphkin.structure import Dyad, LargerGroup, Structure, part_of
 from graphkin.words import Phrase, Wording, say
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.account.notation import Letters
-from graphkin.construction.scales import next_of_series
+from graphkin.construction.board.scales import next_of_series
 from graphkin.drawing import Box, Primitive, Text, chart
 from graphkin.drawing.ink.primitives import Stroke
 from graphkin.drawing.text import rich

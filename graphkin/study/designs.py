@@ -25,7 +25,7 @@ from graphkin.scene import mechanism_of
 from graphkin.scene.model import Dimension, Mechanism, changed_beside, dimensions
 from graphkin.scene.scene import put
 from graphkin.scene.tables import path_of_key, value_at
-from graphkin.solver.pose import turned
+from graphkin.solver.algebra.pose import turned
 from graphkin.table import table_of
 from graphkin.words import Phrase
 

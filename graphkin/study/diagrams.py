@@ -11,7 +11,7 @@ from types import MappingProxyType
 import numpy as np
 
 from graphkin.construction import Sheet, draft, execute, plan
-from graphkin.construction.scales import next_of_series
+from graphkin.construction.board.scales import next_of_series
 from graphkin.drawing import Box, Circle, Drawing, Group, Polyline, Stroke
 from graphkin.drawing.boxes import FigurePage, column, prose
 from graphkin.drawing.chart import ChartPage

@@ -19,8 +19,8 @@ import numpy as np
 from graphkin.errors import CallError
 from graphkin.plane import Values
 from graphkin.solver import Motion
-from graphkin.solver.constraints import solve_all
-from graphkin.solver.pose import Array
+from graphkin.solver.algebra.constraints import solve_all
+from graphkin.solver.algebra.pose import Array
 from graphkin.structure import Driven, Dyad, Pair, Structure
 from graphkin.words import Phrase
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from graphkin.search import SAME, Pieces, Turn, angles_between, extrapolated, places_between, resolve
 from graphkin.solver import DriverRange, Motion
-from graphkin.solver.pose import Array
+from graphkin.solver.algebra.pose import Array
 from graphkin.study.quantities import Quantity, rates_of
 
 NOTHING = 5e-11

@@ -19,7 +19,7 @@ from graphkin.account.notation import per_mm
 from graphkin.account.spoken import spoken_words
 from graphkin.checking.readings import read_off
 from graphkin.construction import Sheet, draft
-from graphkin.construction.scales import next_of_series
+from graphkin.construction.board.scales import next_of_series
 from graphkin.drawing import Box, Stroke, Text
 from graphkin.drawing.chart import ChartPage, add_legend, add_panel, add_words, look, marker
 from graphkin.drawing.place.dimensions import check_bar

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.construction.scales import next_of_series
+from graphkin.construction.board.scales import next_of_series
 from graphkin.drawing.chart import ChartPage
 from graphkin.files import Json
 from graphkin.scene.drivers import time_span

@@ -15,11 +15,11 @@ import numpy as np
 
 from graphkin.errors import SceneError, Unsolvable
 from graphkin.scene.model import Dimension, with_dimensions
-from graphkin.solver.assemblies import choose_modes
-from graphkin.solver.driver_range import range_from
+from graphkin.solver.algebra.expressions import Code, Name
+from graphkin.solver.algebra.pose import Array, turned
 from graphkin.solver.drivers import GivenValues, UniformGrid, own_values
-from graphkin.solver.expressions import Code, Name
-from graphkin.solver.pose import Array, turned
+from graphkin.solver.path.assemblies import choose_modes
+from graphkin.solver.path.driver_range import range_from
 from graphkin.solver.prepared import PreparedMechanism, prepare
 from graphkin.structure import analyse
 

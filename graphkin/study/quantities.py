@@ -14,8 +14,8 @@ from graphkin.scene.model import Mechanism, forces_named
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Measure, Unit
 from graphkin.solver import DriverRange, Motion, listed_points, own_slides
+from graphkin.solver.algebra.pose import Array
 from graphkin.solver.forces import forces_of
-from graphkin.solver.pose import Array
 from graphkin.solver.quantities import all_slides
 from graphkin.solver.values import senses_along, value_of
 from graphkin.structure import Structure, links_for

@@ -23,9 +23,9 @@ import numpy as np
 from graphkin import solver
 from graphkin.checking.uncertainty import COVERAGE, predict
 from graphkin.construction import EXACT, Scales, execute, pencil, plan
+from graphkin.construction.board.instruments import Instrument
+from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.centres import find_centres
-from graphkin.construction.instruments import Instrument
-from graphkin.construction.sheet import Sheet
 from graphkin.errors import Unsolvable
 from graphkin.plane import added_up, cross_arcs
 from graphkin.scene import mechanism_of, mechanism_of_text
@@ -33,9 +33,9 @@ from graphkin.scene.model import FromDeadPoint, Mechanism
 from graphkin.scene.scene_tables import Tools
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
-from graphkin.solver.dead_points import dead_points
+from graphkin.solver.algebra.pose import Array
 from graphkin.solver.drivers import working
-from graphkin.solver.pose import Array
+from graphkin.solver.path.dead_points import dead_points
 from graphkin.solver.prepared import prepare
 from graphkin.study.equations import Equations, context, reference, refined
 from graphkin.study.error_laws import LOST, Answer, ErrorLaw, Singularity, grid, in_powers, measured

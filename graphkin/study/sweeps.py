@@ -22,10 +22,10 @@ from graphkin.scene import mechanism_of
 from graphkin.scene.drivers import moments, moves_by_law
 from graphkin.scene.model import Dimension, Mechanism, dimensions, same_but_for_dimensions
 from graphkin.solver import DriverRange, driver_range, over_time, structure_of
+from graphkin.solver.algebra.pose import Array
+from graphkin.solver.compiled.kernel import pays
 from graphkin.solver.forces import forces_of
-from graphkin.solver.kernel import pays
-from graphkin.solver.named_positions import first_position
-from graphkin.solver.pose import Array
+from graphkin.solver.path.named_positions import first_position
 from graphkin.solver.prepared import PreparedMechanism, prepare
 from graphkin.structure import Structure
 from graphkin.study.designs import Designs, Value, applied

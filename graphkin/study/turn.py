@@ -15,8 +15,8 @@ from graphkin.plane import added_up
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, Motion, own_slides
-from graphkin.solver.driver_path import FAR, Path, Stretch, assembled, not_tried
-from graphkin.solver.driver_range import Extremes
+from graphkin.solver.path.driver_path import FAR, Path, Stretch, assembled, not_tried
+from graphkin.solver.path.driver_range import Extremes
 from graphkin.solver.values import FlywheelStudy, flywheel_of
 from graphkin.structure import Driven, Dyad, DyadKind, Pair, Structure
 from graphkin.study.extremes import Extreme, Traced, trace

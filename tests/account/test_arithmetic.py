@@ -29,9 +29,9 @@ from graphkin.account.notation import letters_of
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import measured
 from graphkin.construction import draft, pencil
-from graphkin.construction.instruments import EXACT
-from graphkin.construction.sheet import Board
-from graphkin.construction.steps import ConstructionVector, Direction, RateTrial, Size, Step, Superposed
+from graphkin.construction.board.instruments import EXACT
+from graphkin.construction.board.sheet import Board
+from graphkin.construction.board.steps import ConstructionVector, Direction, RateTrial, Size, Step, Superposed
 from graphkin.drawing.ink.primitives import Text, walk
 from graphkin.drawing.sheet_plan import sheet_room
 from graphkin.scene import library, mechanism_of

@@ -12,8 +12,8 @@ from graphkin.account.account import Account, written_lines
 from graphkin.account.notation import letters_of
 from graphkin.account.voice import Voice
 from graphkin.construction import draft
-from graphkin.construction.sheet import Equation
-from graphkin.construction.steps import TrialPositions
+from graphkin.construction.board.sheet import Equation
+from graphkin.construction.board.steps import TrialPositions
 from graphkin.drawing.parts.polygon import extent
 from graphkin.drawing.sheet_plan import sheet_plan, with_less_mechanism, with_less_polygons
 from graphkin.drawing.text import runs_width, wrapped

@@ -14,9 +14,9 @@ from graphkin.account.in_mechanism import InMechanism
 from graphkin.account.in_polygon import InPolygon
 from graphkin.account.notation import letters_of
 from graphkin.account.voice import PolygonPoints
-from graphkin.api.handouts import handout
+from graphkin.api.classroom.handouts import handout
 from graphkin.construction import draft
-from graphkin.construction.steps import Reason
+from graphkin.construction.board.steps import Reason
 from graphkin.papers.lesson import stages
 from graphkin.papers.screen import motion_data
 from graphkin.scene import library, mechanism_of

@@ -136,7 +136,7 @@ def test_what_is_asked_by_name_is_solved_once(monkeypatch):
 
 
 def test_a_long_sweep_has_each_position_once_whether_it_is_whole_or_comes_in_blocks(monkeypatch):
-    monkeypatch.setattr(sys.modules["graphkin.solver.driver_range"], "BLOCK", 8)
+    monkeypatch.setattr(sys.modules["graphkin.solver.path.driver_range"], "BLOCK", 8)
     solved = graphkin.solve("shaper-scheme-2", sweep=20)
     assert [8, 8, 4] == [len(block.motion) for block in solved.blocks()]
     in_blocks = list(solved.entries())

@@ -12,7 +12,7 @@ import graphkin
 from graphkin.api.prepared import Prepared
 from graphkin.scene import mechanism_of_text
 from graphkin.scene.symbol import Symbol
-from graphkin.solver import kernel
+from graphkin.solver.compiled import kernel
 from tests import scenes
 from tests.mechanisms import KINDS, random_scene
 

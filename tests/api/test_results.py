@@ -18,7 +18,7 @@ import pytest
 import graphkin
 from graphkin.api.results import Result, Tabled
 from graphkin.scene.symbol import Symbol
-from graphkin.solver.bounds import Accuracy
+from graphkin.solver.algebra.bounds import Accuracy
 from tests.scenes import four_bar
 
 SIXBAR = "sixbar-guide-40deg"

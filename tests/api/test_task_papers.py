@@ -8,7 +8,7 @@ import pytest
 
 import graphkin
 from graphkin.account.headings import number
-from graphkin.api.task_papers import cam_papers, design_papers
+from graphkin.api.classroom.task_papers import cam_papers, design_papers
 from graphkin.scene.designs import designs, is_design
 from tests.command import run
 

@@ -20,12 +20,12 @@ import numpy as np
 from graphkin.errors import GraphkinError
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
-from graphkin.solver import engine
-from graphkin.solver.assemblies import choose_modes
-from graphkin.solver.bounds import most_of
-from graphkin.solver.continuity import follow_path
+from graphkin.solver.algebra.bounds import most_of
+from graphkin.solver.algebra.pose import FIELDS, Drive
+from graphkin.solver.compiled import engine
 from graphkin.solver.drivers import PI, meant, own_values, working
-from graphkin.solver.pose import FIELDS, Drive
+from graphkin.solver.path.assemblies import choose_modes
+from graphkin.solver.path.continuity import follow_path
 from graphkin.structure import Structure, analyse
 
 from .larger import measure_larger

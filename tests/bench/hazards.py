@@ -21,7 +21,7 @@ from graphkin.errors import GraphkinError
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
 from graphkin.solver import Motion, solve, structure_of
-from graphkin.solver.dead_points import dead_points
+from graphkin.solver.path.dead_points import dead_points
 from graphkin.structure import Structure
 from tests.solver.checks import to_json
 

@@ -18,13 +18,13 @@ from graphkin.errors import GraphkinError
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.scene.pairs import PlacedGuide
-from graphkin.solver.assemblies import choose_modes
-from graphkin.solver.bounds import most_of
-from graphkin.solver.continuity import Path, follow_path
-from graphkin.solver.dead_points import singular
+from graphkin.solver.algebra.bounds import most_of
+from graphkin.solver.algebra.pose import Drive
+from graphkin.solver.compiled.engine import State, positions
 from graphkin.solver.drivers import meant, meant_direction, own_values
-from graphkin.solver.engine import State, positions
-from graphkin.solver.pose import Drive
+from graphkin.solver.path.assemblies import choose_modes
+from graphkin.solver.path.continuity import Path, follow_path
+from graphkin.solver.path.dead_points import singular
 from graphkin.structure import Driven, Dyad, LargerGroup, Structure, analyse
 from graphkin.study.equations import Arithmetic, Equations, context
 

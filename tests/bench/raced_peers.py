@@ -16,7 +16,7 @@ import numpy as np
 from graphkin.races.methods import Numeric
 from graphkin.races.work import FINE, Entry, Skipped, Work, best_time
 from graphkin.scene.model import Driver
-from graphkin.solver.pose import Array
+from graphkin.solver.algebra.pose import Array
 from graphkin.structure import Driven, Dyad
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ from tempfile import TemporaryDirectory
 
 import graphkin
 from graphkin.scene import mechanism_of_text
-from graphkin.solver.kernel import pays
+from graphkin.solver.compiled.kernel import pays
 from graphkin.solver.prepared import prepare
 
 from . import peers

@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 import graphkin
-from graphkin.api.audited import evidence_at
+from graphkin.api.classroom.audited import evidence_at
 from graphkin.checking.slip_likelihood import transcription_errors
 from graphkin.errors import CallError
 from graphkin.scene import mechanism_of

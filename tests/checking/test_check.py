@@ -12,7 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import graphkin
-from graphkin.construction import equations, plan
+from graphkin.construction import plan
+from graphkin.construction.polygons import equations
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol

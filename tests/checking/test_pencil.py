@@ -12,7 +12,7 @@ from graphkin.checking.readings import read_off
 from graphkin.checking.report import JUDGED
 from graphkin.checking.uncertainty import COVERAGE, advise, predict
 from graphkin.construction import execute, pencil, plan
-from graphkin.construction.links_on_paper import PlacedLinks
+from graphkin.construction.position.links_on_paper import PlacedLinks
 from graphkin.plane import Pose
 from graphkin.scene import library, library_text, mechanism_of, mechanism_of_text
 from graphkin.scene.model import PlacedLink

@@ -11,7 +11,7 @@ import pytest
 
 from graphkin import audit, check, draw, read, solve
 from graphkin.api.report_text import reading_words, report_text
-from graphkin.construction.steps import ConstructionVector
+from graphkin.construction.board.steps import ConstructionVector
 from graphkin.drawing.ink.primitives import Group, Text, walk
 from graphkin.words.written import amount
 

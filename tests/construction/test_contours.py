@@ -12,10 +12,11 @@ import pytest
 import graphkin
 from graphkin.checking.readings import read_off
 from graphkin.checking.slips import Evidence
-from graphkin.construction import elements, execute, plan
-from graphkin.construction.instruments import EXACT, nudged
+from graphkin.construction import execute, plan
+from graphkin.construction.board.instruments import EXACT, nudged
 from graphkin.construction.plan import Stages, positioned
-from graphkin.construction.seen_from import contours
+from graphkin.construction.polygons import elements
+from graphkin.construction.polygons.seen_from import contours
 from graphkin.scene import mechanism_of
 from graphkin.scene.scene_tables import Tools
 from graphkin.scene.symbol import PointRef, Symbol

@@ -10,7 +10,7 @@ import pytest
 
 import graphkin
 from graphkin.construction import Scales, cad, draft, pencil
-from graphkin.construction.steps import CompassArc, Ray
+from graphkin.construction.board.steps import CompassArc, Ray
 from graphkin.errors import Unsolvable
 from graphkin.plane import cross, dot
 from graphkin.scene import library, mechanism_of

@@ -13,8 +13,8 @@ import graphkin
 from graphkin import solver
 from graphkin.checking.readings import read_off
 from graphkin.construction import OwnValues, Room, draft, execute, plan
-from graphkin.construction.instruments import pencil
-from graphkin.construction.steps import ConstructionVector, RateTrial, Superposed, TrialCurve, TrialPositions
+from graphkin.construction.board.instruments import pencil
+from graphkin.construction.board.steps import ConstructionVector, RateTrial, Superposed, TrialCurve, TrialPositions
 from graphkin.errors import Unsolvable
 from graphkin.plane import dot
 from graphkin.scene import mechanism_of

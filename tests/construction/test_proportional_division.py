@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.construction.proportional_division import divide, magnified, shares
+from graphkin.construction.board.proportional_division import divide, magnified, shares
 
 pytestmark = pytest.mark.quick
 

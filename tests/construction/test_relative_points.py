@@ -10,7 +10,7 @@ import pytest
 
 import graphkin
 from graphkin.api.checked import Checked
-from graphkin.construction.steps import RateTrial, Step
+from graphkin.construction.board.steps import RateTrial, Step
 from tests.construction.test_groups import CONTOUR, everything
 
 IN_PARTS: dict[str, Any] = {  # one plate of three parts, the other of two, their hinges driven; two bars join them

@@ -8,8 +8,8 @@ import pytest
 
 from graphkin import check, solve
 from graphkin.construction import draft
+from graphkin.construction.board.steps import TrialPositions
 from graphkin.construction.plan import plan
-from graphkin.construction.steps import TrialPositions
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
 from tests.rolling_linkages import ROLLING_LINKAGES, five_bar_by_its_middle, planet_by_a_rod, wheel_at_its_rim

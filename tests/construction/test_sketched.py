@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 
 import graphkin
-from graphkin.construction.links_on_paper import PlacedLinks
-from graphkin.construction.position import sketched_poses
+from graphkin.construction.position.links_on_paper import PlacedLinks
+from graphkin.construction.position.position import sketched_poses
 from graphkin.plane import dot
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import PointRef

@@ -8,7 +8,17 @@ from typing import get_args
 import pytest
 
 from graphkin.construction import draft
-from graphkin.construction.steps import LENGTHS, SENTENCES, CompassArc, Direction, Ray, Reason, Step, Stroke, TrialCurve
+from graphkin.construction.board.steps import (
+    LENGTHS,
+    SENTENCES,
+    CompassArc,
+    Direction,
+    Ray,
+    Reason,
+    Step,
+    Stroke,
+    TrialCurve,
+)
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol
 from graphkin.words import area, say

@@ -11,11 +11,11 @@ import pytest
 
 import graphkin
 from graphkin import solver
-from graphkin.construction import group_position
+from graphkin.construction.board.steps import TrialPositions
 from graphkin.construction.centres import find_centres
 from graphkin.construction.plan import draft
-from graphkin.construction.reduced_mechanism import reduced_mechanisms
-from graphkin.construction.steps import TrialPositions
+from graphkin.construction.position import group_position
+from graphkin.construction.position.reduced_mechanism import reduced_mechanisms
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
 from graphkin.structure import analyse

@@ -11,11 +11,12 @@ import pytest
 import graphkin
 from graphkin import solver
 from graphkin.checking.readings import read_off
-from graphkin.construction import OwnValues, Plan, draft, execute, plan, reduced_mechanism
-from graphkin.construction.links_on_paper import PlacedLinks
-from graphkin.construction.polygons import Polygons
-from graphkin.construction.reduced_mechanism import RemovedConstraint
-from graphkin.construction.steps import Ray, TrialPositions
+from graphkin.construction import OwnValues, Plan, draft, execute, plan
+from graphkin.construction.board.steps import Ray, TrialPositions
+from graphkin.construction.polygons.polygons import Polygons
+from graphkin.construction.position import reduced_mechanism
+from graphkin.construction.position.links_on_paper import PlacedLinks
+from graphkin.construction.position.reduced_mechanism import RemovedConstraint
 from graphkin.errors import SceneError
 from graphkin.plane import cross
 from graphkin.scene import mechanism_of

@@ -11,8 +11,8 @@ import pytest
 import graphkin
 from graphkin.account.notation import letters_of
 from graphkin.api.centred import centrodes, found_centres
+from graphkin.construction.board.scales import Room
 from graphkin.construction.centres import Centres
-from graphkin.construction.scales import Room
 from graphkin.drawing.box import Box
 from graphkin.drawing.figures.centres import background, centre_marks, centres_figure, named_centres, untold
 from graphkin.drawing.ink.primitives import Group, Line, Polyline, Primitive, Text, walk

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.api.handouts import handout
+from graphkin.api.classroom.handouts import handout
 
 
 @pytest.fixture(scope="session")

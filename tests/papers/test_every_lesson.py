@@ -10,7 +10,7 @@ import pytest
 
 from graphkin.account.account import Account
 from graphkin.account.notation import letters_of
-from graphkin.api.handouts import handout
+from graphkin.api.classroom.handouts import handout
 from graphkin.construction import draft
 from graphkin.papers.lesson import stages
 from graphkin.scene import library, mechanism_of

@@ -9,7 +9,7 @@ from html.parser import HTMLParser
 
 import pytest
 
-from graphkin.api.handouts import handout
+from graphkin.api.classroom.handouts import handout
 from graphkin.papers.blocks import clean
 from graphkin.scene import mechanism_of
 from tests.scenes import four_bar

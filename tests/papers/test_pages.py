@@ -8,7 +8,7 @@ import re
 import pytest
 
 import tests.papers
-from graphkin.api.handouts import handout
+from graphkin.api.classroom.handouts import handout
 from graphkin.papers.blocks import Picture, laid_out
 from graphkin.papers.documents import solution
 from tests import EVERYTHING

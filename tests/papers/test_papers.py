@@ -11,7 +11,7 @@ import pytest
 
 import graphkin
 from graphkin.api.checked import check
-from graphkin.api.handouts import handout
+from graphkin.api.classroom.handouts import handout
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink.primitives import Line, Polygon, Text, walk
 from graphkin.papers.blocks import Heading, Picture, StepItem, TableBlock, laid_out
@@ -208,7 +208,7 @@ def test_chinese_words_are_text_in_the_pdf(six_bar, tmp_path):
 
 
 def test_without_the_extra_the_figure_sheets_are_written_and_it_is_said(monkeypatch):
-    monkeypatch.setattr("graphkin.api.handouts.can_typeset", lambda: False)
+    monkeypatch.setattr("graphkin.api.classroom.handouts.can_typeset", lambda: False)
     made = handout("slotter-75-150", formats=("pdf",))
     expected = {"mechanism.pdf", "velocity.pdf", "acceleration.pdf", "key.csv", "answers_template.csv"}
     assert expected == set(made.files)

@@ -17,9 +17,9 @@ from pathlib import Path
 import pytest
 
 import graphkin
-from graphkin.api.problem_sets import problem_set
+from graphkin.api.classroom.problem_sets import problem_set
 from graphkin.construction import draft
-from graphkin.construction.steps import Ray
+from graphkin.construction.board.steps import Ray
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.papers import variants as room
 from graphkin.papers.data_rows import columns_of, replaced, value_of

@@ -13,7 +13,8 @@ import pytest
 
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.model import Dimension, Mechanism, dimensions, with_dimensions
-from graphkin.solver import Motion, bounds, solve
+from graphkin.solver import Motion, solve
+from graphkin.solver.algebra import bounds
 from tests import EVERYTHING, rolling_linkages, scenes
 from tests.bench.accuracy import measure
 from tests.bench.larger import measure_larger

@@ -7,11 +7,11 @@ import pytest
 
 from graphkin.scene import mechanism_of_text
 from graphkin.solver import driver_range, solve, structure_of
-from graphkin.solver import larger_groups as group
-from graphkin.solver.assemblies import choose_modes
+from graphkin.solver.algebra import larger_groups as group
+from graphkin.solver.algebra.pose import Drive
+from graphkin.solver.compiled.engine import positions
 from graphkin.solver.drivers import own_values
-from graphkin.solver.engine import positions
-from graphkin.solver.pose import Drive
+from graphkin.solver.path.assemblies import choose_modes
 from tests import scenes
 
 

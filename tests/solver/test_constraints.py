@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from graphkin.scene import mechanism_of, mechanism_of_text
-from graphkin.solver import bounds, solve
-from graphkin.solver.constraints import Constraints
-from graphkin.solver.pose import Array, Pose
+from graphkin.solver import solve
+from graphkin.solver.algebra import bounds
+from graphkin.solver.algebra.constraints import Constraints
+from graphkin.solver.algebra.pose import Array, Pose
 from tests import scenes
 
 STEP = 1e-6

@@ -16,8 +16,8 @@ from graphkin.api.report_text import report_text
 from graphkin.errors import CallError, Unsolvable
 from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.solver import Motion, driver_range, solve
-from graphkin.solver.continuity import At, _passed, _walk_group
-from graphkin.solver.pose import Array
+from graphkin.solver.algebra.pose import Array
+from graphkin.solver.path.continuity import At, _passed, _walk_group
 from tests import scenes
 from tests.mechanisms import redriven
 

@@ -12,7 +12,7 @@ import graphkin
 from graphkin.errors import Unsolvable
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.solver import Motion, solve, structure_of
-from graphkin.solver.dead_points import dead_points
+from graphkin.solver.path.dead_points import dead_points
 from tests import scenes
 
 pytestmark = pytest.mark.quick

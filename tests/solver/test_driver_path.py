@@ -12,10 +12,10 @@ import pytest
 
 from graphkin.scene import mechanism_of
 from graphkin.solver import structure_of
-from graphkin.solver.dead_points import dead_points
-from graphkin.solver.driver_path import Stretch, closed
-from graphkin.solver.driver_range import range_of
-from graphkin.solver.pose import Array
+from graphkin.solver.algebra.pose import Array
+from graphkin.solver.path.dead_points import dead_points
+from graphkin.solver.path.driver_path import Stretch, closed
+from graphkin.solver.path.driver_range import range_of
 from graphkin.study.turn import ranges
 from tests.scenes import four_bar
 

@@ -11,8 +11,8 @@ from graphkin.errors import CallError, Unsolvable
 from graphkin.scene import library_text, mechanism_of_text
 from graphkin.scene.model import Mechanism
 from graphkin.solver import DriverRange, driver_range, solve, structure_of
-from graphkin.solver.driver_range import each_once
-from graphkin.solver.engine import group_at
+from graphkin.solver.compiled.engine import group_at
+from graphkin.solver.path.driver_range import each_once
 from graphkin.solver.prepared import prepare
 from graphkin.structure.assembly import ways
 from tests import scenes
@@ -69,7 +69,7 @@ def test_a_start_that_the_motion_does_not_reach_is_refused() -> None:
 
 
 def test_a_larger_group_comes_to_both_its_dead_points_in_few_steps(monkeypatch: pytest.MonkeyPatch) -> None:
-    from graphkin.solver import continuity
+    from graphkin.solver.path import continuity
 
     steps: list[float] = []
     monkeypatch.setattr(continuity, "group_at", lambda *given: steps.append(0.0) or group_at(*given))

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from graphkin.solver.dyads import DyadSolution, Joints, solve_dyad
-from graphkin.solver.pose import Pose
+from graphkin.solver.algebra.dyads import DyadSolution, Joints, solve_dyad
+from graphkin.solver.algebra.pose import Pose
 from tests import EVERYTHING
 
 EXAMPLES = 600 if EVERYTHING else 25

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from graphkin.solver import continuity
-from graphkin.solver.driver_path import Path
-from graphkin.solver.pose import Array
+from graphkin.solver.algebra.pose import Array
+from graphkin.solver.path import continuity
+from graphkin.solver.path.driver_path import Path
 from tests import EVERYTHING
 from tests.bench.hazards import Found, look
 

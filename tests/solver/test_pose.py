@@ -6,7 +6,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from graphkin.solver.pose import Pose, rest
+from graphkin.solver.algebra.pose import Pose, rest
 
 pytestmark = pytest.mark.quick
 

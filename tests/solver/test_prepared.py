@@ -10,7 +10,7 @@ import pytest
 from graphkin.errors import CallError
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.solver import solve
-from graphkin.solver.kernel import kernel_text
+from graphkin.solver.compiled.kernel import kernel_text
 from graphkin.solver.prepared import PreparedMechanism, prepare
 from tests import scenes
 

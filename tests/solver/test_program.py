@@ -9,7 +9,7 @@ import pytest
 import graphkin
 from graphkin.scene import library, mechanism_of
 from graphkin.solver import structure_of
-from graphkin.solver.program import program_of
+from graphkin.solver.compiled.program import program_of
 
 PURE = {0.0, 1.0, -1.0, 2.0, 3.0, 4.0, 0.5}
 """Numbers of the formulas themselves."""

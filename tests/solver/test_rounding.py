@@ -9,9 +9,9 @@ import pytest
 
 from graphkin.scene import mechanism_of
 from graphkin.solver import structure_of
-from graphkin.solver.assemblies import choose_modes
+from graphkin.solver.compiled.engine import discriminant_of
 from graphkin.solver.drivers import cos_sin, meant, working
-from graphkin.solver.engine import discriminant_of
+from graphkin.solver.path.assemblies import choose_modes
 from tests.mechanisms import random_scene
 from tests.scenes import four_bar
 

@@ -142,7 +142,7 @@ def test_a_redundant_link_is_given_its_motion() -> None:
 def test_positions_in_blocks_are_those_of_one(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     scene = mechanism_of(name)
     whole = solve(scene, sweep=37)
-    monkeypatch.setattr(import_module("graphkin.solver.driver_range"), "BLOCK", 5)
+    monkeypatch.setattr(import_module("graphkin.solver.path.driver_range"), "BLOCK", 5)
     parts = solve(scene, sweep=37)
     assert whole.status.tolist() == parts.status.tolist()
     assert whole.why == parts.why
@@ -154,7 +154,7 @@ def test_positions_in_blocks_are_those_of_one(name: str, monkeypatch: pytest.Mon
 
 
 def test_many_positions_keep_once_what_is_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(import_module("graphkin.solver.driver_range"), "BLOCK", 5)
+    monkeypatch.setattr(import_module("graphkin.solver.path.driver_range"), "BLOCK", 5)
     motion = solve(mechanism_of("shaper-scheme-2"), sweep=37)
     poses = motion.poses
     assert np.shares_memory(poses["3"].omega, poses["4"].omega)  # the block on its guide
@@ -166,7 +166,7 @@ def test_many_positions_keep_once_what_is_the_same(monkeypatch: pytest.MonkeyPat
 @pytest.mark.parametrize("name", ["OLDHAM", "DOUBLE_PARALLELOGRAM", "CYLINDER", "TWO_SLOTS"])
 def test_links_turn_on_from_block_to_block(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     whole = solve(scene(name), sweep=37)
-    monkeypatch.setattr(import_module("graphkin.solver.driver_range"), "BLOCK", 5)
+    monkeypatch.setattr(import_module("graphkin.solver.path.driver_range"), "BLOCK", 5)
     blocks = list(sweep_in_blocks(scene(name), None, 37))
     for link in whole.scene.links:
         parts = np.concatenate([block.angle(link.name) for block in blocks])

@@ -11,7 +11,7 @@ import pytest
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import driver_range
-from graphkin.solver.driver_range import extremes
+from graphkin.solver.path.driver_range import extremes
 from tests import scenes
 
 CRANK, COUPLER, ROCKER, GROUND, ROD = 30.0, 100.0, 60.0, 90.0, 120.0

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from graphkin.construction.scales import next_of_series
+from graphkin.construction.board.scales import next_of_series
 from graphkin.drawing import Box, Drawing, Group, Line, Polyline, Text
 from graphkin.drawing.chart import ChartPage
 from graphkin.drawing.ink.primitives import walk

@@ -19,12 +19,12 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
+from graphkin.construction.board.instruments import EXACT, Instrument
+from graphkin.construction.board.scales import Extent, fitting_scale
+from graphkin.construction.board.sheet import Reading, Sheet
 from graphkin.construction.forces.force_sheet import ForceSheet, ForceState, ForceVector, Lever, MomentTerm
 from graphkin.construction.forces.groups import NORMAL, TANGENT, CutFree, at_driver, of_dyad, of_larger_group
 from graphkin.construction.forces.position import DrawnPosition, force_groups, from_outside, inertias
-from graphkin.construction.instruments import EXACT, Instrument
-from graphkin.construction.scales import Extent, fitting_scale
-from graphkin.construction.sheet import Reading, Sheet
 from graphkin.construction.touching import Touching
 from graphkin.plane import Pose, added_up, cross, unit
 from graphkin.scene.model import Driver

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
-from graphkin.construction.steps import NO_DIRECTION, Direction, Part, Term
+from graphkin.construction.board.steps import NO_DIRECTION, Direction, Part, Term
 from graphkin.plane import cross, unit
 from graphkin.scene.model import LinkMass
 from graphkin.scene.symbol import Symbol

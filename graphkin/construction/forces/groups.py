@@ -20,11 +20,11 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from graphkin.construction.board.instruments import Instrument
+from graphkin.construction.board.sheet import PARALLEL
+from graphkin.construction.board.steps import NO_DIRECTION, Direction, Part
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceVector, MomentEquation, MomentTerm, shifted_line
 from graphkin.construction.forces.position import DrawnPosition
-from graphkin.construction.instruments import Instrument
-from graphkin.construction.sheet import PARALLEL
-from graphkin.construction.steps import NO_DIRECTION, Direction, Part
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, cross, cross_lines, dot, unit
 from graphkin.scene.symbol import Symbol

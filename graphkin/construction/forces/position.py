@@ -15,10 +15,10 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from graphkin.construction.board.instruments import Instrument
+from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.forces.force_sheet import ForceVector, Inertia, shifted_line
-from graphkin.construction.instruments import Instrument
-from graphkin.construction.links_on_paper import travel
-from graphkin.construction.sheet import Sheet
+from graphkin.construction.position.links_on_paper import travel
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot, unit
 from graphkin.scene.model import Driver, ForceJoint, LinkMass, LoadOn, SpringOn, hosts_at, joints

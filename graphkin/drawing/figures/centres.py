@@ -20,8 +20,8 @@ import numpy as np
 from graphkin.account.centres import line_through, place_of, velocity_sentences
 from graphkin.account.headings import describe, figure_title, number, term
 from graphkin.account.notation import Letters, in_counting_order
+from graphkin.construction.board.scales import Room
 from graphkin.construction.centres import Centre, CentreRelation, Centres, LinkPair
-from graphkin.construction.scales import Room
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import (
     GAP,

@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING
 
 from graphkin.account.headings import number, term, written
 from graphkin.checking.closed_form import FoundLength
+from graphkin.construction.board.scales import Extent, fitting_scale
 from graphkin.construction.cam_sheet import CamSheet, cam_sheet
-from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.construction.synthesis import DesignSheet, DesignStroke
 from graphkin.construction.touching import CamStation
 from graphkin.drawing.box import Box

@@ -27,8 +27,8 @@ from graphkin.account.voice import Voice
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import measured
 from graphkin.construction import Room, Scales
-from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import DiagramName
+from graphkin.construction.board.sheet import Sheet
+from graphkin.construction.board.steps import DiagramName
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import GAP, Block, FigurePage, column, framed, line, panel, prose, row
 from graphkin.drawing.figures import Figure

@@ -26,9 +26,9 @@ from graphkin.account.given import given_loads
 from graphkin.account.headings import figure_title, written
 from graphkin.account.notation import Letters, as_vector, force_letters, pole
 from graphkin.checking.report import Report
+from graphkin.construction.board.sheet import Sheet
+from graphkin.construction.board.steps import Vector
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, ForceVector, Lever, MomentTerm
-from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import Vector
 from graphkin.construction.touching import Touching, outlines_on_paper
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import MARGIN, Block, FigurePage, column, framed, pages, panel, prose, row, rows, table

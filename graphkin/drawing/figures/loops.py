@@ -13,8 +13,8 @@ from graphkin.account.headings import number
 from graphkin.account.loops import MatrixEquation, equation, matrices, projections, root, size_name
 from graphkin.account.notation import letters_of
 from graphkin.checking.loop_gaps import places_of_loops, stated_arrows
-from graphkin.construction.scales import next_of_series
-from graphkin.construction.sheet import Sheet
+from graphkin.construction.board.scales import next_of_series
+from graphkin.construction.board.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import SIZE, Block, FigurePage, column, panel, prose, row
 from graphkin.drawing.figures import Figure

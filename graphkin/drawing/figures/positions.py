@@ -13,8 +13,8 @@ from graphkin.account.headings import number
 from graphkin.account.notation import Letters
 from graphkin.checking.readings import read_off
 from graphkin.construction import Plan, execute, plan
-from graphkin.construction.limits import TurnOfCrank
-from graphkin.construction.sheet import LimitPosition, Sheet
+from graphkin.construction.board.sheet import LimitPosition, Sheet
+from graphkin.construction.position.limits import TurnOfCrank
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import GAP, FigurePage, column
 from graphkin.drawing.figures import Figure

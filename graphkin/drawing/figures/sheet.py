@@ -24,8 +24,8 @@ from graphkin.account.headings import (
     titles,
 )
 from graphkin.checking.report import Compared, Report
-from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import DiagramName
+from graphkin.construction.board.sheet import Sheet
+from graphkin.construction.board.steps import DiagramName
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import MARGIN, FigurePage
 from graphkin.drawing.equations import LEAST_LETTERS, LineToSet, equations_in_room, equations_on_page, line_to_set

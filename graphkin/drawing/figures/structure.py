@@ -10,7 +10,7 @@ from functools import partial
 
 from graphkin.account.headings import term
 from graphkin.account.notation import Letters
-from graphkin.construction.sheet import Sheet
+from graphkin.construction.board.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import GAP, Block, FigurePage, column, framed, panel, prose, row, rows
 from graphkin.drawing.figures import Figure

@@ -9,8 +9,8 @@ from dataclasses import replace
 from itertools import pairwise
 
 from graphkin.account.headings import number, written
-from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import Bar, Step
+from graphkin.construction.board.sheet import Sheet
+from graphkin.construction.board.steps import Bar, Step
 from graphkin.construction.trains import CentreLine, TrainPlan
 from graphkin.drawing.boxes import GAP, Block, FigurePage, column, panel, row, table
 from graphkin.drawing.figures import Figure

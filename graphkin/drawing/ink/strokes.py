@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from graphkin.account.voice import link_of_vector
-from graphkin.construction.sheet import Sheet
+from graphkin.construction.board.sheet import Sheet
 from graphkin.drawing.ink.primitives import Circle, Group, Polygon, Primitive, Scan, Stroke, Text, map_tree
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol

@@ -18,10 +18,10 @@ from graphkin.account.headings import term
 from graphkin.account.notation import Letters
 from graphkin.account.voice import ZERO
 from graphkin.checking.scans import judge_scans
-from graphkin.construction.instruments import EXACT_NAME
-from graphkin.construction.scales import Scales
-from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import DiagramName, Size, Vector
+from graphkin.construction.board.instruments import EXACT_NAME
+from graphkin.construction.board.scales import Scales
+from graphkin.construction.board.sheet import Sheet
+from graphkin.construction.board.steps import DiagramName, Size, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import (

@@ -12,8 +12,8 @@ from collections.abc import Collection, Iterator
 
 from graphkin.account.notation import Letters
 from graphkin.account.voice import SAME
-from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import Bar, CompassArc, TrialCurve
+from graphkin.construction.board.sheet import Sheet
+from graphkin.construction.board.steps import Bar, CompassArc, TrialCurve
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import (

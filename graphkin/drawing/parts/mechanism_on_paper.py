@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from graphkin.account.notation import Letters
-from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import Mark
+from graphkin.construction.board.sheet import Sheet
+from graphkin.construction.board.steps import Mark
 from graphkin.construction.touching import outlines_on_paper, station
 from graphkin.drawing.ink import symbols
 from graphkin.drawing.ink.primitives import Segment

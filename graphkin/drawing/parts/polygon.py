@@ -20,9 +20,19 @@ from graphkin.account.headings import number
 from graphkin.account.notation import Letters, pole, unit_of
 from graphkin.account.spoken import spoken_ref, spoken_vector
 from graphkin.account.voice import SAME, NamedPoint, PolygonPoints
-from graphkin.construction.scales import SERIES
-from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import Arrow, Bar, ConstructionVector, DiagramName, Image, Mark, Ray, Step, Vector
+from graphkin.construction.board.scales import SERIES
+from graphkin.construction.board.sheet import Sheet
+from graphkin.construction.board.steps import (
+    Arrow,
+    Bar,
+    ConstructionVector,
+    DiagramName,
+    Image,
+    Mark,
+    Ray,
+    Step,
+    Vector,
+)
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Segment, Stroke, Text, on_page

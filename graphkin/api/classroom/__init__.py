@@ -1,0 +1,1 @@
+"""Papers and judgement for a class: handouts, sets of problems, course projects, audits."""

@@ -1,0 +1,585 @@
+"""The paper after a construction, and the board on which it grows: strokes in mm, in numbered steps, each with its
+reason.
+
+Coordinates are complex numbers in mm on paper, y up.  The mechanism is drawn from the world's origin, the velocity and
+acceleration polygons from their poles; their places on a page are decided elsewhere.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from copy import copy
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal
+
+from graphkin.construction.board.instruments import EXACT_NAME, Instrument
+from graphkin.construction.board.scales import Extent, Room, Scales, chosen_scales
+from graphkin.construction.board.steps import (
+    ORDERS,
+    Arrow,
+    Bar,
+    Cause,
+    ConstructionVector,
+    DiagramName,
+    Mark,
+    OnPaper,
+    Step,
+    Term,
+    Vector,
+)
+from graphkin.construction.touching import Touching, outlines_on_paper
+from graphkin.errors import CallError, Problem, Unsolvable
+from graphkin.plane import Pose, cross, cross_lines
+from graphkin.scene.model import Mechanism
+from graphkin.scene.scene_tables import DIAGRAMS, Diagram
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.structure import leading, links_for
+from graphkin.structure.model import Element, LargerGroup, Structure
+from graphkin.words import Phrase, gaps_of
+
+if TYPE_CHECKING:
+    from graphkin.construction.trains import TrainPlan
+
+PARALLEL = 1e-12  # sine below which two lines have no crossing at all
+REACH = 2000.0  # mm to either side: how far a construction line is drawn
+SHARP = math.sin(math.radians(15.0))
+SHORT = 3.0  # mm on paper; a direction drawn through two points nearer than this errs by a pencil's width in ten
+INTO_MARGIN = 1.1  # times as large as its room may trial polygons and carried vectors be: panels have a margin
+LOST = 1e-13  # of the largest vector, by rounding, where lines cross square
+MOST_LOST = 1e-9  # what is larger is no residue, however lines cross
+MAGNIFIED = 2.0  # times as much as was left open: from there on it is said
+
+
+Remarkable = Literal[
+    "sharp crossing", "off the sheet", "zero vector", "short arm", "magnified", "parallel legs", "at contact",
+    "at pitch curve",
+]  # fmt: skip
+
+
+_GAPS: Mapping[Remarkable, tuple[str, ...]] = {
+    "sharp crossing": ("result",), "off the sheet": ("result",), "zero vector": ("symbol",), "magnified": ("links",),
+    "short arm": ("links", "point", "other"), "parallel legs": ("first", "second"), "at contact": ("contact",),
+    "at pitch curve": ("point",),
+}  # fmt: skip
+"""What a remark is said of, as the gaps of its sentence; "size" is a further one."""
+
+
+@dataclass(frozen=True)
+class Remark:
+    """A possible remark on the construction: whether it ``holds`` depends on the scale of the figure.
+
+    Parameters
+    ----------
+    key : its phrase.  "sharp crossing": two lines cross at so small an angle that the place is uncertain; "off the
+        sheet": they cross so far from their starts that rulers do not reach, and the place is computed; "zero
+        vector"; "short arm": the two points lie too near to each other that direct a guide; "magnified": an error in
+        reading a trial polygon's gap moves end points by a multiple of it; "parallel legs": two legs of a link leave it
+        free along one direction, their special point lies at infinity; "at contact", "at pitch curve": a sliding
+        contact is drawn at the contact itself, or as a pin on the pitch curve, not by its replacement
+    of : the thing found there, or its subject
+    size : the sine of the angle of a sharp crossing, the factor of magnification, else a length on paper (mm)
+    finds : the quantity that a sharp crossing finds, of a place its velocity
+    """
+
+    diagram: DiagramName
+    key: Remarkable
+    of: tuple[str | Symbol | Phrase, ...]
+    size: float = 0.0
+    finds: Symbol | None = None
+
+    @property
+    def holds(self) -> bool:
+        match self.key:
+            case "sharp crossing":
+                return self.size < SHARP
+            case "off the sheet":
+                return self.size > REACH
+            case "short arm":
+                return self.size < SHORT
+            case "magnified":
+                return self.size > MAGNIFIED
+        return self.size == 0.0
+
+    @property
+    def phrase(self) -> Phrase:
+        gaps: dict[str, object] = dict(zip(_GAPS[self.key], self.of, strict=True))
+        if "size" in gaps_of(self.key):
+            degrees = self.key == "sharp crossing"
+            gaps["size"] = f"{math.degrees(math.asin(self.size)) if degrees else self.size:.2g}"
+        return Phrase(self.key, **gaps)
+
+    def scaled(self, times: float) -> Remark:
+        """The remark with lengths on paper multiplied by ``times``."""
+        return self if self.key in ("sharp crossing", "magnified") else replace(self, size=self.size * times)
+
+
+@dataclass(frozen=True)
+class Equation:
+    """A vector equation as written above its rows of sizes and directions.  ``sides`` are equal sums of terms."""
+
+    number: int
+    diagram: DiagramName
+    sides: tuple[tuple[Term, ...], ...]
+    element: Element
+
+
+@dataclass(frozen=True)
+class Rate:
+    """An angular velocity or acceleration measured on the drawing (rad/s, rad/s2; counter-clockwise positive).
+
+    ``vector`` is the relative or tangential vector from which it comes (None for a given rate, or the rate of another
+    link: ``same_as``), ``mm`` its length on paper and ``arm_mm`` that of the bar; without a bar ``mm`` was read off the
+    rate scale of a velocity plan.
+    """
+
+    link: str
+    value: float
+    vector: Symbol | None = None
+    mm: float = 0.0
+    arm_mm: float = 0.0
+    same_as: str = ""
+
+    @property
+    def is_own(self) -> bool:
+        """Whether it was read off by itself, neither given nor the rate of another link."""
+        return (self.vector is not None or self.mm != 0.0) and not self.same_as
+
+    def scaled(self, vector_times: float, arm_times: float) -> Rate:
+        """The rate read off larger figures; a rate read off a velocity plan stays."""
+        off_plan = self.mm and not self.arm_mm
+        return self if off_plan else replace(self, mm=self.mm * vector_times, arm_mm=self.arm_mm * arm_times)
+
+
+@dataclass(frozen=True)
+class Reading:
+    """A quantity read off a drawing.
+
+    ``on_paper`` is its length on paper (mm), None for an angle read with the protractor; ``value`` a
+    complex number (m/s, m/s2) for a vector, a float (rad/s, rad/s2, counter-clockwise positive; m, rad) for others.
+    ``diagram`` is the diagram of the reading.
+    """
+
+    symbol: Symbol
+    on_paper: float | None
+    value: complex | float
+    diagram: DiagramName
+
+
+@dataclass(frozen=True)
+class LimitPosition(OnPaper):
+    """The mechanism drawn once more, at a limit position of an output: the crank's value (rad) and the poses of
+    links."""
+
+    value: float
+    poses: Mapping[str, Pose]
+
+
+@dataclass(frozen=True)
+class Limits(OnPaper):
+    """Both limit positions of a slide or of a link over a whole turn of the crank, ``high`` is the farthest along the
+    guide's sense, or counter-clockwise; ``swing`` is the angle of a link between them (rad), to a few degrees."""
+
+    low: LimitPosition
+    high: LimitPosition
+    swing: float
+
+
+GroupWay = Literal["special points", "superposition"]
+"""How a group larger than a dyad is drawn in polygons: by special points, or by superposing motions: trial polygons, or
+what is seen from a link held still and that link's motion."""
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """The whole drawing, in order.
+
+    ``ends`` gives the end points in each polygon: ends["velocity"][PointRef("B", "3")] is b3.
+    ``omega`` and ``alpha`` hold the measured rates by link.
+    ``noticed`` are possible remarks on the construction.  ``causes`` gives the source of the acts of the hand: (acts
+    made when it was done, source).  ``left_out`` are links that no asked quantity needs; ``held_still`` are steps drawn
+    separately, with one link as the frame.  ``asked`` are the asked quantities, if the drawing is limited to them;
+    ``limits`` are the limit positions drawn for it, by sliding pair or link. ``groups`` are those larger than a dyad,
+    with the construction of each.  ``acting`` tells of each load whether it acts here (None where it begins or ends
+    exactly here), if forces are drawn; ``growing`` are then, where the mechanism rests or has several drivers, drawings
+    with each driver's value alone growing at a unit rate. ``trains`` are the velocity plans of rolling links, at scales
+    of their own.  ``readings`` are the lengths (mm) that an erring hand has read for the construction, of vectors by
+    their symbols (`either_way`), of the mechanism by the two points.
+    """
+
+    scene: Mechanism
+    structure: Structure
+    instrument: str
+    drivers: Mapping[str, float]
+    scales: Scales
+    poses: Mapping[str, Pose]
+    points: Mapping[PointRef, complex]
+    ends: Mapping[str, Mapping[PointRef, complex]]
+    omega: Mapping[str, Rate]
+    alpha: Mapping[str, Rate]
+    steps: tuple[Step, ...]
+    equations: tuple[Equation, ...]
+    assembly: Mapping[Phrase, Phrase]
+    noticed: tuple[Remark, ...] = ()
+    causes: tuple[tuple[int, Cause], ...] = ()
+    left_out: tuple[Phrase, ...] = ()
+    held_still: tuple[Step, ...] = ()
+    asked: tuple[Symbol, ...] = ()
+    limits: Mapping[str, Limits] = field(default_factory=dict)
+    groups: Mapping[LargerGroup, GroupWay] = field(default_factory=dict)
+    acting: Mapping[str, bool | None] = field(default_factory=dict)
+    growing: tuple[Sheet, ...] = ()
+    trains: tuple[TrainPlan, ...] = ()
+    readings: Mapping[Symbol | frozenset[str], float] = field(default_factory=dict)
+
+    @property
+    def has_forces(self) -> bool:
+        """Whether forces can be drawn from it: there are masses or loads, and all that they need is drawn."""
+        wanted = not self.asked or any(s.scope in ("force", "cycle") for s in self.asked)
+        return bool(self.scene.loading) and wanted
+
+    def larger(self, times: float) -> Sheet:
+        """The mechanism alone enlarged by a factor, drawn by any hands; without the points of its construction."""
+        return replace(
+            self, scales=replace(self.scales, length=self.scales.length / times), steps=(),
+            poses={name: pose.scaled(times) for name, pose in self.poses.items()},
+            points={ref: z * times for ref, z in self.points.items() if ref.point not in self.serving},
+        )  # fmt: skip
+
+    def rates(self, kind: str) -> Mapping[str, Rate]:
+        """The measured rates by link, of a kind: "omega" or "alpha"."""
+        return self.omega if kind == "omega" else self.alpha
+
+    def at(self, scales: Scales) -> Sheet:
+        """The construction at other scales: every length on paper multiplied by a factor.
+
+        Raises
+        ------
+        ValueError : it was drawn by erring hands, whose errors depend on the scale
+        """
+        if self.instrument != EXACT_NAME:
+            raise ValueError(f"a sheet drawn by {self.instrument} is drawn anew at other scales")
+        if scales == self.scales:
+            return self
+        k: dict[DiagramName, float] = {name: self.scales.of(name) / scales.of(name) for name in DIAGRAMS}
+        length, velocity, acceleration = k.values()
+        return replace(
+            self,
+            scales=scales,
+            poses={name: pose.scaled(length) for name, pose in self.poses.items()},
+            points={ref: z * length for ref, z in self.points.items()},
+            ends={order: {ref: z * k[order] for ref, z in self.ends[order].items()} for order in ORDERS},
+            omega={name: rate.scaled(velocity, length) for name, rate in self.omega.items()},
+            alpha={name: rate.scaled(acceleration, length) for name, rate in self.alpha.items()},
+            steps=tuple(step.scaled(k[step.diagram]) for step in self.steps),
+            held_still=tuple(step.scaled(k[step.diagram]) for step in self.held_still),
+            noticed=tuple(remark.scaled(k[remark.diagram]) for remark in self.noticed),
+            limits={pair: limits.scaled(length) for pair, limits in self.limits.items()},
+        )
+
+    @property
+    def remarks(self) -> tuple[Remark, ...]:
+        """The remarks on the construction at these scales: lines that meet off the sheet, zero vectors."""
+        return tuple(remark for remark in self.noticed if remark.holds)
+
+    @property
+    def notes(self) -> tuple[Phrase, ...]:
+        """The remarks as phrases, each once."""
+        return tuple(dict.fromkeys(remark.phrase for remark in self.remarks))
+
+    @cached_property
+    def special_points(self) -> dict[str, str]:
+        """The special points of larger groups with their links."""
+        return {step.point: step.link for step in self.steps if step.reason == "special point"}
+
+    @cached_property
+    def serving(self) -> frozenset[str]:
+        """The points of the construction only: special points of larger groups, pitch points."""
+        reasons = "special point", "pitch point"
+        return frozenset(step.point for step in self.steps if step.reason in reasons)
+
+    @cached_property
+    def drawn_in(self) -> dict[Symbol, int]:
+        """The step in which each vector is first drawn."""
+        drawn = [(s.symbol, step.number) for step in self.steps for s in step.strokes if isinstance(s, Vector)]
+        return dict(reversed(drawn))
+
+    def arm_mm(self, between: Iterable[str]) -> float | None:
+        """The distance of two points of the mechanism (mm), as read by an erring hand; None for a missing point.
+        """
+        names = frozenset(between)
+        ends = [self.points.get(PointRef(name)) for name in names]
+        if any(z is None for z in ends):
+            return None
+        return self.readings.get(names, abs(ends[0] - ends[-1]))  # type: ignore[operator]
+
+    def vectors(self, diagram: DiagramName) -> dict[Symbol, Vector]:
+        """All vectors of a diagram by symbol."""
+        return {
+            s.symbol: s for step in self.steps if step.diagram == diagram for s in step.strokes if isinstance(s, Vector)
+        }
+
+    def before(self, step: Step) -> tuple[Step, ...]:
+        """The steps before one of them."""
+        return self.steps[: step.number - 1]
+
+    def trials(self, diagram: DiagramName) -> list[ConstructionVector]:
+        """The vectors of trial polygons in a diagram."""
+        strokes = (s for step in self.steps if step.diagram == diagram for s in step.strokes)
+        return [s for s in strokes if isinstance(s, ConstructionVector) and s.trial]
+
+    def vectors_seen(self, diagram: DiagramName) -> Iterator[ConstructionVector]:
+        """The vectors of a diagram that are seen from held links, without those that lead to special points."""
+        held = {step.held for step in self.steps if step.reason == "seen from"}
+        special = self.special_points.keys()
+        for step in self.steps if held else ():
+            for stroke in step.strokes if step.diagram == diagram else ():
+                if isinstance(stroke, ConstructionVector) and stroke.symbol.to is not None:
+                    of, to = stroke.symbol.of, stroke.symbol.to
+                    if {stroke.symbol.seen, to.link} & held and not special & {to.point, of.point if of else ""}:
+                        yield stroke
+
+    def carried(self, diagram: DiagramName) -> Iterator[complex]:
+        """The ends (mm) of vectors that are laid off before their turn in the chain, except those of special points."""
+        for step in self.steps:
+            if step.diagram == diagram and step.reason == "before its turn":
+                points = {ref.point for ref in (step.symbol.of, step.symbol.to) if ref is not None}
+                if not points & self.special_points.keys():
+                    yield from (z for bar in step.strokes if isinstance(bar, Bar) for z in (bar.a, bar.b))
+
+    @cached_property
+    def extents(self) -> dict[Diagram, Extent]:
+        """Width and height of the mechanism and of both polygons, poles included, by which scales are chosen: without
+        special points, with vectors seen from held links, with trial polygons and carried vectors slightly smaller."""
+        places = [z for ref, z in self.points.items() if ref.point not in self.serving]
+        if self.scene.cams or self.scene.gears or any(link.discs for link in (self.scene.frame, *self.scene.links)):
+            per = 1.0 / self.scales.length
+            places += (z for outline in outlines_on_paper(self.scene, self.poses, per).values() for z in outline)
+            places += Touching(self.scene, per, self.poses).outermost()
+        extents: dict[Diagram, Extent] = {"mechanism": Extent.around(places, self.scales.length)}
+        for order in ORDERS:
+            drawn: list[Arrow] = [*self.vectors(order).values(), *self.vectors_seen(order)]
+            ends, further = (
+                [z for v in some for z in (v.tail, v.tip)] for some in (drawn, self.trials(order))
+            )
+            true, every = (
+                Extent.around([0j, *points], self.scales.of(order))
+                for points in (ends, [*ends, *further, *self.carried(order)])
+            )
+            width, height = max(true.width, every.width / INTO_MARGIN), max(true.height, every.height / INTO_MARGIN)
+            extents[order] = Extent(width, height)
+        return extents
+
+    @property
+    def drawn_sizes(self) -> tuple[tuple[float, float], ...]:
+        """Width and height (mm) of the mechanism and of both polygons as they are drawn."""
+        pairs = ((self.extents[name], self.scales.of(name)) for name in DIAGRAMS)
+        return tuple((extent.width / per, extent.height / per) for extent, per in pairs)
+
+    def scales_for(self, room: Room) -> Scales:
+        """The finest scales of the series at which it fits a room."""
+        return chosen_scales(self.scene, self.extents, room)
+
+
+def either_way(symbol: Symbol) -> Symbol:
+    """A vector by its name or that of its opposite, whichever is first: both have the same length.
+
+    >>> str(either_way(Symbol.parse("v_C/B"))), str(either_way(Symbol.parse("v_B/C")))
+    ('v_B/C', 'v_B/C')
+    """
+    if symbol.kind != "v" or symbol.of is None or symbol.to is None:
+        return symbol
+    of, to = sorted((symbol.of, symbol.to), key=str)
+    return replace(symbol, of=of, to=to)
+
+
+# -- vectors that are nothing but rounding -----------------------------------------------------------------------------
+#
+# Exact hands lose some 1e-16 of the largest vector, and more where lines cross at a small angle.  A normal component is
+# v squared over a length, and so is as certain as the velocity that it comes from, however short.
+
+
+def without_residues(sheet: Sheet) -> Sheet:
+    """A sheet of exact hands, with every vector that is rounding alone made zero, and the rates measured from it."""
+    zero = _residues(sheet)
+    if not zero:
+        return sheet
+    rates = {"omega": dict(sheet.omega), "alpha": dict(sheet.alpha)}
+    for (kind, of_links), scale in zip(rates.items(), (sheet.scales.velocity, sheet.scales.acceleration), strict=True):
+        for name, rate in of_links.items():
+            if rate.vector in zero:  # a driver's own rate on top of one that came from a residue stays
+                residue = rate.mm / rate.arm_mm * scale / sheet.scales.length if rate.arm_mm else 0.0
+                value = 0.0 if abs(rate.value) <= 2.0 * residue else rate.value
+                rates[kind][name] = replace(rate, value=value, mm=0.0)
+
+    def cleared(step: Step) -> Step:
+        step = replace(step, strokes=tuple(
+            replace(s, tip=s.tail) if isinstance(s, Arrow) and s.symbol in zero else s for s in step.strokes
+        ))
+        if step.reason == "sum of rates":
+            return replace(step, value=rates[step.kind][step.links[0]].value)
+        if step.symbol not in zero:
+            return step
+        return replace(step, value=0.0) if step.reason == "rate" else replace(step, mm=0.0)
+
+    noticed = (replace(r, size=0.0) if r.key == "zero vector" and r.of[0] in zero else r for r in sheet.noticed)
+    return replace(sheet, steps=tuple(map(cleared, sheet.steps)), noticed=tuple(noticed), omega=rates["omega"],
+                   alpha=rates["alpha"])  # fmt: skip
+
+
+def greatest_before(structure: Structure, sizes: Iterable[tuple[Symbol, float]]) -> Callable[[Symbol], float]:
+    """Function of a quantity of the motion to the greatest of sizes: of its own links, and of the links on which they
+    depend.
+
+    Greater sizes later in the order of solution do not count: near a dead point of the last group the rates of the
+    others are not affected.  For special points of the drawing, and vectors seen from a held link, all sizes count;
+    theirs count from the first larger group on.
+    """
+    elements = structure.elements
+    special = next((i for i, e in enumerate(elements) if isinstance(e, LargerGroup)), len(elements) - 1)
+
+    def links(symbol: Symbol) -> frozenset[str] | None:
+        try:
+            return None if symbol.seen else links_for(structure, symbol)
+        except CallError:
+            return None
+
+    greatest: dict[int, float] = {}  # of what each element adds
+    for symbol, size in sizes:
+        names = links(symbol)
+        of_frame = [] if names is None else [structure.place_of[n] for n in names if n in structure.place_of]
+        place = special if names is None else max(of_frame, default=-1)
+        greatest[place] = max(greatest.get(place, 0.0), size)
+    greatest.pop(-1, None)
+
+    def before(symbol: Symbol) -> float:
+        names = links(symbol)
+        places = greatest.keys() if names is None else greatest.keys() & leading(structure, names)
+        return max((greatest[place] for place in places), default=0.0)
+
+    return before
+
+
+def _residues(sheet: Sheet) -> set[Symbol]:
+    """The vectors that are rounding alone."""
+    scales, size, structure = sheet.scales, sheet.scene.size, sheet.structure
+    velocity, acceleration = (
+        {v.symbol: abs(v.span) for v in [*sheet.vectors_seen(order), *sheet.vectors(order).values()]}
+        for order in ORDERS
+    )
+    # the largest vector that leads to one (mm), and how sharp the crossings are
+    fastest, pushed = (greatest_before(structure, mm.items()) for mm in (velocity, acceleration))
+    crossings = [(r.diagram, r.finds, 1.0 / max(r.size, 1e-9)) for r in sheet.noticed if r.finds is not None]
+    sharp_before, sharp = (
+        greatest_before(structure, ((symbol, lean) for diagram, symbol, lean in crossings if diagram in diagrams))
+        for diagrams in (("mechanism", "velocity"), ("mechanism", "velocity", "acceleration"))
+    )
+
+    def lost(sharpest: float) -> float:
+        """The rounding error of a vector over the largest vector that leads to it."""
+        return min(MOST_LOST, LOST * max(sharpest, 1.0) ** 2)
+
+    def residue(symbol: Symbol) -> float:
+        # a motion without acceleration still has velocities, whose rounding is carried on as v squared over a length
+        most, speed = pushed(symbol), fastest(symbol) * scales.velocity
+        carried = max(most, speed**2 / size / scales.acceleration) * lost(sharp(symbol))
+        # beside a dead point v squared over a length far exceeds all accelerations
+        return min(carried, MOST_LOST * most) if most > carried else carried
+
+    zero = {s for s, mm in velocity.items() if 0.0 < mm <= lost(sharp_before(s)) * fastest(s)}
+    still = zero | {symbol for symbol, mm in velocity.items() if mm == 0.0}
+    fixed, touching = sheet.scene.frame.points, {c.name for c in sheet.scene.contacts}
+    for symbol, mm in acceleration.items():
+        squared: list[Symbol] = []
+        # the velocity whose square a normal component is: relative, or from the pole where its start is fixed; at a
+        # contact the curvatures give a normal part where nothing slides too
+        if symbol.kind == "an" and symbol.to and symbol.of and symbol.of.point not in touching:
+            squared = [Symbol("v", symbol.of, symbol.to)]
+            squared += [Symbol("v", symbol.of)] if symbol.to.point in fixed else []
+        speed = next((s for s in squared if s in velocity), None)
+        nothing = mm <= residue(symbol) if speed is None else speed in still
+        if nothing and mm != 0.0:
+            zero.add(symbol)
+    return zero
+
+
+# -- the board on which it grows ---------------------------------------------------------------------------------------
+
+
+@dataclass
+class Board:
+    """Steps in order, and the readings; the only value in this room that grows.
+
+    ``readings`` are the lengths (mm) that erring hands have read, as in `Sheet`, for every later use; ``assembly`` are
+    the words for the assembly of each group by its name, and ``held_still`` the steps drawn separately with a link held
+    still.
+    """
+
+    instrument: Instrument
+    steps: list[Step] = field(default_factory=list)
+    equations: list[Equation] = field(default_factory=list)
+    noticed: list[Remark] = field(default_factory=list)
+    causes: list[tuple[int, Cause]] = field(default_factory=list)  # acts of the hand up to which each step reaches
+    readings: dict[Symbol | frozenset[str], float] = field(default_factory=dict)
+    assembly: dict[Phrase, Phrase] = field(default_factory=dict)
+    held_still: list[Step] = field(default_factory=list)
+
+    def again(self, hand: Instrument) -> Board:
+        """The board for continuing by other hands."""
+        kept = {name: copy(value) for name, value in vars(self).items() if name != "instrument"}
+        return Board(hand, **kept)
+
+    def do(self, step: Step) -> None:
+        """Record a step, with its number in the order."""
+        step = replace(step, number=len(self.steps) + 1)
+        self.steps.append(step)
+        self.causes.append((self.instrument.acts, step))
+
+    def read(self, between: Symbol | frozenset[str], mm: float) -> float:
+        """The length of a vector, or the distance of two points of the mechanism (mm), read when it is first needed."""
+        thing = either_way(between) if isinstance(between, Symbol) else between
+        if self.instrument.errs is None:
+            return self.instrument.read(mm)  # it shows the same each time
+        if thing not in self.readings:
+            self.readings[thing] = self.instrument.read(mm)
+        return self.readings[thing]
+
+    def pricked(self, diagram: DiagramName, mark: Mark) -> bool:
+        """Whether an end point is drawn already: two lines have met in it, or the last vector ends in it and gets its
+        letter."""
+        if any(mark in step.strokes for step in self.steps if step.diagram == diagram):
+            return True
+        last = self.steps[-1]
+        ends = (s.tip for s in last.strokes if last.diagram == diagram and isinstance(s, Arrow))
+        if mark.at not in ends:
+            return False
+        self.steps[-1] = replace(last, strokes=(*last.strokes, mark))
+        return True
+
+    def notice(
+        self, diagram: DiagramName, key: Remarkable, *of: str | Symbol | Phrase, size: float = 0.0,
+        finds: Symbol | None = None,
+    ) -> None:  # fmt: skip
+        """Note a possible remark, for this scale or another."""
+        self.noticed.append(Remark(diagram, key, of, size, finds))
+
+    def cross(
+        self, diagram: DiagramName, p: complex, d: complex, q: complex, e: complex, what: str | Symbol
+    ) -> complex:
+        """The crossing of the line through p along d and the line through q along e, drawn as ruler lines.
+
+        Raises
+        ------
+        Unsolvable : "dead point": the lines are parallel and meet nowhere
+        """
+        d, e = self.instrument.direction(d), self.instrument.direction(e)
+        sine = abs(cross(d, e))
+        at = cross_lines(p, d, q, e)
+        if sine < PARALLEL or at is None:
+            said = Phrase("the two lines that should find it are"), Phrase("move the driver off this position")
+            raise Unsolvable("dead point", Problem(str(what), *said))
+        finds = what if isinstance(what, Symbol) else Symbol("v", PointRef(what))
+        self.notice(diagram, "sharp crossing", what, size=sine, finds=finds)
+        self.notice(diagram, "off the sheet", what, size=max(abs(at - p), abs(at - q)))
+        return self.instrument.point(at)

@@ -1,0 +1,444 @@
+"""Velocity and acceleration polygons under construction: end points, measured rates, names, and points found by image.
+
+The position is drawn already.  Every size is either given, or measured on earlier strokes: normal
+components from lengths in the velocity polygon, Coriolis components from a measured angular velocity and a measured
+sliding velocity (Sun Huan, Mechanical Principles, ch. 3; Norton, Design of Machinery, ch. 6 and 7).
+
+Images after Mehmke: the end points of a link's points form a figure similar to the link, in the same sense.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal, TypeVar
+
+from graphkin.construction.board.instruments import Instrument
+from graphkin.construction.board.scales import Scales
+from graphkin.construction.board.sheet import Board, Rate
+from graphkin.construction.board.steps import (
+    ORDERS,
+    Bar,
+    ConstructionVector,
+    Direction,
+    Image,
+    Mark,
+    Order,
+    Ray,
+    Role,
+    Size,
+    Step,
+    Term,
+    Vector,
+)
+from graphkin.construction.polygons.group_plan import GroupPlan
+from graphkin.construction.polygons.vector_graph import VectorChain, node
+from graphkin.construction.position.links_on_paper import PlacedLinks, pushed_by_driver
+from graphkin.construction.touching import Touch, Touching
+from graphkin.construction.trains import TrainPlan
+from graphkin.errors import CallError, Problem, Unsolvable
+from graphkin.plane import added_up, cross, dot, unit
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.structure import Dyad, LargerGroup, Pair, Structure
+from graphkin.words import Phrase
+
+RATE: Mapping[Order, Literal["omega", "alpha"]] = {"velocity": "omega", "acceleration": "alpha"}
+PARTS: Mapping[str, Role] = {"an": "normal", "at": "tangential", "ak": "coriolis", "ar": "sliding"}
+"""Of a relative acceleration."""
+SHARED = {"chains", "plans", "contours"}  # by all drawings of a task
+
+
+@dataclass(frozen=True)
+class OwnValues:
+    """Four places at which a person may take another value than the drawn one: a component left out, a value of their
+    own.
+
+    A drawing with own values shows their consequences; the construction itself does not change.  ``term`` gets
+    each term of an equation before it is laid off; ``found`` each vector found (end points by image included) by tail
+    and tip, mm on paper, and returns its tip; ``rate`` each angular rate measured (rad/s, rad/s2), and returns None
+    where it stays; ``line`` the direction of each line along which a vector of unknown size is drawn.
+    """
+
+    term: Callable[[Term], Term] = lambda part: part
+    found: Callable[[Symbol, complex, complex], complex] = lambda _, tail, tip: tip
+    rate: Callable[[Symbol, float], float | None] = lambda _, value: None
+    line: Callable[[Symbol, complex], complex] = lambda _, along: along
+
+
+AS_DRAWN = OwnValues()
+
+
+class Polygons:
+    """The velocity and the acceleration polygon of a position."""
+
+    def __init__(
+        self, board: Board, structure: Structure, paper: PlacedLinks, scales: Scales, own_values: OwnValues = AS_DRAWN
+    ) -> None:
+        self.board, self.structure, self.paper, self.scales = board, structure, paper, scales
+        self.own_values = own_values
+        self.per = {"velocity": scales.velocity, "acceleration": scales.acceleration}  # m/s, m/s2 for one mm
+        self.given = {d.key: d.values[1:] for d in structure.drivers}  # rates of the drivers
+        self.believed: set[tuple[Order, str]] = set()  # rates of links that are own values, not measured
+        self.links = dict(structure.links)  # with the special points that larger groups get
+        self.special: set[str] = set()
+        self.pitch_points: dict[str, str] = {}  # letters where wheels of larger groups roll on each other
+        self.ties: dict[tuple[Order, str], complex] = {}  # by a special point of two links: that of the second from it
+        self.trial = 0  # number of the trial polygon that this is; 0: it is none
+        self.tried: dict[tuple[Order, str], float] = {}  # rates of sliding pairs moved at a trial speed
+        self.trains: tuple[TrainPlan, ...] = ()
+        self.at_contacts = False  # whether sliding contacts are drawn themselves, instead of what replaces them
+        # how each group is drawn: found once, for all drawings of a task
+        self.chains: dict[Dyad, VectorChain] = {}
+        self.plans: dict[LargerGroup, GroupPlan] = {}
+        self.contours: dict[LargerGroup, tuple[tuple[str, LargerGroup], ...]] = {}  # link held still, the rest on it
+        self.places = {point: paper.point(name, point) for name in paper.poses for point in self.links[name].points}
+        size = max((abs(z - w) for z in self.places.values() for w in self.places.values()), default=1.0)
+        self.tiny = 1e-11 * size
+        self.touching = {c.name for c in structure.scene.contacts}
+        self.block_of = {slide.a: slide.of for slide in structure.slides if slide.slot}
+        self.held = ""  # the link that is held still, and the group whose it is
+        self.part_of: LargerGroup | None = None
+        self.begin(structure.scene.frame.name)
+
+    def begin(self, ground: str) -> None:
+        """Begin empty polygons with a link as the ground: its points are in the poles."""
+        self.ground = ground
+        self.still = self.structure.turning_with(ground)  # links that can only translate
+        self.seen: dict[str, Polygons] = {}  # polygons with a link of a contour held still, by that link
+        fixed = dict.fromkeys(map(PointRef, self.links[ground].points), 0j)
+        self.ends: dict[Order, dict[PointRef, complex]] = {order: dict(fixed) for order in ORDERS}
+        self.rates: dict[Order, dict[str, Rate]] = {order: {ground: Rate(ground, 0.0)} for order in ORDERS}
+        self.drawn: dict[Order, dict[Symbol, Vector]] = {order: {} for order in ORDERS}
+
+    def again(self, hand: Instrument) -> Polygons:
+        """The same polygons as they stand here, to go on with by other hands."""
+        made = copy.copy(self)
+        for name in vars(self).keys() - SHARED:
+            setattr(made, name, _copied(getattr(self, name)))
+        made.seen = {held: seen.again(hand) for held, seen in self.seen.items()}
+        return made._on(self.board.again(hand))
+
+    def fork(self, trial: int) -> Polygons:
+        """The same polygons on a board of their own, with the same hands, which do not read twice what they have read:
+        the trial polygons of that number."""
+        made = self.again(self.board.instrument)
+        made.trial = trial
+        return made._on(Board(self.board.instrument, readings=self.board.readings))
+
+    def holding(self, group: LargerGroup, held: str) -> Polygons:
+        """Empty polygons with a link of a group held still, as if it were the frame; drawn on the same mechanism."""
+        made = self.fork(0)
+        made.part_of, made.held, made.contours, made.own_values = group, held, {}, OwnValues(line=self.own_values.line)
+        made.begin(held)
+        self.seen[held] = made
+        self._on(self.board)
+        return made
+
+    def _on(self, board: Board) -> Polygons:
+        """These on a board; those with a link held still share its equations and readings, and special points."""
+        self.board = board
+        for seen in self.seen.values():
+            seen.links, seen.places, seen.special = self.links, self.places, self.special
+            seen.board.readings, seen.board.equations = board.readings, board.equations
+        return self
+
+    def do(self, step: Step) -> None:
+        """Record a step.  Seen from a held link only vectors are shown: end points get their letters in the polygon of
+        the mechanism itself."""
+        if not self.held or step.diagram == "mechanism":
+            self.board.do(step)
+        elif step.symbol.kind:
+            early = step.reason == "before its turn"
+            strokes = (s for s in step.strokes if early or isinstance(s, ConstructionVector | Ray))
+            self.board.do(replace(step, strokes=tuple(strokes)))
+
+    def symbol(self, kind: str, end: PointRef, start: PointRef | None = None) -> Symbol:
+        """The motion of a point, or a part of it, from the pole or from that of another point, by its letters.  Seen
+        from a held link a point's own is that relative to the coincident point of it; others bear its name, and all
+        accelerations do."""
+        symbol = Symbol(kind, self.label(end), start and self.label(start))
+        if self.held and start is None:
+            seen = "" if kind == "v" else self.held  # the difference of accelerations holds the term of Coriolis, too
+            return replace(symbol, to=PointRef(end.point, self.held), seen=seen)
+        return replace(symbol, seen=self.held) if self.held else symbol
+
+    def label(self, ref: PointRef) -> PointRef:
+        """The name of a node: the block of a pin in a slot has the name of the pin's link."""
+        return PointRef(ref.point, self.block_of[ref.link]) if ref.link in self.block_of else ref
+
+    def guide_names(self, slide: Pair) -> tuple[str, ...]:
+        """The name of a guide in a direction: two letters on it, else its name."""
+        start = self.paper.place(slide.b, slide.guide.through)
+        along = slide.along(self.paper.poses)
+        on = [
+            (dot(z - start, along), p)
+            for p, z in self.places.items()
+            if p in self.links[slide.b].points and abs(cross(z - start, along)) < 1e3 * self.tiny
+        ]
+        pin = slide.pin
+        if pin and pin in self.places:
+            others = [(s, p) for s, p in sorted(on) if p != pin and abs(self.places[p] - self.places[pin]) > self.tiny]
+            if others:
+                return others[0][1], pin
+        if len(on) > 1:
+            return min(on)[1], max(on)[1]
+        return (slide.guide.name or f"x{slide.b}",)
+
+    def fixed(self, ref: PointRef) -> bool:
+        """Whether a node is a point of the frame."""
+        return ref.link == self.ground or (not ref.link and ref.point in self.links[self.ground].points)
+
+    def touch(self, name: str) -> Touch:
+        """The place of a contact, or of the mesh of wheels."""
+        return Touching(self.structure.scene, self.paper.mm, self.paper.poses).named(name)
+
+    def length(self, arm: complex, between: Sequence[str]) -> float:
+        """The length (m) between two points of the mechanism that lie ``arm`` apart on paper: given if a link has both
+        or a driver pushes one from the other, else read off the drawing.
+
+        Raises
+        ------
+        Unsolvable : "not drawn": the two are so near to each other that the instrument cannot read their distance
+        """
+        start, end = between
+        for link in self.links.values() if self.special.isdisjoint(between) else ():  # special points are drawn
+            if start in link.points and end in link.points and link.points[start] != link.points[end]:
+                return abs(link.points[end] - link.points[start])
+        pushed = pushed_by_driver(self.structure, self.paper.values, between)
+        if pushed is not None:
+            return pushed[1]
+        read = self.board.read(frozenset(between), abs(arm))
+        if read == 0.0:
+            raise Unsolvable("not drawn", Problem("".join(between), "mm on paper are too short to be",
+                                                  "draw the mechanism larger", length=f'{abs(arm):.2g}'))
+        return read * self.scales.length
+
+    def found_mm(self, symbol: Symbol, span: complex) -> float:
+        """The measured length of a found vector (mm); None where the next trial has a vector of its name."""
+        return abs(self.board.read(symbol, abs(span))) if span and not self.trial else abs(span)
+
+    def slip_mm(self, symbol: Symbol, slip: complex) -> float:
+        """The length (mm) of a relative velocity, read off its polygon when it is first needed."""
+        if symbol.of is not None and symbol.to is not None and self.fixed(symbol.of):
+            symbol = self.symbol(symbol.kind, symbol.to)
+        return self.board.read(symbol, abs(slip))
+
+    def end(self, order: Order, ref: PointRef) -> complex:
+        """The end point of a node, found by image if it is not drawn yet; the pole for a fixed point."""
+        if self.fixed(ref):
+            return 0j
+        if ref not in self.ends[order]:
+            self.place(order, ref)
+        return self.ends[order][ref]
+
+    def record(self, vector: Vector, step: Step) -> None:
+        """Put a vector into a polygon, with the step that drew it and its further strokes."""
+        if step.diagram in ORDERS:
+            self.drawn[step.diagram][vector.symbol] = vector
+        self.do(replace(step, strokes=(self.shown(vector), *step.strokes)))
+
+    def shown(self, vector: Vector) -> Vector | ConstructionVector:
+        """The drawn form of a vector: a vector of a trial polygon, seen from a held link or to a special point is a
+        construction vector.
+        """
+        of_special = any(ref is not None and ref.point in self.special for ref in (vector.symbol.of, vector.symbol.to))
+        if self.trial or self.held or of_special:
+            return ConstructionVector(vector.symbol, vector.tail, vector.tip, self.trial)
+        return vector
+
+    def reach(self, order: Order, ref: PointRef, at: complex, equation: int | None) -> None:
+        """Name an end point, and draw the vector to it from the pole."""
+        if ref in self.ends[order]:
+            return
+        self.ends[order][ref] = at
+        mark = Mark(self.label(ref), at)
+        symbol = self.symbol(letter(order), ref)
+        if symbol in self.drawn[order]:
+            if not self.held and not self.board.pricked(order, mark):
+                self.do(Step("mark", "letter", order, (mark,), equation, ref=mark.ref))
+            return
+        step = Step("join", "pole to end", order, (mark,), equation, symbol=symbol)
+        self.record(Vector(symbol, 0j, at, "resultant"), step)
+
+    def complete(self, order: Order, name: str) -> None:
+        """All points of a link, and the points of it under sliding pins and at contacts."""
+        for point in self.links[name].points:
+            if point not in self.touching:
+                self.place(order, PointRef(point))
+        for contact in self.structure.scene.contacts:
+            if name in contact.links and contact.name in self.places and name != self.ground:
+                self.place(order, PointRef(contact.name, name))
+        for s in self.structure.slides:
+            if s.pin and s.pin in self.places and s.b == name and "/" not in name:
+                self.place(order, node(self.links, s.pin, name))
+
+    def place(self, order: Order, ref: PointRef) -> None:
+        """Find the end point of any point of a link whose motion is known, by image."""
+        ends = self.ends[order]
+        if ref in ends or self.fixed(ref):
+            return
+        owners = [ref.link] if ref.link else [n for n, k in self.links.items() if ref.point in k.points]
+        name = next(n for n in owners if n in self.rates[order] and any(self.on(r, n) for r in ends))
+        here = self.places[ref.point]
+        refs = [r for r in ends if self.on(r, name)]
+        if name in self.still:
+            self._reach_by(ref, ends[refs[0]], Step("image", "translation", order, link=name))
+            return
+        same = [r for r in refs if abs(self.places[r.point] - here) <= self.tiny]
+        if same:
+            step = Step("image", "same place", order, refs=(self.label(same[0]),))
+            self._reach_by(ref, ends[same[0]], step)
+            return
+        # a special point may lie far away: it serves where the link has no other two
+        near = [r for r in refs if r.point not in self.special]
+        apart = max((abs(self.places[r.point] - self.places[s.point]) for r in near for s in near), default=0.0)
+        a, b = max(
+            ((a, b) for a in (near if apart > self.tiny else refs) for b in (near if apart > self.tiny else refs)),
+            key=lambda ab: abs(self.places[ab[0].point] - self.places[ab[1].point]),
+        )
+        bar = self.places[b.point] - self.places[a.point]
+        if abs(bar) <= self.tiny or (order, name) in self.believed:
+            start = refs[0]  # a fixed point, if the link has one
+            parts = self._by_rates(order, start, ref, name)
+            at = added_up((part.span for part in parts if part.span is not None), ends[start])
+            self._reach_by(ref, at, Step("image", "rates", order, refs=(self.label(start),), link=name, data=parts))
+            return
+        points = self.links[name].points
+        if {a.point, b.point, ref.point} <= points.keys():  # the shape of the link is given
+            ratio = (points[ref.point] - points[a.point]) / (points[b.point] - points[a.point])
+        else:
+            ratio = (here - self.places[a.point]) / bar
+        at = self.board.instrument.point(ends[a] + (ends[b] - ends[a]) * ratio)
+        on_line = abs(ratio.imag) < 1e-9
+        lined = on_line or bool({a.point, b.point} & self.special)
+        stroke = Bar(ends[a], at, name) if lined else Image(name, (ends[a], ends[b], at))
+        reason: Literal["division", "similar"] = "division" if on_line else "similar"
+        step = Step("image", reason, order, (stroke,), refs=(self.label(a), self.label(b)), link=name)
+        self._reach_by(ref, at, step)
+
+    def _reach_by(self, ref: PointRef, at: complex, step: Step) -> None:
+        """Draw an end point that follows from others of its link."""
+        order: Order = "velocity" if step.diagram == "velocity" else "acceleration"
+        symbol, label = self.symbol(letter(order), ref), self.label(ref)
+        at = self.own_values.found(symbol, 0j, at)
+        self.ends[order][ref] = at
+        if not self.held:
+            step = replace(step, ref=label, strokes=(Mark(label, at), *step.strokes))
+        elif step.reason in ("same place", "translation"):
+            step = Step("join", "pole to end", order, symbol=symbol)
+        else:
+            begins = tuple(None if self.fixed(start) else self.symbol(letter(order), start) for start in step.refs)
+            corners = tuple(corner.point for corner in (*step.refs, label))
+            step = replace(step, ref=label, symbol=symbol, begins=begins, points=corners, held=self.held)
+        self.record(Vector(symbol, 0j, at, "resultant"), step)
+
+    def on(self, ref: PointRef, name: str) -> bool:
+        """Whether a node is a point of a link."""
+        return ref.link == name or (not ref.link and ref.point in self.links[name].points)
+
+    def _by_rates(self, order: Order, start: PointRef, end: PointRef, name: str) -> tuple[Term, ...]:
+        """Draw from one end point to another of the same link by its measured rates, part by part."""
+        names = end.point, start.point
+        drawn = self.places[end.point] - self.places[start.point]
+        arm = drawn / abs(drawn) * self.length(drawn, names[::-1]) / self.scales.of(order) if drawn else 0j
+        links = (name, self.held) if self.held else (name,)
+        omega, alpha = (self.rates[each][name].value if name in self.rates[each] else 0.0 for each in ORDERS)
+        inward, square = Direction("towards", names), Direction("square", names)
+        parts = [
+            ("an", Size("rate", links, names, square=True), inward, -omega * omega * arm),
+            ("at", Size("rate", links, names, "alpha"), square, 1j * alpha * arm),
+        ] if order == "acceleration" else [("v", Size("rate", links, names), square, 1j * omega * arm)]  # fmt: skip
+        between = self.label(end), self.label(start)
+        return tuple(
+            Term(replace(Symbol(kind, *between), seen=self.held), True, True, size, direction, span=span)
+            for kind, size, direction, span in parts if span
+        )
+
+
+_Kept = TypeVar("_Kept")
+
+
+def _copied(kept: _Kept) -> _Kept:
+    """A copy of a collection with the collections in it; another value as it is."""
+    if isinstance(kept, dict):
+        return {key: _copied(value) for key, value in kept.items()}  # type: ignore[return-value]
+    return set(kept) if isinstance(kept, set) else kept  # type: ignore[return-value]
+
+
+def letter(order: Order) -> str:
+    """v or a."""
+    return "v" if order == "velocity" else "a"
+
+
+# -- vectors that are asked for and stand in no equation ---------------------------------------------------------------
+
+
+def draw_asked(plot: Polygons, asked: Sequence[Symbol]) -> None:
+    """Draw the asked vectors that are in no equation."""
+    for symbol in asked:
+        order: Order = "velocity" if symbol.kind == "v" else "acceleration"
+        if not symbol.is_vector or symbol.of is None or symbol in plot.drawn[order]:
+            continue
+        of, to = (node(plot.links, ref.point, ref.link) if ref and ref.link else ref for ref in (symbol.of, symbol.to))
+        assert of is not None
+        rated = plot.rates["velocity"].keys()
+        if not all(ref.point in plot.places and rated & _holders(plot, ref) for ref in (of, to) if ref):
+            continue
+        tail, tip = plot.end(order, to) if to else 0j, plot.end(order, of)
+        role = PARTS.get(symbol.kind) or ("relative" if to else "resultant")
+        if symbol.kind in ("an", "at"):
+            tail = plot.end(order, to := to or _pivot(plot, of))
+            along = _joining(plot, symbol, of, to)
+            corner = tail + along * dot(tip - tail, along)
+        elif to is not None and role in ("coriolis", "sliding"):
+            slip = plot.end("velocity", of) - plot.end("velocity", to)
+            omega = plot.rates["velocity"][_guide_of(plot, of, to, symbol)].value
+            corner = tail + 2j * omega * slip * (plot.scales.velocity / plot.scales.acceleration)
+        if role in ("normal", "coriolis"):
+            tip = corner
+        elif role in ("tangential", "sliding"):
+            tail = corner
+        vector = plot.drawn[order][symbol] = Vector(symbol, tail, tip, role)
+        plot.do(Step("join", "asked", order, (vector,), symbol=symbol))
+
+
+def _holders(plot: Polygons, ref: PointRef) -> list[str]:
+    """The links that have a point, or the link of the point."""
+    return [ref.link] if ref.link else [name for name, link in plot.links.items() if ref.point in link.points]
+
+
+def _joining(plot: Polygons, symbol: Symbol, of: PointRef, to: PointRef) -> complex:
+    """The direction of the bar between two points, or of the normal at a rolling contact."""
+    arm = plot.places[of.point] - plot.places[to.point]
+    if any(c.rolling and c.name == of.point == to.point for c in plot.structure.scene.contacts):
+        return plot.touch(of.point).normal
+    if abs(arm) > plot.tiny:
+        return unit(arm)
+    said = Phrase("the two points coincide no line joins them"), Phrase("ask for ak and ar of coincident points")
+    raise CallError(Problem(str(symbol), *said))
+
+
+def _pivot(plot: Polygons, of: PointRef) -> PointRef:
+    """The point of the frame on the same link."""
+    ground = plot.links[plot.ground].points
+    points = (point for name in _holders(plot, of) for point in plot.links[name].points)
+    pivot = next((point for point in points if point in ground and point != of.point), None)
+    if pivot is None:
+        said = Phrase("its link has no fixed pivot to which"), Phrase("name the other point too for example an_c")
+        raise CallError(Problem(f"{of}", *said))
+    return PointRef(pivot)
+
+
+def _guide_of(plot: Polygons, of: PointRef, to: PointRef, symbol: Symbol) -> str:
+    """The guide of the sliding pair between two coincident points; for links of a group the link from which it is
+    seen."""
+    for s in plot.structure.slides:
+        if {node(plot.links, of.point, s.a), node(plot.links, of.point, s.b)} == {of, to}:
+            return s.b
+    seen = {ref.link for ref in (symbol.of, symbol.to) if ref}
+    if symbol.to and any(seen <= {*group.members} for group in plot.structure.larger_groups):
+        return symbol.to.link  # links of a group that are drawn as one, seen from one of them
+    known = ", ".join(s.key for s in plot.structure.slides)
+    wanted = Phrase("known are", names=known) if known else Phrase("this mechanism has none")
+    raise CallError.of(str(symbol), "these two points do not lie on the", wanted)

@@ -1,0 +1,1 @@
+"""The mechanism on paper: links, groups, and their limit positions."""

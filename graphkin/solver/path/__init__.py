@@ -1,0 +1,1 @@
+"""Along the driver: paths, ranges, dead points, assemblies, and positions by name."""
