@@ -167,7 +167,7 @@ def link_of_vector(sheet: Sheet, symbol: Symbol) -> str:
     common = [name for name in mine if name in theirs and name != scene.frame.name]
     if of.point != to.point and common:
         return common[0]
-    bars = [c.block for c in scene.contacts if not c.flat and {of.point, to.point} <= {d.centre for d in c.round}]
+    bars = [c.block for c in scene.contacts if not c.flat and {of.point, to.point} <= {*c.centres}]
     if bars and of.point != to.point:
         return bars[0]
     sliding = {s.a for s in sheet.structure.slides} | {p.of for p in scene.pins}

@@ -151,7 +151,7 @@ def _bodies(scene: Mechanism) -> Bodies:
             BodySlide(_name(scene, body), pair.pin, _name(scene, pair.on), through, angle, bool(pair.of))
         )
     made.lost += [Phrase("lost cam", link=cam.link, follower=cam.follower) for cam in scene.cams]
-    made.lost += [Phrase("lost contact", name=c.name, first=c.one, second=c.two) for c in scene.contacts]
+    made.lost += [Phrase("lost contact", name=c.name, first=c.links[0], second=c.links[1]) for c in scene.contacts]
     made.lost += [Phrase("lost gears", name=g.name, first=g.wheels[0], second=g.wheels[1]) for g in scene.gears]
     made.lost += [Phrase("lost redundant link", link=link.name) for link in scene.links if link.redundant]
     made.lost += [Phrase("lost mass", link=mass.link) for mass in scene.loading.masses]

@@ -214,8 +214,8 @@ def _joints(scene: Mechanism) -> Iterator[Phrase]:
     for pin in scene.pins:
         yield Phrase("explained slot", point=pin.point, link=pin.of, guide=_guide_name(scene, pin.on, pin.guide))
     for contact in scene.contacts:
-        sides = [f"{link}.{name}" if disc else _guide_name(scene, link, name)
-                 for link, name, disc in zip(contact.links, contact.outlines, contact.discs, strict=True)]
+        sides = [_guide_name(scene, link, name) if link == contact.face else f"{link}.{name}"
+                 for link, name in zip(contact.links, contact.outlines, strict=True)]
         rolling = "explained held rolling" if contact.carrier else "explained rolling"
         key = rolling if contact.rolling else "explained contact"
         yield Phrase(key, contact=contact.name, first=sides[0], second=sides[1], carrier=contact.carrier)

@@ -62,17 +62,16 @@ class Touching:
             means: Literal["slides", "rolls", "meshes"] = "slides"
             if pair.rolling:
                 means = "meshes" if pair.carrier else "rolls"
-            centres = {link: (disc.centre, self.place(link, disc.centre))
-                       for link, disc in zip(pair.round_links, pair.round, strict=True)}  # fmt: skip
+            centres = {link: (centre, self.place(link, centre))
+                       for link, centre in zip(pair.round_links, pair.centres, strict=True)}  # fmt: skip
             first, *second = (place for _, place in centres.values())
             if pair.flat:
                 guide = self.scene.by_name[pair.face].guides[pair.guide]
                 normal = self.poses[pair.face].axis * guide.direction * pair.normal_to_face
-                at = first - normal * pair.round[0].r * self.mm
+                at = first - normal * pair.radii[0] * self.mm
                 return Touch(pair.name, pair.links, at, normal, means, centres)
-            first_disc, second_disc = pair.round
             line = second[0] - first
-            at = first + line * (first_disc.r / (first_disc.r + second_disc.r))
+            at = first + line * (pair.radii[0] / pair.apart)
             return Touch(pair.name, pair.links, at, line / abs(line), means, centres)
         axes = zip(pair.wheels, pair.axes, strict=True)
         centres = {wheel: (letter, self.place(pair.carrier, letter)) for wheel, letter in axes if letter}

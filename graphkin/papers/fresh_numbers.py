@@ -246,7 +246,7 @@ def _set_moment(driver: OwnTables, law: Tables) -> None:
         driver["angle"] = float(round(begin + within * (end - begin)))
 
 
-def _axle_key(made: Tables, carrier: str, axes: tuple[str, str]) -> KeyPath | None:
+def _axle_key(made: Tables, carrier: str, axes: tuple[str, ...]) -> KeyPath | None:
     """The key of the distance of two axes, the length of their carrier."""
     link = made.get("links", {}).get(carrier, {})
     return ("links", carrier, "length") if set(link.get("points", ())) == set(axes) and "length" in link else None
@@ -305,9 +305,8 @@ def _radii(scene: Mechanism, made: OwnTables, free: Callable[[KeyPath], bool]) -
             continue
         one, two = made["contacts"][contact.name]["between"]
         radii = [_disc(made, ref) for ref in (one, two)]
-        signs = [math.copysign(1.0, disc.r) for disc in contact.round]
-        centres = (contact.round[0].centre, contact.round[1].centre)
-        here = _axle_key(made, contact.carrier, centres)
+        signs = [math.copysign(1.0, radius) for radius in contact.radii]
+        here = _axle_key(made, contact.carrier, contact.centres)
         if here is None or not free(here):
             return False
         total = added_up(sign * abs(r) for sign, r in zip(signs, radii, strict=True))
@@ -319,12 +318,12 @@ def _radii(scene: Mechanism, made: OwnTables, free: Callable[[KeyPath], bool]) -
 
 def _on_its_face(made: OwnTables, contact: PlacedContact) -> bool:
     """Move the drawn centre of a disc that rolls on a face of the frame to a radius from it.  False where it cannot."""
-    (disc,) = contact.round
-    drawn = made.get("drawn", {}).get(disc.centre)
+    (centre,) = contact.centres
+    drawn = made.get("drawn", {}).get(centre)
     if drawn is None:
         return True
     refs = made["contacts"][contact.name]["between"]
-    wheel, face = (refs if contact.discs[0] is not None else refs[::-1])
+    wheel, face = (refs if contact.face == contact.links[1] else refs[::-1])
     frame = made.get("frame", {})
     guide = frame.get("guides", {}).get(face.partition(".")[2])
     if guide is None or face.partition(".")[0] != str(frame.get("name", "0")) or not isinstance(guide["through"], list):
@@ -333,7 +332,7 @@ def _on_its_face(made: OwnTables, contact: PlacedContact) -> bool:
     through = complex(*guide["through"])
     off = ((complex(*drawn) - through) * normal.conjugate()).real
     place = complex(*drawn) + normal * (abs(_disc(made, wheel)) - off)
-    made["drawn"][disc.centre] = [float(f"{part:.12g}") for part in (place.real, place.imag)]
+    made["drawn"][centre] = [float(f"{part:.12g}") for part in (place.real, place.imag)]
     return True
 
 

@@ -9,13 +9,14 @@ from __future__ import annotations
 
 import cmath
 import math
+import unicodedata
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from functools import cached_property
 from typing import TypeVar
 
-from graphkin.errors import Problem, did_you_mean
+from graphkin.errors import Problem, SceneError, did_you_mean
 from graphkin.plane import direction
 from graphkin.scene.pairs import CircularSlot, SlidingPair
 from graphkin.scene.scene_tables import (
@@ -206,6 +207,33 @@ class Reading:
         guides = self.guides.get(link, frozenset())
         hint = did_you_mean(guide, guides) if guides else Phrase("its own axis is the guide", link=link)
         return Problem(where, "link has no guide", hint, link=link, guide=guide)
+
+
+# -- the file as a whole -----------------------------------------------------------------------------------------------
+
+MOST_LINKS = 200
+MOST_POINTS = 100
+"""With the guides, of one link."""
+
+
+def check_size(reading: Reading) -> None:
+    """Raises SceneError for a file with too many links, or too many points of a link."""
+    file, problems = reading.file, reading.problems
+    before = len(problems)
+    if len(file.links) > MOST_LINKS:
+        reading.say("links", "found moving links", "at most are possible", count=len(file.links), limit=MOST_LINKS)
+    for name, link in file.links.items():
+        if len(link.at) + len(link.guides) + len(link.points) > MOST_POINTS:
+            reading.say(f"links.{name}", "has too many points and guides", "at most", most=MOST_POINTS)
+    if len(problems) > before:
+        raise SceneError(*problems)
+
+
+def check_texts(reading: Reading) -> None:
+    """Note texts that cannot be written on one line of a sheet."""
+    for where in ("title", "title_zh", "source", "source_zh"):
+        if any(unicodedata.category(c) in ("Cc", "Cs", "Cn", "Zl", "Zp") for c in getattr(reading.file, where)):
+            reading.say(where, "holds a control character or a line break", "write one line of plain text")
 
 
 # -- own points and what is placed from them ---------------------------------------------------------------------------

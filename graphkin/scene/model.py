@@ -442,7 +442,7 @@ class Mechanism:
         spans += [abs(z - w) for z in self.drawn.values() for w in fixed]
         spans += [abs(d.value) for d in self.drivers if not d.turns]
         spans += [cam.base for cam in self.cams]
-        spans += [abs(disc.r) for c in self.contacts for disc in c.round]
+        spans += [abs(radius) for c in self.contacts for radius in c.radii]
         return max(spans, default=0.0) or self.units.metres
 
 

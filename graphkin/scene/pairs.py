@@ -20,7 +20,6 @@ from typing import ClassVar, NamedTuple
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Values
 from graphkin.scene.laws import FollowerLaw, Lift
-from graphkin.scene.scene_tables import Disc
 from graphkin.scene.tables import Units
 from graphkin.words import Phrase
 
@@ -98,59 +97,50 @@ class CircularSlot:
 class PlacedContact:
     """Two outlines that touch in ``name``.
 
-    ``one`` and ``two`` are the links in the order of the file, ``outlines`` the names of a disc or a guide of each.
-    ``discs`` are the discs (m), None for the side that has the flat face; their radii have the signs with which they
-    meet (inside: the larger is hollow).  ``left`` tells on which side of the guide the disc lies.  ``carrier`` is the
-    link that holds both centres of a rolling pair, "" where no link does.  ``again`` marks a further contact of the
-    same centre with the same link.
+    ``links`` stand in the order of the file, ``outlines`` are the names of a disc or a guide of each.  ``centres`` and
+    ``radii`` (m) are those of the discs, one or two, in that order; the radii have the signs with which they meet
+    (inside: the larger is hollow).  ``face`` is the link with the flat face, "" where both are discs; ``left`` tells on
+    which side of the guide the disc lies.  ``carrier`` is the link that holds both centres of a rolling pair, "" where
+    no link does.  ``again`` marks a further contact of the same centre with the same link.
     """
 
     name: str
-    one: str
-    two: str
+    links: tuple[str, str]
     outlines: tuple[str, str]
-    discs: tuple[Disc | None, Disc | None]
+    centres: tuple[str, ...]
+    radii: tuple[float, ...]
+    face: str
     left: bool
     rolling: bool
     carrier: str = ""
     again: bool = False
 
     @property
-    def links(self) -> tuple[str, str]:
-        """Both links, in the order of the file."""
-        return self.one, self.two
-
-    @property
     def flat(self) -> bool:
         """Whether one side is a flat face."""
-        return None in self.discs
+        return self.face != ""
 
     @property
-    def round(self) -> tuple[Disc, ...]:
-        """The discs."""
-        return tuple(d for d in self.discs if d is not None)
+    def apart(self) -> float:
+        """The distance of the centres of two discs (m), negative where one is hollow."""
+        return self.radii[0] + self.radii[1]
 
     @property
     def round_links(self) -> tuple[str, ...]:
         """The links of the discs."""
-        return tuple(link for link, disc in zip(self.links, self.discs, strict=True) if disc is not None)
+        return tuple(link for link in self.links if link != self.face)
 
     @property
     def guide(self) -> str:
-        """The guide that is the flat face, "" where there is none."""
-        return self.outlines[self.discs.index(None)] if self.flat else ""
-
-    @property
-    def face(self) -> str:
-        """The link with the flat face, "" where there is none."""
-        return (self.one if self.discs[0] is None else self.two) if self.flat else ""
+        """The guide that is the flat face (the link's own axis has no name), "" where there is none."""
+        return self.outlines[self.links.index(self.face)] if self.flat else ""
 
     @property
     def block(self) -> str:
         """The name of the block (of a face) or the bar (of two discs) that replaces it."""
         if not self.flat:
-            return "".join(d.centre for d in self.round)
-        return f"{self.name if self.again else self.round[0].centre}/{self.face}"
+            return "".join(self.centres)
+        return f"{self.name if self.again else self.centres[0]}/{self.face}"
 
     @property
     def normal_to_face(self) -> complex:

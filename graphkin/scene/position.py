@@ -503,7 +503,7 @@ def starts_of(position: StatedPosition, contacts: Iterable[PlacedContact]) -> di
     travels = {pair.key: position.travel_of(pair.key) for pair in slides}
     for contact in contacts:
         if contact.flat:
-            place = position.places.get(contact.round[0].centre)
+            place = position.places.get(contact.centres[0])
             travels[contact.block] = _along(bodies[contact.face], contact.guide, place)
     starts = dict[str, float]()
     for name, link in position.reading.links.items():
@@ -625,18 +625,18 @@ def check_contacts(contacts: Iterable[PlacedContact], position: StatedPosition) 
     """Note outlines that do not touch where given places put them: centres too far apart, or not a radius off the face,
     on its side."""
     for c in contacts:
-        known = [z for d in c.round if (z := position.places.get(d.centre)) is not None]
-        if len(known) < len(c.round):
+        known = [z for centre in c.centres if (z := position.places.get(centre)) is not None]
+        if len(known) < len(c.centres):
             continue
         if not c.flat:
-            distance, wanted = abs(known[1] - known[0]), abs(c.round[0].r + c.round[1].r)
+            distance, wanted = abs(known[1] - known[0]), abs(c.apart)
             key = "puts the centres apart"
         else:
             body, guide = position.bodies[c.face], position.bodies[c.face].guides.get(c.guide)
             local = body.in_own_axes(known[0])
             if guide is None or local is None:
                 continue
-            distance, wanted = dot(local - guide.through, guide.direction * c.normal_to_face), c.round[0].r
+            distance, wanted = dot(local - guide.through, guide.direction * c.normal_to_face), c.radii[0]
             key = "puts the centre to the left of the face" if c.left else "puts the centre to the right of the face"
         if abs(distance - wanted) > position.tolerance:
             drawn = Phrase(key, distance=position.number(distance), given=position.number(wanted))

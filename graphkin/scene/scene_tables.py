@@ -2,7 +2,7 @@
 
 The tables of words explain each key (``[keys]``), under the names of its table and the key.
 
-The mechanism is made from the tables in `graphkin.scene.reading`.  The docstring of `graphkin.scene` settles the points
+The mechanism is made from the tables in `graphkin.scene.scene`.  The docstring of `graphkin.scene` settles the points
 that the format leaves open.
 """
 

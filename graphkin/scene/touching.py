@@ -149,7 +149,9 @@ def _contact(name: str, contact: Contact, side: Side, other_side: Side, reading:
             carrier = others[0] if others else ""
     left = contact.side != "right"
     outlines = name_on_link, name_on_other
-    return PlacedContact(name, link, other, outlines, (first, second), left, contact.rolling, carrier)
+    discs, face = [disc for disc in (first, second) if disc], other if second is None else "" if first else link
+    centres, radii = tuple(disc.centre for disc in discs), tuple(disc.r for disc in discs)
+    return PlacedContact(name, (link, other), outlines, centres, radii, face, left, contact.rolling, carrier)
 
 
 # -- gears -------------------------------------------------------------------------------------------------------------
@@ -237,14 +239,13 @@ def wrong_distances(
     for c in contacts:
         where = f"contacts.{c.name}"
         if not c.flat and c.carrier:
-            first, second = c.round
-            held = abs(points[c.carrier][second.centre] - points[c.carrier][first.centre])
-            wanted = abs(first.r + second.r)
-            if abs(held - wanted) > AGREE * max(abs(first.r), abs(second.r)):
+            first, second = (points[c.carrier][centre] for centre in c.centres)
+            held, wanted = abs(second - first), abs(c.apart)
+            if abs(held - wanted) > AGREE * max(map(abs, c.radii)):
                 apart = {"held": f"{held / reading.metres:.10g}", "wanted": f"{wanted / reading.metres:.10g}"}
                 reading.say(where, Phrase("link holds the centres apart the radii make", carrier=c.carrier, **apart),
                             "correct a radius or the distance")
-        if not c.flat and c.round[0].centre == c.round[1].centre:
+        if not c.flat and c.centres[0] == c.centres[1]:
             reading.say(where, "both outlines have the same centre", "two centres lie apart")
     for g in gears:
         where, carried = f"gears.{g.name}", points[g.carrier]

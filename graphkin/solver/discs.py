@@ -73,7 +73,7 @@ def _sides(scene: Mechanism, contact: PlacedContact) -> tuple[int, str] | None:
     side = contact.links.index(driver.link)
     follower = contact.links[1 - side]
     pivots = [p for p in scene.by_name[driver.link].points if p in scene.frame.points]
-    if contact.discs[side] is None or not pivots:
+    if driver.link == contact.face or not pivots:
         return None
     pair = next((s.key for s in scene.slidings if s.link == follower and s.on == scene.frame.name), None)
     turns = any(p in scene.frame.points for p in scene.by_name[follower].points)
@@ -83,28 +83,30 @@ def _sides(scene: Mechanism, contact: PlacedContact) -> tuple[int, str] | None:
 def _measured(reach: DriverRange, contact: PlacedContact, side: int, of: str) -> DiscCam:
     scene = reach.scene
     link, follower = contact.links[side], contact.links[1 - side]
-    disc, other = contact.discs[side], contact.discs[1 - side]
-    assert disc is not None
+    which = contact.round_links.index(link)  # of the discs
+    centre, radius = contact.centres[which], contact.radii[which]
     points = scene.by_name[link].points
     axis = next(p for p in points if p in scene.frame.points)
-    off = abs(points[disc.centre] - points[axis])
+    place = points[centre] - points[axis]
+    off = abs(place)
     swings = "/" not in of
-    place = points[disc.centre] - points[axis]
     ends = reach.extremes(Symbol.parse(f"swing_{of}" if swings else f"stroke_{of}"))
     offset = None
     if not swings:
         pair = next(s for s in scene.slidings if s.key == of)
         guide = scene.frame.guides[pair.guide]
-        at = reach.motion(np.zeros(1)).point(other.centre, follower).z[0] if other is not None else guide.through
+        at = guide.through
+        if not contact.flat:
+            at = reach.motion(np.zeros(1)).point(contact.centres[1 - which], follower).z[0]
         offset = float(cross(guide.direction, scene.frame.points[axis] - complex(at)))
     here = _pressures(reach, contact, follower, np.zeros(1))[0]
     touch = reach.motion(np.array([ends.low_offset, ends.high_offset])).position(contact.name)
     near, far = np.abs(touch - scene.frame.points[axis])
     return DiscCam(
-        contact.name, link, follower, abs(abs(disc.r) - off),
-        None if other is None else abs(abs(disc.r + other.r) - off),
+        contact.name, link, follower, abs(abs(radius) - off),
+        None if contact.flat else abs(abs(contact.apart) - off),
         ends.stroke, swings, offset, _greatest(reach, contact, follower), None if math.isnan(here) else float(here),
-        ends.low if near <= far else ends.high, (place, abs(disc.r)),
+        ends.low if near <= far else ends.high, (place, abs(radius)),
     )  # fmt: skip
 
 
@@ -134,8 +136,7 @@ def disc_course(structure: Structure, disc: DiscCam, angle: Array) -> tuple[Arra
         value = motion.slide(of).travel
         pair = next(s for s in scene.slidings if s.key == of)
         motion_of_follower = np.full(len(angle), scene.frame.guides[pair.guide].direction)
-    other = contact.discs[1 - side]
-    pitch = None if other is None else (motion.position(other.centre, disc.follower) - axis) * back
+    pitch = None if contact.flat else (motion.position(contact.centres[1 - side], disc.follower) - axis) * back
     pressure = angle_between(contact_normal(motion, contact), motion_of_follower)
     return np.abs(value - disc.lowest), (place - axis) * back, pitch, pressure
 

@@ -291,9 +291,9 @@ ROUNDED = 1e-12
 
 def contact_normal(motion: Motion, contact: PlacedContact) -> Array:
     """The normal of a contact, out of its first body, unit complex, shape (n,)."""
-    disc, link = contact.round[0], contact.round_links[0]
-    arm = motion.position(contact.name) - motion.position(disc.centre, link)
-    normal = arm / (disc.r if link == contact.one else -disc.r)
+    radius, link = contact.radii[0], contact.round_links[0]
+    arm = motion.position(contact.name) - motion.position(contact.centres[0], link)
+    normal = arm / (radius if link == contact.links[0] else -radius)
     with np.errstate(invalid="ignore"):  # of positions that are none
         return np.asarray(normal / np.abs(normal))
 

@@ -258,8 +258,8 @@ def _path(posed: Posed, kind: str, of: PointRef, to: PointRef) -> tuple[str, Arr
     contact = next((c for c in posed.structure.scene.contacts if c.name == of.point), None)
     if contact is not None and {of.link, to.link} == set(contact.links):
         # the centre of a disc lies on the normal
-        which = 1 if contact.round[0].r == 0.0 and len(contact.round) > 1 else 0
-        centre = PointRef(contact.round[which].centre, contact.round_links[which])
+        which = 1 if contact.radii[0] == 0.0 and not contact.flat else 0
+        centre = PointRef(contact.centres[which], contact.round_links[which])
         normal = posed.point(of).z - posed.point(centre).z
         return to.link, np.asarray(normal / np.abs(normal))
     if of.link == to.link or not {of.link, to.link} <= set(links):

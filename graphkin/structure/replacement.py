@@ -22,7 +22,6 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Poses, cross, unit
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.scene.pairs import CircularSlot, PlacedContact, PlacedGuide, SlidingPair
-from graphkin.scene.scene_tables import Disc
 from graphkin.structure.model import OWN_AXIS, Mobility, Pair, Structure
 from graphkin.words import Phrase
 
@@ -30,23 +29,22 @@ from graphkin.words import Phrase
 def replacing_link(contact: PlacedContact, links: Mapping[str, PlacedLink]) -> tuple[PlacedLink, Pair | None]:
     """The link that replaces a contact, and for a flat face the sliding pair.  The point of contact is a point of it.
     Where another link holds both centres of a rolling pair, that link gets the point of contact."""
-    disc = contact.round[0]
+    centre, radius = contact.centres[0], contact.radii[0]
     if contact.flat:
         face = links[contact.face].guides[contact.guide]
-        along = replace(face, through=face.through + contact.normal_to_face * face.direction * disc.r)
-        places = {disc.centre: 0j, contact.name: -contact.normal_to_face * disc.r}
-        block = PlacedLink(contact.block, places, (disc.centre,), OWN_AXIS)
+        along = replace(face, through=face.through + contact.normal_to_face * face.direction * radius)
+        places = {centre: 0j, contact.name: -contact.normal_to_face * radius}
+        block = PlacedLink(contact.block, places, (centre,), OWN_AXIS)
         (of,) = contact.round_links
-        return block, Pair(contact.block, contact.block, contact.face, along, 1 + 0j, disc.centre, of)
-    other = contact.round[1]
-    part = disc.r / (disc.r + other.r)
+        return block, Pair(contact.block, contact.block, contact.face, along, 1 + 0j, centre, of)
+    other, far = contact.centres[1], contact.apart
+    part = radius / far
     if contact.carrier:
         held = links[contact.carrier]
-        a, b = held.points[disc.centre], held.points[other.centre]
+        a, b = held.points[centre], held.points[other]
         return replace(held, points={**held.points, contact.name: a + (b - a) * part}), None
-    far = abs(disc.r + other.r)
-    places = {disc.centre: 0j, other.centre: complex(far), contact.name: complex(far * disc.r / (disc.r + other.r))}
-    return PlacedLink(contact.block, places, (disc.centre, other.centre), OWN_AXIS), None
+    places = {centre: 0j, other: complex(abs(far)), contact.name: complex(abs(far) * radius / far)}
+    return PlacedLink(contact.block, places, contact.centres, OWN_AXIS), None
 
 
 def pins_on_circles(scene: Mechanism, poses: Poses, values: Mapping[str, float]) -> Mechanism:
@@ -88,7 +86,7 @@ def replacement_told(structure: Structure) -> tuple[Phrase, ...]:
         if contact.rolling:
             said.append(Phrase("structure rolling in gear" if contact.carrier else "structure rolling", **names))
         elif contact.flat:
-            said.append(Phrase("structure flat contact", **names, centre=contact.round[0].centre))
+            said.append(Phrase("structure flat contact", **names, centre=contact.centres[0]))
         else:
             said.append(Phrase("structure contact", **names, bar=contact.block))
     said += [Phrase("structure gear", first=g.wheels[0], second=g.wheels[1], gear=g.name) for g in scene.gears]
@@ -146,10 +144,9 @@ def cams_replaced(scene: Mechanism, poses: Poses, values: Mapping[str, float], b
             face = _guide(follower, "f", -(0.0 if touches else radius) / turned, 1j / turned, 0.0)
             links[cam.follower] = replace(follower, guides={**follower.guides, face.name: face})
             if touches:
-                outlines, discs = (point, face.name), (Disc(point, radius), None)
-                contacts.append(
-                    PlacedContact(next(letters), cam.link, cam.follower, outlines, discs, left=True, rolling=False)
-                )
+                sides = (cam.link, cam.follower), (point, face.name)
+                contacts.append(PlacedContact(next(letters), *sides, (point,), (radius,), cam.follower,
+                                              left=True, rolling=False))
             else:
                 pins.append(SlidingPair.of_pin(point, cam.link, cam.follower, face.name))
             continue

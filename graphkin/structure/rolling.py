@@ -57,15 +57,15 @@ def meshes_of(
     meshes = []
     for contact in contacts:
         if contact.rolling and contact.flat:
-            (disc,) = contact.round
-            r = Fraction(-disc.r if contact.left else disc.r)
-            axes, wheels = (disc.centre, ""), (contact.round_links[0], contact.face)
+            (centre,), (radius,) = contact.centres, contact.radii
+            r = Fraction(-radius if contact.left else radius)
+            axes, wheels = (centre, ""), (contact.round_links[0], contact.face)
             meshes.append(Mesh(contact.name, wheels, contact.block, axes, (r, None), contact.block, -1))
         elif contact.rolling:
-            first, second = contact.round
-            parts = Fraction(first.r), Fraction(second.r)
+            first, second = contact.centres
+            parts = Fraction(contact.radii[0]), Fraction(contact.radii[1])
             carrier = contact.carrier or contact.block
-            meshes.append(Mesh(contact.name, contact.links, carrier, (first.centre, second.centre), parts))
+            meshes.append(Mesh(contact.name, contact.links, carrier, (first, second), parts))
     for gear in gears:
         if gear.teeth[1] is not None:
             teeth = Fraction(gear.teeth[0]), Fraction(gear.teeth[1])

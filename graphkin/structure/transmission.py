@@ -132,8 +132,8 @@ def _at_contact(structure: Structure, contact: PlacedContact, name: str) -> Tran
     if contact.block not in structure.links or name not in structure.links:
         return None
     block, points = contact.block, structure.links[contact.block].points
-    far = contact.name if contact.flat else contact.round[1].centre
-    normal = (block, points[contact.round[0].centre]), (block, points[far])
+    far = contact.name if contact.flat else contact.centres[1]
+    normal = (block, points[contact.centres[0]]), (block, points[far])
     return _pushed(structure, name, normal, (block, points[contact.name]))
 
 

@@ -13,7 +13,7 @@ import pytest
 
 import graphkin
 from graphkin.errors import SceneError, Unsolvable
-from graphkin.scene.reading import as_mapping
+from graphkin.scene.scene import as_mapping
 from graphkin.scene.symbol import Symbol
 from tests.construction.test_forces import judged
 from tests.mechanisms import KINDS, random_scene

@@ -15,7 +15,7 @@ from graphkin.account.notation import Letters
 from graphkin.errors import SceneError
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import joints
-from graphkin.scene.reading import as_mapping
+from graphkin.scene.scene import as_mapping
 
 pytestmark = pytest.mark.quick
 

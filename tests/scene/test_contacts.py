@@ -9,8 +9,7 @@ import pytest
 
 import graphkin
 from graphkin.errors import SceneError
-from graphkin.scene.reading import as_mapping
-from graphkin.scene.scene import mechanism_of, read
+from graphkin.scene.scene import as_mapping, mechanism_of, read
 
 LIBRARY = Path(graphkin.__file__).parent / "scene" / "library"
 DISC = {
@@ -90,7 +89,7 @@ def test_a_scene_with_contacts_reads_as_it_was_written():
 
 def test_contacts_can_be_changed_by_key():
     smaller = read("disc-on-disc").replace("links.1.discs.k.r", 30)
-    assert 0.03 == smaller.mechanism.contacts[0].round[0].r
+    assert 0.03 == smaller.mechanism.contacts[0].radii[0]
 
 
 def test_a_contact_that_cannot_be_made_is_named():

@@ -9,7 +9,7 @@ import pytest
 import graphkin
 from graphkin.errors import SceneError
 from graphkin.scene import mechanism_of
-from graphkin.scene.reading import as_mapping
+from graphkin.scene.scene import as_mapping
 
 pytestmark = pytest.mark.quick
 

@@ -10,8 +10,7 @@ import pytest
 import graphkin
 from graphkin.scene import library, library_text, mechanism_of, mechanism_of_text
 from graphkin.scene.laws import FollowerLaw, LiftPiece, MotionLaw
-from graphkin.scene.reading import as_mapping
-from graphkin.scene.scene import toml_text
+from graphkin.scene.scene import as_mapping, toml_text
 from graphkin.scene.scene_tables import SCENE
 from graphkin.scene.tables import in_si, in_units, plain
 from graphkin.solver import solve

@@ -359,7 +359,7 @@ def test_what_is_wrong_with_masses_and_loads_is_told_by_name(change, said):
 
 def test_a_scene_with_loads_is_written_as_it_is_read():
     mechanism = mechanism_of(SHAPER)
-    from graphkin.scene.reading import as_mapping
+    from graphkin.scene.scene import as_mapping
 
     again = mechanism_of(as_mapping(mechanism))
     assert mechanism.loading.loads == again.loading.loads

@@ -44,8 +44,7 @@ from graphkin.papers.variants import (
     make,
 )
 from graphkin.scene.model import Mechanism
-from graphkin.scene.reading import as_mapping
-from graphkin.scene.scene import SceneLike, safe_name, toml_text, written
+from graphkin.scene.scene import SceneLike, as_mapping, safe_name, toml_text, written
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import KeyPath, value_at
 from graphkin.study.designs import applied

@@ -83,7 +83,7 @@ def colour_of_link(scene: Mechanism, link: str) -> str:
     name = link.split("/")[-1]
     bar = next((c for c in scene.contacts if c.block == name), None)
     if name not in scene.order and bar is not None:  # what stands for a contact has the colour of what is moved
-        name = next((n for n in reversed(bar.links) if n != scene.frame.name), bar.two)
+        name = next((n for n in reversed(bar.links) if n != scene.frame.name), bar.links[1])
     return BLACK if name == scene.frame.name else link_colour(scene.order[name])
 
 
