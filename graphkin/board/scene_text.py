@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, get_args
 
 from graphkin.errors import CallError, Problem, SceneError
 from graphkin.files import Json
 from graphkin.scene.scene import LARGEST_FILE, parsed
+from graphkin.scene.scene_tables import Convention
 from graphkin.scene.tables import item_of
-from graphkin.words import Phrase, Wording
+from graphkin.words import LANGUAGES, Phrase, Wording
 
 MOST_CHANGES = 500
 
@@ -120,7 +121,6 @@ def _index(place: list[Any], part: str, key: str) -> int:
 _KEY = r"""(?:[A-Za-z0-9_-]+|"[^"]*"|'[^']*')"""
 _HEAD = re.compile(rf"^\s*\[\[?\s*({_KEY}(?:\s*\.\s*{_KEY})*)\s*\]\]?")
 _ENTRY = re.compile(rf"^(\s*)({_KEY}(?:\s*\.\s*{_KEY})*)\s*=")
-_LINE = re.compile(r"line (\d+)")
 
 
 def places(text: str) -> dict[str, int]:
@@ -170,34 +170,41 @@ def _inside(line: str, path: tuple[str, ...], number: int, lines: dict[str, int]
             stack.pop()
 
 
+_POINT = ("sketch.{point}", "frame.points.{point}", "frame")
+_PLACES: Mapping[str, tuple[str, ...]] = {
+    "link": ("links.{name}",), "link of name": ("links.{name}",), "links": ("links.{links}",),
+    "point": _POINT, "point of point": _POINT, "status mobility": ("links",),
+    "driver of driver": ("driver",), "driver of key and name": ("driver",),
+}  # fmt: skip
+"""The keys of a text that a phrase about a link, a point, a driver stands for."""
+
+
 def line_of(problem: Problem, text: str) -> int:
     """The line (from 1) of a problem: the line of its key, or of the nearest table that holds it; 0 for a problem of
     the whole text."""
-    if line := _LINE.match(str(problem.where)):
-        return int(line[1])
+    where = problem.where
+    if isinstance(where, Phrase) and where.key == "line":
+        return int(str(where.gaps["line"]))
     known = places(text)
-    name = re.split(r"[:,]| and ", str(problem.where))[0].strip()
-    for word in (name, *_named(name)):
-        parts = word.split(".")
+    for key in _keys_of(where):
+        parts = key.split(".")
         for n in range(len(parts), 0, -1):
             if ".".join(parts[:n]) in known:
                 return known[".".join(parts[:n])]
     return 0
 
 
-def _named(where: str) -> Iterable[str]:
-    """The keys of a place given in words: ``link 3``, ``point D``, ``driver 1 at 30``."""
-    kind, _, name = where.partition(" ")
-    name = name.split(" ")[0]
-    if kind in ("link", "links"):
-        return (f"links.{name}",)
-    if kind == "point":
-        return (f"sketch.{name}", f"frame.points.{name}", "frame")
-    if kind == "driver":
-        return ("driver",)
-    if kind == "mobility":
-        return ("links",)
-    return ()
+def _keys_of(where: Wording) -> Iterable[str]:
+    """The keys of the text at which the subject of a problem may stand."""
+    if not isinstance(where, Phrase):
+        return (where,)
+    names = {gap: _first(name) for gap, name in where.gaps.items()}
+    return (key.format_map(names) for key in _PLACES.get(where.key, ()))
+
+
+def _first(names: object) -> object:
+    """The first of some names."""
+    return _first(names.gaps["first"]) if isinstance(names, Phrase) else names
 
 
 # -- what may be written --------------------------------------------------------------------------------------------
@@ -256,6 +263,6 @@ def _names(text: str, key: str, quoted: bool) -> list[str]:
     elif key == "length" and "units" in text:
         names = {"mm", "cm", "m", "in", "ft"}
     else:
-        names = {"convention": {"chinese", "us", "british", "russian"}, "language": {"en", "zh"},
+        names = {"convention": set(get_args(Convention)), "language": set(LANGUAGES),
                  "sense": {"clockwise", "counter-clockwise"}}.get(key, set())
     return sorted(names if quoted else {f'"{name}"' for name in names})

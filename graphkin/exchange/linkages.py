@@ -84,7 +84,7 @@ def _number(node: ElementTree.Element, key: str, usual: float = 0.0) -> float:
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise CallError.of(f"{node.tag} {node.get('id')}", f'{key} is "{node.get(key)}"', "a number is wanted")
+        raise CallError.of(f"{node.tag} {node.get('id')}.{key}", f'"{node.get(key)}"', "a number is wanted")
     return value
 
 

@@ -32,7 +32,7 @@ from graphkin.scene.scene_tables import (
     no_position,
 )
 from graphkin.scene.tables import KeyPath, Units
-from graphkin.words import Phrase, Wording
+from graphkin.words import Phrase, Wording, links_named
 
 AnyBody = TypeVar("AnyBody", Frame, Link)
 
@@ -404,7 +404,7 @@ def check_held(reading: Reading) -> None:
         if len(apart) == 1:
             reading.say(f"links.{apart[0]}", "nothing holds this link", hint)
         else:
-            reading.say(Phrase("links", links=", ".join(apart)), "nothing joins these links to the frame", hint)
+            reading.say(links_named(apart), "nothing joins these links to the frame", hint)
 
 
 def islands(reading: Reading) -> list[tuple[str, ...]]:

@@ -39,7 +39,7 @@ from graphkin.structure.model import (
 )
 from graphkin.structure.replacement import replacing_link
 from graphkin.structure.rolling import followers_of, meshes_of, relations_of, rolled_by, start_drivers, unrolled
-from graphkin.words import Phrase, Wording, about, clauses
+from graphkin.words import Phrase, Wording, about, clauses, listed
 
 Node = tuple[str, str]  # ("link" | "point", name)
 Unknown = tuple[Node, str]  # a node and one of its coordinates x, y, t
@@ -567,9 +567,9 @@ def _wrong_part(structure: Structure, unknowns: list[list[Unknown]], given: Mapp
     every = ((n, a) for n in _nodes(structure) for a in ("xyt" if n[0] == "link" else "xy"))
     free = reached((u for u in every if u not in owner), lambda u: [given[i] for i in users.get(u, []) if i in given])
 
-    def names(unknowns_there: Iterable[Unknown]) -> str:
+    def names(unknowns_there: Iterable[Unknown]) -> object:
         links = {name for (kind, name), _ in unknowns_there if kind == "link"}
-        return ", ".join(sorted(links, key=_ranks(structure))) or "none"
+        return listed(sorted(links, key=_ranks(structure))) if links else Phrase("no link")
 
     loop = _sliding_loop(structure)
     wanted = Phrase("each part of the mechanism needs as many")

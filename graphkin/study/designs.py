@@ -172,7 +172,8 @@ def read_designs(path: str | os.PathLike[str]) -> tuple[tuple[str, ...], tuple[t
         raise CallError.of(str(shown), "holds more than designs", most=MOST_ROWS)
     keys = table.heads
     problems = [
-        Problem(f"{shown}, row 1", Phrase("stands twice of key", key=k)) for i, k in enumerate(keys) if k in keys[:i]
+        Problem(Phrase("row", name=shown, number=1), Phrase("stands twice of key", key=k))
+        for i, k in enumerate(keys) if k in keys[:i]
     ]
     rows: list[tuple[Value, ...]] = []
     for number, line in table.rows:

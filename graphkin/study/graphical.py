@@ -141,6 +141,7 @@ def known_ordinate(scene: Mechanism, name: str, way: Way) -> tuple[Symbol, Symbo
         raise CallError.of(Phrase("quantity of name", name=f"{name:.60}"), "is no quantity with a sign here",
                            did_you_mean(name, chains))
     chain, k = chains[name]
+    subject = Phrase("derivative of name" if way == "derivative" else "integral of name", name=name)
     wanted = k + (1 if way == "derivative" else -1)
     if not 0 <= wanted < len(chain):
         says = (
@@ -148,10 +149,10 @@ def known_ordinate(scene: Mechanism, name: str, way: Way) -> tuple[Symbol, Symbo
             if way == "derivative"
             else Phrase("is a position integrate a rate of it")
         )
-        raise CallError.of(f"{way} of {name}", says, "one of", names=', '.join(map(str, chain)))
+        raise CallError.of(subject, says, "one of", names=', '.join(map(str, chain)))
     _, rate, second = scene.drivers[0].values
     if rate == 0.0 or second != 0.0:
-        raise CallError.of(f"{way} of {name}", "the driver does not move evenly", "give it a rate and no second rate")
+        raise CallError.of(subject, "the driver does not move evenly", "give it a rate and no second rate")
     return chain[k], chain[wanted]
 
 

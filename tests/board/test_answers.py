@@ -13,6 +13,7 @@ from graphkin.board.scene_text import changed, line_of, places
 from graphkin.board.shelf import Shelf, mark_of
 from graphkin.errors import CallError, Problem
 from graphkin.scene.scene import library_text, mechanism_of
+from graphkin.words import Phrase, Wording, links_named
 
 pytestmark = pytest.mark.quick
 
@@ -48,9 +49,10 @@ def test_lines_of_keys_are_known_in_tables_and_braces() -> None:
 
 
 @pytest.mark.parametrize(("where", "line"), [
-    ("links.2.length", 20), ("link 3", 22), ("line 7", 7), ("links.2.nothing", 18), ("point A", 11), ("nowhere", 0),
+    ("links.2.length", 20), (Phrase("link of name", name="3"), 22), (Phrase("line", line=7), 7),
+    ("links.2.nothing", 18), (Phrase("point", point="A"), 11), (links_named(["3", "2"]), 22), ("nowhere", 0),
 ])  # fmt: skip
-def test_a_problem_stands_at_the_line_it_is_about(where: str, line: int) -> None:
+def test_a_problem_stands_at_the_line_it_is_about(where: Wording, line: int) -> None:
     assert line == line_of(Problem(where, "is wrong"), SIXBAR)
 
 

@@ -399,6 +399,8 @@ def test_a_connector_of_linkage_slides_between_two_anchors(tmp_path: Path) -> No
     [
         ("a.linkage2", "<linkage2>", "a: is not XML"),
         ("a.linkage2", "<svg/>", "a: begins with <svg>"),
+        ("a.linkage2", '<linkage2><connector id="0" x="q"/><element><connector id="0"/></element></linkage2>',
+         'connector 0.x: "q"; a number is wanted'),
         ("a.json", "[1]", "a: has no list of joints"),
         ("a.json", '{"joints": [{"type": "Crank"}]}', "a: is no mechanism of pylinkage"),
         ("a.pyslvs", "M[J[R, P[0, 0], L[ground]", "a: a bracket is not closed"),

@@ -97,3 +97,10 @@ def test_every_wrong_key_is_named(key: str, said: str) -> None:
 def test_designs_are_read_as_spreadsheets_write_them(tmp_path: Path) -> None:
     (tmp_path / "d.csv").write_bytes("links.1.length;title\n40;四杆\n50;四杆\n".encode("gb18030"))
     assert (("links.1.length", "title"), ((40.0, "四杆"), (50.0, "四杆"))) == read_designs(tmp_path / "d.csv")
+
+
+def test_a_key_that_stands_twice_is_told_at_the_first_row_in_any_language(tmp_path: Path) -> None:
+    (tmp_path / "designs.csv").write_text("links.1.length,links.1.length\n100,110\n")
+    with pytest.raises(CallError) as refusal:
+        read_designs(tmp_path / "designs.csv")
+    assert "第 1 行" in refusal.value.text("zh")
