@@ -569,7 +569,8 @@ def _wrong_part(structure: Structure, unknowns: list[list[Unknown]], given: Mapp
 
     def names(unknowns_there: Iterable[Unknown]) -> object:
         links = {name for (kind, name), _ in unknowns_there if kind == "link"}
-        return listed(sorted(links, key=_ranks(structure))) if links else Phrase("no link")
+        ranked: list[str] = sorted(links, key=_ranks(structure))
+        return listed(ranked) if ranked else Phrase("no link")
 
     loop = _sliding_loop(structure)
     wanted = Phrase("each part of the mechanism needs as many")
