@@ -202,7 +202,7 @@ def test_wheels_driven_twice_are_held_too_much_where_another_link_is_free() -> N
 def test_what_is_held_too_much_is_told_without_a_word_of_another_language() -> None:
     with pytest.raises(Unsolvable) as refusal:
         structure(TWO_GEARS)
-    assert refusal.value.text("zh").startswith("自由度：约束过多的构件：1, 2, 3；")
+    assert refusal.value.text("zh").startswith("自由度：约束过多的构件：1、2、3；自由的构件：4")
 
 
 def test_a_link_marked_redundant_that_is_needed_is_named() -> None:
