@@ -15,7 +15,7 @@ from graphkin.account.in_polygon import InPolygon, alike, rate_name
 from graphkin.account.notation import Letters
 from graphkin.account.voice import Telling, Voice
 from graphkin.construction.board.sheet import Equation, Sheet
-from graphkin.construction.board.steps import Arrow, Reason, Step, Term
+from graphkin.construction.board.steps import Reason, Step, Term, Vector
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Pair
 from graphkin.words import Phrase, languages, sense_of, word
@@ -188,7 +188,7 @@ def _found_before(sheet: Sheet, equation: Equation, term: Term) -> int:
         if s.diagram == equation.diagram and s.equation != equation.number and s.reason != "polygon"
     )  # fmt: skip
     return next(
-        (s.number for s in earlier for v in s.strokes if isinstance(v, Arrow) and v.symbol == term.symbol), 0
+        (s.number for s in earlier for v in s.strokes if isinstance(v, Vector) and v.symbol == term.symbol), 0
     )
 
 

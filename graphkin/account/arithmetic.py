@@ -15,7 +15,7 @@ from graphkin.account.headings import number, written
 from graphkin.account.notation import Letters, unit_of
 from graphkin.construction.board.instruments import EXACT
 from graphkin.construction.board.sheet import Sheet, either_way
-from graphkin.construction.board.steps import ConstructionVector, DiagramName, RateTrial, Size, Step, Superposed, Vector
+from graphkin.construction.board.steps import DiagramName, RateTrial, Size, Step, Superposed
 from graphkin.construction.position.links_on_paper import pushed_by_driver
 from graphkin.plane import added_up
 from graphkin.scene.symbol import PointRef, Symbol
@@ -273,7 +273,7 @@ def rule_sum(sheet: Sheet, rule: Size | None, diagram: DiagramName) -> str:
 
 def _span(sheet: Sheet, symbol: Symbol) -> float | None:
     """The length of a drawn velocity (mm), as read by a finite instrument."""
-    drawn: Vector | ConstructionVector | None = sheet.vectors("velocity").get(symbol)
+    drawn = sheet.vectors("velocity").get(symbol)
     if drawn is None:
         drawn = next((one for one in sheet.vectors_seen("velocity") if one.symbol == symbol), None)
     return None if drawn is None else _as_read(sheet, symbol, abs(drawn.span))

@@ -26,9 +26,7 @@ from graphkin.account.voice import SAME, Telling
 from graphkin.construction.board.sheet import Rate
 from graphkin.construction.board.steps import (
     GIVEN,
-    Arrow,
     Bar,
-    ConstructionVector,
     RateTrial,
     Ray,
     Reason,
@@ -69,10 +67,9 @@ class InPolygon(Telling):
     # -- the letters between which a step goes -------------------------------------------------------------------------
 
     @cached_property
-    def drawn(self) -> Vector | ConstructionVector | None:
+    def drawn(self) -> Vector | None:
         """The vector of a step; vectors of trial polygons have no letters."""
-        strokes = (s for s in self.step.strokes if isinstance(s, Vector | ConstructionVector))
-        return next((s for s in strokes if isinstance(s, Vector) or not s.trial), None)
+        return next((s for s in self.step.strokes if isinstance(s, Vector) and not s.trial), None)
 
     @cached_property
     def places(self) -> tuple[complex, complex] | None:
@@ -127,7 +124,7 @@ class InPolygon(Telling):
             for stroke in one.strokes if one.diagram == self.step.diagram else ():
                 if isinstance(stroke, Bar) and one.reason == "before its turn":
                     drawn[one.symbol] = stroke.b
-                elif isinstance(stroke, Arrow):
+                elif isinstance(stroke, Vector):
                     drawn[stroke.symbol] = stroke.tip
         assert self.places is not None
         there = [s for s, tip in drawn.items() if abs(tip - self.places[0]) < SAME]
@@ -366,7 +363,7 @@ class InPolygon(Telling):
         trial, step = self.step.data, self.step
         assert isinstance(trial, RateTrial)
         # the steps by which it is drawn like the true polygon
-        aids = {s.symbol for s in step.strokes if isinstance(s, ConstructionVector)}
+        aids = {aid.symbol for aid in step.aids}
         later = [s for s in self.sheet.steps[step.number :] if s.diagram == step.diagram]
         first = next(s.number for s in later if s.reason == "open ends") + 1
         own = (s for s in later if s.number >= first and any(getattr(x, "symbol", None) in aids for x in s.strokes))

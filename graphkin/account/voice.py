@@ -19,7 +19,6 @@ from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import (
     GIVEN,
     Bar,
-    ConstructionVector,
     DiagramName,
     Direction,
     Mark,
@@ -73,7 +72,7 @@ class PolygonPoints:
 
     @cached_property
     def _vectors(self) -> Mapping[Symbol, tuple[int, Vector]]:
-        return {s.symbol: (step.number, s) for step in self._steps for s in step.strokes if isinstance(s, Vector)}
+        return {s.symbol: (step.number, s) for step in self._steps for s in step.vectors}
 
     @cached_property
     def named(self) -> tuple[NamedPoint, ...]:
@@ -140,7 +139,7 @@ class PolygonPoints:
                 yield NamedPoint(vector.tip, symbol=vector.symbol, role=vector.role, step=step)
         known = set(self._vectors)
         for one, stroke in ((step, stroke) for step in self._steps for stroke in step.strokes):
-            if isinstance(stroke, ConstructionVector) and not stroke.trial:
+            if isinstance(stroke, Vector) and stroke.aid and not stroke.trial:
                 symbol, tail, tip = stroke.symbol, stroke.tail, stroke.tip
             elif isinstance(stroke, Bar) and one.reason == "before its turn":
                 symbol, tail, tip = one.symbol, stroke.a, stroke.b
@@ -292,7 +291,7 @@ class Telling:
 
     def measured(self) -> Iterable[str]:
         """Each measured vector of the step."""
-        for vector in (s for s in self.step.strokes if isinstance(s, Vector)):
+        for vector in self.step.vectors:
             size = abs(vector.span)
             value = times_scale(self.sheet, self.step.diagram, size) if size else "0"
             yield f"{self.voice.symbol(vector.symbol)} = {value}"

@@ -24,7 +24,7 @@ from graphkin.account.spoken import spoken_words
 from graphkin.account.voice import capital, whole_sentence
 from graphkin.checking.uncertainty import COVERAGE
 from graphkin.construction.board.sheet import Sheet
-from graphkin.construction.board.steps import DiagramName, Step, Vector
+from graphkin.construction.board.steps import DiagramName, Step
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import FigurePage
 from graphkin.drawing.figures.centres import background, centre_marks, near_box
@@ -351,7 +351,7 @@ def _found(lesson: Lesson, step: Step) -> dict[str, Json]:
     if step.finds_rate:
         rate, symbol = sheet.rates(step.kind).get(step.link), Symbol(step.kind, link=step.link)
         return {} if rate is None else _find(lesson, symbol, lesson.letters.vector(symbol), rate.value)
-    vectors = [s for s in step.strokes if isinstance(s, Vector) and s.span]
+    vectors = [vector for vector in step.vectors if vector.span]
     if not vectors:
         return {}
     last = vectors[-1]

@@ -31,7 +31,7 @@ from graphkin.checking.report import measured
 from graphkin.construction import draft, pencil
 from graphkin.construction.board.instruments import EXACT
 from graphkin.construction.board.sheet import Board
-from graphkin.construction.board.steps import ConstructionVector, Direction, RateTrial, Size, Step, Superposed
+from graphkin.construction.board.steps import Direction, RateTrial, Size, Step, Superposed
 from graphkin.drawing.ink.primitives import Text, walk
 from graphkin.drawing.sheet_plan import sheet_room
 from graphkin.scene import library, mechanism_of
@@ -200,8 +200,8 @@ def test_what_a_held_link_shows_is_laid_off_by_the_rates_as_the_other_vectors_ar
     sheet, steps = seen_from_a_held_link()
     assert ["velocity", "acceleration"] == [step.diagram for step in steps]
     for step in steps:
-        drawn_ = {s.symbol: s for s in step.strokes if isinstance(s, ConstructionVector)}
-        vectors = (s for t in sheet.steps for s in t.strokes if isinstance(s, ConstructionVector))
+        drawn_ = {aid.symbol: aid for aid in step.aids}
+        vectors = (aid for t in sheet.steps for aid in t.aids)
         (start,) = (s.tip for s in vectors if s.symbol == step.begins[0])
         parts = step.data
         assert drawn_[step.symbol].tip - start == pytest.approx(sum(part.span for part in parts), abs=1e-9)

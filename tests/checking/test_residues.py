@@ -11,7 +11,6 @@ import pytest
 
 from graphkin import audit, check, draw, read, solve
 from graphkin.api.report_text import reading_words, report_text
-from graphkin.construction.board.steps import ConstructionVector
 from graphkin.drawing.ink.primitives import Group, Text, walk
 from graphkin.words.written import amount
 
@@ -37,7 +36,7 @@ def test_what_is_nothing_but_rounding_is_zero_on_both_sides(name, at):
 def test_a_step_tells_no_rate_that_is_nothing_but_rounding(name, at):
     sheet = check(name, at=at).sheet
     zero = {s.symbol for d in ("velocity", "acceleration") for s in sheet.vectors(d).values() if s.span == 0.0}
-    leading = (s for step in sheet.steps for s in step.strokes if isinstance(s, ConstructionVector))
+    leading = (aid for step in sheet.steps for aid in step.aids)
     zero |= {s.symbol for s in leading if s.span == 0.0}
     rates = [step for step in sheet.steps if step.reason == "rate" and step.symbol in zero]
     assert rates

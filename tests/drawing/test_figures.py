@@ -188,8 +188,7 @@ def test_a_vector_bears_the_number_of_its_step() -> None:
     sheet = drafted(GUIDE)[0]
     page = root(GUIDE, "velocity")
     group = next(g for g in page.iter(f"{SVG}g") if g.get("id") == "v_B3")
-    step = next(s.number for s in sheet.steps for stroke in s.strokes if str(getattr(stroke, "symbol", "")) == "v_B@3"
-                and type(stroke).__name__ == "Vector")  # fmt: skip
+    step = next(s.number for s in sheet.steps for vector in s.vectors if str(vector.symbol) == "v_B@3")
     assert f"step-{step:02d}" in group.get("class").split()
 
 

@@ -18,10 +18,8 @@ from graphkin.construction.board.instruments import EXACT_NAME, Instrument
 from graphkin.construction.board.scales import Extent, Room, Scales, chosen_scales
 from graphkin.construction.board.steps import (
     ORDERS,
-    Arrow,
     Bar,
     Cause,
-    ConstructionVector,
     DiagramName,
     Mark,
     OnPaper,
@@ -302,7 +300,7 @@ class Sheet:
     @cached_property
     def drawn_in(self) -> dict[Symbol, int]:
         """The step in which each vector is first drawn."""
-        drawn = [(s.symbol, step.number) for step in self.steps for s in step.strokes if isinstance(s, Vector)]
+        drawn = [(s.symbol, step.number) for step in self.steps for s in step.vectors]
         return dict(reversed(drawn))
 
     def arm_mm(self, between: Iterable[str]) -> float | None:
@@ -316,29 +314,27 @@ class Sheet:
 
     def vectors(self, diagram: DiagramName) -> dict[Symbol, Vector]:
         """All vectors of a diagram by symbol."""
-        return {
-            s.symbol: s for step in self.steps if step.diagram == diagram for s in step.strokes if isinstance(s, Vector)
-        }
+        return {s.symbol: s for step in self.steps if step.diagram == diagram for s in step.vectors}
 
     def before(self, step: Step) -> tuple[Step, ...]:
         """The steps before one of them."""
         return self.steps[: step.number - 1]
 
-    def trials(self, diagram: DiagramName) -> list[ConstructionVector]:
+    def trials(self, diagram: DiagramName) -> list[Vector]:
         """The vectors of trial polygons in a diagram."""
-        strokes = (s for step in self.steps if step.diagram == diagram for s in step.strokes)
-        return [s for s in strokes if isinstance(s, ConstructionVector) and s.trial]
+        return [aid for step in self.steps if step.diagram == diagram for aid in step.aids if aid.trial]
 
-    def vectors_seen(self, diagram: DiagramName) -> Iterator[ConstructionVector]:
+    def vectors_seen(self, diagram: DiagramName) -> Iterator[Vector]:
         """The vectors of a diagram that are seen from held links, without those that lead to special points."""
         held = {step.held for step in self.steps if step.reason == "seen from"}
         special = self.special_points.keys()
         for step in self.steps if held else ():
-            for stroke in step.strokes if step.diagram == diagram else ():
-                if isinstance(stroke, ConstructionVector) and stroke.symbol.to is not None:
-                    of, to = stroke.symbol.of, stroke.symbol.to
-                    if {stroke.symbol.seen, to.link} & held and not special & {to.point, of.point if of else ""}:
-                        yield stroke
+            for aid in step.aids if step.diagram == diagram else ():
+                of, to = aid.symbol.of, aid.symbol.to
+                if to is None or special & {to.point, of.point if of else ""}:
+                    continue
+                if {aid.symbol.seen, to.link} & held:
+                    yield aid
 
     def carried(self, diagram: DiagramName) -> Iterator[complex]:
         """The ends (mm) of vectors that are laid off before their turn in the chain, except those of special points."""
@@ -359,7 +355,7 @@ class Sheet:
             places += Touching(self.scene, per, self.poses).outermost()
         extents: dict[Diagram, Extent] = {"mechanism": Extent.around(places, self.scales.length)}
         for order in ORDERS:
-            drawn: list[Arrow] = [*self.vectors(order).values(), *self.vectors_seen(order)]
+            drawn = [*self.vectors(order).values(), *self.vectors_seen(order)]
             ends, further = (
                 [z for v in some for z in (v.tail, v.tip)] for some in (drawn, self.trials(order))
             )
@@ -415,7 +411,7 @@ def without_residues(sheet: Sheet) -> Sheet:
 
     def cleared(step: Step) -> Step:
         step = replace(step, strokes=tuple(
-            replace(s, tip=s.tail) if isinstance(s, Arrow) and s.symbol in zero else s for s in step.strokes
+            replace(s, tip=s.tail) if isinstance(s, Vector) and s.symbol in zero else s for s in step.strokes
         ))
         if step.reason == "sum of rates":
             return replace(step, value=rates[step.kind][step.links[0]].value)
@@ -551,7 +547,7 @@ class Board:
         if any(mark in step.strokes for step in self.steps if step.diagram == diagram):
             return True
         last = self.steps[-1]
-        ends = (s.tip for s in last.strokes if last.diagram == diagram and isinstance(s, Arrow))
+        ends = (s.tip for s in last.strokes if last.diagram == diagram and isinstance(s, Vector))
         if mark.at not in ends:
             return False
         self.steps[-1] = replace(last, strokes=(*last.strokes, mark))

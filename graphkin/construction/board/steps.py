@@ -268,6 +268,16 @@ class Step:
     data: TrialPositions | RateTrial | Superposed | tuple[Term, ...] | None = None
 
     @property
+    def vectors(self) -> tuple[Vector, ...]:
+        """Its vectors, without those of the construction only."""
+        return tuple(s for s in self.strokes if isinstance(s, Vector) and not s.aid)
+
+    @property
+    def aids(self) -> tuple[Vector, ...]:
+        """Its vectors of the construction only."""
+        return tuple(s for s in self.strokes if isinstance(s, Vector) and s.aid)
+
+    @property
     def phrase(self) -> Phrase:
         """The step as a phrase, without the letters of any school."""
         key = self.sentence
@@ -413,30 +423,23 @@ def phrase_of(cause: Cause) -> Phrase:
 
 
 @dataclass(frozen=True)
-class Arrow(OnPaper):
-    """A vector: ``symbol`` from ``tail`` to ``tip``."""
+class Vector(OnPaper):
+    """A vector: ``symbol`` from ``tail`` to ``tip``, with its part in an equation.
+
+    An ``aid`` is a vector of the construction only: of a ``trial`` polygon by its number (0 for none), of a special
+    point, or seen from a held link.
+    """
 
     symbol: Symbol
     tail: complex
     tip: complex
+    role: Role = "relative"
+    aid: bool = False
+    trial: int = 0
 
     @property
     def span(self) -> complex:
         return self.tip - self.tail
-
-
-@dataclass(frozen=True)
-class Vector(Arrow):
-    """A drawn vector, with its part in an equation."""
-
-    role: Role
-
-
-@dataclass(frozen=True)
-class ConstructionVector(Arrow):
-    """A vector of the construction only: of a ``trial`` polygon by its number, or of a special point (0)."""
-
-    trial: int
 
 
 @dataclass(frozen=True)
@@ -493,7 +496,7 @@ class Image(OnPaper):
     corners: tuple[complex, ...]
 
 
-Stroke = Vector | ConstructionVector | TrialCurve | Ray | CompassArc | Bar | Mark | Image
+Stroke = Vector | TrialCurve | Ray | CompassArc | Bar | Mark | Image
 
 
 # -- trials ------------------------------------------------------------------------------------------------------------

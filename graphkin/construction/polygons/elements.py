@@ -21,7 +21,6 @@ from graphkin.construction.board.sheet import Rate
 from graphkin.construction.board.steps import (
     ORDERS,
     Bar,
-    ConstructionVector,
     Direction,
     FarPoint,
     Mark,
@@ -588,8 +587,7 @@ class TrialPolygons:
                 if step.diagram == "mechanism":  # special points met with first
                     plot.do(step)
             steps = [step for step in trial.board.steps if step.diagram == order]
-            vectors = (s for step in steps for s in step.strokes if isinstance(s, ConstructionVector))
-            strokes = [replace(vector, trial=number) for vector in vectors]
+            strokes = [replace(aid, trial=number) for step in steps for aid in step.aids]
             assumption = RateTrial(number, self.as_symbols(assumed), far)
             plot.do(Step("trial", "polygon", order, tuple(strokes), data=assumption))
         shared = [ref for ref in ends[0] if all(ref in end for end in ends)]

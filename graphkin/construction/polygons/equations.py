@@ -20,9 +20,7 @@ from graphkin.construction.board.sheet import Equation, Rate
 from graphkin.construction.board.steps import (
     GIVEN,
     ORDERS,
-    Arrow,
     Bar,
-    ConstructionVector,
     Direction,
     Mark,
     Order,
@@ -292,7 +290,8 @@ def _draw_vector(plot: Polygons, order: Order, group: LargerGroup, equation: Vec
     lines = [(_carry(plot, order, (part for part in parts if part.span), at, number), unknown)
              for at, parts, unknown in begun]  # fmt: skip
     tail = 0j if equation.base else lines[0][0]
-    vector = ConstructionVector(symbol, tail, _lines_meet(plot, order, symbol, tail, lines, number), plot.trial)
+    at = _lines_meet(plot, order, symbol, tail, lines, number)
+    vector = Vector(symbol, tail, at, aid=True, trial=plot.trial)
     mm = plot.found_mm(symbol, vector.span)
     plot.do(Step("read", "vector", order, (vector,), number, symbol=symbol, mm=mm))
     if equation.base:
@@ -333,7 +332,7 @@ def _fill(plot: Polygons, order: Order, side: Side, tip: complex, tail: complex,
             plot.reach(order, edge.end, at, equation)
 
 
-def _rate(plot: Polygons, order: Order, edge: RelativeMotion, vector: Arrow, group: Element) -> None:
+def _rate(plot: Polygons, order: Order, edge: RelativeMotion, vector: Vector, group: Element) -> None:
     """Measure the angular rate of a link from a vector between two of its points and the bar that joins them: the
     vector over the bar, omega = v / l, alpha = a_t / l (Sun Huan, Mechanical Principles, ch. 3)."""
     bar, symbol, span = edge.bar, vector.symbol, vector.span

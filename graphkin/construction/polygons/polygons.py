@@ -20,7 +20,6 @@ from graphkin.construction.board.sheet import Board, Rate
 from graphkin.construction.board.steps import (
     ORDERS,
     Bar,
-    ConstructionVector,
     Direction,
     Image,
     Mark,
@@ -150,7 +149,7 @@ class Polygons:
             self.board.do(step)
         elif step.symbol.kind:
             early = step.reason == "before its turn"
-            strokes = (s for s in step.strokes if early or isinstance(s, ConstructionVector | Ray))
+            strokes = (s for s in step.strokes if early or isinstance(s, Ray) or (isinstance(s, Vector) and s.aid))
             self.board.do(replace(step, strokes=tuple(strokes)))
 
     def symbol(self, kind: str, end: PointRef, start: PointRef | None = None) -> Symbol:
@@ -238,13 +237,13 @@ class Polygons:
             self.drawn[step.diagram][vector.symbol] = vector
         self.do(replace(step, strokes=(self.shown(vector), *step.strokes)))
 
-    def shown(self, vector: Vector) -> Vector | ConstructionVector:
+    def shown(self, vector: Vector) -> Vector:
         """The drawn form of a vector: a vector of a trial polygon, seen from a held link or to a special point is a
         construction vector.
         """
         of_special = any(ref is not None and ref.point in self.special for ref in (vector.symbol.of, vector.symbol.to))
         if self.trial or self.held or of_special:
-            return ConstructionVector(vector.symbol, vector.tail, vector.tip, self.trial)
+            return replace(vector, aid=True, trial=self.trial)
         return vector
 
     def reach(self, order: Order, ref: PointRef, at: complex, equation: int | None) -> None:

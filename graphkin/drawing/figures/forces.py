@@ -419,7 +419,7 @@ def _drawn_polygon(
     plate, sheet = Plate(), page.sheet
     link, vectors, inside, _ = polygon
     lettered = corners(stage.group) if not link else ()
-    shifts = side_by_side(Vector(_key(v), v.tail, v.tip, "relative") for v in (*vectors, *inside))
+    shifts = side_by_side(Vector(_key(v), v.tail, v.tip) for v in (*vectors, *inside))
 
     def arrow(vector: ForceVector, tail: complex, tip: complex, step: int, rank: int = 0) -> None:
         name = vector.symbol.id + (f"-{vector.part}" if vector.part else "") + suffix

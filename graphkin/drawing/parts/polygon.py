@@ -23,9 +23,7 @@ from graphkin.account.voice import SAME, NamedPoint, PolygonPoints
 from graphkin.construction.board.scales import SERIES
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import (
-    Arrow,
     Bar,
-    ConstructionVector,
     DiagramName,
     Image,
     Mark,
@@ -84,7 +82,7 @@ class PolygonOnPage:
     @cached_property
     def vectors(self) -> Mapping[Symbol, tuple[int, Vector]]:
         """Each vector, with the number of the step that drew it last."""
-        return {s.symbol: (step.number, s) for step in self.steps for s in step.strokes if isinstance(s, Vector)}
+        return {s.symbol: (step.number, s) for step in self.steps for s in step.vectors}
 
     @cached_property
     def lettered(self) -> PolygonPoints:
@@ -132,8 +130,7 @@ def same_place(z: complex) -> complex:
 def extent(sheet: Sheet, diagram: DiagramName, within: Box | None = None) -> Box:
     """The box (mm, y down, about the pole) around all vectors of a polygon and its trial polygons; construction lines
     count if they do not reach far."""
-    seen = sheet.vectors_seen(diagram)
-    vectors: list[Arrow] = [*sheet.vectors(diagram).values(), *seen, *sheet.trials(diagram)]
+    vectors = [*sheet.vectors(diagram).values(), *sheet.vectors_seen(diagram), *sheet.trials(diagram)]
     ends = [0j, *(z for v in vectors for z in (v.tail, v.tip))]
     box = Box.around(on_page(z) for z in ends)
     for step in sheet.steps:
@@ -577,7 +574,7 @@ def trial_marks_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
     """Trial polygons, each in its own kind of line and with its number at its letters; vectors to special points."""
     held = {step.held for step in here.steps if step.reason == "seen from"}
     for step in here.steps:
-        aids = [s for s in step.strokes if isinstance(s, ConstructionVector) and abs(s.tip - s.tail) > SAME]
+        aids = [aid for aid in step.aids if abs(aid.span) > SAME]
         if not aids:
             continue
         trial = aids[0].trial
