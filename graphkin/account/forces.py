@@ -17,7 +17,7 @@ from typing import Literal, TypeAlias
 
 from graphkin.account.headings import number, written
 from graphkin.account.notation import Letters, force_letters, pole
-from graphkin.construction.board.scales import Extent, fitting_scale
+from graphkin.construction.board.scales import extent_of, fitting_scale, least_scale
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.forces.force_sheet import (
     ForceGroup,
@@ -469,8 +469,8 @@ def _balance(sheet: Sheet, equation: MomentEquation, carried: int, of_forces: in
 
 def lever_scale(sheet: Sheet, lever: Lever) -> float:
     """The scale of a lever on a page (m/s for one mm): the sheet's own, unless the lever is virtual or too large."""
-    extent, metres = Extent.around(spots_of(lever, lever.per_mm), lever.per_mm), sheet.scene.units.rates.metres
-    if not lever.virtual and extent.least_scale(LEVER_ROOM) <= lever.per_mm:
+    extent, metres = extent_of(spots_of(lever, lever.per_mm), lever.per_mm), sheet.scene.units.rates.metres
+    if not lever.virtual and least_scale(extent, LEVER_ROOM) <= lever.per_mm:
         return lever.per_mm
     return fitting_scale(extent, LEVER_ROOM, 1.0 / metres) * metres
 

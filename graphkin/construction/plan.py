@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import product
 from typing import TYPE_CHECKING
@@ -52,6 +52,7 @@ from graphkin.words import Phrase, links_named
 if TYPE_CHECKING:
     from graphkin.construction.polygons.group_plan import GroupPlan
 
+NATURAL = Scales(1e-3, 1e-3, 1e-3)  # 1 mm of paper for 1 mm, 1 mm/s, 1 mm/s2
 FITS = 1e-6
 """Of the size: so well a driven slide must have its travel in an assembly."""
 
@@ -59,13 +60,14 @@ FITS = 1e-6
 
 
 @dataclass(frozen=True)
-class Task:
-    """The task of a drawing: its quantities, position, assembly, and the equation for each dyad.
+class Plan:
+    """The plan of a drawing: its quantities, position, assembly, the equation for each dyad, and its scales.
 
     ``opened`` is the structure with groups that driven triangles turn into dyads in their parts, ``triangles`` are
     these, each in its assembly; ``assembly`` is that of the elements, with the values at the triangles' pairs;
     ``limits`` are the limit positions of asked quantities, on paper of the mechanism's size.  ``acting`` and
     ``growing`` as in `Sheet`. With ``touching`` sliding contacts are drawn themselves, not their replacements.
+    ``made`` is the drawing by exact hands, at scales of its own; None until it is drawn.
     """
 
     structure: Structure
@@ -80,6 +82,14 @@ class Task:
     acting: Mapping[str, bool | None] = field(default_factory=dict)
     growing: tuple[Sheet, ...] = ()
     touching: bool = False
+    scales: Scales = NATURAL
+    made: Sheet | None = None
+
+    @property
+    def exact(self) -> Sheet:
+        """The drawing by exact hands, once for all figures."""
+        assert self.made is not None
+        return self.made
 
     @property
     def values(self) -> Mapping[str, float]:
@@ -112,26 +122,70 @@ class Task:
         """The elements drawn in the polygons, in order."""
         return ((order, element) for order in ORDERS for element in self.drawn[order])
 
+    def scales_for(self, room: Room | None) -> Scales:
+        """The scales that fill a room; without one the scene's own if it gives them."""
+        return chosen_scales(self.structure.scene, self.exact.extents, room)
+
+    def with_branches(self, branches: Mapping[int, int]) -> Plan:
+        """The plan in another assembly, at the same scales.  Raises Unsolvable where it cannot be drawn."""
+        other = replace(self, assembly=replace(self.assembly, branches=branches), chains={}, plans={})
+        return replace(_planned(other, None), scales=self.scales)
+
+    def at_contacts(self) -> Plan | None:
+        """The plan with sliding contacts, or rollers, edges and faces of cams, drawn at the contact itself instead of
+        by their replacements, at scales that suit it; None without such contacts, or if one lies in a pivot."""
+        scene = self.structure.scene
+        if not scene.cams:
+            if all(slot.block or slot.bar not in self.exact.poses for slot in scene.slots):
+                return self._touching()
+            poses = {name: pose.scaled(self.exact.scales.length) for name, pose in self.exact.poses.items()}
+            other = _plan(analyse(pins_on_circles(scene, poses, self.values)), self.asked)
+            return other._touching() or other
+        whole = scene.whole
+        barred = any(slot.bar not in whole.by_name for slot in scene.slots)
+        if not barred and not whole.contacts and not any(cam.flat for cam in whole.cams):
+            return None
+        values = {d.key: self.values[d.key] for d in whole.drivers}
+        other = _plan(cams_in_place(analyse(whole), self.asked, values, bars=False), self.asked)
+        return other._touching() or (other if barred else None)
+
+    def _touching(self) -> Plan | None:
+        """The plan with its sliding contacts drawn themselves, if it has any."""
+        if not self.structure.scene.contacts:
+            return None
+        touching = {e for e in self.elements if not isinstance(e, Driven) and contacts_of(self.structure, e)}
+        if not touching:
+            return None
+        chains = {dyad: chain for dyad, chain in self.chains.items() if dyad not in touching}
+        other = replace(self, chains=chains, plans={}, touching=True)
+        try:
+            polygons = carried_out(other, NATURAL)
+        except Unsolvable:  # a contact at a pivot, which turns nothing there
+            return None
+        exact = finished(other, polygons)
+        scales = chosen_scales(self.structure.scene, exact.extents, None)
+        return replace(other, made=exact, scales=scales, chains=polygons.chains, plans=polygons.plans)
+
 
 # -- carried out on a board --------------------------------------------------------------------------------------------
 
 
 def positioned(
-    task: Task, scales: Scales, instrument: Instrument = EXACT, own_values: OwnValues = AS_DRAWN,
+    what: Plan, scales: Scales, instrument: Instrument = EXACT, own_values: OwnValues = AS_DRAWN,
     with_steps: bool = True,
 ) -> Polygons:
     """The position on a board without polygons; its steps, which need no readings, only if they are wanted."""
     board = Board(instrument)
-    triangles = [(inversion, inversion.drawn(board, scales, task.values)) for inversion in task.triangles]
-    values = {**task.values, **{v.key: v.near(task.values[v.key], motion[0]) for v, motion in triangles}}
-    assembly = replace(task.assembly, values=values)
+    triangles = [(inversion, inversion.drawn(board, scales, what.values)) for inversion in what.triangles]
+    values = {**what.values, **{v.key: v.near(what.values[v.key], motion[0]) for v, motion in triangles}}
+    assembly = replace(what.assembly, values=values)
     told_on = board if with_steps else None
-    paper = place(task.opened, task.elements, 1.0 / scales.length, assembly, instrument, told_on)
-    polygons = Polygons(board, task.opened, paper, scales, own_values)
+    paper = place(what.opened, what.elements, 1.0 / scales.length, assembly, instrument, told_on)
+    polygons = Polygons(board, what.opened, paper, scales, own_values)
     polygons.given.update({inversion.key: motion[1:] for inversion, motion in triangles})
-    polygons.at_contacts = task.touching
-    polygons.chains.update(task.chains)
-    polygons.plans.update(task.plans)
+    polygons.at_contacts = what.touching
+    polygons.chains.update(what.chains)
+    polygons.plans.update(what.plans)
     for inversion, motion in triangles:
         for step in inversion.carried_over(motion):
             board.do(step)
@@ -139,35 +193,35 @@ def positioned(
 
 
 def carried_out(
-    task: Task, scales: Scales, instrument: Instrument = EXACT, own_values: OwnValues = AS_DRAWN
+    what: Plan, scales: Scales, instrument: Instrument = EXACT, own_values: OwnValues = AS_DRAWN
 ) -> Polygons:
     """Position and both polygons on a board."""
-    in_order = [*task.in_order]
-    polygons = positioned(task, scales, instrument, own_values)
+    in_order = [*what.in_order]
+    polygons = positioned(what, scales, instrument, own_values)
     for order, element in in_order:
         draw_element(polygons, order, element)
     return polygons
 
 
-def finished(task: Task, polygons: Polygons) -> Sheet:
+def finished(what: Plan, polygons: Polygons) -> Sheet:
     """The board as a sheet, with vectors that only a question needs."""
-    draw_asked(polygons, task.asked)
-    board, limits = polygons.board, task.limits
+    draw_asked(polygons, what.asked)
+    board, limits = polygons.board, what.limits
     groups: dict[LargerGroup, GroupWay] = {}
-    for group in needed(task.structure, task.asked) if task.structure.larger_groups else ():
+    for group in needed(what.structure, what.asked) if what.structure.larger_groups else ():
         if isinstance(group, LargerGroup):
             by_points = group in polygons.plans and not polygons.plans[group].tried
             groups[group] = "special points" if by_points else "superposition"
     if limits:
         from graphkin.construction.position.limits import limits_on_paper
 
-        hand = EXACT if task.triangles else board.instrument
-        limits = limits_on_paper(limits, task.structure, task.elements, task.values, polygons.scales, hand)
+        hand = EXACT if what.triangles else board.instrument
+        limits = limits_on_paper(limits, what.structure, what.elements, what.values, polygons.scales, hand)
     sheet = Sheet(
-        scene=task.structure.scene,
-        structure=task.structure,
+        scene=what.structure.scene,
+        structure=what.structure,
         instrument=board.instrument.name,
-        drivers={d.key: task.values[d.key] for d in task.structure.scene.drivers},
+        drivers={d.key: what.values[d.key] for d in what.structure.scene.drivers},
         scales=polygons.scales,
         poses=dict(polygons.paper.poses),
         points={PointRef(p): z for p, z in polygons.places.items()},
@@ -179,12 +233,12 @@ def finished(task: Task, polygons: Polygons) -> Sheet:
         equations=tuple(board.equations),
         assembly=board.assembly,
         noticed=tuple(board.noticed),
-        left_out=task.left_out,
+        left_out=what.left_out,
         groups=groups,
         causes=tuple(board.causes) if board.instrument.acts else (),
-        asked=task.asked,
-        acting=task.acting,
-        growing=task.growing,
+        asked=what.asked,
+        acting=what.acting,
+        growing=what.growing,
         trains=polygons.trains,
         limits=limits,
         readings=dict(board.readings),
@@ -205,7 +259,7 @@ class Stages:
     KEPT = 256
 
     def __init__(
-        self, what: Task, scales: Scales, hand: Instrument = EXACT,
+        self, what: Plan, scales: Scales, hand: Instrument = EXACT,
         own_values: Callable[[Own], OwnValues] = lambda _: AS_DRAWN,
     ) -> None:  # fmt: skip
         self.what, self.scales, self.hand, self.own_values = what, scales, hand, own_values
@@ -281,64 +335,6 @@ class Stages:
 # -- planned -----------------------------------------------------------------------------------------------------------
 
 
-NATURAL = Scales(1e-3, 1e-3, 1e-3)  # 1 mm of paper for 1 mm, 1 mm/s, 1 mm/s2
-
-
-@dataclass(frozen=True, kw_only=True)
-class Plan(Task):
-    """A task drawn by exact hands, and the scales of its figures.
-
-    ``exact`` is that construction, once for all figures, at scales of its own.
-    """
-
-    scales: Scales
-    exact: Sheet
-
-    def scales_for(self, room: Room | None) -> Scales:
-        """The scales that fill a room; without one the scene's own if it gives them."""
-        return chosen_scales(self.structure.scene, self.exact.extents, room)
-
-    def with_branches(self, branches: Mapping[int, int]) -> Plan:
-        """The plan in another assembly, at the same scales.  Raises Unsolvable where it cannot be drawn."""
-        other = replace(self, assembly=replace(self.assembly, branches=branches), chains={}, plans={})
-        return replace(_planned(other, None), scales=self.scales)
-
-    def at_contacts(self) -> Plan | None:
-        """The plan with sliding contacts, or rollers, edges and faces of cams, drawn at the contact itself instead of
-        by their replacements, at scales that suit it; None without such contacts, or if one lies in a pivot."""
-        scene = self.structure.scene
-        if not scene.cams:
-            if all(slot.block or slot.bar not in self.exact.poses for slot in scene.slots):
-                return self._touching()
-            poses = {name: pose.scaled(self.exact.scales.length) for name, pose in self.exact.poses.items()}
-            other = _plan(analyse(pins_on_circles(scene, poses, self.values)), self.asked)
-            return other._touching() or other
-        whole = scene.whole
-        barred = any(slot.bar not in whole.by_name for slot in scene.slots)
-        if not barred and not whole.contacts and not any(cam.flat for cam in whole.cams):
-            return None
-        values = {d.key: self.values[d.key] for d in whole.drivers}
-        other = _plan(cams_in_place(analyse(whole), self.asked, values, bars=False), self.asked)
-        return other._touching() or (other if barred else None)
-
-    def _touching(self) -> Plan | None:
-        """The task with its sliding contacts drawn themselves, if it has any."""
-        if not self.structure.scene.contacts:
-            return None
-        touching = {e for e in self.elements if not isinstance(e, Driven) and contacts_of(self.structure, e)}
-        if not touching:
-            return None
-        chains = {dyad: chain for dyad, chain in self.chains.items() if dyad not in touching}
-        other = replace(self, chains=chains, plans={}, touching=True)
-        try:
-            polygons = carried_out(other, NATURAL)
-        except Unsolvable:  # a contact at a pivot, which turns nothing there
-            return None
-        exact = finished(other, polygons)
-        scales = chosen_scales(self.structure.scene, exact.extents, None)
-        return replace(other, exact=exact, scales=scales, chains=polygons.chains, plans=polygons.plans)
-
-
 def plan(
     scene: Mechanism | Structure,
     at: Mapping[str, float] | None = None,
@@ -382,39 +378,39 @@ def _plan(
     here = {d.key: values[d.key] for d in opened.scene.drivers}
     assembly = assembly_at(opened, elements, here, start)
     assembly = replace(assembly, values={**values, **assembly.values})
-    return _planned(Task(structure, opened, asked, elements, assembly, triangles), room)
+    return _planned(Plan(structure, opened, asked, elements, assembly, triangles), room)
 
 
-def _planned(task: Task, room: Room | None) -> Plan:
-    """A task carried out exactly, with the limit positions and the loads that its question needs, and its scales."""
-    polygons = carried_out(task, NATURAL)
-    exact = finished(task, polygons)
-    asked = task.asked
+def _planned(what: Plan, room: Room | None) -> Plan:
+    """A plan carried out exactly, with the limit positions and the loads that its question needs, and its scales."""
+    polygons = carried_out(what, NATURAL)
+    exact = finished(what, polygons)
+    asked = what.asked
     if exact.has_forces:
         from graphkin.construction.forces.position import acting_loads, strokes_of_loads
 
-        asked = (*asked, *strokes_of_loads(task.structure))
+        asked = (*asked, *strokes_of_loads(what.structure))
     if any(symbol.scope == "turn" for symbol in asked):
         from graphkin.construction.position.limits import limits_asked
 
-        size = NATURAL.length / task.structure.scene.size
+        size = NATURAL.length / what.structure.scene.size
         poses = {name: pose.scaled(size) for name, pose in polygons.paper.poses.items()}
-        limits = limits_asked(task.structure, needed(task.structure, task.asked), asked, task.values, poses)
-        task = replace(task, limits=limits)
-        exact = finished(task, polygons)
+        limits = limits_asked(what.structure, needed(what.structure, what.asked), asked, what.values, poses)
+        what = replace(what, limits=limits)
+        exact = finished(what, polygons)
     if exact.has_forces:
-        growing = _growing(task, exact)
-        moves = any(driver.values[1] for driver in task.structure.scene.drivers)
-        task = replace(task, acting=acting_loads(exact, exact if moves else growing[0]), growing=growing)
-        exact = replace(exact, acting=task.acting, growing=task.growing)
-    kept = {f.name: getattr(task, f.name) for f in fields(Task)} | {"chains": polygons.chains, "plans": polygons.plans}
-    return Plan(**kept, scales=chosen_scales(task.structure.scene, exact.extents, room), exact=exact)
+        growing = _growing(what, exact)
+        moves = any(driver.values[1] for driver in what.structure.scene.drivers)
+        what = replace(what, acting=acting_loads(exact, exact if moves else growing[0]), growing=growing)
+        exact = replace(exact, acting=what.acting, growing=what.growing)
+    scales = chosen_scales(what.structure.scene, exact.extents, room)
+    return replace(what, chains=polygons.chains, plans=polygons.plans, scales=scales, made=exact)
 
 
-def _growing(task: Task, here: Sheet) -> tuple[Sheet, ...]:
+def _growing(what: Plan, here: Sheet) -> tuple[Sheet, ...]:
     """The position with each driver's value alone growing at a unit rate, unless a single driver's motion is drawn
     already."""
-    scene = task.structure.scene.whole
+    scene = what.structure.scene.whole
     if len(scene.drivers) == 1 and scene.drivers[0].values[1]:
         return ()
     made = []

@@ -21,7 +21,7 @@ import numpy as np
 
 from graphkin.construction.board.instruments import EXACT, Instrument
 from graphkin.construction.board.proportional_division import divide
-from graphkin.construction.board.scales import Extent, fitting_scale
+from graphkin.construction.board.scales import fitting_scale
 from graphkin.construction.board.steps import Bar, Order, Step, Superposed
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot, unit
@@ -383,10 +383,10 @@ def _scaled(plan: TrainPlan, rough: TrainPlan, units: float) -> TrainPlan:
     high = max(max(h) - min(h) for h in ([s.height for s in line.spots] for line in rough.on))
     speeds = [[0.0, *(v for (j, _), v in rough.velocities.items() if j == i)] for i in range(len(rough.on))]
     wide, turns = max(max(v) - min(v) for v in speeds), [0.0, *(line.value for line in rough.lines.values())]
-    length = fitting_scale(Extent(0.0, high), (1.0, HIGH), 1.0 / units) * units
-    speed = fitting_scale(Extent(wide, 0.0), (WIDE, 1.0), 1.0 / units) * units
-    fits = fitting_scale(Extent(max(turns) - min(turns), 0.0), (FOOT, 1.0), 1.0)
-    tall = fitting_scale(Extent(speed / length, 0.0), (POLE, 1.0), 1.0)
+    length = fitting_scale((0.0, high), (1.0, HIGH), 1.0 / units) * units
+    speed = fitting_scale((wide, 0.0), (WIDE, 1.0), 1.0 / units) * units
+    fits = fitting_scale((max(turns) - min(turns), 0.0), (FOOT, 1.0), 1.0)
+    tall = fitting_scale((speed / length, 0.0), (POLE, 1.0), 1.0)
     return replace(plan, length=length, speed=speed, turning=max(fits, tall) if wide else 1.0)
 
 

@@ -134,7 +134,7 @@ def _sharing(whole: Plan, paper: Paper, wished: Mapping[str, float | None]) -> P
 def _sizes(what: Plan) -> list[tuple[float, float]]:
     """Width and height (mm) of the mechanism and of both polygons."""
     pairs = ((what.exact.extents[diagram], what.scales.of(diagram)) for diagram in DIAGRAMS)
-    return [(extent.width / per, extent.height / per) for extent, per in pairs]
+    return [(width / per, height / per) for (width, height), per in pairs]
 
 
 def _share(what: Plan, paper: Paper) -> bool:

@@ -26,30 +26,27 @@ def next_of_series(least: float) -> float:
     return float(f"{next(fit, 10.0 * decade):.12g}")
 
 
-@dataclass(frozen=True)
-class Extent:
-    """Width and height of a figure's content (m, m/s, m/s2)."""
-
-    width: float
-    height: float
-
-    @staticmethod
-    def around(points: Iterable[complex], per_mm: float) -> Extent:
-        """The extent of points on paper (mm) at a scale; empty without points."""
-        spots = list(points)
-        if not spots:
-            return Extent(0.0, 0.0)
-        x, y = [z.real for z in spots], [z.imag for z in spots]
-        return Extent((max(x) - min(x)) * per_mm, (max(y) - min(y)) * per_mm)
-
-    def least_scale(self, room: tuple[float, float]) -> float:
-        """The scale (m, m/s, m/s2 for one mm) at which it just fits a width and height (mm)."""
-        return max(self.width / room[0], self.height / room[1])
+Rectangle = tuple[float, float]
+"""Width and height: of a figure's content (m, m/s, m/s2), or of a room on paper (mm)."""
 
 
-def fitting_scale(extent: Extent, room: tuple[float, float], units: float) -> float:
+def extent_of(points: Iterable[complex], per_mm: float) -> Rectangle:
+    """The extent of points on paper (mm) at a scale (units for one mm); empty without points."""
+    spots = list(points)
+    if not spots:
+        return 0.0, 0.0
+    x, y = [z.real for z in spots], [z.imag for z in spots]
+    return (max(x) - min(x)) * per_mm, (max(y) - min(y)) * per_mm
+
+
+def least_scale(extent: Rectangle, room: Rectangle) -> float:
+    """The scale (m, m/s, m/s2 for one mm) at which an extent just fits a room (mm)."""
+    return max(extent[0] / room[0], extent[1] / room[1])
+
+
+def fitting_scale(extent: Rectangle, room: Rectangle, units: float) -> float:
     """The finest scale of the series (units for one mm) at which an extent fits the room; 1 if it has no size."""
-    least = extent.least_scale(room) * units
+    least = least_scale(extent, room) * units
     if not math.isfinite(least) or least <= 0.0:
         return 1.0
     return next_of_series(least)
@@ -85,14 +82,14 @@ class Room:
     that holds them.
     """
 
-    mechanism: tuple[float, float] = (150.0, 150.0)
-    polygon: tuple[float, float] = (140.0, 140.0)
+    mechanism: Rectangle = (150.0, 150.0)
+    polygon: Rectangle = (140.0, 140.0)
     others: tuple[Room, ...] = ()
     cost: float = 0.0
     keeps_wishes: bool = False
 
 
-def chosen_scales(scene: Mechanism, extents: Mapping[Diagram, Extent], room: Room | None) -> Scales:
+def chosen_scales(scene: Mechanism, extents: Mapping[Diagram, Rectangle], room: Room | None) -> Scales:
     """The scene's own scales, and for those it does not give the finest of the series that fit the room."""
     fast = scene.units.rates.metres
     sheet = scene.question.sheet
@@ -105,7 +102,7 @@ def chosen_scales(scene: Mechanism, extents: Mapping[Diagram, Extent], room: Roo
         for name, wish in zip(DIAGRAMS, wishes, strict=True):
             most, unit = (part.mechanism, scene.units.metres) if name == "mechanism" else (part.polygon, fast)
             if wish is not None and (room is None or space.keeps_wishes):
-                if room is None or wish * (1 + 1e-9) >= extents[name].least_scale(most):
+                if room is None or wish * (1 + 1e-9) >= least_scale(extents[name], most):
                     scales.append(wish)
                     continue
                 cost += UNMET

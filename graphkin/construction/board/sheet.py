@@ -15,7 +15,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
 from graphkin.construction.board.instruments import EXACT_NAME, Instrument
-from graphkin.construction.board.scales import Extent, Room, Scales, chosen_scales
+from graphkin.construction.board.scales import Rectangle, Room, Scales, chosen_scales, extent_of
 from graphkin.construction.board.steps import (
     ORDERS,
     Bar,
@@ -345,7 +345,7 @@ class Sheet:
                     yield from (z for bar in step.strokes if isinstance(bar, Bar) for z in (bar.a, bar.b))
 
     @cached_property
-    def extents(self) -> dict[Diagram, Extent]:
+    def extents(self) -> dict[Diagram, Rectangle]:
         """Width and height of the mechanism and of both polygons, poles included, by which scales are chosen: without
         special points, with vectors seen from held links, with trial polygons and carried vectors slightly smaller."""
         places = [z for ref, z in self.points.items() if ref.point not in self.serving]
@@ -353,25 +353,24 @@ class Sheet:
             per = 1.0 / self.scales.length
             places += (z for outline in outlines_on_paper(self.scene, self.poses, per).values() for z in outline)
             places += Touching(self.scene, per, self.poses).outermost()
-        extents: dict[Diagram, Extent] = {"mechanism": Extent.around(places, self.scales.length)}
+        extents: dict[Diagram, Rectangle] = {"mechanism": extent_of(places, self.scales.length)}
         for order in ORDERS:
             drawn = [*self.vectors(order).values(), *self.vectors_seen(order)]
             ends, further = (
                 [z for v in some for z in (v.tail, v.tip)] for some in (drawn, self.trials(order))
             )
             true, every = (
-                Extent.around([0j, *points], self.scales.of(order))
+                extent_of([0j, *points], self.scales.of(order))
                 for points in (ends, [*ends, *further, *self.carried(order)])
             )
-            width, height = max(true.width, every.width / INTO_MARGIN), max(true.height, every.height / INTO_MARGIN)
-            extents[order] = Extent(width, height)
+            extents[order] = max(true[0], every[0] / INTO_MARGIN), max(true[1], every[1] / INTO_MARGIN)
         return extents
 
     @property
     def drawn_sizes(self) -> tuple[tuple[float, float], ...]:
         """Width and height (mm) of the mechanism and of both polygons as they are drawn."""
         pairs = ((self.extents[name], self.scales.of(name)) for name in DIAGRAMS)
-        return tuple((extent.width / per, extent.height / per) for extent, per in pairs)
+        return tuple((width / per, height / per) for (width, height), per in pairs)
 
     def scales_for(self, room: Room) -> Scales:
         """The finest scales of the series at which it fits a room."""

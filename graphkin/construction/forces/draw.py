@@ -20,7 +20,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from graphkin.construction.board.instruments import EXACT, Instrument
-from graphkin.construction.board.scales import Extent, fitting_scale
+from graphkin.construction.board.scales import extent_of, fitting_scale
 from graphkin.construction.board.sheet import Reading, Sheet
 from graphkin.construction.forces.force_sheet import ForceSheet, ForceState, ForceVector, Lever, MomentTerm
 from graphkin.construction.forces.groups import NORMAL, TANGENT, CutFree, at_driver, of_dyad, of_larger_group
@@ -62,9 +62,9 @@ def force_scale(sheet: Sheet) -> float:
         return wish * newtons
     whole = _drawn(sheet, EXACT, 1.0)
     polygons = [p for state in whole.states for group in state.groups for p in group.polygons]
-    extents = [Extent.around([z for v in p for z in (v.tail, v.tip)], 1.0) for p in polygons if p]
-    width, height = (max((getattr(e, name) for e in extents), default=0.0) for name in ("width", "height"))
-    return fitting_scale(Extent(width, height), ROOM, 1.0 / newtons) * newtons
+    extents = [extent_of([z for v in p for z in (v.tail, v.tip)], 1.0) for p in polygons if p]
+    largest = max((wide for wide, _ in extents), default=0.0), max((high for _, high in extents), default=0.0)
+    return fitting_scale(largest, ROOM, 1.0 / newtons) * newtons
 
 
 def _drawn(sheet: Sheet, hand: Instrument, per_mm: float) -> ForceSheet:

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 
 from graphkin.account.headings import number, term, written
 from graphkin.checking.closed_form import FoundLength
-from graphkin.construction.board.scales import Extent, fitting_scale
+from graphkin.construction.board.scales import extent_of, fitting_scale
 from graphkin.construction.cam_sheet import CamSheet, cam_sheet
 from graphkin.construction.synthesis import DesignSheet, DesignStroke
 from graphkin.construction.touching import CamStation
@@ -90,7 +90,7 @@ def design_scale(design: Design, natural: DesignSheet) -> float:
     if design.sheet.length_scale:
         return design.sheet.length_scale / (design.units.metres * 1e3)
     box = _content(natural)
-    return fitting_scale(Extent(box.width, box.height), PANEL, natural.scale)
+    return fitting_scale((box.width, box.height), PANEL, natural.scale)
 
 
 def _content(sheet: DesignSheet) -> Box:
@@ -345,7 +345,7 @@ def scaled_cam(scene: Mechanism, cam: LawCam) -> CamSheet:
     far += [d.line for d in natural.divisions] if cam.turns else []
     room = CAM_PANEL[0] - 2 * PAST - 8.0, CAM_PANEL[1] - 2 * PAST - 8.0
     per = scene.units.metres
-    return cam_sheet(cam, fitting_scale(Extent.around(far, 1.0), room, natural.scale / per) * per)
+    return cam_sheet(cam, fitting_scale(extent_of(far, 1.0), room, natural.scale / per) * per)
 
 
 def cam_figure(scene: Mechanism, sheet: CamSheet, notes: Sequence[Phrase], language: str) -> Drawing:
@@ -429,7 +429,7 @@ def _diagram(scene: Mechanism, sheet: CamSheet, language: str, begun: bool = Fal
     span, low = _lift(scene, cam, law.greatest - law.least) or 1.0, _lift(scene, cam, law.least)
     rise = (law.greatest - law.least) / sheet.scale
     same = not cam.turns and HIGH[0] <= rise <= HIGH[1]
-    per = span / rise if same else fitting_scale(Extent(span, span), (HIGH[1], HIGH[1]), 1.0)
+    per = span / rise if same else fitting_scale((span, span), (HIGH[1], HIGH[1]), 1.0)
     left, floor = 5.0, span / per + 6.0
     origin, top = complex(left, floor), complex(left, floor - span / per)
 
