@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 from graphkin.api.arguments import At, as_scene, asked_here, drawn_symbols, hand_of, placed, value_at
 from graphkin.api.results import OfScene, Result, named
-from graphkin.checking.readings import read_off
-from graphkin.checking.report import Compared, ReadValue, Report, compare, reading_row, rounding_of, without_residues
+from graphkin.checking.readings import report_on
+from graphkin.checking.report import Compared, ReadValue, Report, reading_row, without_residues
 from graphkin.construction import EXACT, Instrument, Plan, Sheet, execute, plan
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
@@ -24,7 +24,6 @@ from graphkin.words import Phrase, say
 if TYPE_CHECKING:
     from graphkin.checking.uncertainty import Advice
     from graphkin.construction.centres import Centres
-    from graphkin.construction.forces import ForceSheet
     from graphkin.solver import Motion
     from graphkin.table import Table
 
@@ -38,11 +37,10 @@ _FORMS = {
 class Checked(OfScene, Result):
     """A drawing, its readings, and their comparison with the exact values.
 
-    ``advice`` names the least certain reading of a drawing with finite tools, and its remedy; ``asked`` are the
-    quantities to which the drawing was limited, empty for all; ``passed`` are the change points on the path to it;
-    ``at_contacts`` is the drawing with sliding contacts drawn at the contact itself, if exact hands have drawn it so;
-    ``over_turn`` are asked values of the whole turn that belong to no single position, as they are computed; ``forces``
-    are drawn by the same hands, None where there is neither mass nor load, or no force is asked for.
+    ``advice`` names the least certain reading of a drawing with finite tools, and its remedy; ``passed`` are the change
+    points on the path to it; ``at_contacts`` is the drawing with sliding contacts drawn at the contact itself, if exact
+    hands have drawn it so; ``over_turn`` are asked values of the whole turn that belong to no single position, as they
+    are computed.
     """
 
     table_file = "readings.csv"
@@ -50,10 +48,8 @@ class Checked(OfScene, Result):
     sheet: Sheet
     report: Report
     advice: Advice | None = None
-    asked: tuple[Symbol, ...] = ()
     passed: tuple[ChangePoint, ...] = ()
     over_turn: Mapping[Symbol, float] = field(default_factory=dict)
-    forces: ForceSheet | None = None
     at_contacts: Checked | None = None
 
     @property
@@ -63,7 +59,7 @@ class Checked(OfScene, Result):
     @cached_property
     def part(self) -> Mechanism:
         """The part of the scene that leads to the asked quantities."""
-        return part_of(self.sheet.structure, self.asked)
+        return part_of(self.sheet.structure, self.sheet.asked)
 
     @property
     def ok(self) -> bool:
@@ -125,9 +121,9 @@ class Checked(OfScene, Result):
     def _construction(self) -> dict[str, Json]:
         """The construction of groups larger than a dyad: a word for all of them, and each by itself."""
         groups, forces = self.sheet.groups, dict[str, Json]()
-        if self.forces is not None:
+        if self.report.forces is not None:
             forces = {"forces": ["drawn system" if way == "drawn system" else "moments and polygon"
-                                 for way in self.forces.ways if way != "driver"]}  # fmt: skip
+                                 for way in self.report.forces.ways if way != "driver"]}  # fmt: skip
         if not groups:
             return forces
         ways = ", ".join(dict.fromkeys(groups.values()))
@@ -145,7 +141,7 @@ class Checked(OfScene, Result):
         """The instant centres of the part that leads to the asked quantities, which give velocities in a third way."""
         from graphkin.construction.centres import centres_on
 
-        return centres_on(self.sheet, self.asked)
+        return centres_on(self.sheet, self.sheet.asked)
 
     @property
     def _by_other_ways(self) -> Mapping[str, Mapping[Symbol, float]]:
@@ -159,11 +155,10 @@ class Checked(OfScene, Result):
         }
         found = {"by_centres": {s: abs(v) if s.kind == "v" else v.real + 0.0
                                 for s, v in velocities.items() if v is not None}}  # fmt: skip
-        balances = [s for s in symbols if s.scope == "force"] if self.forces is not None else []
-        for symbol in balances:
-            assert self.forces is not None
+        states = self.report.forces.states if self.report.forces is not None else ()
+        for symbol in symbols if states else ():
             balance = replace(symbol, plus=False, at="")
-            for lever in self.forces.states[-1 if symbol.plus else 0].levers:
+            for lever in states[-1 if symbol.plus else 0].levers:
                 if lever.unknown.symbol == balance:
                     size = lever.value if balance.kind == "M" else abs(lever.value)
                     found.setdefault("by_lever", {}).setdefault(symbol, 0.0 + size)
@@ -218,32 +213,23 @@ def check(
 def checked(what: Plan, motion: Motion, hand: Instrument, at_contacts: bool = True) -> Checked:
     """Draw a plan and compare all its readings with the solver at the same position; sliding contacts also at the
     contact itself, by the same hands on another sheet."""
-    from graphkin.solver.values import as_drawn, exact_values, forces_here
+    from graphkin.solver.values import exact_values
 
     other, again = what.at_contacts() if at_contacts else None, hand if hand is EXACT else deepcopy(hand)
     sheet = execute(what, hand)
-    exact = as_drawn(motion, what.structure)
-    value = exact_values(exact, what.asked)
-    scale, lost, forces = 0.0, 0.0, None
-    if sheet.has_forces:
-        from graphkin.construction.forces import forces_on
-
-        lost = float(forces_here(exact).bound[0][0])
-        forces = forces_on(sheet, hand)
-        scale = forces.per_mm
-    turning = {s: float(value(s).real) for s in what.asked if s.scope == "cycle"}
-    readings = read_off(sheet, (), hand, forces)
-    predicted = advice = None
-    if hand is not EXACT:
+    if hand is EXACT:
+        report, advice = report_on(sheet, motion), None
+    else:
         from graphkin.checking.uncertainty import advise, predict
 
-        tools = what.structure.scene.question.sheet.tools
+        tools = sheet.scene.question.sheet.tools
         predicted = predict(what, hand.name, tools)
-        advice = advise(what, hand.name, tools, readings, predicted)
-    values = {r.symbol: value(r.symbol) for r in readings}
-    report = compare(sheet, readings, values.__getitem__, what.asked, predicted, rounding_of(exact, lost), scale)
+        report = report_on(sheet, motion, hand, predicted)
+        advice = advise(what, hand.name, tools, [row.reading for row in report.rows], predicted)
+    value = exact_values(motion)
+    over_turn = {s: float(value(s).real) for s in sheet.asked if s.scope == "cycle"}
     there = None if other is None else checked(other, motion, again, at_contacts=False)
-    return Checked(sheet, report, advice, what.asked, motion.passed, turning, forces, there)
+    return Checked(sheet, report, advice, motion.passed, over_turn, there)
 
 
 def with_elsewhere(made: Checked, asked: Sequence[Symbol], seed: int = 0) -> Checked:

@@ -188,7 +188,9 @@ def _centres(drawn: Drawn) -> tuple[Any, ...]:
 
 def _forces(drawn: Drawn) -> tuple[Any, ...] | None:
     whole = drawn.with_forces
-    return None if whole is None or whole.forces is None else (whole.sheet, whole.forces, whole.report)
+    if whole is None or whole.report.forces is None:
+        return None
+    return whole.sheet, whole.report.forces, whole.report
 
 
 def _positions(drawn: Drawn) -> tuple[Any, ...]:

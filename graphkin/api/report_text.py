@@ -79,12 +79,12 @@ def report_text(checked: Checked, language: str) -> str:
 
 def _forces(checked: Checked, language: str) -> list[str]:
     """The construction of the forces, group by group, with the reason of each step."""
-    if checked.forces is None:
+    if checked.report.forces is None:
         return []
     from graphkin.account.forces import ForceAccount
     from graphkin.account.notation import letters_of
 
-    sheet, forces = checked.sheet, checked.forces
+    sheet, forces = checked.sheet, checked.report.forces
     account = ForceAccount(sheet, forces, letters_of(sheet, sheet.scene.question.sheet.convention))
     per = f"1 mm = {checked.scales['force']:g} {sheet.scene.units.force}"
     lines = [word("forces", language), per]
@@ -102,9 +102,9 @@ def _forces(checked: Checked, language: str) -> list[str]:
 def lever_lines(checked: Checked, language: str) -> list[str]:
     """The balancing load by Zhukovsky's lever, beside that of the polygons."""
     lines = []
-    units = checked.mechanism.units
-    rows = {str(row.symbol): row for row in checked.report.rows}
-    for number, state in enumerate(checked.forces.states if checked.forces else ()):
+    units, report = checked.mechanism.units, checked.report
+    rows = {str(row.symbol): row for row in report.rows}
+    for number, state in enumerate(report.forces.states if report.forces else ()):
         for lever in state.levers:
             balance = lever.unknown.symbol
             row = rows.get(f"{balance}+" if number else "", rows.get(str(balance)))

@@ -311,7 +311,7 @@ def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
 
 def _force_steps(drawn: Drawn, letters: Letters, spoken: str) -> list[dict[str, Json]]:
     """The steps by which the forces are found, behind those of the motion."""
-    forces = drawn.checked.forces
+    forces = drawn.checked.report.forces
     if forces is None:
         return []
     sheet = replace(drawn.checked.sheet, scales=replace(drawn.checked.sheet.scales, force=forces.per_mm))

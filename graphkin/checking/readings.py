@@ -1,4 +1,5 @@
-"""Readings from a drawing: lengths on paper times scale factors, and angles from the drawn ends."""
+"""Readings from a drawing: lengths on paper times scale factors, and angles from the drawn ends; and the report of a
+drawing, all its readings beside the exact values."""
 
 from __future__ import annotations
 
@@ -8,18 +9,22 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from graphkin.checking.report import Report, compare
 from graphkin.construction.board.instruments import EXACT, Instrument
 from graphkin.construction.board.sheet import MOST_LOST, Reading, Sheet, either_way
 from graphkin.construction.board.steps import DiagramName, Vector
 from graphkin.construction.position.links_on_paper import travel
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.symbol import PointRef, Symbol, centre_links
+from graphkin.solver.values import as_drawn, exact_values, rounding_of
 from graphkin.structure.transmission import joint_between, joint_of_follower, sliding_pair
 from graphkin.words import Phrase, joined
 
 if TYPE_CHECKING:
+    from graphkin.checking.uncertainty import Uncertainty
     from graphkin.construction.centres import Centres
     from graphkin.construction.forces import ForceSheet
+    from graphkin.solver import Motion
 
 Place = Callable[[str], complex | None]
 Measured = tuple[float | None, float]
@@ -71,6 +76,31 @@ def read_off(
     if not asked:
         return tuple(readings.values())
     return tuple(readings[s] for s in asked if s in readings)
+
+
+def report_on(
+    sheet: Sheet, motion: Motion, hand: Instrument = EXACT, predicted: Mapping[Symbol, Uncertainty] | None = None
+) -> Report:
+    """The report of a drawing: its forces drawn and all of it measured by the hand that drew it, beside the motion that
+    is solved at its position.
+
+    Parameters
+    ----------
+    predicted : as for `compare`
+
+    Raises
+    ------
+    Unsolvable : "dead point": the balance does no work
+    """
+    forces, motion = None, as_drawn(motion, sheet.structure)
+    rounding = rounding_of(motion, sheet.has_forces)
+    if sheet.has_forces:
+        from graphkin.construction.forces import forces_on
+
+        forces = forces_on(sheet, hand)
+    readings, exact = read_off(sheet, (), hand, forces), exact_values(motion, sheet.asked)
+    values = {reading.symbol: exact(reading.symbol) for reading in readings}
+    return compare(sheet, readings, values.__getitem__, sheet.asked, predicted, rounding, forces)
 
 
 def _one_vector(sheet: Sheet) -> dict[Symbol, Symbol]:

@@ -8,27 +8,25 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from graphkin.construction.board.scales import Scales
 from graphkin.construction.board.sheet import Reading, Sheet, greatest_before
 from graphkin.construction.board.steps import DiagramName, phrase_of
-from graphkin.errors import CallError, Disagreement, Problem
+from graphkin.errors import Disagreement, Problem
 from graphkin.files import Json
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.scene.tables import Unit, Units
 from graphkin.solver.motion import SLIGHT
-from graphkin.structure import by_drivers_alone, links_for
+from graphkin.solver.values import Lost, Rounding
+from graphkin.structure import by_drivers_alone
 from graphkin.words import Phrase, say
 from graphkin.words.written import MOST, ROUNDED, amount, computed, figures, on_paper, product
 
 if TYPE_CHECKING:
     from graphkin.checking.uncertainty import Uncertainty
+    from graphkin.construction.forces import ForceSheet
     from graphkin.scene.model import Mechanism
-    from graphkin.solver import Motion
-    from graphkin.solver.algebra.pose import Array
 
 EXACT_TOLERANCE = 1e-9
 ROUNDING = 1e-14
@@ -43,20 +41,6 @@ RESIDUE = 1e-6  # of what a deviation may be: what is smaller, rounding leaves
 TURNED = 1e-12  # rad, likewise
 
 Exact = Callable[[Symbol], complex | float]
-
-
-class Lost(NamedTuple):
-    """The rounding errors of the places and vectors that lead to a quantity (m, m/s, m/s2, N); ``slight`` where they
-    are so small beside the motion of the drivers that a value below them is 0."""
-
-    mechanism: float = 0.0
-    velocity: float = math.inf
-    acceleration: float = math.inf
-    force: float = 0.0
-    slight: bool = True
-
-
-Rounding = Callable[[Symbol], Lost]
 
 
 @dataclass(frozen=True)
@@ -119,12 +103,14 @@ class Compared:
 
 @dataclass(frozen=True)
 class Report:
-    """All compared readings of a drawing.  ``missing`` are asked symbols that the drawing does not reach."""
+    """All compared readings of a drawing.  ``missing`` are asked symbols that the drawing does not reach; ``forces``
+    are drawn by the same hands, None where there is neither mass nor load, or no force is asked for."""
 
     instrument: str
     scales: Scales
     rows: tuple[Compared, ...]
     missing: tuple[Symbol, ...] = ()
+    forces: ForceSheet | None = None
 
     @property
     def ok(self) -> bool:
@@ -151,33 +137,6 @@ class Report:
         return tuple(row.symbol for row in self.rows if row.ok is None)
 
 
-def rounding_of(motion: Motion, forces: float = 0.0) -> Rounding:
-    """The rounding errors of the exact values of one position, as `compare` takes them; ``forces`` are those of forces
-    (N).
-
-    Where they are more than slight beside the motion of the drivers they are given for the links of each quantity: near
-    a dead point of one group the links before it stay certain.
-    """
-    size = motion.structure.scene.size
-    rate, second = (float(driven[0]) for driven in motion.driven)
-
-    def lost(position: Array, velocity: Array, acceleration: Array) -> Lost:
-        place, v, a = float(np.nan_to_num(position[0], posinf=0.0)), float(velocity[0]), float(acceleration[0])
-        return Lost(place, v, a, forces, v <= SLIGHT * rate * size and a <= SLIGHT * second * size)
-
-    whole = lost(motion.bound.position, *motion.rough)
-
-    def of(symbol: Symbol) -> Lost:
-        if whole.slight or symbol.scope == "force":
-            return whole
-        try:
-            return lost(*motion.rough_of(links_for(motion.structure, symbol)))
-        except CallError:  # a special point of the drawing
-            return whole
-
-    return of
-
-
 def compare(
     sheet: Sheet,
     readings: Sequence[Reading],
@@ -185,7 +144,7 @@ def compare(
     asked: Sequence[Symbol] = (),
     predicted: Mapping[Symbol, Uncertainty] | None = None,
     rounding: Rounding | None = None,
-    force_scale: float = 0.0,
+    forces: ForceSheet | None = None,
 ) -> Report:
     """Compare readings with exact values.
 
@@ -197,7 +156,7 @@ def compare(
         size; where the tolerance exceeds a thousandth of that (of a pencil: all of it) the reading is not determined
     rounding : rounding errors of the exact places (m) and vectors of a diagram (m/s, m/s2): very near a dead point they
         exceed 1e-9, and drawing and solver agree no better; smaller values are zero
-    force_scale : N for one mm of the force polygons
+    forces : the drawn forces, of which some of the readings are
     """
     pairs = [(r, exact(r.symbol)) for r in readings]
     row, lost = partial(_row, sheet, predicted), rounding or (lambda symbol: Lost())
@@ -214,8 +173,8 @@ def compare(
 
     rows = tuple(by_scope.get(reading.symbol.scope, place)(reading, value) for reading, value in pairs)
     have = {r.symbol for r in readings}
-    scales = replace(sheet.scales, force=force_scale)
-    return Report(sheet.instrument, scales, rows, tuple(s for s in asked if s not in have))
+    scales = replace(sheet.scales, force=forces.per_mm if forces else 0.0)
+    return Report(sheet.instrument, scales, rows, tuple(s for s in asked if s not in have), forces)
 
 
 def _row(

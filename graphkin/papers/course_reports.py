@@ -24,7 +24,7 @@ from graphkin.papers.blocks import (
     said,
     said_each,
 )
-from graphkin.papers.courses import ClassRow, PlaceValues, Scheme, Student
+from graphkin.papers.courses import Placed, PlaceValues, Scheme, Student
 from graphkin.papers.documents import given, paper_title, results_table, scene_title, solution_blocks
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.paper import Paper, paper_of
@@ -101,19 +101,19 @@ def course_report(
     return Document(title, languages(language), tuple(blocks), paper_of(lesson.sheet.scene))
 
 
-def class_document(lesson: Lesson, rows: Sequence[ClassRow], asked: Sequence[Symbol], unit: str) -> Document:
+def class_document(lesson: Lesson, rows: Sequence[Placed], asked: Sequence[Symbol], unit: str) -> Document:
     """The values of a whole class in one table; letters, units and paper are the lesson's."""
     language = lesson.language
     keys = ["name of student"]
-    cells: list[tuple[str, ...]] = [(row.student.name or "–",) for row in rows]
+    cells: list[tuple[str, ...]] = [(student.name or "–",) for student, _ in rows]
     more = (("course id head", "id"), ("course scheme head", "scheme"), ("course place head", "place"))
     for key, name in more:
-        column = [getattr(row.student, name) for row in rows]
+        column = [getattr(student, name) for student, _ in rows]
         if any(column):
             keys.append(key)
             cells = [(*before, own or "–") for before, own in zip(cells, column, strict=True)]
     plain = [tuple(in_markup(cell) for cell in line) for line in cells]
-    tables = _value_tables(lesson, said_each(language, keys), plain, [row.values for row in rows], asked, unit)
+    tables = _value_tables(lesson, said_each(language, keys), plain, [values for _, values in rows], asked, unit)
     blocks: tuple[Block, ...] = (
         Heading(scene_title(lesson), 1),
         Heading(said("course class", language)),

@@ -8,12 +8,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from graphkin import solver
-from graphkin.checking.readings import read_off
-from graphkin.checking.report import Compared
+from graphkin.checking.readings import read_off, report_on
+from graphkin.checking.report import Report
 from graphkin.construction import execute
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.papers.documents import head_of
-from graphkin.papers.lesson import Lesson, compared, positions
+from graphkin.papers.lesson import positions
 from graphkin.papers.paper import paper_plan
 from graphkin.papers.variants import asked_of
 from graphkin.scene.model import Mechanism
@@ -54,12 +54,8 @@ class PlaceValues:
     exact: Mapping[Symbol, float] = field(default_factory=dict)
 
 
-@dataclass(frozen=True)
-class ClassRow:
-    """A line of the table of a class."""
-
-    student: Student
-    values: PlaceValues
+Placed = tuple[Student, PlaceValues]
+"""A line of the table of a class."""
 
 
 @dataclass(frozen=True)
@@ -95,24 +91,26 @@ def scheme_of(name: str, scene: Mechanism, asked: Sequence[Symbol], count: int) 
     for place, value in drivers.items():
         try:
             motion = solved_here(structure, {key: value})
-            sheet = execute(paper_plan(structure, {key: value}, shown))
-            lesson = compared(sheet, motion, "en", "chinese", shown)
-            lesson.report.must_agree(scene)
-            places[place] = read_at(place, value, lesson, shown)
+            report = report_on(execute(paper_plan(structure, {key: value}, shown)), motion)
+            report.must_agree(scene)
+            places[place] = read_at(place, value, scene, report, shown)
         except Unsolvable:
             places[place] = PlaceValues(place, scene.unit_of(scene.drivers[0]).of(value))
     return Scheme(name, scene, shown, drivers, places)
 
 
-def read_at(place: str, value: float, lesson: Lesson, asked: Sequence[Symbol]) -> PlaceValues:
-    """The readings at a position, in scene units."""
-    rows = [row for row in lesson.report.rows if row.symbol in asked]
-    read = {row.symbol: value_read(lesson, row) for row in rows}
-    exact = {
-        row.symbol: lesson.in_unit(row.symbol, abs(row.true) if row.symbol.is_vector else float(row.true.real))
-        for row in rows
-    }
-    return PlaceValues(place, lesson.sheet.scene.unit_of(lesson.sheet.scene.drivers[0]).of(value), read, exact)
+def read_at(
+    place: str, value: float, scene: Mechanism, report: Report, asked: Sequence[Symbol]
+) -> PlaceValues:
+    """The readings at a position, in scene units; 0 where the exact value is rounding alone."""
+    read, exact = dict[Symbol, float](), dict[Symbol, float]()
+    for row in report.rows:
+        symbol, unit = row.symbol, row.symbol.unit(scene.units)
+        if symbol in asked:
+            drawn, true = (abs(v) if symbol.is_vector else float(v.real) for v in (row.reading.value, row.true))
+            read[symbol] = float(unit.of(drawn)) if row.true else 0.0
+            exact[symbol] = float(unit.of(true))
+    return PlaceValues(place, scene.unit_of(scene.drivers[0]).of(value), read, exact)
 
 
 def scheme_for(who: Student, course: Mapping[str, Scheme]) -> Scheme:
@@ -192,19 +190,12 @@ def asked_in_tables(scene: Mechanism, asked: Iterable[Symbol]) -> tuple[Symbol, 
     return tuple(s for s in drawn if s.scope == "motion" and s.to is None and s.kind in ("v", "a", "omega", "alpha"))
 
 
-def value_read(lesson: Lesson, row: Compared) -> float:
-    """A reading in the scene's unit: a vector by size, a rate with its sign; zero where it is rounding alone."""
-    value = row.reading.value
-    size = abs(value) if row.symbol.is_vector else float(complex(value).real)
-    return lesson.in_unit(row.symbol, size) if row.true != 0.0 else 0.0
-
-
-def class_table(scene: Mechanism, rows: Sequence[ClassRow], asked: Sequence[Symbol]) -> Table:
+def class_table(scene: Mechanism, rows: Sequence[Placed], asked: Sequence[Symbol]) -> Table:
     heads = ["name", "id", "variant", "position", "at"]
     heads += [head for s in asked for head in (head_of(s, scene.units), f"{s} exact")]
     lines = [
-        (row.student.name, row.student.id, row.student.scheme, row.student.place, row.values.driver,
-         *(v for s in asked for v in (row.values.read.get(s), row.values.exact.get(s))))
-        for row in rows
+        (student.name, student.id, student.scheme, student.place, values.driver,
+         *(v for s in asked for v in (values.read.get(s), values.exact.get(s))))
+        for student, values in rows
     ]  # fmt: skip
     return Table.of(heads, lines, ("", "", "", "", ".9g", *[".9g"] * (2 * len(asked))))

@@ -13,15 +13,15 @@ import numpy as np
 from graphkin import solver
 from graphkin.account.account import Account
 from graphkin.account.notation import Letters, letters_of
-from graphkin.checking.readings import read_off
-from graphkin.checking.report import Compared, Report, compare, rounding_of
+from graphkin.checking.readings import report_on
+from graphkin.checking.report import Compared, Report
 from graphkin.checking.uncertainty import Uncertainty, predict
 from graphkin.construction import Plan, execute, plan
 from graphkin.construction.board.scales import Scales, next_of_series
 from graphkin.construction.board.sheet import Equation, Sheet
 from graphkin.construction.board.steps import DiagramName, Step
 from graphkin.construction.centres import Centres, find_centres
-from graphkin.construction.forces import ForceSheet, force_scale, forces_on
+from graphkin.construction.forces import ForceSheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.parts.polygon import extent
 from graphkin.errors import Unsolvable
@@ -32,7 +32,6 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
 from graphkin.solver.algebra.pose import Array
-from graphkin.solver.values import as_drawn, exact_values, forces_here
 from graphkin.structure import Structure
 from graphkin.words import Phrase
 
@@ -84,7 +83,6 @@ class Lesson:
     tolerance : predicted uncertainty of each reading on a pencil drawing at these scales
     language : "en", "zh" or "both"
     convention : "chinese", "us", "british" or "russian"
-    asked : the asked quantities; empty for all
     centres : the instant centres of the position, for a screen, if they exist
     """
 
@@ -93,7 +91,6 @@ class Lesson:
     tolerance: Mapping[Symbol, Uncertainty]
     language: str
     convention: str
-    asked: tuple[Symbol, ...] = ()
     centres: Centres | None = None
 
     @cached_property
@@ -108,10 +105,10 @@ class Lesson:
     def stages(self) -> tuple[Stage, ...]:
         return stages(self.sheet)
 
-    @cached_property
+    @property
     def forces(self) -> ForceSheet | None:
         """The drawn forces; None where there is neither mass nor load, or no force is asked for."""
-        return forces_on(self.sheet) if self.sheet.has_forces else None
+        return self.report.forces
 
     @cached_property
     def scaled(self) -> Sheet:
@@ -149,8 +146,8 @@ class Lesson:
     def questions(self) -> tuple[Symbol, ...]:
         """The questions for a student: the scene's own, or every absolute vector and every found rate."""
         have = {row.symbol for row in self.report.rows}
-        if self.asked:
-            return tuple(s for s in self.asked if s in have)
+        if self.sheet.asked:
+            return tuple(s for s in self.sheet.asked if s in have)
         return tuple(
             row.symbol
             for row in self.report.rows
@@ -184,20 +181,10 @@ def lesson_of(what: Plan, motion: Motion, language: str, convention: str) -> Les
     ------
     Disagreement : its check finds a value out of tolerance
     """
-    lesson = compared(execute(what), motion, language, convention, what.asked)
-    scene = lesson.sheet.scene
-    lesson.report.must_agree(scene)
-    return replace(lesson, tolerance=predict(what, "pencil", scene.question.sheet.tools))
-
-
-def compared(sheet: Sheet, motion: Motion, language: str, convention: str, asked: tuple[Symbol, ...]) -> Lesson:
-    """The lesson of a sheet, its readings compared with the motion; without tolerances of a pencil."""
-    motion = as_drawn(motion, sheet.structure)
-    exact = exact_values(motion, asked)
-    scale, lost = (force_scale(sheet), float(forces_here(motion).bound[0][0])) if sheet.has_forces else (0.0, 0.0)
-    rounding = rounding_of(motion, lost)
-    report = compare(sheet, read_off(sheet), exact, asked, rounding=rounding, force_scale=scale)
-    return Lesson(sheet, report, {}, language, convention, asked)
+    sheet = execute(what)
+    report = report_on(sheet, motion)
+    report.must_agree(sheet.scene)
+    return Lesson(sheet, report, predict(what, "pencil", sheet.scene.question.sheet.tools), language, convention)
 
 
 def usual_count(scene: Mechanism) -> int:
@@ -259,12 +246,11 @@ def views_of(
     views: list[Lesson] = []
     start = given
     for number, (sheet, here) in enumerate(zip(sheets, centres, strict=True)):
-        motion = solver.solve(structure, at=sheet.drivers)
-        lesson = compared(sheet, motion, language, convention, tuple(asked))
-        if number != given and any(row.ok is False for row in lesson.report.rows):
+        report = report_on(sheet, solver.solve(structure, at=sheet.drivers))
+        if number != given and any(row.ok is False for row in report.rows):
             start -= number < given
         else:
-            views.append(replace(lesson, centres=here))
+            views.append(Lesson(sheet, report, {}, language, convention, here))
     return views, start
 
 

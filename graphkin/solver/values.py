@@ -13,7 +13,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice, pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -29,6 +29,7 @@ from graphkin.solver.cams import cam_angle, cam_at, slip_of
 from graphkin.solver.forces import Action, Forces, actions, balances, forces_of, without_line
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import (
+    SLIGHT,
     Motion,
     contact_normal,
     contact_pressure,
@@ -38,7 +39,7 @@ from graphkin.solver.motion import (
     pitch_point,
 )
 from graphkin.solver.path.driver_range import DriverRange, range_of
-from graphkin.structure import Dyad, LargerGroup, Structure, part_of
+from graphkin.structure import Dyad, LargerGroup, Structure, links_for, part_of
 from graphkin.words import Phrase, Wording, say
 
 
@@ -143,6 +144,52 @@ def forces_here(motion: Motion) -> Forces:
                                                "move the driver or ask for the motion alone"))
     motion.kept["forces here"] = forces
     return forces
+
+
+class Lost(NamedTuple):
+    """The rounding errors of the places and vectors that lead to a quantity (m, m/s, m/s2, N); ``slight`` where they
+    are so small beside the motion of the drivers that a value below them is 0."""
+
+    mechanism: float = 0.0
+    velocity: float = math.inf
+    acceleration: float = math.inf
+    force: float = 0.0
+    slight: bool = True
+
+
+Rounding = Callable[[Symbol], Lost]
+
+
+def rounding_of(motion: Motion, of_forces: bool = False) -> Rounding:
+    """The rounding errors of the exact values at the single position of a motion; those ``of_forces`` where these are
+    compared too.
+
+    Where they are more than slight beside the motion of the drivers they are given for the links of each quantity: near
+    a dead point of one group the links before it stay certain.
+
+    Raises
+    ------
+    Unsolvable : "dead point": the balance does no work
+    """
+    force = float(forces_here(motion).bound[0][0]) if of_forces else 0.0
+    size = motion.structure.scene.size
+    rate, second = (float(driven[0]) for driven in motion.driven)
+
+    def lost(position: Array, velocity: Array, acceleration: Array) -> Lost:
+        place, v, a = float(np.nan_to_num(position[0], posinf=0.0)), float(velocity[0]), float(acceleration[0])
+        return Lost(place, v, a, force, v <= SLIGHT * rate * size and a <= SLIGHT * second * size)
+
+    whole = lost(motion.bound.position, *motion.rough)
+
+    def of(symbol: Symbol) -> Lost:
+        if whole.slight or symbol.scope == "force":
+            return whole
+        try:
+            return lost(*motion.rough_of(links_for(motion.structure, symbol)))
+        except CallError:  # a special point of the drawing
+            return whole
+
+    return of
 
 
 def _of_forces_here(motion: Motion, symbol: Symbol) -> Value:

@@ -9,11 +9,12 @@ import pytest
 
 import graphkin
 from graphkin.checking.readings import read_off
-from graphkin.checking.report import Lost, compare
+from graphkin.checking.report import compare
 from graphkin.checking.uncertainty import Uncertainty
 from graphkin.construction import draft
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
+from graphkin.solver.values import Lost
 from graphkin.words import Phrase
 
 

@@ -34,9 +34,9 @@ def test_one_report_without_a_class_stands_at_the_position_asked_for(tmp_path):
 def test_everyone_has_a_position_of_their_own_and_stands_in_the_table_of_the_class(tmp_path):
     names = _file(tmp_path, "学号,姓名,位置\n1,李华,\n2,王芳,1\n3,=1+1,\n")
     made = graphkin.course_design(SCENE, students=names, find=["v_C"], positions=4, formats=("html",))
-    assert ["2", "1", "3"] == [row.student.place for row in made.rows]
-    for name, row in zip(sorted(n for n in made.files if n[0].isdigit()), made.rows, strict=True):
-        loops = graphkin.draw(SCENE, at=row.values.driver, figures=["loops"]).figures["loops"]
+    assert ["2", "1", "3"] == [student.place for student, _ in made.rows]
+    for name, (_, values) in zip(sorted(n for n in made.files if n[0].isdigit()), made.rows, strict=True):
+        loops = graphkin.draw(SCENE, at=values.driver, figures=["loops"]).figures["loops"]
         numbers = set(re.findall(r"\d+\.\d{3,}", re.sub("<[^>]*>", " ", loops.content("svg").decode())))
         assert numbers
         assert numbers <= set(re.findall(r"\d+\.\d{3,}", made.files[name].decode()))
@@ -53,8 +53,8 @@ def test_the_template_of_a_course_is_read_by_the_audit(tmp_path):
     names = _file(tmp_path, "name\nA\nB\n")
     made = graphkin.course_design(SCENE, students=names, find=["v_C"], positions=2, formats=("html",))
     lines = list(csv.reader(io.StringIO(made.files["answers_template.csv"].decode("utf-8-sig"))))
-    for line, row in zip(lines[1:], made.rows, strict=True):
-        line[4] = f"{next(iter(row.values.exact.values())):.6g}"
+    for line, (_, values) in zip(lines[1:], made.rows, strict=True):
+        line[4] = f"{next(iter(values.exact.values())):.6g}"
     text = "\n".join(",".join(line) for line in lines)
     assert graphkin.audit(SCENE, answers=_file(tmp_path, text, "filled.csv")).ok
 
@@ -64,7 +64,7 @@ def test_schemes_are_dealt_out_one_after_the_other(tmp_path):
     names = _file(tmp_path, "name,scheme\nA,\nB,\nC,\nD,II\n")
     made = graphkin.course_design(SCENE, students=names, rows=rows, find=["v_C"], positions=2, formats=("html",))
     assert [("I", "1"), ("I", "2"), ("II", "1"), ("II", "2")] == [
-        (row.student.scheme, row.student.place) for row in made.rows
+        (student.scheme, student.place) for student, _ in made.rows
     ]
     assert "links.1.length" in made.files["01-A-I-1.html"].decode()
 
@@ -103,6 +103,6 @@ def test_schemes_of_a_course_are_drawn_as_a_set_of_problems_is(tmp_path):
     made = graphkin.course_design(
         SCENE, students=names, find=["v_C"], positions=2, formats=("html",), variants=2, seed=4
     )
-    assert ["01", "01", "02"] == [row.student.scheme for row in made.rows]
+    assert ["01", "01", "02"] == [student.scheme for student, _ in made.rows]
     whole = made.files["01-A-01-1.html"].decode()
     assert all(f'<span lang="en">{head}</span></th>' in whole for head in ("AB", "BC", "h.y"))

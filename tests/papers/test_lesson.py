@@ -5,11 +5,11 @@ from dataclasses import replace
 import pytest
 
 import graphkin
-from graphkin.api import checked
+from graphkin.checking import readings
 from graphkin.checking.readings import read_off
 from graphkin.construction import execute, plan
 from graphkin.construction.centres import find_centres
-from graphkin.papers import courses, lesson
+from graphkin.papers import lesson
 from graphkin.papers.lesson import usual_count
 from graphkin.scene import mechanism_of
 from graphkin.structure import analyse
@@ -44,8 +44,7 @@ def misread(monkeypatch):
     def wrong(reading):
         return replace(reading, value=-reading.value) if str(reading.symbol) == "omega_3" else reading
 
-    for room in (lesson, checked, courses):
-        monkeypatch.setattr(room, "read_off", lambda *given: [wrong(reading) for reading in read_off(*given)])
+    monkeypatch.setattr(readings, "read_off", lambda *given: [wrong(reading) for reading in read_off(*given)])
 
 
 @pytest.mark.parametrize(
@@ -86,11 +85,11 @@ def test_positions_of_the_screen_whose_check_fails_are_left_out(monkeypatch):
     whole, start = lesson.views_of(structure, None, (), "en", "us", paper, 4)
     missed = {whole[k].sheet.drivers[key] for k in (0, start + 1)}
 
-    def wrong(sheet):
+    def wrong(sheet, *others):
         off = 1.01 if sheet.drivers[key] in missed else 1.0
-        return [replace(reading, value=off * reading.value) for reading in read_off(sheet)]
+        return [replace(reading, value=off * reading.value) for reading in read_off(sheet, *others)]
 
-    monkeypatch.setattr(lesson, "read_off", wrong)
+    monkeypatch.setattr(readings, "read_off", wrong)
     kept, now = lesson.views_of(structure, None, (), "en", "us", paper, 4)
     assert whole[start].sheet.drivers == kept[now].sheet.drivers
     assert (start - 1, len(whole) - 2) == (now, len(kept))

@@ -29,7 +29,7 @@ from graphkin.jobs import Progress
 from graphkin.papers.blocks import Picture, Plate
 from graphkin.papers.course_reports import Figures, class_document, course_report, on_paper, plate
 from graphkin.papers.courses import (
-    ClassRow,
+    Placed,
     Student,
     class_table,
     dealt_out,
@@ -57,7 +57,7 @@ class CourseDesigns(OfScene, Result):
     """
 
     mechanism: Mechanism
-    rows: tuple[ClassRow, ...]
+    rows: tuple[Placed, ...]
     asked: tuple[Symbol, ...]
     content: Mapping[str, bytes]
     agrees: bool
@@ -77,11 +77,11 @@ class CourseDesigns(OfScene, Result):
     def data(self) -> dict[str, Json]:
         """The table for programs, in scene units."""
         students: list[dict[str, Json]] = [
-            {"name": row.student.name, "id": row.student.id, "variant": row.student.scheme,
-             "position": row.student.place, "at": row.values.driver,
-             "values": {str(s): row.values.read.get(s) for s in self.asked},
-             "exact": {str(s): row.values.exact.get(s) for s in self.asked}}
-            for row in self.rows
+            {"name": student.name, "id": student.id, "variant": student.scheme,
+             "position": student.place, "at": values.driver,
+             "values": {str(s): values.read.get(s) for s in self.asked},
+             "exact": {str(s): values.exact.get(s) for s in self.asked}}
+            for student, values in self.rows
         ]  # fmt: skip
         return {"ok": self.ok, "students": students}
 
@@ -162,7 +162,7 @@ def course_design(
     else:
         dealt = [(who, scheme_for(who, course).values(who.place)) for who in dealt_out(students, course)]
     content: dict[str, bytes] = {}
-    lines, agrees, shared = [], True, dict[str, dict[str, Figures]]()
+    lines, agrees, shared = list[Placed](), True, dict[str, dict[str, Figures]]()
     lesson = None
     for k, (who, values) in enumerate(dealt):
         scheme = scheme_for(who, course)
@@ -174,8 +174,8 @@ def course_design(
             shared[scheme.name] = _figures(scheme.scene, spoken, letters)
         asked = scheme.asked
         stands = lesson.sheet.drivers[scheme.scene.drivers[0].key]
-        place = scheme.places[who.place] if who.place in scheme.places else read_at("", stands, lesson, asked)
-        lines.append(ClassRow(who, place))
+        place = scheme.places.get(who.place) or read_at("", stands, scheme.scene, lesson.report, asked)
+        lines.append((who, place))
         figures = shared[scheme.name] | {"loops": _drawn(scheme.scene, "loops", spoken, letters, place.driver)}
         document = course_report(lesson, who, scheme, stands, data, asked, figures)
         stem = "report" if len(dealt) == 1 and students is None and not data else _stem(k, len(dealt), who)
@@ -189,7 +189,7 @@ def course_design(
     if len(bound) > 1 and can_join():
         content["all-reports.pdf"] = one_after_another(bound)
     content["class.csv"] = class_table(given, lines, asked).harmless().csv().encode("utf-8-sig")
-    drawn = [(r.student.name, r.student.id, r.student.scheme, f"{r.values.driver:.9g}") for r in lines]
+    drawn = [(student.name, student.id, student.scheme, f"{values.driver:.9g}") for student, values in lines]
     blank = answers_template(asked, given.units, "en", drawn, "variant", "at in a class")
     content["answers_template.csv"] = blank.harmless().csv().encode("utf-8-sig")
     typeset = "pdf" not in formats or can_typeset()

@@ -132,9 +132,9 @@ class Handout(OfScene, Result):
 
     def _page(self, worked: Sequence[Block]) -> str:
         """The solution to step through, with the positions of the driver and the mechanism in motion."""
-        sheet, asked, language = self.lesson.sheet, self.lesson.asked, self.lesson.language
+        sheet, language = self.lesson.sheet, self.lesson.language
         views, start = views_of(
-            sheet.structure, self.values, asked, language, self.lesson.convention, sheet.scales, self.count,
+            sheet.structure, self.values, sheet.asked, language, self.lesson.convention, sheet.scales, self.count,
             self._half(0),
         )  # fmt: skip
         moving = motion_data(sheet, self.lesson.letters, self.values)
