@@ -22,7 +22,6 @@ from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, say
 
 if TYPE_CHECKING:
-    from graphkin.checking.uncertainty import Advice
     from graphkin.construction.centres import Centres
     from graphkin.solver import Motion
     from graphkin.table import Table
@@ -37,17 +36,17 @@ _FORMS = {
 class Checked(OfScene, Result):
     """A drawing, its readings, and their comparison with the exact values.
 
-    ``advice`` names the least certain reading of a drawing with finite tools, and its remedy; ``passed`` are the change
-    points on the path to it; ``at_contacts`` is the drawing with sliding contacts drawn at the contact itself, if exact
-    hands have drawn it so; ``over_turn`` are asked values of the whole turn that belong to no single position, as they
-    are computed.
+    ``advice`` is a sentence on the least certain reading of a drawing with finite tools, and its remedy; ``passed`` are
+    the change points on the path to it; ``at_contacts`` is the drawing with sliding contacts drawn at the contact
+    itself, if exact hands have drawn it so; ``over_turn`` are asked values of the whole turn that belong to no single
+    position, as they are computed.
     """
 
     table_file = "readings.csv"
 
     sheet: Sheet
     report: Report
-    advice: Advice | None = None
+    advice: Phrase | None = None
     passed: tuple[ChangePoint, ...] = ()
     over_turn: Mapping[Symbol, float] = field(default_factory=dict)
     at_contacts: Checked | None = None
@@ -113,7 +112,7 @@ class Checked(OfScene, Result):
             **({"computed_over_turn": {
                 str(s): float(s.unit(scene.units, radians=True).of(v)) for s, v in self.over_turn.items()
             }} if self.over_turn else {}),
-            **({"advice": say(self.advice.phrase())} if self.advice else {}),
+            **({"advice": say(self.advice)} if self.advice else {}),
             **construction,
         }
 

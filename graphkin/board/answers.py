@@ -13,7 +13,6 @@ import tempfile
 import zipfile
 import zlib
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
 from typing import Annotated, Any
@@ -45,20 +44,11 @@ Answer = dict[str, Json]
 """What it is told, as JSON."""
 
 
-@dataclass(frozen=True)
-class Desk:
-    """The access of a page: its scenes, and the link or text that it begins with."""
-
-    shelf: Shelf = field(default_factory=Shelf)
-    first: str = ""
-    text: str = ""
-
-
-def answer(desk: Desk, message: object) -> Answer:
+def answer(shelf: Shelf, message: object) -> Answer:
     """The answer to a message.  For every message it has ``ok``, or ``problems`` in sentences with the lines of the
     text concerned.
 
-    >>> answer(Desk(), {"do": "opne"})["problems"][0]["text"]
+    >>> answer(Shelf(), {"do": "opne"})["problems"][0]["text"]
     'question: "opne"; did you mean "open"?'
     """
     number = message.get("id") if isinstance(message, Mapping) else None
@@ -70,12 +60,12 @@ def answer(desk: Desk, message: object) -> Answer:
         if not isinstance(name, str) or name not in QUESTIONS:
             raise CallError.of("question", f'"{name!s:.40}"', did_you_mean(f"{name!s:.40}", QUESTIONS))
         needed, told = QUESTIONS[name]
-        return {**head, "ok": True, **told(desk, Message.of(message, needed))}
+        return {**head, "ok": True, **told(shelf, Message.of(message, needed))}
     except GraphkinError as error:
-        return {**head, "ok": False, **_problems(desk, error, message)}
+        return {**head, "ok": False, **_problems(shelf, error, message)}
     except (RecursionError, MemoryError, OverflowError):
         huge = CallError(Problem(Phrase("the scene"), Phrase("is too large to be shown")))
-        return {**head, "ok": False, **_problems(desk, huge, message)}
+        return {**head, "ok": False, **_problems(shelf, huge, message)}
 
 
 def language_of(message: object) -> str:
@@ -84,7 +74,7 @@ def language_of(message: object) -> str:
     return language if language in LANGUAGES else LANGUAGES[0]
 
 
-def _problems(desk: Desk, error: GraphkinError, message: object) -> Answer:
+def _problems(shelf: Shelf, error: GraphkinError, message: object) -> Answer:
     text = message.get("text") if isinstance(message, Mapping) else ""
     text = text if isinstance(text, str) else ""
     spoken, lines = language_of(message), isinstance(error, SceneError) or text != ""
@@ -92,10 +82,10 @@ def _problems(desk: Desk, error: GraphkinError, message: object) -> Answer:
         {"text": problem.text(spoken), "line": line_of(problem, text) if lines else 0}
         for problem in error.problems[:100]
     ]
-    return {"problems": problems, "kind": type(error).__name__, **_draft_of(desk, text, message)}
+    return {"problems": problems, "kind": type(error).__name__, **_draft_of(shelf, text, message)}
 
 
-def _draft_of(desk: Desk, text: str, message: object) -> Answer:
+def _draft_of(shelf: Shelf, text: str, message: object) -> Answer:
     """The figures of a scene that does not move yet: its sketch and its mobility."""
     language = message.get("language") if isinstance(message, Mapping) else None
     try:
@@ -105,7 +95,7 @@ def _draft_of(desk: Desk, text: str, message: object) -> Answer:
     shown: Answer = {"draft": building.draft(made), "form": made}
     trial = building.trial_driver(made)
     try:
-        made = pictures.with_own_files(parsed(text), desk.shelf.folder)
+        made = pictures.with_own_files(parsed(text), shelf.folder)
         scene = resolved({**made, "driver": trial} if trial else made, "scene")[1]
         count = 0 if trial else len(scene.drivers)
         spoken = language if language in LANGUAGES else scene.question.sheet.language
@@ -168,8 +158,8 @@ class Message(BaseModel):
         """The language of the answer, English by default."""
         return self.language if self.language in LANGUAGES else LANGUAGES[0]
 
-    def scene(self, desk: Desk) -> Mechanism:
-        return pictures.scene_of(self.text, safe_name(self.name.removesuffix(".toml")), desk.shelf.folder)
+    def scene(self, shelf: Shelf) -> Mechanism:
+        return pictures.scene_of(self.text, safe_name(self.name.removesuffix(".toml")), shelf.folder)
 
     @property
     def options(self) -> FigureOptions:
@@ -200,38 +190,38 @@ def _refused(key: str, value: object) -> Problem:
     return Problem(where, "found value", needed, value=f"{value!r:.60}")
 
 
-def _show(desk: Desk, asked: Message) -> Answer:
-    shown = pictures.shown(asked.scene(desk), asked.at, asked.options, asked.quick)
+def _show(shelf: Shelf, asked: Message) -> Answer:
+    shown = pictures.shown(asked.scene(shelf), asked.at, asked.options, asked.quick)
     return shown if asked.quick else {**shown, "form": parsed(asked.text)}
 
 
-def _pull(desk: Desk, asked: Message) -> Answer:
+def _pull(shelf: Shelf, asked: Message) -> Answer:
     """A point pulled to a place: the figures that follow, and the changed text when the point is let go."""
-    scene, raw = asked.scene(desk), parsed(asked.text)
+    scene, raw = asked.scene(shelf), parsed(asked.text)
     to = complex(asked.x, asked.y) * scene.units.metres
     changes, at = pulled(raw, solved_here(*placed(scene, asked.at or None)), asked.point, to, asked.lengths)
     now = {**(asked.at or {}), **at} or None
     if asked.final:
         text = changed(asked.text, changes) if changes else asked.text
-        return {**_show(desk, asked.model_copy(update={"text": text, "at": now, "quick": False})), "text": text}
+        return {**_show(shelf, asked.model_copy(update={"text": text, "at": now, "quick": False})), "text": text}
     for key, value in changes.items():
         if problem := put(raw, key, value):
             raise CallError(problem)
-    there = resolved(pictures.with_own_files(raw, desk.shelf.folder), "scene")[1] if changes else scene
+    there = resolved(pictures.with_own_files(raw, shelf.folder), "scene")[1] if changes else scene
     return {**pictures.shown(there, now, asked.options, quick=True), "changes": changes}
 
 
-def _change(desk: Desk, asked: Message) -> Answer:
+def _change(shelf: Shelf, asked: Message) -> Answer:
     return {"text": changed(asked.text, asked.changes)}
 
 
-def _build(desk: Desk, asked: Message) -> Answer:
+def _build(shelf: Shelf, asked: Message) -> Answer:
     return {"text": building.built(asked.text, asked.step)}
 
 
-def _keep(desk: Desk, asked: Message) -> Answer:
+def _keep(shelf: Shelf, asked: Message) -> Answer:
     """The position shown, written into the scene as its own, with its sketch."""
-    scene = asked.scene(desk)
+    scene = asked.scene(shelf)
     shown = pictures.shown(scene, asked.at, FigureOptions(("mechanism",)), quick=True)
     at, points = shown["at"], shown["points"]
     assert isinstance(at, dict)
@@ -249,7 +239,7 @@ def _keep(desk: Desk, asked: Message) -> Answer:
     return {"text": changed(asked.text, changes)}
 
 
-def _complete(desk: Desk, asked: Message) -> Answer:
+def _complete(shelf: Shelf, asked: Message) -> Answer:
     language, keys = asked.spoken, completions(asked.text, asked.line, asked.column)
     said = (say(key["detail"], language) for key in keys)
     details = (as_sentence(detail) if language == LANGUAGES[0] else detail for detail in said)
@@ -257,52 +247,52 @@ def _complete(desk: Desk, asked: Message) -> Answer:
     return {"options": [{"label": label, "detail": detail} for label, detail in zip(labels, details, strict=True)]}
 
 
-def _open(desk: Desk, asked: Message) -> Answer:
+def _open(shelf: Shelf, asked: Message) -> Answer:
     """The first scene of the page, a scene of its shelf, the scene in a link, or a new scene of a kind."""
-    name = asked.name or ("" if desk.text else desk.first)
-    fresh: Answer = {"name": "", "text": desk.text, "mark": "", "own": False}
+    name = asked.name or ("" if shelf.draft else shelf.first)
+    fresh: Answer = {"name": "", "text": shelf.draft, "mark": "", "own": False}
     if asked.link is not None:
         return {**fresh, "text": text_of_link(asked.link)}
     if asked.new is not None:
         return {**fresh, "text": new_scene(asked.new, {}) if asked.new in NEW else building.EMPTY}
     if not name:
         return fresh
-    text = desk.shelf.text(name)
-    return {"name": name, "text": text, "mark": mark_of(text), "own": name in desk.shelf.files()}
+    text = shelf.text(name)
+    return {"name": name, "text": text, "mark": mark_of(text), "own": name in shelf.files()}
 
 
-def _shelf(desk: Desk, asked: Message) -> Answer:
-    scenes = desk.shelf.listing()
-    writes = desk.shelf.folder is not None
-    return {"scenes": scenes, "new": sorted(NEW), "writes": writes, "only": desk.shelf.only}
+def _shelf(shelf: Shelf, asked: Message) -> Answer:
+    scenes = shelf.listing()
+    writes = shelf.folder is not None
+    return {"scenes": scenes, "new": sorted(NEW), "writes": writes, "only": shelf.only}
 
 
-def _thumbnail(desk: Desk, asked: Message) -> Answer:
+def _thumbnail(shelf: Shelf, asked: Message) -> Answer:
     name = asked.name
-    scene = pictures.scene_of(desk.shelf.text(name), safe_name(name.removesuffix(".toml")), desk.shelf.folder)
+    scene = pictures.scene_of(shelf.text(name), safe_name(name.removesuffix(".toml")), shelf.folder)
     language = asked.language if asked.language in LANGUAGES else None
     return {"name": name, "svg": pictures.thumbnail(scene, language), "title": scene.question.title_in(asked.spoken)}
 
 
-def _save(desk: Desk, asked: Message) -> Answer:
-    return {"mark": desk.shelf.save(asked.name, asked.text, asked.mark)}
+def _save(shelf: Shelf, asked: Message) -> Answer:
+    return {"mark": shelf.save(asked.name, asked.text, asked.mark)}
 
 
-def _watch(desk: Desk, asked: Message) -> Answer:
-    return {"changed": desk.shelf.changed(asked.name, asked.mark)}
+def _watch(shelf: Shelf, asked: Message) -> Answer:
+    return {"changed": shelf.changed(asked.name, asked.mark)}
 
 
-def _diagrams(desk: Desk, asked: Message) -> Answer:
+def _diagrams(shelf: Shelf, asked: Message) -> Answer:
     from graphkin.api.sweep import sweep
 
-    swept = sweep(asked.scene(desk), find=asked.find or None, language=asked.options.language)
+    swept = sweep(asked.scene(shelf), find=asked.find or None, language=asked.options.language)
     return {"figures": {name: figure.content("svg").decode() for name, figure in islice(swept.figures.items(), 12)}}
 
 
-def _race(desk: Desk, asked: Message) -> Answer:
+def _race(shelf: Shelf, asked: Message) -> Answer:
     from graphkin.api.studied import speed_accuracy
 
-    charts = speed_accuracy(asked.scene(desk), repeats=1, language=asked.options.language)
+    charts = speed_accuracy(asked.scene(shelf), repeats=1, language=asked.options.language)
     return {"figures": {name: figure.content("svg").decode() for name, figure in charts.figures.items()}}
 
 
@@ -310,9 +300,9 @@ _TYPES = {"svg": "image/svg+xml", "pdf": "application/pdf", "png": "image/png", 
           "zip": "application/zip", "toml": "application/toml"}  # fmt: skip
 
 
-def _export(desk: Desk, asked: Message) -> Answer:
+def _export(shelf: Shelf, asked: Message) -> Answer:
     """A figure, the papers, a set of variants, or the scene, as a file for the user."""
-    kind, scene, options = asked.kind, asked.scene(desk), asked.options
+    kind, scene, options = asked.kind, asked.scene(shelf), asked.options
     if kind in ("svg", "pdf", "png", "dxf"):
         from graphkin import solver
 
@@ -382,18 +372,18 @@ def text_of_link(link: str) -> str:
                            link=link[:40]) from None
 
 
-def _link(desk: Desk, asked: Message) -> Answer:
+def _link(shelf: Shelf, asked: Message) -> Answer:
     return {"link": scene_link(asked.text)}
 
 
-def _names(desk: Desk, asked: Message) -> Answer:
+def _names(shelf: Shelf, asked: Message) -> Answer:
     """The words of the page in a language."""
     spoken = asked.spoken
     names = {key.removeprefix("page "): text for key, text in area("page", spoken).items()}
     return {"words": names, "language": spoken, "languages": LANGUAGES, "figures": list(figure_kinds())}
 
 
-QUESTIONS: Mapping[str, tuple[tuple[str, ...], Callable[[Desk, Message], Answer]]] = {
+QUESTIONS: Mapping[str, tuple[tuple[str, ...], Callable[[Shelf, Message], Answer]]] = {
     "show": (("text",), _show), "pull": (("text", "point", "x", "y"), _pull), "change": (("text", "changes"), _change),
     "build": (("text", "step"), _build), "keep": (("text",), _keep),
     "complete": (("text", "line", "column"), _complete), "open": ((), _open), "shelf": ((), _shelf),

@@ -17,7 +17,8 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from graphkin.board.answers import Desk, answer, language_of
+from graphkin.board.answers import answer, language_of
+from graphkin.board.shelf import Shelf
 from graphkin.errors import CallError, Problem, SceneError
 from graphkin.scene.scene import SceneLike, library, library_text, toml_text, written
 from graphkin.words import LANGUAGES, Phrase, say
@@ -80,12 +81,12 @@ def _policy(nonce: str, address: Address) -> str:
     )
 
 
-def application(desk: Desk, address: Address) -> Starlette:
+def application(shelf: Shelf, address: Address) -> Starlette:
     """The ASGI application of the page.
 
     Parameters
     ----------
-    desk : the access of the page
+    shelf : the scenes of the page
     address : the port on which it listens, and the secret
     """
     from starlette.applications import Starlette
@@ -140,7 +141,7 @@ def application(desk: Desk, address: Address) -> Starlette:
         try:
             while True:
                 text = await socket.receive_text()
-                answered = await run_in_threadpool(_answered, desk, text)
+                answered = await run_in_threadpool(_answered, shelf, text)
                 await socket.send_text(answered)
         except (WebSocketDisconnect, KeyError, RuntimeError):  # KeyError: bytes instead of a text
             return
@@ -155,14 +156,14 @@ def application(desk: Desk, address: Address) -> Starlette:
     return Starlette(routes=routes)
 
 
-def _answered(desk: Desk, text: str) -> str:
+def _answered(shelf: Shelf, text: str) -> str:
     """The answer to the text of a message; a text that is no JSON gets a problem, and an unforeseen error ends neither
     the page nor the server."""
     message: object = None
     with suppress(ValueError, RecursionError):
         message = json.loads(text)
     try:
-        return json.dumps(answer(desk, message), ensure_ascii=False, allow_nan=False, default=str)
+        return json.dumps(answer(shelf, message), ensure_ascii=False, allow_nan=False, default=str)
     except Exception as error:
         traceback.print_exc()
         number = message.get("id") if isinstance(message, dict) else None
@@ -171,7 +172,7 @@ def _answered(desk: Desk, text: str) -> str:
         return json.dumps({"id": number, "ok": False, "problems": [{"text": text, "line": 0}], "kind": "Defect"})
 
 
-def serve(desk: Desk, port: int = 0, ready: Callable[[Address], None] | None = None) -> None:
+def serve(shelf: Shelf, port: int = 0, ready: Callable[[Address], None] | None = None) -> None:
     """Serve the page until it is interrupted.
 
     Parameters
@@ -198,7 +199,7 @@ def serve(desk: Desk, port: int = 0, ready: Callable[[Address], None] | None = N
     address = Address.new(listening.getsockname()[1])
     gc.set_threshold(10_000, 10, 10)  # a command that ends at once looks for garbage next to never; this one stays
     try:
-        asyncio.run(_run(application(desk, address), listening, lambda: ready(address) if ready else None))
+        asyncio.run(_run(application(shelf, address), listening, lambda: ready(address) if ready else None))
     finally:
         listening.close()
 
@@ -248,13 +249,13 @@ def open_board(scene: SceneLike | None = None) -> AnyWidget:
             )
             raise SceneError(said) from None
     try:
-        return _widget_class()(Desk(text=text))
+        return _widget_class()(Shelf(draft=text))
     except ImportError:
         raise CallError.of("open_board", "needs anywidget", 'pip install "graphkin[live]"') from None
 
 
 @cache
-def _widget_class() -> Callable[[Desk], AnyWidget]:
+def _widget_class() -> Callable[[Shelf], AnyWidget]:
     import anywidget
     import traitlets
 
@@ -265,12 +266,12 @@ def _widget_class() -> Callable[[Desk], AnyWidget]:
         _css = STATIC / "board.css"
         text = traitlets.Unicode("").tag(sync=True)
 
-        def __init__(self, desk: Desk) -> None:
-            super().__init__(text=desk.text)
-            self._desk = desk
+        def __init__(self, shelf: Shelf) -> None:
+            super().__init__(text=shelf.draft)
+            self._shelf = shelf
             self.on_msg(self._asked)
 
         def _asked(self, widget: object, content: object, buffers: object) -> None:
-            self.send(answer(self._desk, content))
+            self.send(answer(self._shelf, content))
 
     return Board

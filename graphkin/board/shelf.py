@@ -26,32 +26,36 @@ def mark_of(text: str) -> str:
 
 @dataclass(frozen=True)
 class Shelf:
-    """The bundled scenes, and the scene files of a folder or one file.
+    """The scenes of a page: the bundled ones, and the scene files of a folder or one file.
 
     folder : the folder of the files; None without files
     only : the single file of it that may be opened and written; any scene file of the folder if empty
+    first : the scene that is opened first
+    draft : the text that the page begins with instead
     """
 
     folder: Path | None = None
     only: str = ""
+    first: str = ""
+    draft: str = ""
 
     @classmethod
-    def of(cls, place: str | None) -> tuple[Shelf, str]:
-        """The shelf of a file, a folder, or the name of a bundled scene, and the scene that is opened first.
+    def of(cls, place: str | None) -> Shelf:
+        """The shelf of a file, a folder, or the name of a bundled scene, which is opened first.
 
         Raises
         ------
         SceneError : there is no such file or scene
         """
         if not place:
-            return cls(), ""
+            return cls()
         path = Path(place)
         if path.is_dir():
-            return cls(path.resolve()), ""
+            return cls(path.resolve())
         if place in library() and not path.is_file():
-            return cls(), place
+            return cls(first=place)
         file_text(place)  # or a sentence
-        return cls(path.resolve().parent, path.name), path.name
+        return cls(path.resolve().parent, path.name, path.name)
 
     def files(self) -> list[str]:
         """Names of the scene files, sorted."""

@@ -231,33 +231,6 @@ def deviations(read: Callable[[Instrument], Mapping[T, float] | None], name: str
 SMALL = 0.05  # readings below this part of the largest of their kind are no fair measure of a drawing
 
 
-@dataclass(frozen=True)
-class Advice:
-    """The worst reading of a drawing and its best remedy.
-
-    ``relative`` is its standard deviation over its size; ``cause`` the step that adds most to it, with its ``share`` of
-    the variance; ``figure`` the figure to draw twice as large, and ``gain`` the remaining part of the deviation then.
-    """
-
-    symbol: Symbol
-    relative: float
-    cause: Cause
-    share: float
-    figure: str
-    gain: float
-
-    def phrase(self) -> Phrase:
-        return Phrase(
-            "advice",
-            symbol=self.symbol,
-            percent=f"{100 * self.relative:.2g}",
-            cause=phrase_of(self.cause),
-            share=f"{100 * self.share:.0f}",
-            figure=Phrase(f"figure {self.figure}"),
-            better=f"{100 * self.relative * self.gain:.2g}",
-        )
-
-
 def _sort(symbol: Symbol) -> str:
     """The kind of a reading, within which sizes are compared."""
     return symbol.kind[0] if symbol.scope == "motion" else symbol.measure
@@ -265,10 +238,12 @@ def _sort(symbol: Symbol) -> str:
 
 def advise(
     what: Plan, name: str, tools: Tools, readings: Sequence[Reading], predicted: Mapping[Symbol, Uncertainty]
-) -> Advice | None:
-    """Find the worst reading and its remedy; None where no reading is uncertain.
+) -> Phrase | None:
+    """The worst reading of a drawing and its best remedy, in a sentence; None where no reading is uncertain.
 
-    The remedy is found by predicting again with each of the three figures drawn twice as large.
+    Its gaps are the ``symbol`` of the reading, its standard deviation in ``percent`` of its size, the ``cause`` that
+    adds most to it with its ``share`` of the variance (per cent), the ``figure`` to draw twice as large and the
+    ``better`` deviation then (per cent): predicted again with each of the three figures drawn so.
     """
     largest: dict[str, float] = {}
     for r in readings:
@@ -294,4 +269,8 @@ def advise(
         gains[figure] = math.inf if symbol not in again else again[symbol].first / first if first else 0.0
     best = min(gains, key=gains.__getitem__)
     expected = predicted[symbol]
-    return Advice(symbol, relative, expected.cause, expected.share, best, gains[best])
+    return Phrase(
+        "advice", symbol=symbol, percent=f"{100 * relative:.2g}", cause=phrase_of(expected.cause),
+        share=f"{100 * expected.share:.0f}", figure=Phrase(f"figure {best}"),
+        better=f"{100 * relative * gains[best]:.2g}",
+    )  # fmt: skip

@@ -87,7 +87,7 @@ def _print_readings(checked: Checked, language: str) -> None:
     for note in checked.sheet.notes:
         tell(plain_said(note, language))
     if checked.advice:
-        tell(plain_said(checked.advice.phrase(), language))
+        tell(plain_said(checked.advice, language))
     for said in passed_words(checked.mechanism, checked.passed):
         tell(say(said, language))
     tell(verdict(checked, language))
@@ -539,16 +539,13 @@ def open_page(given: Given) -> None:
 
     The page is for this machine alone and lives until it is interrupted (Ctrl-C).
     """
-    from graphkin.board.answers import LINK, Desk, text_of_link
+    from graphkin.board.answers import LINK, text_of_link
     from graphkin.board.server import Address, needs_live, serve
     from graphkin.board.shelf import Shelf
 
     needs_live()
-    if given.scene.startswith(LINK):
-        desk = Desk(text=text_of_link(given.scene))
-    else:
-        shelf, first = Shelf.of(given.scene)
-        desk = Desk(shelf, first)
+    linked = given.scene.startswith(LINK)
+    shelf = Shelf(draft=text_of_link(given.scene)) if linked else Shelf.of(given.scene)
 
     def ready(address: Address) -> None:
         tell(f"{address.url}\nCtrl-C ends it")
@@ -558,4 +555,4 @@ def open_page(given: Given) -> None:
             webbrowser.open(address.url)
 
     with suppress(KeyboardInterrupt):  # which is how it ends
-        serve(desk, given.port, ready)
+        serve(shelf, given.port, ready)

@@ -14,6 +14,7 @@ import time
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, is_dataclass, replace
+from functools import partial
 from itertools import islice, pairwise
 from pathlib import Path
 
@@ -464,10 +465,12 @@ def make(
     A variant whose papers cannot be made or written is a failure, and the next call tries it again.
     """
     made: list[Variant] = []
-    papers = repr(render) if is_dataclass(render) else getattr(render, "__qualname__", "")  # others are another set
+    called, given = (render.func, render.args) if isinstance(render, partial) else (render, ())
+    papers = repr(called) if is_dataclass(called) else getattr(called, "__qualname__", "")  # others are another set
     # jobs drawn from one seed share their scene: only the first is written out
     drawn = (asdict(job) if job.spread is None or job.number == 1 else (job.name, job.number) for job in jobs)
-    points = Checkpoints.of(folder, "set", key_of(ATTEMPTS, papers, *drawn)) if folder is not None and jobs else None
+    whole = ATTEMPTS, papers, given, *drawn
+    points = Checkpoints.of(folder, "set", key_of(*whole)) if folder is not None and jobs else None
     done = _finished(points)
     if points is not None:
         points.open(variants=len(jobs))

@@ -7,7 +7,7 @@ import tomllib
 import pytest
 
 import graphkin
-from graphkin.board.answers import QUESTIONS, Desk, answer, scene_link, text_of_link
+from graphkin.board.answers import QUESTIONS, answer, scene_link, text_of_link
 from graphkin.board.pictures import FigureOptions, shown
 from graphkin.board.scene_text import changed, line_of, places
 from graphkin.board.shelf import Shelf, mark_of
@@ -18,7 +18,7 @@ from graphkin.words import Phrase, Wording, links_named
 pytestmark = pytest.mark.quick
 
 SIXBAR = library_text("sixbar-420rpm")
-DESK = Desk(first="sixbar-420rpm")
+DESK = Shelf(first="sixbar-420rpm")
 
 
 def asked(question: str, **message: object) -> dict:
@@ -117,13 +117,13 @@ def test_a_pulled_point_of_the_frame_moves() -> None:
 
 def test_where_the_mechanism_does_not_reach_its_last_position_is_drawn_and_the_reason_said() -> None:
     text = library_text("sixbar-AE70")
-    found = answer(Desk(), {"do": "show", "text": text, "at": {"1": 100.0}, "figures": ["mechanism"]})
+    found = answer(Shelf(), {"do": "show", "text": text, "at": {"1": 100.0}, "figures": ["mechanism"]})
     assert found["ok"]
     assert pytest.approx(58.997, abs=0.01) == found["at"]["1"]
     assert "not assembled" in found["limit"]
     quick = {"do": "show", "text": text, "at": {"1": 100.0}, "quick": True, "language": "zh"}
     for moving in (True, False):
-        found = answer(Desk(), {**quick, "quick": moving})
+        found = answer(Shelf(), {**quick, "quick": moving})
         assert "不能装配" in found["limit"]
         assert "not assembled" not in found["limit"]
     assert "构件 4、5" in found["range"]["why"]
@@ -188,7 +188,7 @@ def test_a_position_is_kept_in_the_file_with_its_assembly() -> None:
 def built(*steps: dict) -> str:
     text = ""
     for step in steps:
-        found = answer(Desk(), {"do": "build", "text": text, "step": step})
+        found = answer(Shelf(), {"do": "build", "text": text, "step": step})
         assert found["ok"], found
         text = found["text"]
     return text
@@ -224,7 +224,7 @@ def test_a_slider_crank_and_a_quick_return_are_built() -> None:
 
 def test_what_is_built_so_far_shows_its_mobility_and_its_sketch() -> None:
     text = built({"what": "pivot", "at": [0, 0]}, {"what": "bar", "from": "A", "to": [20, 30]})
-    found = answer(Desk(), {"do": "show", "text": text})
+    found = answer(Shelf(), {"do": "show", "text": text})
     assert (False, 1) == (found["ok"], found["freedom"])
     assert {"A": [0.0, 0.0], "B": [20.0, 30.0]} == found["draft"]["points"]
 
@@ -314,8 +314,8 @@ def test_a_scene_on_the_page_reads_no_file_from_elsewhere(file: str, table: str)
 def test_a_file_is_saved_whole_with_the_version_before_beside_it(tmp_path) -> None:
     path = tmp_path / "my.toml"
     path.write_text(SIXBAR, encoding="utf-8")
-    shelf, first = Shelf.of(str(path))
-    assert "my.toml" == first
+    shelf = Shelf.of(str(path))
+    assert "my.toml" == shelf.first
     mark = shelf.save("my.toml", "title = 'x'\n", mark_of(SIXBAR))
     assert ("title = 'x'\n", SIXBAR) == (path.read_text(), (tmp_path / "my.toml~").read_text())
     assert mark == mark_of("title = 'x'\n")
@@ -324,7 +324,7 @@ def test_a_file_is_saved_whole_with_the_version_before_beside_it(tmp_path) -> No
 def test_what_somebody_else_has_changed_is_not_overwritten(tmp_path) -> None:
     path = tmp_path / "my.toml"
     path.write_text(SIXBAR, encoding="utf-8")
-    shelf, _ = Shelf.of(str(path))
+    shelf = Shelf.of(str(path))
     path.write_text("title = 'theirs'\n", encoding="utf-8")
     assert "title = 'theirs'\n" == shelf.changed("my.toml", mark_of(SIXBAR))
     with pytest.raises(CallError, match="changed by somebody else"):
@@ -338,14 +338,14 @@ def test_what_somebody_else_has_changed_is_not_overwritten(tmp_path) -> None:
 def test_nothing_but_the_opened_file_is_written(tmp_path, name: str) -> None:
     (tmp_path / "my.toml").write_text(SIXBAR, encoding="utf-8")
     with pytest.raises(CallError):
-        Shelf.of(str(tmp_path / "my.toml"))[0].save(name, "x = 1\n", "")
+        Shelf.of(str(tmp_path / "my.toml")).save(name, "x = 1\n", "")
     with pytest.raises(CallError):
         Shelf().save("my.toml", "x = 1\n", "")
     assert ["my.toml"] == [p.name for p in tmp_path.iterdir()]
 
 
 def test_a_folder_takes_new_scene_files_but_no_path_out_of_it(tmp_path) -> None:
-    shelf, _ = Shelf.of(str(tmp_path))
+    shelf = Shelf.of(str(tmp_path))
     shelf.save("new.toml", SIXBAR, "")
     assert SIXBAR == (tmp_path / "new.toml").read_text()
     (tmp_path / "out.toml").symlink_to(tmp_path.parent / "elsewhere.toml")

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.board.answers import Desk, answer
+from graphkin.board.answers import answer
+from graphkin.board.shelf import Shelf
 from graphkin.scene.scene import library_text
 
 
@@ -13,7 +14,7 @@ from graphkin.scene.scene import library_text
     "elliptic-trammel", "cam-eccentric-flat-rocker", "double-butterfly",
 ])  # fmt: skip
 def test_each_point_that_says_so_can_be_pulled_in_every_kind_of_mechanism(name: str) -> None:
-    desk, text = Desk(first=name), library_text(name)
+    desk, text = Shelf(first=name), library_text(name)
     start = answer(desk, {"do": "show", "text": text, "figures": ["mechanism"]})
     for point, at in start["points"].items():
         if at["pull"]:

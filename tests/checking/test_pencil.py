@@ -114,9 +114,10 @@ def test_the_tools_of_the_scene_are_used():
 def test_the_advice_names_a_step_and_a_figure_that_helps():
     advice = graphkin.check(SIXBAR, instrument="pencil").advice
     assert advice is not None
-    assert advice.figure in ("length", "velocity", "acceleration")
-    assert 0 < advice.share <= 1
-    assert advice.gain < 1
+    figure, share, percent, better = (advice.gaps[name] for name in ("figure", "share", "percent", "better"))
+    assert figure.key in ("figure length", "figure velocity", "figure acceleration")
+    assert 0 < float(share) <= 100
+    assert float(better) < float(percent)
 
 
 @pytest.mark.parametrize(("part", "told"), [(0.25, True), (0.5, False)])
@@ -128,7 +129,7 @@ def test_no_advice_is_given_on_what_is_not_told_from_nothing(part, told):
     one = replace(predicted[largest.symbol], deviation=part * abs(largest.value))
     advice = advise(what, "pencil", Tools(), readings, {**predicted, largest.symbol: one})
     assert advice is not None
-    assert told == (advice.symbol == largest.symbol)
+    assert told == (advice.gaps["symbol"] == largest.symbol)
 
 
 def test_an_acute_crossing_is_said():

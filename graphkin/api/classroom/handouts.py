@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, field, fields
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 from graphkin import solver
@@ -208,8 +208,9 @@ def handout(
 def papers_of(
     scene: SceneLike, formats: Sequence[str] = FORMATS, language: str | None = None, convention: str | None = None,
     exports: Sequence[str] = (),
-) -> Papers:  # fmt: skip
-    """The writer of the papers of each variant of a set: ``problem_set(scene, 30, render=papers_of(scene))``.
+) -> Callable[[Variant], Mapping[str, bytes]]:  # fmt: skip
+    """The writer of the papers of each variant of a set: ``problem_set(scene, 30, render=papers_of(scene))``, which can
+    be sent to another process.
 
     Raises
     ------
@@ -218,8 +219,21 @@ def papers_of(
     known_words(formats, language, convention, known_formats=FORMATS, known_languages=ON_SHEETS)
     given = as_scene(scene)
     wishes = given.question.sheet
-    kinds = tuple(dict.fromkeys(formats)), known_platforms(exports)
-    return Papers(language or wishes.language, convention or wishes.convention, *kinds, given.name)
+    return partial(_papers, given.name, known_platforms(exports), tuple(dict.fromkeys(formats)),
+                   language or wishes.language, convention or wishes.convention)  # fmt: skip
+
+
+def _papers(
+    name: str, exports: Sequence[str], formats: Sequence[str], language: str, convention: str, variant: Variant
+) -> Mapping[str, bytes]:
+    """The papers of a variant in each format, and questions for learning platforms, called by the name of the set."""
+    motion = solver.solve(variant.scene)
+    what = paper_plan(motion.structure, None, asked_of(variant.scene), share=False)
+    lesson = lesson_of(what, motion, language, convention)
+    made = papers_in(lesson, formats)
+    if exports:
+        made |= files_for(question_of(lesson, what, motion, f"{name}-{variant.name}"), exports)
+    return made
 
 
 def known_platforms(exports: Sequence[str]) -> tuple[str, ...]:
@@ -258,28 +272,3 @@ def papers_in(
             made |= papers_as(("html",), sheets)
             made |= {"handout.html": page(worked).encode()} if page is not None else {}
         return made | (pdf.result() if pdf is not None else {})
-
-
-@dataclass(frozen=True)
-class Papers:
-    """Writes the papers of a variant in each format, and questions for learning platforms, called by the ``name`` of
-    the set.
-
-    A value that can be sent to another process.
-    """
-
-    language: str
-    convention: str
-    formats: tuple[str, ...]
-    exports: tuple[str, ...] = ()
-    name: str = "scene"
-
-    def __call__(self, variant: Variant) -> Mapping[str, bytes]:
-        scene = variant.scene
-        motion = solver.solve(scene)
-        what = paper_plan(motion.structure, None, asked_of(scene), share=False)
-        lesson = lesson_of(what, motion, self.language, self.convention)
-        made = papers_in(lesson, self.formats)
-        if self.exports:
-            made |= files_for(question_of(lesson, what, motion, f"{self.name}-{variant.name}"), self.exports)
-        return made

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import re
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import lru_cache
 from io import BytesIO
@@ -76,7 +76,7 @@ def own_settings(**further: object) -> Iterator[None]:
     users = matplotlib.rcParams
     with _ALONE, warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="Glyph .* missing from")
-        kind, before = type(users), _OF_THREAD.settings
+        kind, before = type(users), getattr(_OF_THREAD, "settings", None)
         _OF_THREAD.settings = _settings(tuple(further.items())) if before is None else {**before, **further}
         users.__class__ = _answering()
         try:
@@ -95,11 +95,7 @@ def leave_undocumented() -> None:
     artist.Artist._update_set_signature_and_docstring = classmethod(lambda _: None)  # type: ignore[attr-defined]
 
 
-class _OfThread(local):
-    settings: Mapping[str, object] | None = None
-
-
-_OF_THREAD = _OfThread()
+_OF_THREAD = local()
 
 
 def _settings(further: tuple[tuple[str, object], ...]) -> dict[str, object]:
@@ -118,7 +114,7 @@ def _answering() -> type:
 
     class Answering(RcParams):
         def __getitem__(self, key: str) -> object:
-            ours = _OF_THREAD.settings
+            ours = getattr(_OF_THREAD, "settings", None)
             return ours[key] if ours is not None and key in ours else super().__getitem__(key)
 
         def copy(self) -> RcParams:
