@@ -11,7 +11,8 @@ from functools import partial
 
 import numpy as np
 
-from graphkin.checking.uncertainty import COVERAGE, deviations
+from graphkin.checking.report import COVERAGE
+from graphkin.checking.uncertainty import deviations
 from graphkin.construction import EXACT, Instrument
 from graphkin.construction.cam_sheet import CamSheet, division
 from graphkin.construction.synthesis import DesignSheet, construct

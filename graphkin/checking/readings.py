@@ -21,7 +21,7 @@ from graphkin.structure.transmission import joint_between, joint_of_follower, sl
 from graphkin.words import Phrase, joined
 
 if TYPE_CHECKING:
-    from graphkin.checking.uncertainty import Uncertainty
+    from graphkin.checking.report import Uncertainty
     from graphkin.construction.centres import Centres
     from graphkin.construction.forces import ForceSheet
     from graphkin.solver import Motion

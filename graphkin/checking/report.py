@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from graphkin.construction.board.scales import Scales
 from graphkin.construction.board.sheet import Reading, Sheet, greatest_before
-from graphkin.construction.board.steps import DiagramName, phrase_of
+from graphkin.construction.board.steps import Cause, DiagramName, phrase_of
 from graphkin.errors import Disagreement, Problem
 from graphkin.files import Json
 from graphkin.scene.symbol import PointRef, Symbol, Value
@@ -24,7 +24,6 @@ from graphkin.words import Phrase, say
 from graphkin.words.written import MOST, ROUNDED, amount, computed, figures, on_paper, product
 
 if TYPE_CHECKING:
-    from graphkin.checking.uncertainty import Uncertainty
     from graphkin.construction.forces import ForceSheet
     from graphkin.scene.model import Mechanism
 
@@ -37,10 +36,30 @@ FAIR = 1e-3  # of the largest of its diagram: a tolerance that is greater accept
 COARSE = 1.0  # the same for hands that err
 ON_PAPER = {"exact": 0.0, "cad": 0.1}  # mm that may be read off a figure in which nothing moves
 HAND = 5.0
+COVERAGE = 3.0  # a stated bound is this many standard deviations
 RESIDUE = 1e-6  # of what a deviation may be: what is smaller, rounding leaves
 TURNED = 1e-12  # rad, likewise
 
 Exact = Callable[[Symbol], complex | float]
+
+
+@dataclass(frozen=True)
+class Uncertainty:
+    """Standard deviation of a reading (SI; of a vector, the root of the sum over both components).
+
+    ``cause`` is the step that adds most to it, ``share`` its part of the variance,
+    ``first`` the deviation of first order.
+    """
+
+    deviation: float
+    cause: Cause
+    share: float
+    first: float = 0.0
+
+    @property
+    def bound(self) -> float:
+        """The bound of the reading's error in at least 99 of a hundred drawings."""
+        return COVERAGE * self.deviation
 
 
 @dataclass(frozen=True)

@@ -19,8 +19,8 @@ from typing import TypeVar
 import numpy as np
 
 from graphkin.checking.readings import read_off
+from graphkin.checking.report import Uncertainty
 from graphkin.checking.slip_likelihood import Suspect, Suspects
-from graphkin.checking.uncertainty import Uncertainty
 from graphkin.construction import AS_DRAWN, OwnValues, Plan, Sheet, Stages, execute, plan
 from graphkin.construction.board.steps import Order, Term
 from graphkin.errors import GraphkinError

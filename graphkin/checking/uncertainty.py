@@ -18,7 +18,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from types import MappingProxyType
 from typing import TypeVar
 
@@ -26,6 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.checking.readings import read_off
+from graphkin.checking.report import COVERAGE, Uncertainty
 from graphkin.construction import Plan, Scales, Sheet, Stages, erring, nudged
 from graphkin.construction.board.instruments import Instrument
 from graphkin.construction.board.sheet import Reading
@@ -43,32 +44,12 @@ T = TypeVar("T")
 
 
 NO_LIMITS: Mapping[Symbol, float] = MappingProxyType({})
-COVERAGE = 3.0  # a stated bound is this many standard deviations
 SAMPLES = 24  # drawings in which every act errs at random
 FEW_SAMPLES, CLEARLY = 6, 1.3  # in so few a reading that is off by more than that part of its bound does not keep it
 BEYOND = 1.6  # times the deviation of first order: more than that in the samples is no accident (one in 10 000)
 BENT = 1.1  # a reading is farther off than first order tells by more than that where it is not in proportion
 ALIKE = 0.98  # cosine between the errors that bring two readings off most easily, above which one drawing tells of both
 CURVED = 1.5  # so many times the deviation of the samples is stated then: squares of errors have long tails
-
-
-@dataclass(frozen=True)
-class Uncertainty:
-    """Standard deviation of a reading (SI; of a vector, the root of the sum over both components).
-
-    ``cause`` is the step that adds most to it, ``share`` its part of the variance,
-    ``first`` the deviation of first order.
-    """
-
-    deviation: float
-    cause: Cause
-    share: float
-    first: float = 0.0
-
-    @property
-    def bound(self) -> float:
-        """The bound of the reading's error in at least 99 of a hundred drawings."""
-        return COVERAGE * self.deviation
 
 
 def predict(

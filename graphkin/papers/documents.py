@@ -26,8 +26,7 @@ from graphkin.account.given import (
 from graphkin.account.headings import FIGURE_WORDS, number, titles, written
 from graphkin.account.notation import pole, scale_statement
 from graphkin.account.voice import whole_sentence
-from graphkin.checking.report import Compared, exact, measured, paper
-from graphkin.checking.uncertainty import COVERAGE
+from graphkin.checking.report import COVERAGE, Compared, exact, measured, paper
 from graphkin.construction.board.steps import DiagramName
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import FigurePage

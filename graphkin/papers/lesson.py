@@ -14,8 +14,8 @@ from graphkin import solver
 from graphkin.account.account import Account
 from graphkin.account.notation import Letters, letters_of
 from graphkin.checking.readings import report_on
-from graphkin.checking.report import Compared, Report
-from graphkin.checking.uncertainty import Uncertainty, predict
+from graphkin.checking.report import Compared, Report, Uncertainty
+from graphkin.checking.uncertainty import predict
 from graphkin.construction import Plan, execute, plan
 from graphkin.construction.board.scales import Scales, next_of_series
 from graphkin.construction.board.sheet import Equation, Sheet

@@ -22,7 +22,7 @@ from graphkin.account.headings import FIGURE_WORDS, number, term
 from graphkin.account.notation import Letters, scale_statement
 from graphkin.account.spoken import spoken_words
 from graphkin.account.voice import capital, whole_sentence
-from graphkin.checking.uncertainty import COVERAGE
+from graphkin.checking.report import COVERAGE
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import DiagramName, Step
 from graphkin.drawing.box import Box

@@ -21,7 +21,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from graphkin import solver
-from graphkin.checking.uncertainty import COVERAGE, predict
+from graphkin.checking.report import COVERAGE
+from graphkin.checking.uncertainty import predict
 from graphkin.construction import EXACT, Scales, execute, pencil, plan
 from graphkin.construction.board.instruments import Instrument
 from graphkin.construction.board.sheet import Sheet

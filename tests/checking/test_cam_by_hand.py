@@ -10,7 +10,7 @@ import pytest
 
 from graphkin import cam, handout, read
 from graphkin.checking.closed_form import compare_cam, predict_cam
-from graphkin.checking.uncertainty import COVERAGE
+from graphkin.checking.report import COVERAGE
 from graphkin.construction import pencil
 from graphkin.construction.cam_sheet import cam_sheet, division
 from graphkin.construction.touching import station

@@ -9,8 +9,7 @@ import pytest
 
 import graphkin
 from graphkin.checking.readings import read_off
-from graphkin.checking.report import compare
-from graphkin.checking.uncertainty import Uncertainty
+from graphkin.checking.report import Uncertainty, compare
 from graphkin.construction import draft
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol

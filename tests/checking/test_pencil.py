@@ -9,8 +9,8 @@ import pytest
 
 import graphkin
 from graphkin.checking.readings import read_off
-from graphkin.checking.report import JUDGED
-from graphkin.checking.uncertainty import COVERAGE, advise, predict
+from graphkin.checking.report import COVERAGE, JUDGED
+from graphkin.checking.uncertainty import advise, predict
 from graphkin.construction import execute, pencil, plan
 from graphkin.construction.position.links_on_paper import PlacedLinks
 from graphkin.plane import Pose

@@ -13,7 +13,7 @@ from graphkin.api.arguments import known_words, own_folder, write_files
 from graphkin.api.cams import CamMade
 from graphkin.api.designed import Designed
 from graphkin.checking.closed_form import predict_cam, predict_lengths
-from graphkin.checking.uncertainty import COVERAGE
+from graphkin.checking.report import COVERAGE
 from graphkin.drawing.figures.constructions import (
     asked_words,
     cam_given,
