@@ -13,8 +13,10 @@ import pytest
 
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.model import Dimension, Mechanism, dimensions, with_dimensions
-from graphkin.solver import Motion, solve
+from graphkin.solver import Motion, driver_range, solve
 from graphkin.solver.algebra import bounds
+from graphkin.solver.algebra.constraints import Constraints
+from graphkin.solver.algebra.pose import FIELDS, REAL, Pose
 from tests import EVERYTHING, rolling_linkages, scenes
 from tests.bench.accuracy import measure
 from tests.bench.larger import measure_larger
@@ -127,3 +129,31 @@ def test_each_number_that_is_off_moves_the_links_within_the_bound_of_it(name: st
                 assert off <= 1.001 * float(bound[0]) + 1e-12 * whole, (dimension, link)
                 seen += off > 1e-10
     assert seen
+
+
+ROLLING = {name: getattr(rolling_linkages, name)() for name in (
+    "planet_by_a_rod", "wheel_on_a_rocker", "rack_on_a_rocker",
+)}  # fmt: skip
+
+
+def in_more_digits(all_: Pose) -> Pose:
+    """All links in the digits of a long double, with directions of unit length."""
+    kinds = {field: np.longdouble if field in REAL else np.clongdouble for field in FIELDS}
+    wide = {field: getattr(all_, field).astype(kind) for field, kind in kinds.items()}
+    return Pose(**{**wide, "u": wide["u"] / np.abs(wide["u"])})
+
+
+@pytest.mark.skipif(np.finfo(np.longdouble).eps > 1e-18, reason="a long double has no more digits here")
+@pytest.mark.parametrize("longer", [0.0, 1e-12])
+@pytest.mark.parametrize("name", [*(name for name in SCENES if name not in FIXED), *ROLLING])
+def test_rounding_moves_no_constraint_and_no_rate_of_it_farther_than_is_told(name: str, longer: float) -> None:
+    reach = driver_range(mechanism_of(ROLLING[name]) if name in ROLLING else mechanism(name))
+    known = reach.motion(np.linspace(*reach.ends, 62)[1:-1], extended=False).accuracy
+    known = known.rows(np.flatnonzero(known.ok))
+    system = Constraints.whole(replace(known.structure), known.drive.followed(known.structure))
+    all_, exact = system.of(known.poses), np.zeros_like(system.drive.value)
+    all_.u[:, : system.layout.members] *= 1.0 + longer  # directions that are not quite of unit length
+    with patch.object(bounds, "conversion_error", lambda *_: (0.0, 0.0)):  # every number of the file is right
+        told = bounds._row_errors(system, all_, system.parts(all_, 2), np.zeros(len(known.ok), bool), [exact] * 3)
+    moved = np.abs(system.constraints(in_more_digits(all_)) - system.constraints(all_))
+    assert (moved <= told).all()
