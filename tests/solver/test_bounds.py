@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -13,10 +14,13 @@ import pytest
 
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.model import Dimension, Mechanism, dimensions, with_dimensions
+from graphkin.scene.pairs import LawCam
 from graphkin.solver import Motion, driver_range, solve
 from graphkin.solver.algebra import bounds
 from graphkin.solver.algebra.constraints import Constraints
-from graphkin.solver.algebra.pose import FIELDS, REAL, Pose
+from graphkin.solver.algebra.pose import FIELDS, REAL, Array, Pose
+from graphkin.solver.cams import follower_inputs
+from graphkin.solver.compiled import engine
 from tests import EVERYTHING, rolling_linkages, scenes
 from tests.bench.accuracy import measure
 from tests.bench.larger import measure_larger
@@ -72,9 +76,11 @@ def mechanism(name: str) -> Mechanism:
     return mechanism_of_text(source, name) if isinstance(source, str) and "\n" in source else mechanism_of(source)
 
 
-def told(motion: Motion, number: complex | None, value: float = 0.0, given: float = 0.0) -> dict[str, Any]:
+def told(
+    motion: Motion, number: complex | None, value: float = 0.0, given: float = 0.0, slack: float = 0.0
+) -> dict[str, Any]:
     """The bounds of each link if nothing but one number is off: one of the file, or the driver's value by so much, or
-    its rates by so much of themselves."""
+    its rates by so much of themselves, or the lifts of cams by so much of their slack."""
     known = motion.accuracy
     structure = replace(known.structure)  # nothing is kept of what was written
     errors = np.zeros(known.drive.value.shape)
@@ -87,13 +93,13 @@ def told(motion: Motion, number: complex | None, value: float = 0.0, given: floa
         return off, off
 
     with patch.object(bounds, "GIVEN", given), patch.object(bounds, "conversion_error", converted):
-        return bounds.error_bounds(structure, known.poses, known.drive, 0 * known.slack, known.refined, errors)
+        return bounds.error_bounds(structure, known.poses, known.drive, slack * known.slack, known.refined, errors)
 
 
-def missed(one: Motion, two: Motion, name: str) -> list[float]:
-    """The most by which points of a link, and its turning, differ in two motions."""
+def missed(one: Motion, two: Motion, name: str, further: Sequence[complex] = ()) -> list[float]:
+    """The most by which points of a link, further ones too, and its turning, differ in two motions."""
     p, q = (m.poses[name] for m in (one, two))
-    places = [0j, *one.structure.links[name].points.values()]
+    places = [0j, *one.structure.links[name].points.values(), *further]
     pairs = [(p.fixed(z), q.fixed(z)) for z in places]
     points = [max(abs(complex((getattr(a, f) - getattr(b, f))[0])) for a, b in pairs) for f in "zva"]
     return [*points, abs(complex((p.u - q.u)[0])), abs(p.omega - q.omega)[0], abs(p.alpha - q.alpha)[0]]
@@ -143,7 +149,7 @@ def in_more_digits(all_: Pose) -> Pose:
     return Pose(**{**wide, "u": wide["u"] / np.abs(wide["u"])})
 
 
-@pytest.mark.skipif(np.finfo(np.longdouble).eps > 1e-18, reason="a long double has no more digits here")
+@pytest.mark.skipif(bool(np.finfo(np.longdouble).eps > 1e-18), reason="a long double has no more digits here")
 @pytest.mark.parametrize("longer", [0.0, 1e-12])
 @pytest.mark.parametrize("name", [*(name for name in SCENES if name not in FIXED), *ROLLING])
 def test_rounding_moves_no_constraint_and_no_rate_of_it_farther_than_is_told(name: str, longer: float) -> None:
@@ -157,3 +163,53 @@ def test_rounding_moves_no_constraint_and_no_rate_of_it_farther_than_is_told(nam
         told = bounds._row_errors(system, all_, system.parts(all_, 2), np.zeros(len(known.ok), bool), [exact] * 3)
     moved = np.abs(system.constraints(in_more_digits(all_)) - system.constraints(all_))
     assert (moved <= told).all()
+
+
+@pytest.mark.parametrize("name", [*(name for name in SCENES if name not in FIXED), *ROLLING])
+def test_links_that_do_not_close_are_no_farther_off_than_is_told(name: str) -> None:
+    reach = driver_range(mechanism_of(ROLLING[name]) if name in ROLLING else mechanism(name))
+    motion = reach.motion(reach.ends[0] + 0.2 * np.diff(reach.ends))
+    known, size = motion.accuracy, motion.scene.size
+    place = 0.0 if name in ROLLING else STEP  # of what rolls no turns are counted: it may stand anywhere
+    rng = np.random.default_rng(3)
+    off = dict(motion.poses)
+    for link in off.keys() - {motion.scene.frame.name}:
+        true, by = off[link], STEP * rng.choice([-1.0, 1.0], 6) * rng.uniform(0.1, 1.0, 6)
+        aside = size * np.exp(1j * rng.uniform(0.0, 6.3, 3))
+        off[link] = Pose(
+            true.z + place / STEP * by[0] * aside[0], true.u * np.exp(1j * place / STEP * by[3]),
+            true.v + by[1] * aside[1], true.omega + by[4], true.a + by[2] * aside[2], true.alpha + by[5],
+        )  # fmt: skip
+    exact = 0 * known.drive.value, 0 * known.slack, np.zeros(1, bool)
+    told = bounds.error_bounds(replace(known.structure), off, known.drive, exact[1], exact[2], exact[0])
+    for link, most in told.items():
+        under = [motion.poses[link].inverse().of(motion.poses[p.a]).z for p in known.structure.slides if p.b == link]
+        changes = missed(motion, replace(motion, poses=off), link, [complex(z[0]) for z in under])
+        assert all(off <= 1.001 * float(bound[0]) for off, bound in zip(changes, most, strict=True)), link
+
+
+@pytest.mark.parametrize(("name", "at"), [
+    ("cam-offset-roller", 20.0), ("cam-offset-roller", 70.0), ("cam-offset-roller", 200.0),
+    ("cam-swinging-roller", 290.0), ("cam-swinging-roller", 160.0),
+])  # fmt: skip
+def test_what_a_law_is_off_moves_the_follower_within_the_bound_of_it(name: str, at: float) -> None:
+    scene = mechanism(name)
+    scene = replace(scene, drivers=(replace(scene.drivers[0], rate=7.0, second=90.0),))
+    with patch.object(engine, "LOOKED_UP", STEP):
+        own = solve(scene, at={scene.drivers[0].key: math.radians(at)})
+
+    def off(cam: LawCam, turn: Array) -> Mapping[str, Array]:
+        given = follower_inputs(cam, turn)
+        rates = {"slope": given["slope"] * (1 + STEP), "bend": given["bend"] * (1 - STEP)}
+        if "travel" in given:
+            return {**given, **rates, "travel": given["travel"] * (1 + STEP)}
+        turned = (given["cos"] + 1j * given["sin"]) * np.exp(1j * STEP)
+        return {**given, **rates, "cos": turned.real, "sin": turned.imag}
+
+    with patch.object(engine, "follower_inputs", off):
+        moved = solve(scene, at={scene.drivers[0].key: math.radians(at)})
+    with patch.object(bounds, "LOOKED_UP", STEP):
+        found = told(own, None, slack=1.0)
+    for link, most in found.items():
+        for change, bound in zip(missed(own, moved, link), most, strict=True):
+            assert change <= 1.001 * float(bound[0]) + 1e-12, link

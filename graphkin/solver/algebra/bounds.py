@@ -197,10 +197,9 @@ def _follow(
         changes = slope, bend * omega, abs(jerk) * omega**2 + np.abs(bend * alpha)
         for matrix, change in zip(matrices, changes, strict=True):
             matrix[:, row, 3 * cam + 2] -= change
-        for order, rate in enumerate((slope * omega, bend * omega**2 + slope * alpha), start=1):
-            residuals[order][:, row] -= rate
-            errors[order][:, row] += LOOKED_UP * np.abs(rate)
-        errors[2][:, row] += LOOKED_UP * np.abs(bend * omega * slope * omega)
+        for order, terms in enumerate(((slope * omega,), (bend * omega**2, slope * alpha)), start=1):
+            residuals[order][:, row] -= sum(terms)
+            errors[order][:, row] += LOOKED_UP * sum(map(np.abs, terms))  # slope and bend are each off
     errors[0][:, layout.rolling_rows] += slack * scales
 
 
