@@ -142,6 +142,8 @@ def _of_link(
         return rate, Phrase("centre from slider", **gaps, near=near, rate=rate.size)
     same = dot(its.point - common.point, new.point - common.point) >= 0.0
     key = "centre same sense" if same else "centre opposite sense"
+    if far == "0" and near != "0":
+        key = "centre stands still"
     return rate, Phrase(key, **gaps, far=far, near=near, rate=true_minus(rate.written))
 
 

@@ -64,7 +64,10 @@ def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str,
     off += [str(v.symbol) for v in centred.velocities if v.ok is False]
     near = [v.too_near(language) for v in centred.velocities if v.ok is None]
     count = sum(e is not None for e in centred.errors.values())
-    verdict = Phrase("check failed", readings=", ".join(off)) if off else Phrase("centres checked", centres=count)
+    still = ", ".join(name(centre.pair) for centre in centres.found if centred.errors[centre.pair] is None)
+    verdict = Phrase("centres checked but", centres=count, still=still)
+    if off or not still:
+        verdict = Phrase("check failed", readings=", ".join(off)) if off else Phrase("centres checked", centres=count)
     heads = ["", *(word(key, language) for key in ("centre", "place", "how found"))]
     head = [*why, *[""] * bool(why), word("velocities by centres", language)]
     return heads, rows, [*head, *velocities, *near, say(verdict, language)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -9,6 +10,7 @@ import pytest
 
 from graphkin.account.centres import how_found, velocity_sentences
 from graphkin.api.centred import centres as checked_centres
+from graphkin.api.centred import centres_text
 from graphkin.construction.centres import find_centres
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol
@@ -135,3 +137,30 @@ def test_no_sliding_velocity_is_told_of_links_that_turn_alike_but_for_rounding()
     for pinned, guiding in told:
         one, other = moving[str(pinned)].omega, moving[str(guiding)].omega
         assert abs(one - other) > 1e-3 * max(abs(one), abs(other))
+
+
+def test_a_link_whose_known_centre_lies_in_the_common_one_is_said_to_stand_still() -> None:
+    # at its outer dead centre the rocker turns neither in the crank's sense nor against it
+    outer = math.degrees(math.acos((200**2 + 240**2 - 120**2) / (2 * 200 * 240)))
+    scene = {
+        "frame": {"points": {"A": [0, 0], "D": [200, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 60},
+            "2": {"points": ["B", "C"], "length": 180},
+            "3": {"points": ["D", "C"], "length": 120},
+        },
+        "driver": {"link": "1", "angle": outer, "omega": 5},
+    }
+    assert [s for s in told(scene) if s.endswith("= 0 rad/s; P01 lies in P13: link 3 stands still")]
+
+
+def test_links_that_do_not_move_relative_to_each_other_are_not_among_the_compared_centres() -> None:
+    # a carrier at rest: its six centres were all said to agree, and of one nothing is compared
+    scene = {
+        "frame": {"points": {"O": [0, 0]}},
+        "links": {"1": {"points": ["O"]}, "h": {"points": ["O", "P"], "length": 45}, "2": {"points": ["P"]}},
+        "gears": {"a": {"between": ["1", "2"], "teeth": [30, 15]}},
+        "driver": [{"link": "h", "angle": 30, "omega": 0}, {"link": "1", "angle": 0, "omega": 6}],
+    }
+    said = centres_text(checked_centres(scene))[2][-1]
+    assert "5 instant centres agree with the analytic solution; the links of P0h do not move" in said
