@@ -346,7 +346,7 @@ def _floor(sheet: Sheet, reading: Reading, rounding: Lost, unknown: float) -> fl
     if symbol.is_vector:
         return lost
     rate = sheet.rates(symbol.kind).get(symbol.link)
-    if rate is None or rate.vector is None:
+    if rate is None or (rate.vector is None and rate.mm is None):
         return 0.0  # given
     return lost / (rate.arm_mm * sheet.scales.length if rate.arm_mm else sheet.scene.size)
 

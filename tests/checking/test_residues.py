@@ -120,3 +120,18 @@ def test_no_table_shows_what_rounding_leaves(name, at):
         "computed": audit(printed, at=at).table.csv(),
     }
     assert [] == [(t, line) for t, text in tables.items() for line in text.splitlines() if RESIDUE.search(line)]
+
+
+def test_the_rate_of_a_carrier_that_two_drivers_hold_at_rest_is_0():
+    # read off the plan of the train: sun at 10 rad/s, ring at -5 rad/s with twice its teeth
+    train = {
+        "frame": {"points": {"O": [0, 0]}},
+        "links": {
+            "s": {"points": ["O"]}, "h": {"points": ["O", "P"], "length": 60}, "p": {"points": ["P"]},
+            "r": {"points": ["O"]},
+        },
+        "gears": {"a": {"between": ["s", "p"], "teeth": [40, 20]}, "b": {"between": ["p", "r"], "teeth": [20, -80]}},
+        "driver": [{"link": "s", "angle": 0, "omega": 10}, {"link": "r", "angle": 0, "omega": -5}],
+    }  # fmt: skip
+    (carrier,) = [row for row in check(train).data["readings"] if row["symbol"] == "omega_h"]
+    assert (0.0, 0.0) == (carrier["measured"], carrier["exact"])
