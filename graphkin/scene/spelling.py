@@ -151,7 +151,7 @@ def _said(key: str, signs: str = "(?!)") -> re.Pattern[str]:
 
 _UNITS = {unit: _said(f"unit {unit}") for unit in ("mm", "cm", "m", "rad", "deg", "r", "/", "min", "s2", "s", "n", "2")}
 _LENGTHS = {**LENGTHS, "dm": 0.1, "km": 1e3, "um": 1e-6, "inch": 0.0254, "inches": 0.0254, "\"": 0.0254, "feet": 0.3048}
-_FORCES = {**{force.lower(): newtons for force, newtons in FORCES.items()}, "lb": FORCES["lbf"]}
+_FORCES = {**{force.lower(): newtons for force, newtons in FORCES.items()}, "lb": FORCES["lbf"], "lbs": FORCES["lbf"]}
 _ANGLES = {**dict.fromkeys(("rad", "", "1"), 1.0), **dict.fromkeys(("deg", "°", "degrees"), math.radians(1.0)),
            **dict.fromkeys(("r", "rev", "turn"), math.tau)}  # fmt: skip
 _TIMES = {"s": 1.0, "sec": 1.0, "min": 60.0, "h": 3600.0, "": 1.0}
@@ -172,10 +172,13 @@ def unit_factor(text: str, symbol: Symbol, units: Units) -> float | None:
         plain = pattern.sub(unit, plain)
     bare = re.sub(r"[\s^·*⋅.{}]", "", plain).replace("µ", "u").replace("μ", "u")
     if symbol.measure in ("force", "moment"):
-        force, arm = next(((f, bare[len(f) :]) for f in _FORCES if bare.startswith(f)), ("", bare))
-        arm = arm.removeprefix("-")
-        length = _LENGTHS.get(arm) if symbol.measure == "moment" else 1.0 if not arm else None
-        return _FORCES[force] * length if force and length else None
+        arms = _LENGTHS if symbol.measure == "moment" else {"": 1.0}
+        for force, newtons in _FORCES.items():  # lb-ft, or ft-lb
+            split = (bare.removeprefix(force), bare.removesuffix(force))
+            arm = next((a.strip("-") for a in split if a != bare and a.strip("-") in arms), None)
+            if arm is not None:
+                return newtons * arms[arm]
+        return None
     bare = bare.replace("rpm", "r/min")
     match = _RATE.fullmatch(bare)
     if match is None:
@@ -446,6 +449,11 @@ _DECIMAL = re.compile(r"[+\-]?\d+,\d+(?:[eE][+\-]?\d+)?")
 _THOUSANDS = re.compile(r"[+\-]?\d{1,3}(?:,\d{3})+(?:\.\d+)?")
 _ABOUT, _ASIDE = _said("about", "[≈~≃≅∼]"), _said("beside a value")
 _RAISED = re.compile(r"(?<=[A-Za-z])\s*\^\s*\{?\s*([+-]?\d)\s*\}?")
+# an inch behind a number or a force, which is no "in the sense of"
+_INCHES = re.compile(
+    r"(?:(?<=[\d)\]])|(?<=lb)|(?<=lbf))[\s·*⋅-]*in\b\.?"
+    r"(?!\s+(?:the|its|a|direction|sense|positive|negative|[+-]?[xy]|mm|cm|m|rad|deg)\b)", re.IGNORECASE,
+)  # fmt: skip
 _PER_TIME = re.compile(r"(?<=[\d\s])\b1\s*/\s*(?=s|min)")
 _SPACED = re.compile(r"(?<![\d.,])\d{1,3}(?: \d{3})+(?![\d.,]*\d)(?:[.,]\d+)?")
 _HAT = r"\s*[*·]?\s*(?:\\?hat)?\{{?[{0}]\u0302?\}}?"
@@ -488,7 +496,7 @@ def read_cell(
     -2.82
     """
     plain = _PER_TIME.sub("/", _RAISED.sub(r"\1", _ABOUT.sub(" ", plain_text(text))))
-    plain = _joined(plain, symbol)
+    plain = _INCHES.sub(" inch", _joined(plain, symbol))
     if symbol.is_vector:
         plain = _COMPLEX.sub(r"\1; \2\3", _UNIT_VECTORS.sub(r"\1; \2\3", plain))
         plain = _TWO_WAYS.sub(_two_components, plain)

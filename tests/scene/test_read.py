@@ -11,7 +11,9 @@ from graphkin.errors import SceneError
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.pairs import SlidingPair
+from graphkin.scene.spelling import read_cell
 from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import Units
 
 from .scenes import FOUR_BAR, SIX_BAR, changed
 
@@ -303,3 +305,14 @@ def test_a_rate_whose_square_is_lost_is_refused(key):
     text = f'{crank}[driver]\nlink = "1"\nangle = 0\n'
     with pytest.raises(SceneError, match="write 0, or at least 1e-15"):
         mechanism_of_text(f"{text}{key} = 1e-300", "slow")
+
+
+@pytest.mark.parametrize(("cell", "name", "value"), [
+    ("19.5 in/s", "v_B", 19.5 * 0.0254), ("3.2 in", "d_B/C", 3.2 * 0.0254), ("12.5 in./s², up", "a_B", 12.5 * 0.0254),
+    ("30 lb-in", "M_2", 30 * 4.4482216152605 * 0.0254), ("30 ft-lb", "M_2", 30 * 4.4482216152605 * 0.3048),
+    ("30 lb ft", "M_2", 30 * 4.4482216152605 * 0.3048), ("30 lbs", "F_1/2", 30 * 4.4482216152605),
+    ("2 in the clockwise sense", "omega_3", -2.0), ("480 in direction -x", "v_B", 0.48),
+])  # fmt: skip
+def test_an_inch_is_a_unit_and_no_word_beside_a_value(cell: str, name: str, value: float) -> None:
+    # in a scene in mm "3.2 in" was 3.2 mm
+    assert value == pytest.approx(read_cell(cell, Symbol.parse(name), Units(speed="mm/s")).value)
