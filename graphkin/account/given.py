@@ -309,23 +309,25 @@ def _place(z: complex, scene: Mechanism) -> str:
 
 
 def given_loads(sheet: Sheet, letters: Letters) -> list[Phrase]:
-    """Masses, weights, inertias, loads, springs and the balancing load, a line for each kind."""
+    """Masses, weights, inertias, loads, springs and the balancing load, a line for each kind; the direction of weights
+    where they do not pull down."""
     scene, loading = sheet.scene, sheet.scene.loading
-    masses = list(_masses(scene, letters))
+    masses, aslant = list(_masses(scene, letters)), degrees(loading.gravity or -1j)
+    balance = loading.balance
     balances = dict.fromkeys(DrawnPosition(sheet).balance(driver).symbol for driver in scene.drivers)
     return [
         *([reduce(lambda one, other: Phrase("given masses", first=one, second=other), masses)] if masses else []),
+        *([Phrase("given weights", angle=number(aslant, 5))] if masses and abs(aslant + 90.0) > LEVEL else []),
         *(_load(scene, load, letters) for load in loading.loads),
         *(_spring_given(scene, spring, letters) for spring in loading.springs),
         Phrase("given balance", forces=", ".join(f"${force_letters(letters.convention, one)}$" for one in balances)),
+        *([_load(scene, balance, letters)] if balance is not None and balance.is_force else []),
     ]
 
 
 def _masses(scene: Mechanism, letters: Letters) -> Iterator[Phrase]:
     units, loading = scene.units, scene.loading
     for mass in loading.masses:
-        point = next((p for p, z in scene.by_name[mass.link].points.items() if z == mass.at), "")
-        where = f"${letters.point(point)}$" if point else _place(mass.at, scene)
         said = f"$m_{{{mass.link}}}$ = {number(mass.mass / units.kilograms, 5)} {units.mass}"
         if loading.gravity:
             weight, unit = mass.mass * abs(loading.gravity), units.of("force")
@@ -334,21 +336,36 @@ def _masses(scene: Mechanism, letters: Letters) -> Iterator[Phrase]:
         if mass.inertia:
             unit = units.of("inertia")
             said += f", $J_{{{mass.link}}}$ = {unit.beside(number(unit.of(mass.inertia), 5))}"
-        yield Phrase("given mass", mass=Neutral(said), point=where)
+        yield Phrase("given mass", mass=Neutral(said), point=_place_on(scene, mass.link, mass.at, letters))
+
+
+def _place_on(scene: Mechanism, name: str, at: complex, letters: Letters) -> str | Phrase:
+    """A place in a link's own axes (m): the point that lies there, else along the link's axis and to the left of it."""
+    link = scene.by_name[name]
+    point = next((p for p, z in link.points.items() if z == at), "")
+    if point:
+        return f"${letters.point(point)}$"
+    pairs = along_its_guide(scene, link)
+    turn = pairs[0].turn if pairs and len(link.bar) < 2 else 1.0 + 0j
+    axis = _axis(scene, link, pairs, letters)
+    return Phrase("place along", place=_place(at * turn, scene), origin=_origin(link, letters), axis=axis)
 
 
 def _load(scene: Mechanism, load: LoadOn, letters: Letters) -> Phrase:
-    symbol = Symbol("P", name=load.name, turning=not load.is_force)
-    unit = symbol.unit(scene.units)
-    size = Neutral(f"${force_letters(letters.convention, symbol)}$ = {unit.beside(number(unit.of(load.size)))}")
+    """The given data of a load; of the balancing load, whose size is sought, its line."""
+    sought, kind = not load.name, "F" if load.is_force else "M"
+    symbol = Symbol(kind, link=load.link) if sought else Symbol("P", name=load.name, turning=not load.is_force)
+    unit, name = symbol.unit(scene.units), f"${force_letters(letters.convention, symbol)}$"
+    size = name if sought else Neutral(f"{name} = {unit.beside(number(unit.of(load.size)))}")
+    gaps = {"size": size, "link": load.link, "point": _place_on(scene, load.link, load.at, letters)}
     if not load.is_force:
         said = Phrase("given moment", size=size, link=load.link)
     elif load.against:
-        said = Phrase("given against", size=size, link=load.link, slide=load.against)
+        said = Phrase("given against", **gaps, slide=load.against)
     else:
         angle = number(degrees(load.turn), 5)
         key = "given following" if load.follows else "given force"
-        said = Phrase(key, size=size, link=load.link, angle=angle, other=load.follows)
+        said = Phrase(key, **gaps, angle=angle, other=load.follows)
     return said if load.phase is None else Phrase("given while", load=said, phase=_phase(scene, load.phase))
 
 

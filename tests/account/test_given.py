@@ -3,11 +3,12 @@
 import pytest
 
 from graphkin import draw, handout
-from graphkin.account.given import given_drivers, given_shapes, rolled_starts
+from graphkin.account.given import given_drivers, given_loads, given_shapes, rolled_starts
 from graphkin.account.notation import letters_of
 from graphkin.construction import draft
 from graphkin.drawing.ink.primitives import Text, walk
 from graphkin.scene import mechanism_of
+from graphkin.words import say
 
 OLDHAM = {
     "frame": {"name": "4", "points": {"A": [0, 0], "B": [30, 0]}},
@@ -160,3 +161,44 @@ def test_a_wheel_that_has_but_its_axis_is_told_without_its_angle():
         "driver": {"link": "1", "angle": 10, "omega": 5},
     }
     assert [] == rolled_starts(draft(mechanism_of(train)))
+
+
+PRESS = {
+    "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": [0, -10], "angle": 30}}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 40}, "2": {"points": ["B", "C"], "length": 120},
+        "3": {"points": ["C"], "on": "0.h"},
+    },
+    "driver": {"link": "1", "angle": 60, "omega": 5},
+    "masses": {"2": {"at": [60, 8], "mass": 3}},
+    "loads": {"P": {"on": "3", "at": [15, 0], "force": 60, "angle": 180, "follows": "3"},
+              "Q": {"on": "2", "at": "C", "force": 8, "angle": 45}},
+}  # fmt: skip
+
+
+def of_loads(**tables: object) -> list[str]:
+    """The given masses and loads of the press."""
+    sheet = draft(mechanism_of({**PRESS, **tables}))
+    return [say(phrase, "en") for phrase in given_loads(sheet, letters_of(sheet, "chinese"))]
+
+
+def test_the_point_at_which_a_force_acts_is_given() -> None:
+    told = of_loads()
+    assert "$P$ = 60 N on link 3 at (15, 0) mm from $C$ along $h$, 180° from the axis of link 3" in told
+    assert "$P_{Q}$ = 8 N on link 2 at $C$, direction 45°" in told
+
+
+def test_a_mass_beside_all_points_has_a_place_in_the_axes_of_its_link() -> None:
+    assert "$m_{2}$ = 3 kg at (60, 8) mm from $B$ along $BC$" in of_loads()
+
+
+def test_weights_that_do_not_pull_down_have_a_direction() -> None:
+    assert "weights pull in the direction −160°" in of_loads(gravity={"angle": 200})
+    assert not [told for told in of_loads(gravity={}) if told.startswith("weights")]
+
+
+def test_the_line_of_a_balancing_force_is_given() -> None:
+    # without it the force that is sought is any
+    assert "$F_{1}$ on link 1 at $B$, 90° from the axis of link 1" == of_loads(
+        balance={"on": "1", "at": "B", "angle": "square"})[-1]  # fmt: skip
+    assert "$F_{1}$ on link 1 at $B$, direction 10°" == of_loads(balance={"on": "1", "at": "B", "angle": 10})[-1]
