@@ -223,9 +223,9 @@ class Pieces:
         nothing = np.abs(self.levels(curve) - level).min(axis=0) <= NOTHING * self.scale[curve]
         for seam in self.seams[nothing]:
             # several roots at one end are found apart, by the root of the rounding
-            apart = np.abs(found - seam)
-            apart = np.minimum(apart, whole - apart) if self.periodic else apart
-            found = np.append(found[apart > CLOSE * whole], seam)
+            distance = np.abs(found - seam)
+            distance = np.minimum(distance, whole - distance) if self.periodic else distance
+            found = np.append(found[distance > CLOSE * whole], seam)
         return np.sort(found)
 
     def near_zero(self, curve: int, within: float) -> tuple[Array, Array]:
@@ -297,17 +297,17 @@ class Pieces:
         low, high, slack = float(self.low[0]), float(self.high[-1]), SAME_AT_SEAM * self.scale[curve]
         turns, levels = list[Turn](), self.levels(curve)
         near = np.minimum(BESIDE_SEAM * (high - low), self._room() / 3)
-        before, beyond = (self.at(self._within(self.seams + by), curve) for by in (-near, near))
+        before, after = (self.at(self._within(self.seams + by), curve) for by in (-near, near))
         for sense in (1.0, -1.0):
             top = sense * (sense * levels).max(axis=0)
-            turning = (sense * (top - before) >= -slack) & (sense * (top - beyond) > slack)
+            turning = (sense * (top - before) >= -slack) & (sense * (top - after) > slack)
             turning &= at_rest | (np.abs(top) > slack)
             ends = zip(self.seams[turning].tolist(), top[turning].tolist(), strict=True)
             turns += [Turn(*end, sense, True) for end in ends]
-        apart = np.abs(places[:, None] - self.seams)
-        apart = np.minimum(apart, high - low - apart) if self.periodic else apart
+        distance = np.abs(places[:, None] - self.seams)
+        distance = np.minimum(distance, high - low - distance) if self.periodic else distance
         same = (np.abs(levels - values[:, None, None]) <= slack).any(axis=1)
-        return turns, np.asarray(((apart < near) & same).any(axis=1))
+        return turns, np.asarray(((distance < near) & same).any(axis=1))
 
     def _room(self) -> Array:
         """The distance of each seam from its neighbour: another seam, or an end of the range."""
@@ -367,10 +367,10 @@ class Pieces:
         kept: list[float] = []
         whole = self.high[-1] - self.low[0]
         for t in found:
-            apart = t - kept[-1] if kept else np.inf
-            if apart <= BESIDE * whole and self._unsure(coefficients, doubt, t - apart / 2):
-                kept[-1] = t - apart / 2  # rounding has parted one root
-            elif apart > SAME * whole:
+            distance = t - kept[-1] if kept else np.inf
+            if distance <= BESIDE * whole and self._unsure(coefficients, doubt, t - distance / 2):
+                kept[-1] = t - distance / 2  # rounding has parted one root
+            elif distance > SAME * whole:
                 kept.append(min(max(t, float(self.low[0])), float(self.high[-1])))
         if self.periodic and len(kept) > 1 and kept[-1] - kept[0] > (1 - SAME) * (self.high[-1] - self.low[0]):
             kept.pop()
@@ -442,8 +442,8 @@ def _real_roots(c: Array, rounding: float) -> list[float]:
             step = float(chebyshev.chebval(x, c) / rate) if rate else 0.0
             x -= step if abs(step) < 1e-6 else 0.0
         # a pair of complex roots near the axis is a curve that comes close to zero without reaching it
-        beyond = max(OUTSIDE, 4 * rounding / abs(rate) if rate else 0.0)
-        if abs(x) <= 1 + beyond and (abs(z.imag) < 1e-12 or _crosses(c, x, abs(z.imag))):
+        outside = max(OUTSIDE, 4 * rounding / abs(rate) if rate else 0.0)
+        if abs(x) <= 1 + outside and (abs(z.imag) < 1e-12 or _crosses(c, x, abs(z.imag))):
             roots.append(min(max(x, -1.0), 1.0))
     return roots
 
@@ -495,15 +495,15 @@ def resolve(
     for depth in range(MOST_DEPTH + 1):
         middle, half = waiting.mean(axis=1), np.diff(waiting, axis=1)[:, 0] / 2
         at = middle[:, None] + half[:, None] * _NODES
-        value, off = curves(at.ravel())
+        value, error = curves(at.ravel())
         if weight is not None:
             by = _weighing(at.ravel()[:, None], weight)
-            value, off = value * by, off * by
-        value, off = (x.reshape(len(waiting), POINTS, -1) for x in (value, off))
+            value, error = value * by, error * by
+        value, error = (x.reshape(len(waiting), POINTS, -1) for x in (value, error))
         broken: NDArray[np.bool_] = np.asarray(~np.isfinite(value).all(axis=1))
         value = np.where(np.isfinite(value), value, 0.0)
         # a bound that is not known stops nothing, and hides nothing
-        doubt = np.where(np.isfinite(off), off, 0.0).max(axis=1)
+        doubt = np.where(np.isfinite(error), error, 0.0).max(axis=1)
         local = np.abs(value).max(axis=1)
         if depth == 0:
             # a curve that grows without bound at an end is represented to the rounding of its values there

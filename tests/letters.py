@@ -13,7 +13,7 @@ from graphkin.drawing.font import FOLDER
 
 SVG = "{http://www.w3.org/2000/svg}"
 STYLES = {"": "regular", "font-style:italic": "italic", "font-weight:bold": "bold"}
-Letters = dict[str, dict[str, tuple[int, str, list[tuple[int, int]]]]]
+Notation = dict[str, dict[str, tuple[int, str, list[tuple[int, int]]]]]
 """Advance, flags and points of each character, by style."""
 
 
@@ -33,8 +33,8 @@ def whole(style: str) -> TTFont:
     return TTFont(FOLDER / f"{style}.ttf", lazy=True)
 
 
-def letters(fonts: dict[str, TTFont]) -> Letters:
-    found: Letters = {}
+def letters(fonts: dict[str, TTFont]) -> Notation:
+    found: Notation = {}
     for style, font in fonts.items():
         found[style] = {}
         for code, name in font.getBestCmap().items():

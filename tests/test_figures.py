@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.letters import STYLES, Letters, faces, letters, shown, unpacked, whole
+from tests.letters import STYLES, Notation, faces, letters, shown, unpacked, whole
 
 FIGURES = Path(__file__).parent.parent / "figures"
 _spec = importlib.util.spec_from_file_location("make", FIGURES / "make.py")
@@ -28,7 +28,7 @@ def test_a_committed_figure_is_redrawn_byte_by_byte_but_for_how_its_letters_are_
 
 
 @pytest.fixture(scope="module")
-def family() -> Letters:
+def family() -> Notation:
     """All letters from which those of a figure are cut; an italic or bold face borrows from the upright."""
     own = letters({style: whole(style) for style in STYLES.values()})
     return {style: own["regular"] | held for style, held in own.items()}

@@ -10,7 +10,7 @@
 import math
 from dataclasses import replace
 
-from graphkin.account.notation import letters_of
+from graphkin.account.notation import notation_of
 from graphkin.construction import Room, draft
 from graphkin.drawing import Box, Drawing, Group, Polygon, Text
 from graphkin.drawing.ink.strokes import DIMENSION
@@ -108,7 +108,7 @@ def plainly(things):
 
 def row(sheet, title, y, language):
     """Four stages of a layout, and whether it has the term."""
-    letters = letters_of(sheet, "chinese")
+    letters = notation_of(sheet, "chinese")
     terms = [t for t in coriolis_terms(sheet) if abs(t[0].span) > 0.02]
     said = NONE[language]
     if terms:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from graphkin.account.arithmetic import bound, factors_of, lengths_measured, rule_sum
 from graphkin.account.in_mechanism import InMechanism
 from graphkin.account.in_polygon import InPolygon, alike, rate_name
-from graphkin.account.notation import Letters
+from graphkin.account.notation import Notation
 from graphkin.account.voice import Telling, Voice
 from graphkin.construction.board.sheet import Equation, Sheet
 from graphkin.construction.board.steps import Reason, Step, Term, Vector
@@ -58,7 +58,7 @@ WrittenLine = Equation | str
 """A vector equation, or a rule on one line as words with symbols."""
 
 
-def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[WrittenLine]:
+def written_lines(sheet: Sheet, letters: Notation, language: str) -> list[WrittenLine]:
     """The lines from which a construction can be repeated, in its order: lengths measured on the mechanism, each vector
     equation with its products in numbers, the angular rates as soon as they are known, and the lines of each step."""
     account = Account(sheet, letters)
@@ -93,20 +93,20 @@ def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[Written
     return lines
 
 
-def _products(sheet: Sheet, equation: Equation, letters: Letters) -> list[str]:
+def _products(sheet: Sheet, equation: Equation, letters: Notation) -> list[str]:
     """``a^n_CB = 0.7396² × 383.14 = 209.58 mm/s²``: the sizes in an equation that follow from rates, in numbers, each
     once; an equation that is only a rule contains its own."""
     if rule_alone(sheet, equation):
         return []
     own = [s for s in sheet.steps if s.equation == equation.number]
     laid_off = {s.symbol for s in own if s.reason == "before its turn" or (s.verb == "lay off" and s.mm)}
-    sums = {
+    arithmetic = {
         one.symbol: rule_sum(sheet, one.size, equation.diagram)
         for side in equation.sides
         for one in side
         if one.symbol in laid_off and "0" not in factors_of(sheet, one.size)
     }
-    said = [f"${letters.vector(symbol)}$ =\u00a0{bound(text)}" for symbol, text in sums.items() if text]
+    said = [f"${letters.vector(symbol)}$ =\u00a0{bound(text)}" for symbol, text in arithmetic.items() if text]
     return [";  ".join(said)] if said else []
 
 
@@ -177,11 +177,11 @@ def _why(sheet: Sheet, equation: Equation, term: Term) -> Iterator[Phrase]:
 def _found_before(sheet: Sheet, equation: Equation, term: Term) -> int:
     """The step that found a term with which an equation begins; 0 for a term that is drawn in it."""
     of, to = term.symbol.of, term.symbol.to
-    apart = of is not None and to is not None and of.point == to.point and any(
+    by_hand = of is not None and to is not None and of.point == to.point and any(
         (s.reason == "special point" and s.point == of.point) or (s.reason == "seen from" and s.held == to.link)
         for s in sheet.steps
     )
-    if term.size is not None or not (to is None or apart) or not (term.size_known and term.direction_known):
+    if term.size is not None or not (to is None or by_hand) or not (term.size_known and term.direction_known):
         return 0
     earlier = (
         s for s in sheet.steps

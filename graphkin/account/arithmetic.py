@@ -12,7 +12,7 @@ from typing import Literal
 
 from graphkin.account.given import slide_index
 from graphkin.account.headings import number, written
-from graphkin.account.notation import Letters, unit_of
+from graphkin.account.notation import Notation, unit_of
 from graphkin.construction.board.instruments import EXACT
 from graphkin.construction.board.sheet import Sheet, either_way
 from graphkin.construction.board.steps import DiagramName, RateTrial, Size, Step, Superposed
@@ -69,7 +69,7 @@ def times_scale(sheet: Sheet, diagram: DiagramName, mm: float) -> str:
     return f"{written(length)} mm × {number(per)} {shown}/mm = {written(value)} {unit}{more}"
 
 
-def lengths_measured(sheet: Sheet, letters: Letters) -> Iterator[tuple[tuple[str, str], str]]:
+def lengths_measured(sheet: Sheet, letters: Notation) -> Iterator[tuple[tuple[str, str], str]]:
     """Each length that enters an equation and is not given, in the order of use, by its ends, with its millimetres:
     ``l_O4A = 38.31 mm × 10 mm/mm = 383.1 mm (383.14)``."""
     bars: dict[frozenset[str], tuple[str, str]] = {}

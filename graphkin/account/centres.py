@@ -68,8 +68,8 @@ def velocity_sentences(centres: Centres) -> tuple[Phrase, ...]:
     moving = centres.turning
     largest = max((abs(t.omega) for t in moving.values()), default=0.0)
     for turning in sorted(moving.values(), key=lambda t: len(t.chain)):
-        off = centres.velocity_error(Symbol("omega", link=turning.link))
-        nothing = abs(turning.omega) <= max(STILL * largest, min(off, SURE * largest))  # but rounding
+        error = centres.velocity_error(Symbol("omega", link=turning.link))
+        nothing = abs(turning.omega) <= max(STILL * largest, min(error, SURE * largest))  # but rounding
         if len(turning.chain) > 1:
             rates[turning.link], of_links[turning.link] = _of_link(centres, rates, turning, nothing)
         else:
@@ -202,17 +202,17 @@ def _of_sliding(
         return None
     centre = centres.of(pinned, guiding)
     pinned_rate, guide_rate = rates[pinned], rates[guiding]
-    apart = written.difference(pinned_rate.written, guide_rate.written)
+    difference = written.difference(pinned_rate.written, guide_rate.written)
     # what the difference carries; None where they turn alike as far as the figure tells
     last = max((rate.last for rate in (pinned_rate, guide_rate) if Decimal(rate.written)), default=0)
-    carried = Decimal(apart).adjusted() - last if Decimal(apart) else 0
+    carried = Decimal(difference).adjusted() - last if Decimal(difference) else 0
     if centre.point is None or carried < 1:
         return None
     length = _apart(centres.point(point), centre.point)
     symbol = Symbol("v", PointRef(point, guiding), PointRef(point, sliding))
     second = f"({guide_rate.written})" if guide_rate.written.startswith("-") else guide_rate.written
     first = true_minus(pinned_rate.written)
-    scale, speed = _speed(centres, apart, length, min(carried, written.figures(length)))
+    scale, speed = _speed(centres, difference, length, min(carried, written.figures(length)))
     return Phrase(
         "centre sliding", symbol=symbol, link=pinned, guide=guiding, centre=centre.pair, point=PointRef(point),
         rate=first, guide_rate=true_minus(second), length=length, scale=scale, speed=speed,

@@ -16,7 +16,7 @@ from itertools import chain
 from typing import Literal, TypeAlias
 
 from graphkin.account.headings import number, written
-from graphkin.account.notation import Letters, force_letters, pole
+from graphkin.account.notation import Notation, force_letters, pole
 from graphkin.construction.board.scales import extent_of, fitting_scale, least_scale
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.forces.force_sheet import (
@@ -128,7 +128,7 @@ class ForceAccount:
 
     sheet: Sheet
     forces: ForceSheet
-    letters: Letters
+    letters: Notation
 
     @cached_property
     def per_mm(self) -> str:

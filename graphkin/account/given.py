@@ -15,7 +15,7 @@ from dataclasses import replace
 from functools import reduce
 
 from graphkin.account.headings import number, term, written
-from graphkin.account.notation import Letters, force_letters
+from graphkin.account.notation import Notation, force_letters
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.forces.position import DrawnPosition
 from graphkin.plane import degrees
@@ -35,7 +35,7 @@ NO_LENGTH = 1e-12  # of the mechanism's size: what is shorter are two points tha
 # -- drivers -----------------------------------------------------------------------------------------------------------
 
 
-def given_drivers(sheet: Sheet, letters: Letters) -> list[str]:
+def given_drivers(sheet: Sheet, letters: Notation) -> list[str]:
     """The moment, and values of drivers with their rates: words with symbols between dollar signs."""
     scene = sheet.scene
     told = [f"$t$ = {number(asked_time(scene))} s"] if moves_by_law(scene) else []
@@ -52,7 +52,7 @@ def given_drivers(sheet: Sheet, letters: Letters) -> list[str]:
     return told
 
 
-def drivers(sheet: Sheet, letters: Letters) -> str:
+def drivers(sheet: Sheet, letters: Notation) -> str:
     """The drivers with their rates in one line."""
     return ",  ".join(given_drivers(sheet, letters))
 
@@ -114,7 +114,7 @@ def slide_index(sheet: Sheet, key: str) -> str:
 # -- lengths, teeth and the frame --------------------------------------------------------------------------------------
 
 
-def given_lengths(scene: Mechanism, letters: Letters) -> list[tuple[str, str]]:
+def given_lengths(scene: Mechanism, letters: Notation) -> list[tuple[str, str]]:
     """The given lengths of all links: symbol (without dollar signs) and value in the scene's unit, as it is given."""
     found: list[tuple[str, float]] = []
     for link in scene.links:
@@ -142,7 +142,7 @@ def given_teeth(scene: Mechanism, language: str) -> list[str]:
     return list(found.values())
 
 
-def _further(link: PlacedLink, scene: Mechanism, letters: Letters) -> list[tuple[str, float]]:
+def _further(link: PlacedLink, scene: Mechanism, letters: Notation) -> list[tuple[str, float]]:
     """Distances of the further points of a link from its own."""
     told = off_its_guide(scene, link) if len(link.bar) < 2 and along_its_guide(scene, link) else []
     more = [p for p in link.points if p not in (*link.bar, *told)]
@@ -153,12 +153,12 @@ def _further(link: PlacedLink, scene: Mechanism, letters: Letters) -> list[tuple
     ]
 
 
-def fixed_points(scene: Mechanism, letters: Letters) -> list[tuple[str, str]]:
+def fixed_points(scene: Mechanism, letters: Notation) -> list[tuple[str, str]]:
     """The points of the frame: symbol (without dollar signs) and coordinates in the scene's unit, in brackets."""
     return [(letters.point(point), place_of(z, scene)) for point, z in scene.frame.points.items()]
 
 
-def fixed_guides(scene: Mechanism, letters: Letters) -> list[tuple[str, str, str]]:
+def fixed_guides(scene: Mechanism, letters: Notation) -> list[tuple[str, str, str]]:
     """The guides of the frame that have a name: symbol (without dollar signs), coordinates of a point of each in the
     scene's unit, in brackets, and direction (degrees)."""
     return [
@@ -178,7 +178,7 @@ def place_of(z: complex, scene: Mechanism) -> str:
 # -- shapes of links ---------------------------------------------------------------------------------------------------
 
 
-def given_shapes(scene: Mechanism, letters: Letters, language: str) -> list[str]:
+def given_shapes(scene: Mechanism, letters: Notation, language: str) -> list[str]:
     """The shapes of links as short phrases, symbols between dollar signs: ``guide s on 3: 140 mm from C, 90° to x``.
 
     Angles are those of lines, from -90 to 90 degrees, counter-clockwise positive; places are along the guide on which
@@ -195,7 +195,7 @@ def given_shapes(scene: Mechanism, letters: Letters, language: str) -> list[str]
     return [" ".join(dict.fromkeys(shape)) for shape in told]
 
 
-def _shape(scene: Mechanism, link: PlacedLink, letters: Letters) -> Iterator[Phrase]:
+def _shape(scene: Mechanism, link: PlacedLink, letters: Notation) -> Iterator[Phrase]:
     pairs = along_its_guide(scene, link)
     axis = _axis(scene, link, pairs, letters)
     turn = pairs[0].turn if pairs and len(link.bar) < 2 else 1.0 + 0j
@@ -277,26 +277,26 @@ def _axis_counts(scene: Mechanism, link: PlacedLink) -> bool:
     return turned or _carries_its_axis(scene, link) or bool(used_guides(scene, link))
 
 
-def _guide_name(scene: Mechanism, pair: SlidingPair, letters: Letters) -> str:
+def _guide_name(scene: Mechanism, pair: SlidingPair, letters: Notation) -> str:
     if pair.guide:
         return f"${letters.guide(pair.guide, scene.frame.name)}$"
     on = scene.by_name[pair.on]
     return "$x$" if pair.on == scene.frame.name else _own(on, letters)
 
 
-def _own(link: PlacedLink, letters: Letters) -> str:
+def _own(link: PlacedLink, letters: Notation) -> str:
     """The own axis of a link: its bar, else its number."""
     return f"${''.join(letters.point(p) for p in link.bar)}$" if len(link.bar) == 2 else link.name
 
 
-def _axis(scene: Mechanism, link: PlacedLink, pairs: list[SlidingPair], letters: Letters) -> str | Phrase:
+def _axis(scene: Mechanism, link: PlacedLink, pairs: list[SlidingPair], letters: Notation) -> str | Phrase:
     """The line from which angles on a link count: its bar, the guide on which it slides, else its own axis."""
     if len(link.bar) == 2:
         return _own(link, letters)
     return _guide_name(scene, pairs[0], letters) if pairs else Phrase("axis of", link=link.name)
 
 
-def _origin(link: PlacedLink, letters: Letters) -> str:
+def _origin(link: PlacedLink, letters: Notation) -> str:
     """The origin of a link's own axes."""
     return f"${letters.point(link.bar[0])}$" if link.bar else f"({link.name})"
 
@@ -308,7 +308,7 @@ def _place(z: complex, scene: Mechanism) -> str:
 # -- masses, loads and springs -----------------------------------------------------------------------------------------
 
 
-def given_loads(sheet: Sheet, letters: Letters) -> list[Phrase]:
+def given_loads(sheet: Sheet, letters: Notation) -> list[Phrase]:
     """Masses, weights, inertias, loads, springs and the balancing load, a line for each kind; the direction of weights
     where they do not pull down."""
     scene, loading = sheet.scene, sheet.scene.loading
@@ -325,7 +325,7 @@ def given_loads(sheet: Sheet, letters: Letters) -> list[Phrase]:
     ]
 
 
-def _masses(scene: Mechanism, letters: Letters) -> Iterator[Phrase]:
+def _masses(scene: Mechanism, letters: Notation) -> Iterator[Phrase]:
     units, loading = scene.units, scene.loading
     for mass in loading.masses:
         said = f"$m_{{{mass.link}}}$ = {number(mass.mass / units.kilograms, 5)} {units.mass}"
@@ -339,7 +339,7 @@ def _masses(scene: Mechanism, letters: Letters) -> Iterator[Phrase]:
         yield Phrase("given mass", mass=Neutral(said), point=_place_on(scene, mass.link, mass.at, letters))
 
 
-def _place_on(scene: Mechanism, name: str, at: complex, letters: Letters) -> str | Phrase:
+def _place_on(scene: Mechanism, name: str, at: complex, letters: Notation) -> str | Phrase:
     """A place in a link's own axes (m): the point that lies there, else along the link's axis and to the left of it."""
     link = scene.by_name[name]
     point = next((p for p, z in link.points.items() if z == at), "")
@@ -351,7 +351,7 @@ def _place_on(scene: Mechanism, name: str, at: complex, letters: Letters) -> str
     return Phrase("place along", place=_place(at * turn, scene), origin=_origin(link, letters), axis=axis)
 
 
-def _load(scene: Mechanism, load: LoadOn, letters: Letters) -> Phrase:
+def _load(scene: Mechanism, load: LoadOn, letters: Notation) -> Phrase:
     """The given data of a load; of the balancing load, whose size is sought, its line."""
     sought, kind = not load.name, "F" if load.is_force else "M"
     symbol = Symbol(kind, link=load.link) if sought else Symbol("P", name=load.name, turning=not load.is_force)
@@ -379,7 +379,7 @@ def _phase(scene: Mechanism, phase: LoadPhase) -> Phrase:
     return Phrase("given while driver", start=start, end=unit.beside(end))
 
 
-def _spring_given(scene: Mechanism, spring: SpringOn, letters: Letters) -> Phrase:
+def _spring_given(scene: Mechanism, spring: SpringOn, letters: Notation) -> Phrase:
     """The given data of a spring, in words with symbols."""
     units = scene.units
     one, two = (f"${letters.point(point)}$" for point in spring.points)

@@ -267,9 +267,9 @@ class InMechanism(Telling):
         slide = self.sheet.structure.slide(key)
         # the outermost points on the guide, in its sense, else its name
         guide, places = slide.guide, self.sheet.structure.links[slide.b].points
-        off = {p: (z - guide.through) * guide.direction.conjugate() for p, z in places.items()}
-        size = max(map(abs, off.values()), default=0.0)
-        on = sorted((along.real, p) for p, along in off.items() if abs(along.imag) <= IN_LINE * size)
+        from_guide = {p: (z - guide.through) * guide.direction.conjugate() for p, z in places.items()}
+        size = max(map(abs, from_guide.values()), default=0.0)
+        on = sorted((along.real, p) for p, along in from_guide.items() if abs(along.imag) <= IN_LINE * size)
         name = on[0][1] + on[-1][1] if len(on) > 1 else guide.name
         off_guide = {"point": ", ".join(points), "link": slide.b}
         return Phrase("missed guide", **off_guide, guide=name) if name else Phrase("missed guide of link", **off_guide)

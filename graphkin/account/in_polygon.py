@@ -363,10 +363,10 @@ class InPolygon(Telling):
         trial, step = self.step.data, self.step
         assert isinstance(trial, RateTrial)
         # the steps by which it is drawn like the true polygon
-        aids = {aid.symbol for aid in step.aids}
+        assumed = {aid.symbol for aid in step.auxiliary}
         later = [s for s in self.sheet.steps[step.number :] if s.diagram == step.diagram]
         first = next(s.number for s in later if s.reason == "open ends") + 1
-        own = (s for s in later if s.number >= first and any(getattr(x, "symbol", None) in aids for x in s.strokes))
+        own = (s for s in later if s.number >= first and any(getattr(x, "symbol", None) in assumed for x in s.strokes))
         last = max((s.number for s in own), default=first)
         rates = self._rates(trial.assumed)
         told = Phrase("trial lettered", trial=roman(trial.number), rates=rates, first=first, last=last)
@@ -385,11 +385,11 @@ class InPolygon(Telling):
         rows = true_minus("; ".join(
             f"{roman(i)} " + ", ".join(on_paper(mm) for mm in row) for i, row in enumerate(divided.apart, 1)
         )) + " mm"  # fmt: skip
-        found, sums = self._rates(divided.found), divisions(self.sheet, self.step, divided)
-        if len(sums) > 1:
-            parts = ", ".join(one.part for one in sums)
+        found, quotients = self._rates(divided.found), divisions(self.sheet, self.step, divided)
+        if len(quotients) > 1:
+            parts = ", ".join(one.part for one in quotients)
             return Phrase("superposed several", between=self._left_open(), open=rows, parts=parts, rates=found)
-        return Phrase("superposed one", between=self._left_open(), open=rows, sum=sums[0].terms, rates=found)
+        return Phrase("superposed one", between=self._left_open(), open=rows, sum=quotients[0].terms, rates=found)
 
     def _superposed_lines(self, language: str) -> Iterator[Phrase]:
         """The measured gaps, ``I: ω_3 = 0.2 rad/s; open 3.21 mm``, a line for each trial, and the proportional
@@ -405,15 +405,15 @@ class InPolygon(Telling):
         yield Phrase("written trials", trials=listed(numerals), left_out=closing, open=self._left_open())
         for trial, mark, row in zip(trials, numerals, divided.apart, strict=True):
             rates = ", ".join(f"{symbol(s)} = {number(v, 5)} {self._unit(s)}" for s, v in trial.assumed)
-            apart = ", ".join(written(on_paper(mm)) for mm in row)
-            yield Phrase("written trial polygon", trial=mark, rates=Neutral(rates), open=apart)
-        sums = divisions(self.sheet, self.step, divided)
+            gaps = ", ".join(written(on_paper(mm)) for mm in row)
+            yield Phrase("written trial polygon", trial=mark, rates=Neutral(rates), open=gaps)
+        quotients = divisions(self.sheet, self.step, divided)
         said = Neutral("; ".join(
             bound(f"{symbol(s)} = {one.terms} = {one.value} {self._unit(s)}")
-            for (s, _), one in zip(divided.found, sums, strict=True)
+            for (s, _), one in zip(divided.found, quotients, strict=True)
         ))  # fmt: skip
-        if len(sums) > 1:
-            parts = ", ".join(one.part for one in sums)
+        if len(quotients) > 1:
+            parts = ", ".join(one.part for one in quotients)
             first, others = Markup(roman(1)), listed(numerals[1:])
             yield Phrase("written superposed several", parts=parts, first=first, others=others, rates=said)
         else:
@@ -462,7 +462,7 @@ class InPolygon(Telling):
         "before its turn": ("{nought}", "carry lettered", "carry from"), "similar": _image, "division": _image,
         "rates": _by_rates, "polygon": _trial, "open ends": _superposed,
     }  # fmt: skip
-    sums: ClassVar[Mapping[Reason, Callable[[InPolygon], Iterable[str]]]] = {
+    arithmetic: ClassVar[Mapping[Reason, Callable[[InPolygon], Iterable[str]]]] = {
         **dict.fromkeys((*ROLES, "before its turn"), _laid_sums), "rates": _by_rates_sums, "rate": _rate_sums,
         "plan": lambda told: [f"{rate_name(told.step.kind, told.step.link)} = {plan_sum(told.step)}"],
     }

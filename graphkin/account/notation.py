@@ -72,7 +72,7 @@ def as_vector(convention: Convention, magnitude: str) -> str:
 
 
 @dataclass(frozen=True)
-class Letters:
+class Notation:
     """Names of quantities in a convention, on a sheet or on a diagram.
 
     ``blocks`` gives for a pin that runs in a guide the link of its index where coincident points are distinguished (the
@@ -204,7 +204,7 @@ def _parted(name: str) -> tuple[str, str]:
     return (match[1], match[2]) if match else ("", name)
 
 
-def letters_of(sheet: Sheet, convention: Convention) -> Letters:
+def notation_of(sheet: Sheet, convention: Convention) -> Notation:
     """The names on one sheet."""
     blocks: dict[str, set[str]] = {}
     holders = sheet.scene.holders
@@ -214,7 +214,7 @@ def letters_of(sheet: Sheet, convention: Convention) -> Letters:
         for ref in (symbol.of, symbol.to):
             if ref.link in holders.get(ref.point, ()):
                 blocks.setdefault(ref.point, set()).add(ref.link)
-    return Letters(convention, {point: min(links) for point, links in blocks.items() if len(links) == 1}, holders)
+    return Notation(convention, {point: min(links) for point, links in blocks.items() if len(links) == 1}, holders)
 
 
 def scale_statement(sheet: Sheet, convention: Convention, diagram: DiagramName) -> str:

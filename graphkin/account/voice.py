@@ -14,7 +14,7 @@ from functools import cached_property
 from typing import Any, ClassVar
 
 from graphkin.account.arithmetic import times_scale
-from graphkin.account.notation import Letters, pole
+from graphkin.account.notation import Notation, pole
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import (
     GIVEN,
@@ -63,7 +63,7 @@ class PolygonPoints:
 
     sheet: Sheet
     diagram: DiagramName
-    letters: Letters
+    letters: Notation
     seen: Callable[[complex], bool] = lambda _: True
 
     @cached_property
@@ -188,7 +188,7 @@ class Voice:
     """Speaks of a sheet in the letters of a convention."""
 
     sheet: Sheet
-    letters: Letters
+    letters: Notation
 
     def sentence(self, phrase: Phrase, language: str) -> str:
         """A phrase as a sentence with its full stop."""
@@ -260,7 +260,7 @@ class Telling:
     voice: Voice
     step: Step
     sentences: ClassVar[Mapping[Reason, Any]] = {}
-    sums: ClassVar[Mapping[Reason, Callable[[Any], Iterable[str]]]] = {}
+    arithmetic: ClassVar[Mapping[Reason, Callable[[Any], Iterable[str]]]] = {}
     lines: ClassVar[Mapping[Reason, Callable[[Any, str], Iterable[str | Phrase]]]] = {}
 
     @property
@@ -287,7 +287,7 @@ class Telling:
     @property
     def work(self) -> Iterable[str]:
         """Its sums, as lines of symbols and numbers."""
-        return self.sums.get(self.step.reason, type(self).measured)(self)
+        return self.arithmetic.get(self.step.reason, type(self).measured)(self)
 
     def measured(self) -> Iterable[str]:
         """Each measured vector of the step."""

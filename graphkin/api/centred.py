@@ -60,14 +60,14 @@ def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str,
         rows.append((str(centre.number or ""), name(centre.pair), place, how))
     why = [say(c.why, language, str) for c in centres.indeterminate if c.why]
     velocities = [as_plain(rich_text(said, language, name)) for said in velocity_sentences(centres)]
-    off = [name(p) for p, apart in centred.compared.items() if apart is not None and apart[0] > apart[1]]
-    off += [str(v.symbol) for v in centred.velocities if v.ok is False]
+    wrong = [name(p) for p, distance in centred.compared.items() if distance is not None and distance[0] > distance[1]]
+    wrong += [str(v.symbol) for v in centred.velocities if v.ok is False]
     near = [v.too_near(language) for v in centred.velocities if v.ok is None]
     count = sum(e is not None for e in centred.errors.values())
     still = ", ".join(name(centre.pair) for centre in centres.found if centred.errors[centre.pair] is None)
     verdict = Phrase("centres checked but", centres=count, still=still)
-    if off or not still:
-        verdict = Phrase("check failed", readings=", ".join(off)) if off else Phrase("centres checked", centres=count)
+    if wrong or not still:
+        verdict = Phrase("check failed", readings=", ".join(wrong)) if wrong else Phrase("centres checked", centres=count)
     heads = ["", *(word(key, language) for key in ("centre", "place", "how found"))]
     head = [*why, *[""] * bool(why), word("velocities by centres", language)]
     return heads, rows, [*head, *velocities, *near, say(verdict, language)]
@@ -133,7 +133,7 @@ class Centred(OfScene, Result):
 
     @cached_property
     def errors(self) -> dict[LinkPair, float | None]:
-        return {pair: off and off[0] for pair, off in self.compared.items()}
+        return {pair: distance and distance[0] for pair, distance in self.compared.items()}
 
     @cached_property
     def compared(self) -> dict[LinkPair, tuple[float, float] | None]:
@@ -148,7 +148,7 @@ class Centred(OfScene, Result):
     @property
     def ok(self) -> bool:
         """Whether all centres and all velocities through them agree with the analytic solver."""
-        near = all(off is None or off[0] <= off[1] for off in self.compared.values())
+        near = all(distance is None or distance[0] <= distance[1] for distance in self.compared.values())
         return near and all(v.ok is not False for v in self.velocities)
 
     @cached_property

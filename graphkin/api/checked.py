@@ -214,7 +214,7 @@ def checked(what: Plan, motion: Motion, hand: Instrument, at_contacts: bool = Tr
     contact itself, by the same hands on another sheet."""
     from graphkin.solver.values import exact_values
 
-    other, again = what.at_contacts() if at_contacts else None, hand if hand is EXACT else deepcopy(hand)
+    other, other_hand = what.at_contacts() if at_contacts else None, hand if hand is EXACT else deepcopy(hand)
     sheet = execute(what, hand)
     if hand is EXACT:
         report, advice = report_on(sheet, motion), None
@@ -227,7 +227,7 @@ def checked(what: Plan, motion: Motion, hand: Instrument, at_contacts: bool = Tr
         advice = advise(what, hand.name, tools, [row.reading for row in report.rows], predicted)
     value = exact_values(motion)
     over_turn = {s: float(value(s).real) for s in sheet.asked if s.scope == "cycle"}
-    there = None if other is None else checked(other, motion, again, at_contacts=False)
+    there = None if other is None else checked(other, motion, other_hand, at_contacts=False)
     return Checked(sheet, report, advice, motion.passed, over_turn, there)
 
 

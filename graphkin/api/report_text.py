@@ -47,8 +47,8 @@ def report_text(checked: Checked, language: str) -> str:
     lines += [say(said, language) for said in passed_words(scene, checked.passed)]
     unit, scales = scene.units.rates.length, checked.scales
     # what was drawn by itself, with a link held still
-    apart = [f"{s.number:3}  {plain_said(s.phrase, language)}" for s in sheet.held_still]
-    held_still = [word("held still", language), *apart, ""] if apart else []
+    steps_apart = [f"{s.number:3}  {plain_said(s.phrase, language)}" for s in sheet.held_still]
+    held_still = [word("held still", language), *steps_apart, ""] if steps_apart else []
     lines += [
         "",
         f"1 mm = {scales['length']:g} mm, {scales['velocity']:g} {unit}/s, {scales['acceleration']:g} {unit}/s²",
@@ -82,10 +82,10 @@ def _forces(checked: Checked, language: str) -> list[str]:
     if checked.report.forces is None:
         return []
     from graphkin.account.forces import ForceAccount
-    from graphkin.account.notation import letters_of
+    from graphkin.account.notation import notation_of
 
     sheet, forces = checked.sheet, checked.report.forces
-    account = ForceAccount(sheet, forces, letters_of(sheet, sheet.scene.question.sheet.convention))
+    account = ForceAccount(sheet, forces, notation_of(sheet, sheet.scene.question.sheet.convention))
     per = f"1 mm = {checked.scales['force']:g} {sheet.scene.units.force}"
     lines = [word("forces", language), per]
     lines += map(account.inertia, forces.inertias.values())
@@ -129,11 +129,11 @@ def verdict(checked: Checked, language: str) -> str:
         unit = symbol.unit(checked.mechanism.units)
         shown = f"{amount(unit.of(value), MOST)} {unit.text}"
         said.append(Phrase("over the turn", symbol=str(symbol), value=shown))
-    off = [str(r.symbol) for r in report.rows if r.ok is False]
+    wrong = [str(r.symbol) for r in report.rows if r.ok is False]
     if report.undetermined:
         said.append(Phrase("not determined", readings=", ".join(map(str, report.undetermined))))
-    if off:
-        said.append(Phrase("check failed", readings=", ".join(off)))
+    if wrong:
+        said.append(Phrase("check failed", readings=", ".join(wrong)))
     elif agree := [r for r in report.rows if r.ok is True]:
         whole = not said
         said.append(Phrase(about("check passed" if whole else "rest agrees", agree), readings=len(agree)))

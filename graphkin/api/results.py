@@ -189,12 +189,12 @@ class Result(Tabled):
         from graphkin.api.arguments import known_words
 
         known_words(formats, text=text, known_formats=self.figure_formats)
-        overleaf = {id(page) for figure in self.figures.values() for page in getattr(figure, "further", ())}
+        continued = {id(page) for figure in self.figures.values() for page in getattr(figure, "further", ())}
         return {
             f"{name}.{kind}": figure.content(kind, text=text)
             for name, figure in self.figures.items()
             for kind in formats
-            if kind != "pdf" or id(figure) not in overleaf
+            if kind != "pdf" or id(figure) not in continued
         }
 
     def _repr_svg_(self) -> str | None:

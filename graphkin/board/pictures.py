@@ -13,7 +13,7 @@ import numpy as np
 from graphkin import solver
 from graphkin.account.account import Account
 from graphkin.account.forces import ForceAccount
-from graphkin.account.notation import Letters, letters_of
+from graphkin.account.notation import Notation, notation_of
 from graphkin.api.arguments import asked_here, driver_values, hand_of, placed
 from graphkin.api.checked import checked
 from graphkin.api.drawn import Drawn, drawn_figure, known_figures
@@ -279,7 +279,7 @@ def _figures(drawn: Drawn) -> dict[str, str]:
 def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
     scene, sheet = drawn.mechanism, drawn.checked.sheet
     spoken = _spoken(options.language, scene)
-    account = Account(sheet, letters_of(sheet, options.convention or scene.question.sheet.convention))  # type: ignore[arg-type]
+    account = Account(sheet, notation_of(sheet, options.convention or scene.question.sheet.convention))  # type: ignore[arg-type]
     try:
         low, high, over = reach(scene)
         limits: dict[str, Json] = {"low": low, "high": high, "turns": over.full, "why": say(over.limit_why, spoken)}
@@ -309,7 +309,7 @@ def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
     }  # fmt: skip
 
 
-def _force_steps(drawn: Drawn, letters: Letters, spoken: str) -> list[dict[str, Json]]:
+def _force_steps(drawn: Drawn, letters: Notation, spoken: str) -> list[dict[str, Json]]:
     """The steps by which the forces are found, behind those of the motion."""
     forces = drawn.checked.report.forces
     if forces is None:

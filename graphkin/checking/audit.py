@@ -68,22 +68,22 @@ def judge(case: Evidence, stated: Sequence[Printed]) -> tuple[Judged, ...]:
 def _judged(case: Evidence, printed: Printed) -> Judged:
     symbol, held = printed.symbol, case.held(printed.symbol)
     judged = Judged(printed, comparable(printed, held.right, held.line), bound=held.bound, line=held.line)
-    off, size, bound = abs(judged.off), abs(judged.exact), judged.bound
+    deviation, size, bound = abs(judged.off), abs(judged.exact), judged.bound
     turned = _turned(case, judged, held.right)
     nothing = NOTHING * held.largest if judged.exact == 0 and symbol.scope in CANCELLING else 0.0
-    if off <= printed.rounding + max(1e-9 * size, nothing):
+    if deviation <= printed.rounding + max(1e-9 * size, nothing):
         return turned or judged
     if math.isinf(bound):
         fits = [s for s, _ in _weighed(case, judged) if not s.copied and judged.shows(s)]
-        if printed.sure_digits < DIGITS or not fits or off <= printed.coarse + COMPUTED * size:
+        if printed.sure_digits < DIGITS or not fits or deviation <= printed.coarse + COMPUTED * size:
             return replace(judged, verdict="not judged")
         return replace(judged, verdict="wrong", looks_like=max(fits, key=lambda s: s.share).phrase)
-    if off > bound + printed.coarse:
+    if deviation > bound + printed.coarse:
         return replace(judged, verdict="wrong")
     if turned:
         return turned
-    far = printed.digits >= FEW_DIGITS and off > FAR * size
-    if far or (printed.sure_digits >= DIGITS and off > NEVER * size):
+    far = printed.digits >= FEW_DIGITS and deviation > FAR * size
+    if far or (printed.sure_digits >= DIGITS and deviation > NEVER * size):
         best = max(_weighed(case, judged), key=lambda w: w[1], default=None)
         if best and best[1] > SURER * RIGHT_SHARE * judged.by_errors() and judged.shows(best[0]):
             return replace(judged, verdict="wrong", looks_like=best[0].phrase)
@@ -107,13 +107,13 @@ def _turned(case: Evidence, judged: Judged, right: Value) -> Judged | None:
         ways = (("slip turned back", math.pi), ("slip mirrored", -2 * true), ("slip mirrored", math.pi - 2 * true),
                 ("slip square", math.pi / 2), ("slip square", -math.pi / 2))  # fmt: skip
         key = next((key for key, turn in ways if _near(true + turn - angle, room, either)), "slip direction")
-        off = math.degrees(math.remainder(angle - true, math.pi if either else math.tau))
-        return replace(judged, verdict="wrong", looks_like=Phrase(key, angle=f"{off:+.0f}"))
+        deviation = math.degrees(math.remainder(angle - true, math.pi if either else math.tau))
+        return replace(judged, verdict="wrong", looks_like=Phrase(key, angle=f"{deviation:+.0f}"))
     return None
 
 
-def _near(off: float, room: float, either: bool) -> bool:
-    return abs(math.remainder(off, math.pi if either else math.tau)) <= room
+def _near(deviation: float, room: float, either: bool) -> bool:
+    return abs(math.remainder(deviation, math.pi if either else math.tau)) <= room
 
 
 def _angle_of(case: Evidence, line: Line) -> float | None:
@@ -324,12 +324,12 @@ def _by_digits(judged: Judged, by: str, bound: float) -> Judged:
     """A stated value judged by its digits: a computed value may be off by ``bound`` and by `COMPUTED_SHARE` of itself,
     for rounded intermediate numbers; a drawn value by a pencil's error (``bound``, SI; infinite where nothing can be
     judged)."""
-    off, rounding, size = abs(judged.off), judged.printed.rounding, abs(judged.exact)
+    deviation, rounding, size = abs(judged.off), judged.printed.rounding, abs(judged.exact)
     if by == "computation":
-        near = off <= rounding + max(bound, COMPUTED_SHARE * size)
+        near = deviation <= rounding + max(bound, COMPUTED_SHARE * size)
         return replace(judged, verdict="right" if near else "wrong")
-    verdict: Verdict = "within drafting accuracy" if off <= bound + judged.printed.coarse else "wrong"
-    if off <= rounding + 1e-9 * size:
+    verdict: Verdict = "within drafting accuracy" if deviation <= bound + judged.printed.coarse else "wrong"
+    if deviation <= rounding + 1e-9 * size:
         verdict = "right"
     elif math.isinf(bound):
         verdict = "not judged"

@@ -91,9 +91,9 @@ def compare_cam(sheet: CamSheet) -> CamPoints:
     point = np.array([d.point for d in sheet.divisions]) * sheet.scale
     contact = np.array([d.contact for d in sheet.divisions]) * sheet.scale
     angle = np.array([d.pressure for d in sheet.divisions])
-    off = float(np.abs(point - exact.pitch).max()), float(np.abs(contact - exact.profile).max())
+    deviations = float(np.abs(point - exact.pitch).max()), float(np.abs(contact - exact.profile).max())
     turned = float(np.abs(angle - exact.pressure).max())
-    return CamPoints(*off, turned, max(*off) <= AGREES * sheet.cam.base and turned <= AGREES)
+    return CamPoints(*deviations, turned, max(*deviations) <= AGREES * sheet.cam.base and turned <= AGREES)
 
 
 def predict_cam(sheet: CamSheet, name: str, tools: Tools) -> Sequence[Mapping[str, float]]:
@@ -101,11 +101,11 @@ def predict_cam(sheet: CamSheet, name: str, tools: Tools) -> Sequence[Mapping[st
     instrument ("pencil" or "cad"); infinite where the error of a single act makes a division impossible."""
 
     def read(drawn: CamStation, hand: Instrument) -> Mapping[str, float] | None:
-        again = division(sheet.cam, drawn.degree, 1.0 / sheet.scale, hand)
-        if again is None:
+        drawn_anew = division(sheet.cam, drawn.degree, 1.0 / sheet.scale, hand)
+        if drawn_anew is None:
             return None
         # a normal has no sense
-        return {"lift": again.lift, "pressure": math.remainder(again.leaning - drawn.pressure, math.pi)}
+        return {"lift": drawn_anew.lift, "pressure": math.remainder(drawn_anew.leaning - drawn.pressure, math.pi)}
 
     spreads = (deviations(partial(read, drawn), name, tools) for drawn in sheet.divisions)
     return [spread or {"lift": math.inf, "pressure": math.inf} for spread in spreads]

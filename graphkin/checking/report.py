@@ -139,11 +139,11 @@ class Report:
 
     def must_agree(self, scene: Mechanism) -> None:
         """Raises Disagreement, naming every reading out of tolerance with its drawn and its exact value."""
-        off = [row for row in self.rows if row.ok is False]
-        if not off:
+        wrong = [row for row in self.rows if row.ok is False]
+        if not wrong:
             return
         problems = []
-        for row in off:
+        for row in wrong:
             told = ReadValue.of(scene, row)
             drawn, exact = told.shown(told.measured), told.shown(told.exact)
             problems.append(Problem(str(row.symbol), "by the drawing by computation",
@@ -218,8 +218,8 @@ def _row(
     tolerance = max(allowed, share * whole, rounded)
     part = FAIR if sheet.instrument in ON_PAPER else COARSE
     fair = whole == 0.0 == least or tolerance <= max(part * whole, least)
-    off = reading.value - exact if math.isfinite(abs(exact)) else math.inf
-    error = abs(math.remainder(off.real, math.tau) if symbol.measure == "angle" else off)
+    deviation = reading.value - exact if math.isfinite(abs(exact)) else math.inf
+    error = abs(math.remainder(deviation.real, math.tau) if symbol.measure == "angle" else deviation)
     told = fair and not (unsure and 0.0 < abs(exact) <= floor)
     return Compared(
         reading, exact, error, tolerance, _turned(reading, exact, whole), expected, floor, told, by_drivers

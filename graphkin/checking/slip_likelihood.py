@@ -124,8 +124,8 @@ class Judged:
     @property
     def off(self) -> Value:
         """The stated value less the exact one; of an angle without whole turns."""
-        off = self.printed.value - self.exact
-        return math.remainder(off.real, math.tau) if self.printed.symbol.measure == "angle" else off
+        deviation = self.printed.value - self.exact
+        return math.remainder(deviation.real, math.tau) if self.printed.symbol.measure == "angle" else deviation
 
     @property
     def deviation(self) -> float | None:
@@ -172,14 +172,15 @@ class Judged:
         size = np.abs(values)
         bound = self.bound / abs(self.exact) if self.exact else 0.0
         reach = max(CLUMSY, min(BAD * bound, 2 * CLUMSY)) * size
-        off = np.abs(self.printed.value - values)
-        within = np.minimum(reach, np.maximum(off, NEAT * size))
+        deviation = np.abs(self.printed.value - values)
+        within = np.minimum(reach, np.maximum(deviation, NEAT * size))
         by_chance = CHANCE * 2 * within / max(abs(self.printed.value), abs(self.exact))
-        near = suspects.drawn & (off <= reach) & (0.5 * self.printed.step <= reach)
+        near = suspects.drawn & (deviation <= reach) & (0.5 * self.printed.step <= reach)
         near &= (suspects.shares > SURE * by_chance) & ~self._changes_nothing(values)
         if not near.any():
             return None
-        weights = np.where(near, suspects.shares / np.maximum(np.maximum(off, reach / 3), self.printed.step / 2), 0.0)
+        least = np.maximum(np.maximum(deviation, reach / 3), self.printed.step / 2)
+        weights = np.where(near, suspects.shares / least, 0.0)
         best = int(np.argmax(weights))
         return suspects.all[best], float(weights[best])
 
@@ -198,14 +199,14 @@ class Judged:
         return np.asarray(np.abs(values - self.exact) <= NEVER * abs(self.exact))
 
 
-def likelihood(printed: Printed, off: float | Reals, spread: float | Reals, size: float | Reals) -> Reals:
+def likelihood(printed: Printed, deviation: float | Reals, spread: float | Reals, size: float | Reals) -> Reals:
     """Probability density of a stated value at a distance ``off`` from the value of each explanation: half of the
     values computed, half drawn with a deviation ``spread`` of a value of this size; 0: not drawn."""
     half = 0.5 * printed.step + COMPUTED * size
     wide = np.hypot(spread, printed.step / math.sqrt(12))
     with np.errstate(under="ignore", divide="ignore", invalid="ignore"):
-        bell = 0.5 * np.exp(-0.5 * (off / wide) ** 2) / (wide * math.sqrt(math.tau))
-        return np.where(off <= half, 0.25 / half, 0.0) + np.where(np.greater(spread, 0.0), bell, 0.0)
+        bell = 0.5 * np.exp(-0.5 * (deviation / wide) ** 2) / (wide * math.sqrt(math.tau))
+        return np.where(deviation <= half, 0.25 / half, 0.0) + np.where(np.greater(spread, 0.0), bell, 0.0)
 
 
 _DOUBLE_ZERO = re.compile(r"[+-]?0\d")  # nobody writes so

@@ -72,12 +72,12 @@ def predict(
         some = _samples(read, name, tools, FEW_SAMPLES)
         offs = {s: _spread(value, [values[s] for values in some if s in values]) for s, value in base.items()}
         if sum(COVERAGE * offs[s] > CLEARLY * most[s] for s in most if s in offs) > spare:
-            return {s: Uncertainty(off, _reading(s), 1.0, off) for s, off in offs.items()}
+            return {s: Uncertainty(error, _reading(s), 1.0, error) for s, error in offs.items()}
     drawn_causes = sheet.causes
     marks = [acts for acts, _ in drawn_causes]
     reading = len(drawn_causes)
     limits = np.array([(most.get(s, math.inf) / COVERAGE) ** 2 for s in base])
-    sums = np.zeros(len(base))
+    squares = np.zeros(len(base))
     # how far each act moves each reading, shape (readings, acts)
     moved = np.zeros((len(base), still.acts), dtype=complex)
     for act in range(still.acts, 0, -1):  # the last first: less is drawn again after them
@@ -87,8 +87,8 @@ def predict(
             math.inf if values is None else values.get(s, math.inf) - value for s, value in base.items()
         ]
         if most and not together:
-            sums += np.abs(moved[:, act - 1]) ** 2
-            if int((sums > limits).sum()) > spare:
+            squares += np.abs(moved[:, act - 1]) ** 2
+            if int((squares > limits).sum()) > spare:
                 break
     causes = np.array([bisect_left(marks, act) if act <= drawn else reading for act in range(1, still.acts + 1)])
     samples = _samples(read, name, tools) if together else ()
@@ -96,9 +96,9 @@ def predict(
     predicted = {}
     for row, times, (symbol, value) in zip(moved, bent.tolist(), base.items(), strict=True):
         shares: dict[int, float] = {}
-        for cause, off in zip(causes.tolist(), (np.abs(row) ** 2).tolist(), strict=True):
-            if off:
-                shares[cause] = shares.get(cause, 0.0) + off
+        for cause, error in zip(causes.tolist(), (np.abs(row) ** 2).tolist(), strict=True):
+            if error:
+                shares[cause] = shares.get(cause, 0.0) + error
         if shares and symbol.is_vector and value == 0:  # what errs away from nothing is read off the ruler then
             order: Order = "velocity" if symbol.measure == "velocity" else "acceleration"
             shares[reading] = shares.get(reading, 0.0) + (still.reading_error * what.scales.of(order)) ** 2
@@ -245,9 +245,9 @@ def advise(
     gains = {}
     for figure in ("length", "velocity", "acceleration"):
         scales: Scales = replace(what.scales, **{figure: getattr(what.scales, figure) / 2})
-        again = predict(replace(what, scales=scales), name, tools, together=False)
+        larger = predict(replace(what, scales=scales), name, tools, together=False)
         first = predicted[symbol].first
-        gains[figure] = math.inf if symbol not in again else again[symbol].first / first if first else 0.0
+        gains[figure] = math.inf if symbol not in larger else larger[symbol].first / first if first else 0.0
     best = min(gains, key=gains.__getitem__)
     expected = predicted[symbol]
     return Phrase(

@@ -603,11 +603,11 @@ def _carried(
     """
     if known.place is None or common.place is None or wanted.place is None:
         return None
-    line, apart = wedge(wanted.place, common.place)
+    line, parting = wedge(wanted.place, common.place)
     over, sine = wedge(known.place, common.place)
-    if apart == 0.0:
+    if parting == 0.0:
         return None
-    ratio = product(over, line) * sine / apart
-    off = (known.error + common.error + 2 * (sine / apart) * (wanted.error + common.error)) / apart
-    strength, error = turning.strength * ratio, turning.error * abs(ratio) + abs(turning.strength) * off
+    ratio = product(over, line) * sine / parting
+    error_of_ratio = (known.error + common.error + 2 * (sine / parting) * (wanted.error + common.error)) / parting
+    strength, error = turning.strength * ratio, turning.error * abs(ratio) + abs(turning.strength) * error_of_ratio
     return Turning(chain[-1], strength, strength * wanted.place[2], chain, error)

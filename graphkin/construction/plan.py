@@ -515,13 +515,13 @@ class Inversion:
     def drawn(self, board: Board, scales: Scales, values: Mapping[str, float]) -> tuple[float, float, float]:
         """The triangle on a board of its own, with its two polygons, which are recorded on the mechanism's board as
         drawn with a link held still; its result at the common pair: value, rate and second rate (SI)."""
-        apart = Board(board.instrument)
-        paper = self.placed(values, 1.0 / scales.length, board.instrument, apart)
-        polygons = Polygons(apart, self.structure, paper, scales)
+        second_board = Board(board.instrument)
+        paper = self.placed(values, 1.0 / scales.length, board.instrument, second_board)
+        polygons = Polygons(second_board, self.structure, paper, scales)
         for order in ORDERS:
             draw_element(polygons, order, *self.structure.dyads.values())
-        board.causes += apart.causes
-        board.held_still += apart.steps
+        board.causes += second_board.causes
+        board.held_still += second_board.steps
         pair, other = self.triangle.pair, self.triangle.links[0]
         if pair.turns:
             rate, second = (polygons.rates[order][other].value for order in ORDERS)

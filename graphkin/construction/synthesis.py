@@ -332,11 +332,11 @@ def _(task: GuideBarTask, paper: DesignSheet) -> None:
              angle(C, far * right, far * left, math.degrees(theta), "θ"), half=f"{math.degrees(half):.6g}")  # fmt: skip
     paper.do("design feet", line("mechanism", A, foot), line("limit", A, other), *points(B1=foot, B2=other),
              circle(A, abs(foot - A)))  # fmt: skip
-    apart = hand.length(reach)
-    first = paper.meet("D1", C, left, C - apart, hand.direction(1j))
-    second = paper.meet("D2", C, right, C + apart, hand.direction(1j))
+    length = hand.length(reach)
+    first = paper.meet("D1", C, left, C - length, hand.direction(1j))
+    second = paper.meet("D2", C, right, C + length, hand.direction(1j))
     top = C + 1j * abs(first - C)
-    paper.do("design bar ends", line("construction", C - apart, first), line("construction", C + apart, second),
+    paper.do("design bar ends", line("construction", C - length, first), line("construction", C + length, second),
              *points(D1=first, D2=second), line("mechanism", C, first), line("limit", C, second),
              mm=_mm(reach))  # fmt: skip
     top = hand.point(top)
@@ -344,7 +344,7 @@ def _(task: GuideBarTask, paper: DesignSheet) -> None:
     level = hand.point((top + chord) / 2)
     rod = hand.compass(paper.mm(task.rod_length))
     paper.do("design sagitta", circle(C, abs(first - C), first, top, second), line("construction", first, second),
-             line("direction", level - apart, level + apart + rod))  # fmt: skip
+             line("direction", level - length, level + length + rod))  # fmt: skip
     E = paper.cut("E", level, 1 + 0j, first, rod)[0]
     paper.do("design ram", circle(first, rod, E), *points(E1=E), line("mechanism", first, E),
              mm=_mm(paper.mm(task.rod_length)))  # fmt: skip

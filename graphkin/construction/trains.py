@@ -326,9 +326,9 @@ class TrainPlan:
         trials = self.trials(names)
         gaps = [self.drawn(hand, assumed).gaps for assumed in trials]
         values = tuple(map(float, divide([[*assumed.values()] for assumed in trials], gaps)))
-        apart = tuple(tuple(map(float, row)) for row in gaps)
+        gaps_in_rows = tuple(tuple(map(float, row)) for row in gaps)
         rates = tuple((Symbol(self.rate, link=name), rate) for name, rate in zip(names, values, strict=True))
-        trial = Superposed(rates, (), apart)
+        trial = Superposed(rates, (), gaps_in_rows)
         return replace(self.drawn(hand, dict(zip(names, values, strict=True))), trial=trial)
 
     def to_assume(self, wanted: Coordinate) -> list[str] | None:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 from graphkin.account.given import drivers
 from graphkin.account.headings import facts, figure_title, punctuation, term, titles
-from graphkin.account.notation import Letters, letters_of, scale_statement
+from graphkin.account.notation import Notation, notation_of, scale_statement
 from graphkin.account.spoken import spoken_words
 from graphkin.account.voice import whole_sentence
 from graphkin.construction.board.sheet import Sheet
@@ -297,7 +297,7 @@ class FigurePage:
     sheet: Sheet
     name: str
     language: str
-    letters: Letters
+    letters: Notation
     width: float = INSIDE
 
     @classmethod
@@ -306,7 +306,7 @@ class FigurePage:
     ) -> FigurePage:
         """``language`` and ``convention`` are by default the scene's own."""
         wish = sheet.scene.question.sheet
-        letters = letters_of(sheet, convention or wish.convention)  # type: ignore[arg-type]
+        letters = notation_of(sheet, convention or wish.convention)  # type: ignore[arg-type]
         return cls(sheet, name, language or wish.language, letters, width)
 
     def wide_enough(self, width: float) -> FigurePage:

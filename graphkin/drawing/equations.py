@@ -10,7 +10,7 @@ from typing import TypeAlias
 from graphkin.account.account import WrittenLine, rule_alone
 from graphkin.account.arithmetic import bound, rule_sum, scale_of
 from graphkin.account.headings import number, term
-from graphkin.account.notation import Letters, rows_of, unit_of
+from graphkin.account.notation import Notation, rows_of, unit_of
 from graphkin.construction.board.sheet import Equation, Sheet
 from graphkin.construction.board.steps import GIVEN, Term
 from graphkin.drawing.boxes import Block
@@ -53,7 +53,7 @@ LineToSet = Callable[[float, float], Block]
 """A line as it is set: at most so wide, in letters of a size (mm)."""
 
 
-def line_to_set(line: WrittenLine, sheet: Sheet, letters: Letters, language: str) -> LineToSet:
+def line_to_set(line: WrittenLine, sheet: Sheet, letters: Notation, language: str) -> LineToSet:
     """A line that is set once for each width and size, for all places tried."""
     short = _short(sheet, line, letters) if isinstance(line, Equation) else line
     if short is not None:
@@ -126,7 +126,7 @@ def _sentence(markup: str, size: float, width: float) -> Block:
     return Block(Piece({"labels": texts}), (0.4 + 1.5 * len(lines)) * size, max(map(runs_width, lines), default=0.0))
 
 
-def _written_cells(cells: list[_Cell], letters: Letters, language: str, width: float, size: float) -> Block:
+def _written_cells(cells: list[_Cell], letters: Notation, language: str, width: float, size: float) -> Block:
     """Terms and operators with their rows, broken before a line gets too long."""
     gap = 1.2 * GAP if rows_of(letters.convention) == "table" else 0.6 * GAP
     heads = _heads(letters, language, size)
@@ -141,7 +141,7 @@ def _written_cells(cells: list[_Cell], letters: Letters, language: str, width: f
     return Block(Piece({"labels": tuple(children)}), y, most)
 
 
-def write_sum(sheet: Sheet, terms: Sequence[Term], letters: Letters, language: str, width: float) -> Block:
+def write_sum(sheet: Sheet, terms: Sequence[Term], letters: Notation, language: str, width: float) -> Block:
     """Vectors whose sum is zero, with their rows of sizes and directions, at most ``width`` mm wide."""
     size = WAYS[0][0]
     cells = _cells(sheet, [terms], letters, size)
@@ -149,7 +149,7 @@ def write_sum(sheet: Sheet, terms: Sequence[Term], letters: Letters, language: s
     return _written_cells(cells, letters, language, width, size)
 
 
-def _short(sheet: Sheet, equation: Equation, letters: Letters) -> str | None:
+def _short(sheet: Sheet, equation: Equation, letters: Notation) -> str | None:
     """An equation that is only a rule, on one line: ``v_B = ω_1 l_AB = 1220 mm/s, ⊥AB``."""
     if not rule_alone(sheet, equation):
         return None
@@ -169,7 +169,7 @@ def _short(sheet: Sheet, equation: Equation, letters: Letters) -> str | None:
     return " =\u00a0".join(parts) + (f",  ${way}$" if way else "")
 
 
-def _cells(sheet: Sheet, sides: Sequence[Sequence[Term]], letters: Letters, size: float) -> list[_Cell]:
+def _cells(sheet: Sheet, sides: Sequence[Sequence[Term]], letters: Notation, size: float) -> list[_Cell]:
     """The terms of equal sums, each after its sign."""
     cells: list[_Cell] = []
     for k, one in (numbered for side in sides for numbered in enumerate(side)):
@@ -183,7 +183,7 @@ def _row_size(size: float) -> float:
     return max(LEAST_ROW, 0.8 * size)
 
 
-def _cell(sheet: Sheet, one: Term, letters: Letters, size: float) -> _Cell:
+def _cell(sheet: Sheet, one: Term, letters: Notation, size: float) -> _Cell:
     """A term with its rows; if marks show what is known, the rows only give size and direction."""
     rows = rows_of(letters.convention)
     small = _row_size(size)
@@ -200,7 +200,7 @@ def _cell(sheet: Sheet, one: Term, letters: Letters, size: float) -> _Cell:
     return _Cell(whole, sized, told[1] or symbol("√" if one.direction_known else "?", small))
 
 
-def _heads(letters: Letters, language: str, size: float) -> tuple[tuple[Run, ...], ...]:
+def _heads(letters: Notation, language: str, size: float) -> tuple[tuple[Run, ...], ...]:
     """Names of the rows."""
     if rows_of(letters.convention) not in ("rows", "table"):
         return ()
@@ -225,7 +225,7 @@ def _lines(cells: list[_Cell], width: float, gap: float) -> list[list[_Cell]]:
 
 
 def _set(
-    line: list[_Cell], heads: tuple[tuple[Run, ...], ...], lead: float, gap: float, letters: Letters, size: float,
+    line: list[_Cell], heads: tuple[tuple[Run, ...], ...], lead: float, gap: float, letters: Notation, size: float,
     top: float,
 ) -> Block:  # fmt: skip
     rows = rows_of(letters.convention)

@@ -33,7 +33,7 @@ HEIGHTS = (1.08, 1.33, 1.43)
 NARROWEST, WIDEST = 0.26, 0.66  # width of the mechanism's panel where writing goes overleaf
 # What a plan costs beside the usual one, in tenfold finer scales: less room for the equations, a column too narrow for
 # them, less room below the polygons, writing overleaf, a larger paper.
-TALL, NARROW, STRIP, LESS_BELOW, OVERLEAF, LARGER = 0.28, 0.35, 0.45, 0.1, 3.0, 5.0
+TALL, NARROW, STRIP, LESS_BELOW, CONTINUED, LARGER = 0.28, 0.35, 0.45, 0.1, 3.0, 5.0
 
 
 @dataclass(frozen=True)
@@ -148,7 +148,7 @@ def _portrait(width: float, height: float, cost: float, wished: bool, roomy: boo
     if wished:
         for step in range(9):
             split = NARROWEST + (WIDEST - NARROWEST) * step / 8
-            yield _upright(width, height, split, None, None, cost + OVERLEAF)
+            yield _upright(width, height, split, None, None, cost + CONTINUED)
 
 
 def _upright(
@@ -194,15 +194,15 @@ def _landscape(width: float, height: float, cost: float, wished: bool) -> Iterat
     block = Box(page.left, page.bottom - BLOCK, page.right, page.bottom)
     third = (page.width - 2 * GUTTER) / 3
     for share in (1 / 3, 0.22, 0.46):
-        for overleaf in (False, True) if wished else (False,):
-            bottom = block.top - GUTTER if overleaf else top + third * 0.98
+        for continued in (False, True) if wished else (False,):
+            bottom = block.top - GUTTER if continued else top + third * 0.98
             wide = share * (page.width - 2 * GUTTER)
             each = (page.width - 2 * GUTTER - wide) / 2
             first = Box(page.left, top, page.left + wide, bottom)
             second = Box(first.right + GUTTER, top, first.right + GUTTER + each, bottom)
             panels = (first, second, second.moved(complex(each + GUTTER, 0)))
-            dear = cost + OVERLEAF * overleaf + NARROW * (share != 1 / 3)
-            if overleaf:
+            dear = cost + CONTINUED * continued + NARROW * (share != 1 / 3)
+            if continued:
                 yield SheetPlan(width, height, *panels, None, None, None, block, dear)
                 continue
             low, end = bottom + GUTTER + CAPTION, block.top - GUTTER

@@ -16,7 +16,7 @@ from graphkin.account.given import (
     rolling_starts,
 )
 from graphkin.account.headings import remarks, term, written
-from graphkin.account.notation import Letters
+from graphkin.account.notation import Notation
 from graphkin.account.voice import Voice
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import Compared, Report, deviation, exact, measured, paper
@@ -45,7 +45,7 @@ class TableRow:
 
 
 def readings_table(
-    sheet: Sheet, rows: Sequence[TableRow], letters: Letters, language: str, area: Box
+    sheet: Sheet, rows: Sequence[TableRow], letters: Notation, language: str, area: Box
 ) -> tuple[tuple[Primitive, ...], int]:
     """Readings in columns that fill an area (mm): symbol, mm on paper, measured, exact, relative difference; and the
     number of first readings that fit."""
@@ -101,7 +101,7 @@ def _grid(count: int, area: Box, heads: int) -> tuple[int, int, float]:
 
 
 def _column(
-    sheet: Sheet, rows: Sequence[TableRow], letters: Letters, language: str, width: float, line: float
+    sheet: Sheet, rows: Sequence[TableRow], letters: Notation, language: str, width: float, line: float
 ) -> Block:
     shares = _SHARES if any(r.compared for r in rows) else (0.4, 0.25, 0.35)
     heads = ("quantity", "on paper", "measured", "exact", "difference")[: len(shares)]
@@ -110,7 +110,7 @@ def _column(
                  [width * share for share in shares], size=2.4, line=line, layer="answers")  # fmt: skip
 
 
-def _texts(sheet: Sheet, row: TableRow, letters: Letters, language: str) -> list[str]:
+def _texts(sheet: Sheet, row: TableRow, letters: Notation, language: str) -> list[str]:
     reading, compared = row.reading, row.compared
     unit, units = reading.symbol.unit(sheet.scene.units).written, sheet.scene.units
     name = letters.vector(reading.symbol)
@@ -125,7 +125,7 @@ def _texts(sheet: Sheet, row: TableRow, letters: Letters, language: str) -> list
     return texts
 
 
-def given_lines(sheet: Sheet, letters: Letters, language: str, width: float, size: float) -> list[tuple[Run, ...]]:
+def given_lines(sheet: Sheet, letters: Notation, language: str, width: float, size: float) -> list[tuple[Run, ...]]:
     """Drivers, lengths, fixed points and remarks as lines of text of a width (mm)."""
     scene = sheet.scene
     unit = scene.units.length
@@ -144,7 +144,7 @@ def given_lines(sheet: Sheet, letters: Letters, language: str, width: float, siz
 
 
 def given_data(
-    sheet: Sheet, letters: Letters, language: str, area: Box, most: float
+    sheet: Sheet, letters: Notation, language: str, area: Box, most: float
 ) -> tuple[tuple[Primitive, ...], list[tuple[Run, ...]]]:
     """The given data as lines of text in an area (mm), as large as they fit, in letters of at most ``most`` mm; and the
     lines without room."""

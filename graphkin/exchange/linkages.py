@@ -169,8 +169,8 @@ def write_linkage2(bodies: Bodies) -> str:
 
 
 def _on_line(place: complex, slide: BodySlide) -> bool:
-    off = (place - slide.through) * cmath.rect(1.0, -slide.angle)
-    return abs(off.imag) <= 1e-9 * max(1.0, abs(off))
+    from_line = (place - slide.through) * cmath.rect(1.0, -slide.angle)
+    return abs(from_line.imag) <= 1e-9 * max(1.0, abs(from_line))
 
 
 # -- pylinkage ---------------------------------------------------------------------------------------------------------

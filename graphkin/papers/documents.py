@@ -350,17 +350,17 @@ def result_cells(lesson: Lesson) -> Iterator[dict[str, str]]:
         }  # fmt: skip
 
 
-def accepted(value: float, off: float, least: float) -> tuple[str, str]:
+def accepted(value: float, tolerance: float, least: float) -> tuple[str, str]:
     """The tolerance of a value for a pencil drawing, to two figures, and the accepted range; dashes where it has no
     bound, and for a value that every drawing makes zero."""
-    if not off or not math.isfinite(off):
+    if not tolerance or not math.isfinite(tolerance):
         return "–", "–"
-    places = 1 - math.floor(math.log10(off))  # negative for tens and hundreds
+    places = 1 - math.floor(math.log10(tolerance))  # negative for tens and hundreds
 
     def told(number: float) -> str:
         return written(f"{round(number, places):.{max(0, places)}f}")
 
-    return f"± {told(off)}", f"{told(max(value - off, least))} … {told(value + off)}"
+    return f"± {told(tolerance)}", f"{told(max(value - tolerance, least))} … {told(value + tolerance)}"
 
 
 def results_table(lesson: Lesson, *keys: str) -> TableBlock:

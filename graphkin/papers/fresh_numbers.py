@@ -330,8 +330,8 @@ def _on_its_face(made: OwnTables, contact: PlacedContact) -> bool:
         return False
     normal = cmath.rect(1.0 if contact.left else -1.0, math.radians(guide["angle"]) + math.pi / 2)
     through = complex(*guide["through"])
-    off = ((complex(*drawn) - through) * normal.conjugate()).real
-    place = complex(*drawn) + normal * (abs(_disc(made, wheel)) - off)
+    distance = ((complex(*drawn) - through) * normal.conjugate()).real
+    place = complex(*drawn) + normal * (abs(_disc(made, wheel)) - distance)
     made["drawn"][centre] = [float(f"{part:.12g}") for part in (place.real, place.imag)]
     return True
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from graphkin import solver
 from graphkin.account.account import Account
-from graphkin.account.notation import Letters, letters_of
+from graphkin.account.notation import Notation, notation_of
 from graphkin.checking.readings import report_on
 from graphkin.checking.report import Compared, Report, Uncertainty
 from graphkin.checking.uncertainty import predict
@@ -94,8 +94,8 @@ class Lesson:
     centres: Centres | None = None
 
     @cached_property
-    def letters(self) -> Letters:
-        return letters_of(self.sheet, self.convention)  # type: ignore[arg-type]
+    def letters(self) -> Notation:
+        return notation_of(self.sheet, self.convention)  # type: ignore[arg-type]
 
     @cached_property
     def account(self) -> Account:

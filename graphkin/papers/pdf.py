@@ -247,9 +247,9 @@ Sizes: TypeAlias = dict[Question, tuple[float, float]]
 
 
 @dataclass(frozen=True)
-class Piece:
-    """A piece that is not broken: its block, its height and the gap above it (mm), and the cost of a page break before
-    it; with ``half`` it stands in one of two columns, with its neighbours of that kind."""
+class PageItem:
+    """What stands on a page unbroken: its block, its height and the gap above it (mm), and the cost of a page break
+    before it; with ``half`` it stands in one of two columns, with its neighbours of that kind."""
 
     block: Leaf
     height: float = 0.0
@@ -278,8 +278,8 @@ class Row:
     """A part of a page: a piece, or those of two columns side by side; the gap above them, and the ``height`` of a
     piece that takes the rest of a page (mm)."""
 
-    left: tuple[Piece, ...]
-    right: tuple[Piece, ...] = ()
+    left: tuple[PageItem, ...]
+    right: tuple[PageItem, ...] = ()
     gap: float = 0.0
     height: float = 0.0
 
@@ -308,7 +308,7 @@ def pages_of(document: Document, measure: Measure) -> list[tuple[Page, ...]]:
 # -- from blocks to pieces of known height -----------------------------------------------------------------------------
 
 
-def _pieces(blocks: Iterable[Block]) -> Iterator[Piece]:
+def _pieces(blocks: Iterable[Block]) -> Iterator[PageItem]:
     """The pieces leaf by leaf, each with the cost of a break before it."""
     leads, before = False, None  # whether words or an equation lead to what follows them
     for block in blocks:
@@ -319,7 +319,7 @@ def _pieces(blocks: Iterable[Block]) -> Iterator[Piece]:
                 tie = KEPT
             elif i and not tie:
                 tie = BEFORE if isinstance(leaf, Picture) and leaf.floats else KEPT
-            yield Piece(leaf, tie=tie, half=isinstance(leaf, StepItem) and leaf.parted)
+            yield PageItem(leaf, tie=tie, half=isinstance(leaf, StepItem) and leaf.parted)
             leads, before = isinstance(leaf, Heading) or (isinstance(leaf, Picture) and leaf.joined), leaf
 
 
@@ -334,7 +334,7 @@ def _narrow(picture: Picture, wide: float) -> float:
     return wide - picture.drawing.width - FIGURE_GAP
 
 
-def _questions(piece: Piece, wide: float) -> Iterator[Question]:
+def _questions(piece: PageItem, wide: float) -> Iterator[Question]:
     """Every leaf and width whose size may be needed."""
     block, half = piece.block, (wide - COLUMN_GAP) / 2
     if isinstance(block, Beside):
@@ -355,7 +355,7 @@ def _in_halves(table: TableBlock, wide: float) -> Question | None:
     return None if few else (replace(table, halved=True), wide if table.roomy else None)
 
 
-def _filled(pieces: Sequence[Piece], wide: float, high: float, sizes: Sizes) -> list[Page]:
+def _filled(pieces: Sequence[PageItem], wide: float, high: float, sizes: Sizes) -> list[Page]:
     """Pages of some pieces.  Figures beside their words make large pieces: where pages would have much white, some
     figures go below their words."""
 
@@ -377,7 +377,7 @@ def _filled(pieces: Sequence[Piece], wide: float, high: float, sizes: Sizes) -> 
     return best
 
 
-def _fitted(piece: Piece, wide: float, sizes: Sizes, below: bool) -> Iterator[Piece]:
+def _fitted(piece: PageItem, wide: float, sizes: Sizes, below: bool) -> Iterator[PageItem]:
     """The pieces of a piece: a table in two halves if they fit; words beside a figure down to its end and the rest
     below, or with ``below`` the figure below all words."""
     block = piece.block
@@ -389,8 +389,8 @@ def _fitted(piece: Piece, wide: float, sizes: Sizes, below: bool) -> Iterator[Pi
     elif below:
         for i, (_, line) in enumerate(lines_of(block)):
             half = isinstance(line, StepItem)
-            yield Piece(line, tie=piece.tie if not i else INSIDE if half else 0.0, half=half)
-        yield Piece(replace(block.picture, floats=True), tie=BEFORE)
+            yield PageItem(line, tie=piece.tie if not i else INSIDE if half else 0.0, half=half)
+        yield PageItem(replace(block.picture, floats=True), tie=BEFORE)
     else:
         lines, picture = lines_of(block), block.picture
         taken, count = 0.0, 0
@@ -402,10 +402,10 @@ def _fitted(piece: Piece, wide: float, sizes: Sizes, below: bool) -> Iterator[Pi
                 break
             count = i + 1
         yield replace(piece, block=replace(block, blocks=block.blocks[:count]))
-        yield from (Piece(line, tie=INSIDE, half=True) for _, line in lines[count:])
+        yield from (PageItem(line, tie=INSIDE, half=True) for _, line in lines[count:])
 
 
-def _height(piece: Piece, wide: float, sizes: Sizes) -> float:
+def _height(piece: PageItem, wide: float, sizes: Sizes) -> float:
     """The height of a piece (mm)."""
     block = piece.block
     if isinstance(block, Beside):
@@ -465,7 +465,7 @@ def balanced(heights: Sequence[float]) -> tuple[int, float]:
     return best
 
 
-def fill_pages(pieces: Sequence[Piece], height: float) -> tuple[list[Page], float, bool]:
+def fill_pages(pieces: Sequence[PageItem], height: float) -> tuple[list[Page], float, bool]:
     """Pages of a height (mm), each with its pieces from the head on; the cost of their white, and whether any of it is
     visible."""
 
@@ -497,7 +497,7 @@ def fill_pages(pieces: Sequence[Piece], height: float) -> tuple[list[Page], floa
 
 
 def _begun(
-    pieces: Sequence[Piece], height: float, at: int, waiting: int | None
+    pieces: Sequence[PageItem], height: float, at: int, waiting: int | None
 ) -> Iterator[tuple[_Begun, int, int | None]]:
     """Every page that may begin with a piece, after a waiting figure; the piece after the page, and the figure that
     waits then."""
@@ -521,7 +521,7 @@ def _begun(
             page, i = more, i + 1
 
 
-def _used(page: _Begun, pieces: Sequence[Piece]) -> float:
+def _used(page: _Begun, pieces: Sequence[PageItem]) -> float:
     """The filled height of a page (mm)."""
     if not page.columns:
         return page.base
@@ -529,7 +529,7 @@ def _used(page: _Begun, pieces: Sequence[Piece]) -> float:
     return page.base + gap + balanced([pieces[n].height for n in page.columns])[1]
 
 
-def _with(page: _Begun, i: int, pieces: Sequence[Piece], height: float) -> _Begun | None:
+def _with(page: _Begun, i: int, pieces: Sequence[PageItem], height: float) -> _Begun | None:
     """A page with a further piece; None without room for it."""
     piece, used = pieces[i], _used(page, pieces)
     numbers = (*page.numbers, i)
@@ -549,7 +549,7 @@ def _with(page: _Begun, i: int, pieces: Sequence[Piece], height: float) -> _Begu
     return _Begun(numbers, end)
 
 
-def _rows(page: _Begun, pieces: Sequence[Piece], height: float, last: bool) -> list[Row]:
+def _rows(page: _Begun, pieces: Sequence[PageItem], height: float, last: bool) -> list[Row]:
     """The pieces of a page with their gaps, slightly wider if that fills it."""
     rows: list[Row] = []
     for half, some in groupby((pieces[n] for n in page.numbers), key=lambda piece: piece.half):

@@ -113,12 +113,12 @@ def mechanism_picture(lesson: Lesson) -> Drawing:
     trial positions; those of drivers stay.
     """
     special = lesson.sheet.special_points
-    aids = {f"{part}-{point}" for point in special for part in ("special", "point", "label-point")}
+    special_ids = {f"{part}-{point}" for point in special for part in ("special", "point", "label-point")}
 
     def names_result(thing: Primitive | None) -> bool:
         results = ("label-omega-", "label-alpha-", "label-trial-")
         named = isinstance(thing, Text) and thing.id.startswith(results)
-        return named or (isinstance(thing, Group | Text) and thing.id in aids)
+        return named or (isinstance(thing, Group | Text) and thing.id in special_ids)
 
     kept = []
     for layer in parts(lesson, "mechanism"):
@@ -189,8 +189,8 @@ def draw_frame(
         content = extent(lesson.sheet, diagram)
         tall = height or min(tall, max(LEAST_FRAME, content.height + 2 * AROUND))
         # to the nearest 5 mm, so that the place of the pole does not tell the answer
-        off = Box(0.2, 0.2, wide - 0.2, tall).centre - content.centre
-        at = complex(5.0 * round(off.real / 5.0), 5.0 * round(off.imag / 5.0))
+        shift = Box(0.2, 0.2, wide - 0.2, tall).centre - content.centre
+        at = complex(5.0 * round(shift.real / 5.0), 5.0 * round(shift.imag / 5.0))
         mark = pole(lesson.letters.convention, diagram)
         title += punctuation("colon", language) + mark
         marks += Circle(at, 0.9, fill=strokes.WHITE, stroke=strokes.OUTLINE), Circle(at, 0.3, fill=strokes.BLACK)

@@ -19,7 +19,7 @@ from markupsafe import Markup
 from graphkin.account.forces import ForceStage, ForceStep
 from graphkin.account.given import drivers
 from graphkin.account.headings import FIGURE_WORDS, number, term
-from graphkin.account.notation import Letters, scale_statement
+from graphkin.account.notation import Notation, scale_statement
 from graphkin.account.spoken import spoken_words
 from graphkin.account.voice import capital, whole_sentence
 from graphkin.checking.report import COVERAGE
@@ -394,7 +394,7 @@ Place: TypeAlias = Callable[[Array], int]
 
 
 def motion_data(
-    sheet: Sheet, letters: Letters, values: Mapping[str, float] | None, count: int = FRAMES
+    sheet: Sheet, letters: Notation, values: Mapping[str, float] | None, count: int = FRAMES
 ) -> dict[str, Json]:
     """All moving points and vectors for the page, in mm on paper at the scales of the handout; the page joins places,
     it computes nothing.  Empty where the driver does not move.
@@ -468,7 +468,7 @@ def _guide(motion: Motion, on: str, guide: str, size: float, length: float) -> l
 
 
 def _centres(
-    motion: Motion, place: Place, tracks: Sequence[Track], letters: Letters, size: float, length: float
+    motion: Motion, place: Place, tracks: Sequence[Track], letters: Notation, size: float, length: float
 ) -> Iterator[list[int | str]]:
     """Instant centres within reach; permanent ones have the names of their points."""
     scene = motion.scene
@@ -484,7 +484,7 @@ def _centres(
             yield [number, plain_words(f"${letters.centre(pair)}$")]
 
 
-def _vectors(motion: Motion, sheet: Sheet, letters: Letters, diagram: DiagramName, place: Place) -> dict[str, Json]:
+def _vectors(motion: Motion, sheet: Sheet, letters: Notation, diagram: DiagramName, place: Place) -> dict[str, Json]:
     """Absolute vectors from the pole, relative ones between their end points."""
     kind, scene = "v" if diagram == "velocity" else "a", motion.scene
     ends = dict[PointRef, int]()

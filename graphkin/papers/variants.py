@@ -474,10 +474,10 @@ def make(
     done = _finished(points)
     if points is not None:
         points.open(variants=len(jobs))
-    again = False
+    refused_some = False
 
     def settle(job: Job, variant: Variant, papers: Papers | None) -> None:
-        nonlocal again
+        nonlocal refused_some
         files: tuple[str, ...] = ()
         if papers is not None:
             variant, rendered = papers()
@@ -485,7 +485,7 @@ def make(
                 files = tuple(keep(variant, rendered)) if keep is not None and not variant.why else ()
             except Exception as error:
                 variant = variant.failed(error)
-            again = again or bool(variant.why)
+            refused_some = refused_some or bool(variant.why)
         if points is not None and job.number not in done and not (papers is not None and variant.why):
             words = {"remarks": [*map(as_data, variant.remarks)], "why": as_data(variant.why)}
             points.save(job.number, {**asdict(variant), **words, "files": files})
@@ -503,7 +503,7 @@ def make(
         settle(*one)
     if finish is not None:
         finish(made)
-    if points is not None and not again:
+    if points is not None and not refused_some:
         points.close()
     return tuple(made)
 

@@ -205,8 +205,8 @@ def lessons(race: Race) -> tuple[Phrase, ...]:
     quotient."""
 
     def error(entry: Entry) -> str:
-        off = max(entry.velocity_error or 0.0, entry.acceleration_error or 0.0)
-        return f"{off:.1g}"
+        error = max(entry.velocity_error or 0.0, entry.acceleration_error or 0.0)
+        return f"{error:.1g}"
 
     def times(entry: Entry, of: Entry) -> str:
         return f"{entry.acceleration_cost / of.acceleration_cost:.3g}"

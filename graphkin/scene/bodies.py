@@ -397,14 +397,14 @@ def check_held(reading: Reading) -> None:
     if reading.unsure or lost:
         return
     bare = {problem.where for problem in reading.problems}
-    for apart in islands(reading):
-        if f"links.{apart[0]}" in bare:
+    for island in islands(reading):
+        if f"links.{island[0]}" in bare:
             continue
         hint = Phrase("share a point with another link or slide", frame=reading.frame.name)
-        if len(apart) == 1:
-            reading.say(f"links.{apart[0]}", "nothing holds this link", hint)
+        if len(island) == 1:
+            reading.say(f"links.{island[0]}", "nothing holds this link", hint)
         else:
-            reading.say(links_named(apart), "nothing joins these links to the frame", hint)
+            reading.say(links_named(island), "nothing joins these links to the frame", hint)
 
 
 def islands(reading: Reading) -> list[tuple[str, ...]]:
@@ -428,7 +428,7 @@ def islands(reading: Reading) -> list[tuple[str, ...]]:
         near[meant[b]].add(meant[a])
     for name, points in known.items():
         near[name] |= {other for other, others in known.items() if other != name and not {*others}.isdisjoint(points)}
-    apart: list[tuple[str, ...]] = []
+    found: list[tuple[str, ...]] = []
     seen: set[str] = set()
     for start in (reading.frame.name, *known):
         if start in seen:
@@ -440,8 +440,8 @@ def islands(reading: Reading) -> list[tuple[str, ...]]:
             todo += new
         seen |= reached
         if start != reading.frame.name:
-            apart.append(tuple(n for n in known if n in reached))
-    return apart
+            found.append(tuple(n for n in known if n in reached))
+    return found
 
 
 # -- carriages ---------------------------------------------------------------------------------------------------------

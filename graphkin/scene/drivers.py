@@ -215,8 +215,8 @@ def _driven_twice(where: str, name: str, base: str, before: Mapping[str, model.D
     for place, other in before.items():
         if other.key == name:
             what = Phrase("link of name", name=name) if base else name
-            again = base and not (other.turns and other.relative_to == base)
-            hint = Phrase("write the second as link relative_to", base=base, key=name) if again else ""
+            twice = base and not (other.turns and other.relative_to == base)
+            hint = Phrase("write the second as link relative_to", base=base, key=name) if twice else ""
             said = Phrase("is driven by already", what=what, where=place)
             return [Problem(where, said, hint or Phrase("leave one of them out"))]
         if base and other.turns and {name, base} == {*other.links}:

@@ -553,10 +553,10 @@ def joints(mechanism: Mechanism) -> tuple[ForceJoint, ...]:
     here = {mechanism.frame.name, *(link.name for link in mechanism.links if not link.redundant)}
     pairs: list[ForceJoint] = []
     for point, holders in mechanism.holders.items():
-        meeting = [name for name in holders if name in here]
-        hosts = hosts_at(mechanism, point, meeting)
-        first = next((name for name in meeting if name not in hosts), "")
-        pairs += [ForceJoint("turning", hosts.get(name, first), name, point) for name in meeting if name != first]
+        at_point = [name for name in holders if name in here]
+        hosts = hosts_at(mechanism, point, at_point)
+        first = next((name for name in at_point if name not in hosts), "")
+        pairs += [ForceJoint("turning", hosts.get(name, first), name, point) for name in at_point if name != first]
     pairs += [ForceJoint("slot" if s.of else "sliding", s.on, s.of or s.link, s.point)
               for s in mechanism.slides if {s.on, s.of or s.link} <= here]
     pairs += [ForceJoint("cam", c.link, c.follower, "") for c in mechanism.driving_cams if {c.link, c.follower} <= here]

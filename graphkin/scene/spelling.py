@@ -390,12 +390,12 @@ def _by_compass_angle(text: str, symbol: Symbol) -> Iterator[tuple[Way, str]]:
             base, to = (_COMPASS[match[key].lower()] for key in ("base", "to"))
             turn = math.sin(math.radians(to - base))
             if abs(turn) > 0.5:
-                off, room = _degrees(match["deg"])
-                yield Way(math.radians(base) + math.copysign(off, turn), room), _without(text, match)
+                angle, room = _degrees(match["deg"])
+                yield Way(math.radians(base) + math.copysign(angle, turn), room), _without(text, match)
     match = _BEARING.search(text)
     if match:
-        off, room = _degrees(match["deg"])
-        yield Way(math.pi / 2 - off, room), _without(text, match)
+        angle, room = _degrees(match["deg"])
+        yield Way(math.pi / 2 - angle, room), _without(text, match)
 
 
 def _by_compass_point(text: str, symbol: Symbol) -> Iterator[tuple[Way, str]]:
@@ -418,12 +418,12 @@ def _by_quadrant(text: str) -> tuple[Way, str] | None:
         return None
     rest = _without(text, match)
     sides = [bool(side.search(rest)) for side in _QUARTER]
-    off, room = _degrees(match["deg"])
-    if sides[0] == sides[1] or sides[2] == sides[3] or off > math.pi / 2:
+    angle, room = _degrees(match["deg"])
+    if sides[0] == sides[1] or sides[2] == sides[3] or angle > math.pi / 2:
         return None
-    off = math.pi / 2 - off if _FROM_UPRIGHT.search(rest) else off
+    angle = math.pi / 2 - angle if _FROM_UPRIGHT.search(rest) else angle
     along, up = (1.0 if sides[0] else -1.0), (1.0 if sides[2] else -1.0)
-    return Way(math.atan2(up * math.sin(off), along * math.cos(off)), room), _QUADRANT_ASIDE.sub(" ", rest)
+    return Way(math.atan2(up * math.sin(angle), along * math.cos(angle)), room), _QUADRANT_ASIDE.sub(" ", rest)
 
 
 _TURNS = {"above": 1, "over": 1, "上方": 1, "以上": 1, "之上": 1,
@@ -433,7 +433,7 @@ _LEANS = {"left of": 1, "right of": -1}
 
 def _from_axis(match: re.Match[str]) -> tuple[float, float]:
     """An angle said from an axis: 12° above -x is 168°."""
-    off, room = _degrees(match["deg"])
+    angle, room = _degrees(match["deg"])
     side, half = (match["side"] or "above").lower(), match.groupdict().get("half") or ""
     sign = -1 if (match["sign"] or "").strip().lower() in ("-", "negative", "负") or half.startswith("负") else 1
     level = match["axis"].lower() in ("x", "horizontal")
@@ -441,7 +441,7 @@ def _from_axis(match: re.Match[str]) -> tuple[float, float]:
     turn = (_TURNS if level else _LEANS).get(side)
     if turn is None:
         turn = sign * (-1 if side.startswith(("clockwise", "cw")) else 1)
-    return base + sign * turn * off, room
+    return base + sign * turn * angle, room
 
 
 _NOTHING = _said("nothing", "[-?/—]?|--")

@@ -242,8 +242,8 @@ def wrong_distances(
             first, second = (points[c.carrier][centre] for centre in c.centres)
             held, wanted = abs(second - first), abs(c.apart)
             if abs(held - wanted) > AGREE * max(map(abs, c.radii)):
-                apart = {"held": f"{held / reading.metres:.10g}", "wanted": f"{wanted / reading.metres:.10g}"}
-                reading.say(where, Phrase("link holds the centres apart the radii make", carrier=c.carrier, **apart),
+                radii = {"held": f"{held / reading.metres:.10g}", "wanted": f"{wanted / reading.metres:.10g}"}
+                reading.say(where, Phrase("link holds the centres apart the radii make", carrier=c.carrier, **radii),
                             "correct a radius or the distance")
         if not c.flat and c.centres[0] == c.centres[1]:
             reading.say(where, "both outlines have the same centre", "two centres lie apart")

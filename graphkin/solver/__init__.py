@@ -200,20 +200,20 @@ def _several_drivers(structure: Structure, drive: Drive, extended: bool) -> Moti
     modes = choose_modes(structure)
     assembly = partial(assembly_words, structure, modes)
     here, found = own_values(structure.scene), []
-    sums: list[dict[str, float]] = []
+    turns: list[dict[str, float]] = []
     good, why = np.ones(len(drive), dtype=bool), list[Wording]([""] * len(drive))
     for k, goal in enumerate(drive.value):
         if not np.array_equal(here, goal):
             path = follow_path(structure, modes, here, goal) if k else way_to(structure, modes, goal)
             if path.limit is None:
                 here, modes = goal, path.last_modes
-                before = sums[-1] if sums else {}
-                sums.append({n: before.get(n, 0.0) + float(by[0]) for n, by in path.turned(np.ones(1)).items()})
+                before = turns[-1] if turns else {}
+                turns.append({n: before.get(n, 0.0) + float(by[0]) for n, by in path.turned(np.ones(1)).items()})
             else:
                 good[k], why[k] = False, path.why_ended()
         found.append(modes)
-        sums[k:] = [sums[-1] if sums else {}]
+        turns[k:] = [turns[-1] if turns else {}]
     stacked = {i: np.stack([f[i] for f in found]) for i in modes}
     motion = motion_of(structure, drive, stacked, assembly, good, extended=extended)
     reasons = tuple(a or b for a, b in zip(motion.reasons, why, strict=True))
-    return replace(motion, reasons=reasons, turned={n: np.array([s.get(n, 0.0) for s in sums]) for n in motion.poses})
+    return replace(motion, reasons=reasons, turned={n: np.array([s.get(n, 0.0) for s in turns]) for n in motion.poses})

@@ -88,7 +88,7 @@ def _measured(reach: DriverRange, contact: PlacedContact, side: int, of: str) ->
     points = scene.by_name[link].points
     axis = next(p for p in points if p in scene.frame.points)
     place = points[centre] - points[axis]
-    off = abs(place)
+    eccentricity = abs(place)
     swings = "/" not in of
     ends = reach.extremes(Symbol.parse(f"swing_{of}" if swings else f"stroke_{of}"))
     offset = None
@@ -103,8 +103,8 @@ def _measured(reach: DriverRange, contact: PlacedContact, side: int, of: str) ->
     touch = reach.motion(np.array([ends.low_offset, ends.high_offset])).position(contact.name)
     near, far = np.abs(touch - scene.frame.points[axis])
     return DiscCam(
-        contact.name, link, follower, abs(abs(radius) - off),
-        None if contact.flat else abs(abs(contact.apart) - off),
+        contact.name, link, follower, abs(abs(radius) - eccentricity),
+        None if contact.flat else abs(abs(contact.apart) - eccentricity),
         ends.stroke, swings, offset, _greatest(reach, contact, follower), None if math.isnan(here) else float(here),
         ends.low if near <= far else ends.high, (place, abs(radius)),
     )  # fmt: skip

@@ -297,15 +297,15 @@ class Forces:
         for spring in loading.springs:
             force = np.abs(self.values[Symbol("P", name=spring.name)])
             length = np.abs(np.subtract(*spring_ends(motion, spring)))
-            off = spring.rate * (2 * place + 8 * EPS * length) + force * (2 * place / length + turn[0] + 8 * EPS)
+            error = spring.rate * (2 * place + 8 * EPS * length) + force * (2 * place / length + turn[0] + 8 * EPS)
             for link in spring.links:
                 if link in self._row:
-                    right[self._row[link] : self._row[link] + 3] += np.nan_to_num(off)
+                    right[self._row[link] : self._row[link] + 3] += np.nan_to_num(error)
         values = (self.values[one.symbol] / (size if one.along is None else 1.0) for one in self.unknowns)
         found = np.nan_to_num([np.abs(value) for value in values])
         matrix = np.nan_to_num(matrix)
-        off = np.abs(matrix) * 16 * EPS + (matrix != 0.0) * np.nan_to_num(place / size + turn[0])[:, None, None]
-        right += (off @ found.T[..., None])[..., 0].T
+        error = np.abs(matrix) * 16 * EPS + (matrix != 0.0) * np.nan_to_num(place / size + turn[0])[:, None, None]
+        right += (error @ found.T[..., None])[..., 0].T
         spread = (np.abs(inverse) @ np.nan_to_num(right).T[..., None])[..., 0].T + 16 * EPS * found
         most = np.where(self.ok, spread.max(axis=0), np.nan)
         return most, most * size
@@ -433,8 +433,8 @@ def spring_ends(motion: Motion, spring: SpringOn) -> tuple[Array, Array]:
 def without_line(motion: Motion) -> dict[str, Array]:
     """For each spring the positions, bool, shape (n,), at which its points coincide, so that its force has no line."""
     springs = motion.scene.loading.springs
-    apart = {one.name: np.abs(np.subtract(*spring_ends(motion, one))) for one in springs}
-    return {name: motion.ok & ~_has_line(motion, length) for name, length in apart.items()}
+    lengths = {one.name: np.abs(np.subtract(*spring_ends(motion, one))) for one in springs}
+    return {name: motion.ok & ~_has_line(motion, length) for name, length in lengths.items()}
 
 
 def _has_line(motion: Motion, length: Array) -> Array:

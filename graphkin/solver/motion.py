@@ -271,9 +271,10 @@ class Motion:
 
     def rough_of(self, links: Iterable[str]) -> tuple[Array, Array, Array]:
         """The bounds of some links in 16 digits: of place, velocity and acceleration."""
-        size, off = self.accuracy.structure.scene.size, self.accuracy.of(links, drawn=True)
+        size, error = self.accuracy.structure.scene.size, self.accuracy.of(links, drawn=True)
         return (
-            off.position, np.maximum(off.velocity, size * off.omega), np.maximum(off.acceleration, size * off.alpha)
+            error.position, np.maximum(error.velocity, size * error.omega),
+            np.maximum(error.acceleration, size * error.alpha),
         )
 
     def value(self, symbol: Symbol) -> Array:

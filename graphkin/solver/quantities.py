@@ -372,11 +372,11 @@ def bound_of_symbol(posed: Posed, symbol: Symbol, bounds: Mapping[str, ErrorBoun
         own, pose = known[ref.link], posed.pose(ref.link)
         arm = np.abs(posed.point(PointRef(ref.point)).z - pose.z)
         spin, turning = np.abs(pose.omega) + own.omega, np.abs(pose.alpha) + own.alpha
-        off = holder.position + own.position + 8 * UNIT * arm
+        error = holder.position + own.position + 8 * UNIT * arm
         found: Array = (
             holder.position,
-            own.velocity + arm * own.omega + spin * off,
-            own.acceleration + arm * (own.alpha + 2 * spin * own.omega) + (turning + spin**2) * off,
+            own.velocity + arm * own.omega + spin * error,
+            own.acceleration + arm * (own.alpha + 2 * spin * own.omega) + (turning + spin**2) * error,
         )[order]
         return found
 

@@ -411,8 +411,8 @@ def load_edges(reach: DriverRange) -> Array:
         if load.phase is not None:
             found += _begins_and_ends(reach, load.phase)
     kept = sorted(offset for offset in found if low - 1e-9 <= offset <= high + 1e-9)
-    apart = 1e-9 * (high - low)
-    return np.array([x for i, x in enumerate(kept) if i == 0 or x - kept[i - 1] > apart])
+    least = 1e-9 * (high - low)
+    return np.array([x for i, x in enumerate(kept) if i == 0 or x - kept[i - 1] > least])
 
 
 def _begins_and_ends(reach: DriverRange, phase: LoadPhase) -> Iterator[float]:

@@ -34,8 +34,8 @@ def pick(
         return f"[{z.real / scene.units.metres:.7g}, {z.imag / scene.units.metres:.7g}]"
 
     if scene.drawn:
-        off = [[(abs(z - scene.drawn[p]), p) for p, z in c.items() if p in scene.drawn] for c in candidates]
-        (miss, point), nearest = min((max(misses, default=(0.0, "")), i) for i, misses in enumerate(off))
+        misses_each = [[(abs(z - scene.drawn[p]), p) for p, z in c.items() if p in scene.drawn] for c in candidates]
+        (miss, point), nearest = min((max(misses, default=(0.0, "")), i) for i, misses in enumerate(misses_each))
         if miss > 1e-6 * scene.size:
             raise SceneError.of(f"drawn.{point}", "drawn at but what is given for links",
                                 "what is given twice must agree to 1e-6", place=shown(scene.drawn[point]),
@@ -43,12 +43,12 @@ def pick(
     if len(candidates) == 1:
         return 0
     for given in (scene.drawn, scene.sketch):
-        sums = [math.fsum(abs(z - given[p]) ** 2 for p, z in c.items() if p in given) for c in candidates]
-        best = min(range(len(sums)), key=sums.__getitem__)
-        rest = min((s, i) for i, s in enumerate(sums) if i != best)
+        squares = [math.fsum(abs(z - given[p]) ** 2 for p, z in c.items() if p in given) for c in candidates]
+        best = min(range(len(squares)), key=squares.__getitem__)
+        rest = min((s, i) for i, s in enumerate(squares) if i != best)
         # beside a dead point two assemblies lie close to each other, and a sketch still tells them apart
-        apart = max((abs(z - candidates[best][p]) for p, z in candidates[rest[1]].items() if p in given), default=0.0)
-        if rest[0] - sums[best] > TOLD * scene.size * apart:
+        gap = max((abs(z - candidates[best][p]) for p, z in candidates[rest[1]].items() if p in given), default=0.0)
+        if rest[0] - squares[best] > TOLD * scene.size * gap:
             return best
     if default is None:
         places = (", ".join(f"{p} = {shown(z)}" for p, z in candidate.items()) for candidate in candidates)

@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.account.notation import Letters
+from graphkin.account.notation import Notation
 from graphkin.construction.board.scales import next_of_series
 from graphkin.drawing import Box, Primitive, Text, chart
 from graphkin.drawing.ink.primitives import Stroke
@@ -327,7 +327,7 @@ def motion_panel(
 
 def lettered(scene: Mechanism, symbol: Symbol) -> str:
     """A quantity in the letters of the scene's convention, as markup without dollar signs."""
-    return Letters(scene.question.sheet.convention).vector(symbol)
+    return Notation(scene.question.sheet.convention).vector(symbol)
 
 
 def quantity_title(scene: Mechanism, quantity: Quantity) -> str:

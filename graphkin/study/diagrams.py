@@ -126,16 +126,16 @@ def _apart(turn: TurnStudy, quantity: Quantity, over: Sequence[tuple[float, floa
     if not over:
         return []
     at, read = np.array(over, dtype=float).T
-    off = read - np.asarray(quantity.values(turn.reach, turn.reach.motion(at)), dtype=float)
+    deviation = read - np.asarray(quantity.values(turn.reach, turn.reach.motion(at)), dtype=float)
     if quantity.measure == "angle":
-        off = np.remainder(off + np.pi, 2 * np.pi) - np.pi
-    off = np.abs(off[np.isfinite(off)])
-    if not len(off):
+        deviation = np.remainder(deviation + np.pi, 2 * np.pi) - np.pi
+    deviation = np.abs(deviation[np.isfinite(deviation)])
+    if not len(deviation):
         return []
     unit = quantity.unit(turn.scene)
-    sizes = np.sqrt(np.mean(off**2)), off.max()
+    sizes = np.sqrt(np.mean(deviation**2)), deviation.max()
     mean, greatest = (_said(float(size), unit, 3) for size in sizes)
-    return [say(Phrase("laid over apart", values=len(off), mean=mean, greatest=greatest), language)]
+    return [say(Phrase("laid over apart", values=len(deviation), mean=mean, greatest=greatest), language)]
 
 
 def _facts(turn: TurnStudy, output: Output, language: str) -> list[str]:

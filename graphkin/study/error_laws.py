@@ -142,7 +142,7 @@ def measured(
     bounds = zip(*(a.bounds or (math.nan,) * len(laws) for a in by_distance), strict=True)
     made = []
     for law, error, bound in zip(laws, errors, bounds, strict=True):
-        refused = [math.isnan(off) for off in error]
+        refused = [math.isnan(value) for value in error]
         warned = [a.warns or no_answer for a, no_answer in zip(by_distance, refused, strict=True)]
         xs, es = _binned(x, error, samples)
         stated = _binned(x, bound, samples)[1]

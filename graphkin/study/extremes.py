@@ -217,8 +217,8 @@ def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[Traced, .
 
     def resolved(own: Sequence[Quantity], floor: Array, weight: Array | None = None) -> list[Curve]:
         def columns(parameter: Array) -> tuple[Array, Array]:
-            values, off = zip(*(q.smooth(reach, at(parameter)) for q in own), strict=True)
-            return np.stack(values, axis=1), np.stack(off, axis=1)
+            values, errors = zip(*(q.smooth(reach, at(parameter)) for q in own), strict=True)
+            return np.stack(values, axis=1), np.stack(errors, axis=1)
 
         pieces = resolve(columns, *way.range, reach.full, floor, weight, way.seams)
         return [Curve(q, pieces, k) for k, q in enumerate(own)]

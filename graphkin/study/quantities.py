@@ -119,8 +119,8 @@ class Quantity:
             angle, other = motion.angle if reach is None else partial(reach.angle, motion), self.symbol.other
             return angle(self.symbol.link) - angle(other) if other else angle(self.symbol.link)
         found = self.whole(motion)
-        senses = senses_along(motion, self.symbol) if self.along else None
-        found = found if senses is None else found * senses.conjugate()
+        along_path = senses_along(motion, self.symbol) if self.along else None
+        found = found if along_path is None else found * along_path.conjugate()
         return np.abs(found) if self.is_size else np.asarray(found.real)
 
     def parts(self, reach: DriverRange | None, motion: Motion) -> tuple[Array, ...]:

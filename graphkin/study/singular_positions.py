@@ -185,8 +185,8 @@ def dead_point(kind: str, mp: MPContext, samples: int = 4) -> Singularity:
         sheet = _exactly_drawn(beside(e))
         if sheet is None:
             return Answer((math.nan,))
-        off = abs(sheet.omega[follower].value / right[e].rates[0] - 1)
-        return Answer((float(off),), any(r.key == "sharp crossing" for r in sheet.remarks))
+        error = abs(sheet.omega[follower].value / right[e].rates[0] - 1)
+        return Answer((float(error),), any(r.key == "sharp crossing" for r in sheet.remarks))
 
     def by_pencil(e: float) -> Answer:
         what, symbol = plan(beside(e)), Symbol("omega", link=follower)
@@ -423,8 +423,8 @@ def _centre_errors(scene: Mechanism, right: mpc, right_velocity: mpc, hand: Inst
     the velocity of C through it (relative)."""
     centres = find_centres(scene, instrument=hand)
     velocity, point = centres.velocity(Symbol.parse("v_C")), centres.of("2", "0").point
-    off = float(abs(velocity - right_velocity) / abs(right_velocity)) if velocity is not None else math.nan
-    return float(abs(point / centres.mm - right) / abs(right)) if point is not None else math.nan, off
+    error = float(abs(velocity - right_velocity) / abs(right_velocity)) if velocity is not None else math.nan
+    return float(abs(point / centres.mm - right) / abs(right)) if point is not None else math.nan, error
 
 
 def parallel_lines(mp: MPContext, samples: int = 2) -> Singularity:
@@ -544,8 +544,8 @@ def flip(mp: MPContext, samples: int = 4) -> Singularity:
         right = _exact_bar(mp, mp.mpf(a), mp.mpf(a), rate, mp.mpf(angle))
         bar = _in_doubles(scene, angle)
         coriolis, alpha = map(float, bar.rates)
-        direction, off = Turning(right.u, right.rates[:1]).off(complex(bar.u), coriolis)
-        return Answer((direction, off, abs(alpha) / rate**2))
+        direction, error = Turning(right.u, right.rates[:1]).off(complex(bar.u), coriolis)
+        return Answer((direction, error, abs(alpha) / rate**2))
 
     def solved(e: float) -> Answer:
         motion = solver.solve(_turned(scene, -math.pi / 2 + e))

@@ -495,15 +495,16 @@ def _elsewhere(reach: DriverRange, dyads: list[int], own: Stretch) -> list[Stret
         else:
             joined.append((low, high))
     # what the motion reaches stands by itself, of a driver that turns at the beginning
-    apart = [part for low, high in joined for part in ((low, min(high, own.low)), (max(low, own.high), high))]
+    parts = [part for low, high in joined for part in ((low, min(high, own.low)), (max(low, own.high), high))]
     # beyond where it is followed no further the motion goes on
-    beyond = [end for end, limited in zip((own.low, own.high), own.ends, strict=True) if not limited]
-    apart = [
-        (low, high) for low, high in apart if high - low > 2 * BESIDE and not any(end in (low, high) for end in beyond)
+    open_ends = [end for end, limited in zip((own.low, own.high), own.ends, strict=True) if not limited]
+    parts = [
+        (low, high) for low, high in parts
+        if high - low > 2 * BESIDE and not any(end in (low, high) for end in open_ends)
     ]
     if turning:
         # with their middles in (-pi, pi]
-        shifts = (2 * np.pi * float(np.ceil(((low + high) / 2 - np.pi - 1e-9) / (2 * np.pi))) for low, high in apart)
+        shifts = (2 * np.pi * float(np.ceil(((low + high) / 2 - np.pi - 1e-9) / (2 * np.pi))) for low, high in parts)
         return [Stretch(low - shift, high - shift, (True, True))
-                for (low, high), shift in zip(apart, shifts, strict=True)]  # fmt: skip
-    return [Stretch(low, high, (low != first, high != last)) for low, high in apart]
+                for (low, high), shift in zip(parts, shifts, strict=True)]  # fmt: skip
+    return [Stretch(low, high, (low != first, high != last)) for low, high in parts]

@@ -25,7 +25,7 @@ from graphkin.account.arithmetic import (
     scale_of,
     trials_of,
 )
-from graphkin.account.notation import letters_of
+from graphkin.account.notation import notation_of
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import measured
 from graphkin.construction import draft, pencil
@@ -44,7 +44,7 @@ from tests.drawn import drafted
 
 def drawn(name):
     sheet, _ = drafted(name)
-    return sheet, letters_of(sheet, "chinese")
+    return sheet, notation_of(sheet, "chinese")
 
 
 def test_a_length_that_is_not_given_stands_with_its_millimetres():
@@ -200,8 +200,8 @@ def test_what_a_held_link_shows_is_laid_off_by_the_rates_as_the_other_vectors_ar
     sheet, steps = seen_from_a_held_link()
     assert ["velocity", "acceleration"] == [step.diagram for step in steps]
     for step in steps:
-        drawn_ = {aid.symbol: aid for aid in step.aids}
-        vectors = (aid for t in sheet.steps for aid in t.aids)
+        drawn_ = {aid.symbol: aid for aid in step.auxiliary}
+        vectors = (aid for t in sheet.steps for aid in t.auxiliary)
         (start,) = (s.tip for s in vectors if s.symbol == step.begins[0])
         parts = step.data
         assert drawn_[step.symbol].tip - start == pytest.approx(sum(part.span for part in parts), abs=1e-9)
@@ -209,7 +209,7 @@ def test_what_a_held_link_shows_is_laid_off_by_the_rates_as_the_other_vectors_ar
 
 def test_sizes_relative_to_a_held_link_stand_in_numbers():
     sheet, _ = seen_from_a_held_link()
-    lines = [line.replace("\u00a0", " ") for line in written_lines(sheet, letters_of(sheet, "chinese"), "en")
+    lines = [line.replace("\u00a0", " ") for line in written_lines(sheet, notation_of(sheet, "chinese"), "en")
              if isinstance(line, str)]  # fmt: skip
     told = [part for line in lines for part in line.split(";  ")]
     by_rates = [line for line in told if "(4)}_{D3B3}" in line]
@@ -258,8 +258,8 @@ def drawn_by_hand(name, seed=1):
 @pytest.mark.parametrize("name", library())
 def test_with_a_pencil_each_product_and_quotient_follows_from_what_it_shows(name):
     sheet, _ = drawn_by_hand(name)
-    lines = [line for line in written_lines(sheet, letters_of(sheet, "chinese"), "en") if isinstance(line, str)]
-    lines += [line for _, line in lengths_measured(sheet, letters_of(sheet, "chinese"))]
+    lines = [line for line in written_lines(sheet, notation_of(sheet, "chinese"), "en") if isinstance(line, str)]
+    lines += [line for _, line in lengths_measured(sheet, notation_of(sheet, "chinese"))]
     whole = " ".join(lines).replace("\u00a0", " ").replace(" mm/mm", "")
     number, false = r"\d[\d.]*", []
     for sum_, told in re.findall(rf"((?:{number}²?(?: mm)? [×/] )+{number}²?) = ({number})(?![\d.·])", whole):
@@ -342,7 +342,7 @@ def test_trials_that_differ_by_less_than_a_ruler_shows_are_divided_by_what_they_
 def test_a_hand_writes_no_more_than_its_ruler_shows():
     hand = pencil(Tools(), 1)
     sheet = draft(mechanism_of("sixbar-guide-40deg"), instrument=hand)
-    measured = [told.split(" = ")[-1] for _, told in lengths_measured(sheet, letters_of(sheet, "chinese"))]
+    measured = [told.split(" = ")[-1] for _, told in lengths_measured(sheet, notation_of(sheet, "chinese"))]
     assert [] == [told for told in measured if "(" in told]
     sheet = draft(mechanism_of("contour-four-bars"), instrument=hand)
     steps = [step for step in sheet.steps if isinstance(step.data, Superposed)]
@@ -429,7 +429,7 @@ def test_quotients_come_to_what_was_measured_and_what_is_laid_off_to_its_length(
 )
 def test_where_end_points_have_no_letters_the_vector_of_an_image_is_told(said, name, language):
     sheet, _ = drafted(name)
-    lines = written_lines(sheet, letters_of(sheet, "us"), language)
+    lines = written_lines(sheet, notation_of(sheet, "us"), language)
     assert said in [line.replace("\u00a0", " ") for line in lines if isinstance(line, str)]
 
 

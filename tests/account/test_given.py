@@ -4,7 +4,7 @@ import pytest
 
 from graphkin import draw, handout
 from graphkin.account.given import given_drivers, given_loads, given_shapes, rolled_starts
-from graphkin.account.notation import letters_of
+from graphkin.account.notation import notation_of
 from graphkin.construction import draft
 from graphkin.drawing.ink.primitives import Text, walk
 from graphkin.scene import mechanism_of
@@ -64,7 +64,7 @@ SLANTED_SLOT = {
 
 def given(scene, language="en"):
     sheet = draft(mechanism_of(scene))
-    return given_shapes(sheet.scene, letters_of(sheet, "chinese"), language)
+    return given_shapes(sheet.scene, notation_of(sheet, "chinese"), language)
 
 
 @pytest.mark.parametrize(
@@ -133,7 +133,7 @@ def test_a_point_beside_its_guide_is_dimensioned_along_it_and_not_by_its_distanc
 )
 def test_a_driver_is_told_with_its_rate_even_at_rest(told, scene):
     sheet = draft(mechanism_of(scene))
-    assert told == given_drivers(sheet, letters_of(sheet, "chinese"))
+    assert told == given_drivers(sheet, notation_of(sheet, "chinese"))
 
 
 @pytest.mark.parametrize(
@@ -179,7 +179,7 @@ PRESS = {
 def of_loads(**tables: object) -> list[str]:
     """The given masses and loads of the press."""
     sheet = draft(mechanism_of({**PRESS, **tables}))
-    return [say(phrase, "en") for phrase in given_loads(sheet, letters_of(sheet, "chinese"))]
+    return [say(phrase, "en") for phrase in given_loads(sheet, notation_of(sheet, "chinese"))]
 
 
 def test_the_point_at_which_a_force_acts_is_given() -> None:

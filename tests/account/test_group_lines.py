@@ -9,7 +9,7 @@ import pytest
 
 from graphkin import draw
 from graphkin.account.account import Account, written_lines
-from graphkin.account.notation import letters_of
+from graphkin.account.notation import notation_of
 from graphkin.account.voice import Voice
 from graphkin.construction import draft
 from graphkin.construction.board.sheet import Equation
@@ -29,7 +29,7 @@ GROUPS = ("contour-four-bars", "double-butterfly", "loader-cylinder", "single-fl
 def told(name, language="en"):
     """The lines of a sheet in words, spaces plain."""
     sheet, _ = drafted(name)
-    lines = written_lines(sheet, letters_of(sheet, "chinese"), language)
+    lines = written_lines(sheet, notation_of(sheet, "chinese"), language)
     return [line.replace("\u00a0", " ") for line in lines if not isinstance(line, Equation)]
 
 
@@ -90,7 +90,7 @@ def test_what_trial_polygons_leave_open_is_told_with_its_sense():
 @pytest.mark.parametrize(("name", "triangles"), [("double-butterfly", 6), ("single-flier", 8), ("loader-cylinder", 4)])
 def test_triangles_that_are_told_are_similar_in_one_sense(name, triangles):
     sheet, _ = drafted(name)
-    ends = Voice(sheet, letters_of(sheet, "chinese"))
+    ends = Voice(sheet, notation_of(sheet, "chinese"))
     found = [pair for line in told(name) for pair in re.findall(r"△\$([^$]+)\$ ∽ △\$([^$]+)\$", line)]
     assert triangles <= len(found)
     for image, link in found:
@@ -126,7 +126,7 @@ def test_what_a_driver_between_links_of_a_group_adds_is_told_and_true(scene):
     sheet = draft(mechanism_of(scene))
     steps = [step for step in sheet.steps if step.reason == "sum of rates"]
     assert {"omega", "alpha"} == {step.kind for step in steps}
-    account = Account(sheet, letters_of(sheet, "chinese"))
+    account = Account(sheet, notation_of(sheet, "chinese"))
     for step in steps:
         (line,) = account.lines(step, "en")
         line = line.replace("\u00a0", " ")
@@ -143,7 +143,7 @@ def test_what_a_driver_between_links_of_a_group_adds_is_told_and_true(scene):
 ])  # fmt: skip
 def test_what_is_missed_at_a_guide_is_told_with_the_guide(language, named):
     sheet = draft(mechanism_of(BARE))
-    lines = written_lines(sheet, letters_of(sheet, "chinese"), language)
+    lines = written_lines(sheet, notation_of(sheet, "chinese"), language)
     assert any(named in line for line in lines if isinstance(line, str))
 
 
@@ -188,7 +188,7 @@ def test_writing_that_no_panel_needs_room_for_goes_on_one_page():
 def test_an_open_end_on_a_block_is_told_by_its_letter():
     # a pin of link 5 in the block 7 of a guide on 6: the block has a letter, c7, that bears its index
     sheet, _ = drafted("loader-cylinder")
-    ends = Voice(sheet, letters_of(sheet, "chinese"))
+    ends = Voice(sheet, notation_of(sheet, "chinese"))
     assert "e_{7}" == ends.end_of("velocity", PointRef("E", "7")) == ends.end_of("velocity", PointRef("E"))
     assert "e_{6}" == ends.end_of("velocity", PointRef("E", "6"))
 
@@ -201,7 +201,7 @@ def test_chinese_lists_break_after_their_commas():
 
 def test_an_acceleration_as_seen_from_a_held_link_bears_its_mark():
     sheet, _ = drafted("scissor-lift")
-    speaker = Account(sheet, letters_of(sheet, "chinese"))
+    speaker = Account(sheet, notation_of(sheet, "chinese"))
     said = " ".join(speaker.step(step, "en") for step in sheet.steps if step.diagram == "acceleration")
     assert "$a^{(3)}_{FF3}$" in said
     assert "$a_{FF3}$" not in said
@@ -213,7 +213,7 @@ def test_trial_polygons_say_that_a_link_is_left_out_not_an_equation():
 
 def test_a_moving_point_over_a_pivot_is_no_fixed_pivot():
     sheet, _ = drafted("scissor-lift")
-    speaker = Account(sheet, letters_of(sheet, "chinese"))
+    speaker = Account(sheet, notation_of(sheet, "chinese"))
     said = " ".join(speaker.why(equation, "en") for equation in sheet.equations)
     assert "fixed pivot $A_{3}$" not in said
     assert "$B$ and $A_{3}$ are points of the rigid link 3: the relative acceleration has a part" in said

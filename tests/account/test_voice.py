@@ -12,7 +12,7 @@ from graphkin import read
 from graphkin.account.account import Account
 from graphkin.account.in_mechanism import InMechanism
 from graphkin.account.in_polygon import InPolygon
-from graphkin.account.notation import letters_of
+from graphkin.account.notation import notation_of
 from graphkin.account.voice import PolygonPoints
 from graphkin.api.classroom.handouts import handout
 from graphkin.construction import draft
@@ -29,7 +29,7 @@ pytestmark = pytest.mark.quick
 
 def _six_bar():
     sheet = draft(mechanism_of("sixbar-guide-40deg"))
-    return sheet, Account(sheet, letters_of(sheet, "chinese"))
+    return sheet, Account(sheet, notation_of(sheet, "chinese"))
 
 
 def _at(name, degrees):
@@ -60,7 +60,7 @@ def test_a_coriolis_part_is_computed_from_a_measured_rate_and_a_measured_velocit
 )
 def test_what_is_laid_off_is_the_quotient_of_the_numbers_before_it(name, at):
     sheet = _at(name, at)
-    speaker = Account(sheet, letters_of(sheet, "chinese"))
+    speaker = Account(sheet, notation_of(sheet, "chinese"))
     lines = [line for step in sheet.steps for line in speaker.work(step)]
     divided = [re.fullmatch(r"([\d.]+) \S+ ÷ ([\d.]+) \S+ = ([\d.]+) mm", line) for line in lines]
     said = [tuple(map(Decimal, one.groups())) for one in divided if one]
@@ -71,7 +71,7 @@ def test_what_is_laid_off_is_the_quotient_of_the_numbers_before_it(name, at):
 
 def test_a_rate_comes_to_the_same_in_its_sentence_and_in_its_quotient():
     sheet = _at("sixbar-420rpm", 60)
-    speaker = Account(sheet, letters_of(sheet, "chinese"))
+    speaker = Account(sheet, notation_of(sheet, "chinese"))
     rates = (s for s in sheet.steps if s.reason == "rate" and not s.held)
     step = next(s for s in rates if (s.kind, s.link) == ("alpha", "4"))
     assert "106.1 rad/s²" in speaker.sentence(step.phrase, "en")
@@ -81,7 +81,7 @@ def test_a_rate_comes_to_the_same_in_its_sentence_and_in_its_quotient():
 @pytest.mark.parametrize("name", sorted(library()))
 def test_a_ratio_of_an_image_is_the_quotient_of_the_lengths_before_it(name):
     sheet = draft(mechanism_of(name))
-    speaker = Account(sheet, letters_of(sheet, "chinese"))
+    speaker = Account(sheet, notation_of(sheet, "chinese"))
     for step in sheet.steps:
         for language in ("en", "zh"):
             said = re.findall(r"= ([\d.]+) : ([\d.]+) = (\d+(?:\.\d+)?)", speaker.step(step, language))
@@ -98,7 +98,7 @@ def test_the_guide_bar_on_paper_divides_its_image_as_it_is_written():
 
 def test_a_vector_too_small_for_letters_of_its_own_is_not_named_by_one_letter_twice():
     sheet = _at("sixbar-420rpm", 60)
-    account = Account(sheet, letters_of(sheet, "chinese"))
+    account = Account(sheet, notation_of(sheet, "chinese"))
     tiny = next(s for s in sheet.steps if s.verb == "lay off" and str(s.symbol) == "an_F/E")
     assert "lay off from" == account.telling(tiny).said.key
 
@@ -106,7 +106,7 @@ def test_a_vector_too_small_for_letters_of_its_own_is_not_named_by_one_letter_tw
 @pytest.mark.parametrize(("convention", "expected"), [("chinese", ["b", "c", "p_2"]), ("us", ["V_B", "V_C", "V_P"])])
 def test_ends_of_moving_vectors_are_named_in_every_convention(convention, expected):
     sheet = draft(mechanism_of("four-bar-coupler-point"))
-    moving = motion_data(sheet, letters_of(sheet, convention), None, count=3)
+    moving = motion_data(sheet, notation_of(sheet, convention), None, count=3)
     assert expected == sorted(name for _, name in moving["velocity"]["ends"])
 
 
@@ -127,7 +127,7 @@ def _reasons(name, language):
 def test_a_reason_names_no_link_that_the_scene_does_not_have(name, language):
     told = " ".join(_reasons(name, language).values())
     sheet = draft(mechanism_of(name))
-    speaker = Account(sheet, letters_of(sheet, "chinese"))
+    speaker = Account(sheet, notation_of(sheet, "chinese"))
     told += " ".join(plain_words(speaker.step(s, language)) for s in sheet.steps if s.diagram == "mechanism")
     assert [] == re.findall(r"(?:link|构件) [A-Z]\w*/\w+", told)
     assert {"en": "runs along", "zh": "导路运动"}[language] in told
@@ -135,7 +135,7 @@ def test_a_reason_names_no_link_that_the_scene_does_not_have(name, language):
 
 def _steps(name, language, convention="chinese"):
     sheet = draft(mechanism_of(name))
-    speaker = Account(sheet, letters_of(sheet, convention))
+    speaker = Account(sheet, notation_of(sheet, convention))
     return [plain_words(speaker.step(step, language)) for step in sheet.steps]
 
 
@@ -262,20 +262,20 @@ def test_a_page_of_one_position_says_one():
 def test_what_is_told_in_a_way_of_its_own_is_told_of_steps_of_the_board():
     told = [*InMechanism.sentences, *InPolygon.sentences]
     reasons = {reason for verb in get_args(Reason) for reason in get_args(verb) or (verb,)}
-    assert set() == {*told, *InPolygon.sums, *InPolygon.lines, *InMechanism.lines} - reasons
+    assert set() == {*told, *InPolygon.arithmetic, *InPolygon.lines, *InMechanism.lines} - reasons
     assert len(set(told)) == len(told)
 
 
 def test_a_sliding_velocity_is_not_told_by_that_of_one_of_its_points_where_both_move():
     sheet = draft(mechanism_of(redriven(29)))
-    told = Account(sheet, letters_of(sheet, "chinese")).why(sheet.equations[7], "en")
+    told = Account(sheet, notation_of(sheet, "chinese")).why(sheet.equations[7], "en")
     assert "link 8 slides on link 6, so their relative motion is along the guide" in told
     assert "$v_{P8_{6}}$ points to" not in told
 
 
 def test_a_vector_that_is_nought_is_not_drawn_from_the_pole():
     sheet = draft(mechanism_of(random_scene(1, ("RPR", "slotted", "slotted"), "resting", True)))
-    speaker = Account(sheet, letters_of(sheet, "chinese"))
+    speaker = Account(sheet, notation_of(sheet, "chinese"))
     assert "a_P1_3 = 0." in [plain_words(speaker.step(s, "en")) for s in sheet.steps if s.reason == "pole to end"]
 
 
@@ -287,7 +287,7 @@ def test_no_two_places_of_a_polygon_bear_one_letter(name, old, new, convention):
     scene = read(name).to_dict()
     asked = {key: scene[key] for key in ("frame", "links", "contacts", "pins", "driver", "sketch") if key in scene}
     sheet = draft(mechanism_of(json.loads(json.dumps(asked).replace(f'"{old}"', f'"{new}"'))))
-    named = PolygonPoints(sheet, "acceleration", letters_of(sheet, convention)).named
+    named = PolygonPoints(sheet, "acceleration", notation_of(sheet, convention)).named
     places = {}
     for point in named:
         places.setdefault(point.letter, []).append(point.at)

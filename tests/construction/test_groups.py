@@ -313,7 +313,7 @@ def test_the_special_point_lies_on_the_lines_of_both_legs() -> None:
 
 def test_trial_polygons_are_drawn_and_divided() -> None:
     sheet = draft(mechanism_of("contour-four-bars"))
-    trials = {aid.trial for step in sheet.steps for aid in step.aids if aid.trial}
+    trials = {aid.trial for step in sheet.steps for aid in step.auxiliary if aid.trial}
     assert {1, 2} == trials
     (velocity, _) = (step.data for step in sheet.steps if isinstance(step.data, Superposed))
     one, two = (row[0] for row in velocity.apart)
@@ -356,7 +356,7 @@ def test_the_sheet_says_along_which_direction_a_trial_is_left_open() -> None:
     assert ("8",) == divided.closing
     assert ["∥KD"] == [str(way) for way in divided.ways]
     steps = [step for step in result.sheet.steps if step.diagram == "velocity"]
-    drawn = [aid for step in steps for aid in step.aids]
+    drawn = [aid for step in steps for aid in step.auxiliary]
     first = next(aid.tip for aid in drawn if aid.trial == 1 and str(aid.symbol) == "v_K")
     bar = at["K"] - at["D"]
     assert abs((first / bar).real) * abs(bar) == pytest.approx(abs(divided.apart[0][0]), abs=1e-9)

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import graphkin
-from graphkin.account.notation import letters_of
+from graphkin.account.notation import notation_of
 from graphkin.api.centred import centrodes, found_centres
 from graphkin.construction.board.scales import Room
 from graphkin.construction.centres import Centres
@@ -192,7 +192,7 @@ def test_no_label_of_a_picture_is_overlapped_crossed_or_cut(
 def test_in_a_crowd_no_name_of_a_found_centre_stands_on_another_and_it_is_shown_on_a_further_page() -> None:
     centres = found_centres(mechanism_of("single-flier"), None)
     centres = centres.at(centres.sheet.scales_for(Room(mechanism=(40.0, 32.0))))
-    letters = letters_of(centres.sheet, "chinese")
+    letters = notation_of(centres.sheet, "chinese")
     back = background(bare_mechanism(centres.sheet, letters))
     box = ink_box(back.drawn)
     assert box is not None

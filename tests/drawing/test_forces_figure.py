@@ -14,7 +14,7 @@ import pytest
 
 import graphkin
 from graphkin.account.forces import ForceAccount, ForceStage, balance
-from graphkin.account.notation import force_letters, letters_of
+from graphkin.account.notation import force_letters, notation_of
 from graphkin.drawing import svg_bytes
 from graphkin.scene.symbol import Symbol
 from graphkin.words.written import amount, is_quotient
@@ -51,7 +51,7 @@ def stages_of(name: Any) -> tuple[ForceStage, ...]:
     assert checked.report.forces is not None
     sheet = checked.sheet
     sheet = replace(sheet, scales=replace(sheet.scales, force=checked.report.forces.per_mm))
-    return tuple(ForceAccount(sheet, checked.report.forces, letters_of(sheet, "chinese")).stages())
+    return tuple(ForceAccount(sheet, checked.report.forces, notation_of(sheet, "chinese")).stages())
 
 
 def vectors(svg: bytes) -> dict[str, complex]:

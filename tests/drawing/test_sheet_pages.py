@@ -9,7 +9,7 @@ import pytest
 
 from graphkin import draw, read
 from graphkin.account.given import given_lengths
-from graphkin.account.notation import letters_of
+from graphkin.account.notation import notation_of
 from graphkin.construction import draft, plan
 from graphkin.drawing import Text
 from graphkin.drawing.ink.primitives import Group, Polygon, walk
@@ -177,7 +177,7 @@ def test_lengths_are_given_however_short_and_what_rounding_leaves_is_none():
                   "2": {"points": ["B", "C"], "length": 500, "at": {"E": [0.5, 0], "F": [1e-13, 0]}}},
         "driver": {"link": "1", "angle": 60, "omega": 10}, "sketch": {"C": [420, 290]},
     })  # fmt: skip
-    given = dict(given_lengths(scene, letters_of(draft(scene), "chinese")))
+    given = dict(given_lengths(scene, notation_of(draft(scene), "chinese")))
     assert "0.5" == given["l_{BE}"]
     assert {"l_{BF}"} == {f"l_{{{p}{q}}}" for p in "BC" for q in "EF"} - set(given)
 
@@ -206,8 +206,8 @@ def test_a_guide_that_its_panel_cuts_keeps_its_letter(high, angle):
     })  # fmt: skip
     sheet = draft(scene, room=sheet_room(scene))
     room = sheet_plan(sheet).mechanism.grown(-0.8)
-    whole, box = mechanism_piece(sheet, letters_of(sheet, "chinese"))
-    cut, _ = mechanism_piece(sheet, letters_of(sheet, "chinese"), (room.width, room.height))
+    whole, box = mechanism_piece(sheet, notation_of(sheet, "chinese"))
+    cut, _ = mechanism_piece(sheet, notation_of(sheet, "chinese"), (room.width, room.height))
     assert box.width > room.width
     names = {label.text.id for label in whole.labels if "length" not in label.text.id}
     assert "label-guide-0-k" in names

@@ -9,7 +9,7 @@ import re
 import pytest
 
 from graphkin.account.account import Account
-from graphkin.account.notation import letters_of
+from graphkin.account.notation import notation_of
 from graphkin.api.classroom.handouts import handout
 from graphkin.construction import draft
 from graphkin.papers.lesson import stages
@@ -27,7 +27,7 @@ def test_symbols_in_sentences_are_closed_in_every_scene_and_convention():
     for name in library():
         sheet = draft(mechanism_of(name))
         for convention in ("chinese", "us", "british", "russian"):
-            speaker = Account(sheet, letters_of(sheet, convention))
+            speaker = Account(sheet, notation_of(sheet, convention))
             for step in sheet.steps:
                 for markup in (
                     speaker.sentence(step.phrase, "en"),

@@ -7,32 +7,33 @@ import pytest
 from graphkin.drawing.ink.primitives import Line, Scan, Stroke
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.blocks import Document, Heading, Paragraph, Picture, StepItem, spoken
-from graphkin.papers.pdf import FORMS, KEPT, Page, Piece, balanced, fill_pages, pages_of
+from graphkin.papers.pdf import FORMS, KEPT, Page, PageItem, balanced, fill_pages, pages_of
 
 HEIGHT = 260.0
 WORDS, ROOM, FRESH = Paragraph(()), Paragraph((), fills=True), Heading((), fresh=True)
 FIGURE = Picture(None, floats=True)
 
 
-def pages(pieces: list[Piece]) -> list[Page]:
+def pages(pieces: list[PageItem]) -> list[Page]:
     return fill_pages(pieces, HEIGHT)[0]
 
 
-def numbers(pieces: list[Piece], page: Page) -> list[int]:
+def numbers(pieces: list[PageItem], page: Page) -> list[int]:
     """The pieces of a page by their numbers."""
     known = {id(piece): n for n, piece in enumerate(pieces)}
     return [known[id(piece)] for row in page for piece in (*row.left, *row.right)]
 
 
-def drawn_lots(seed: int) -> list[Piece]:
+def drawn_lots(seed: int) -> list[PageItem]:
     """Stages as solutions have them: an equation, steps in two columns, a figure."""
     chance = random.Random(seed)
     pieces = []
     for _ in range(chance.randint(2, 9)):
-        pieces.append(Piece(WORDS, chance.uniform(15, 40), 5.2))
+        pieces.append(PageItem(WORDS, chance.uniform(15, 40), 5.2))
         steps = chance.randint(1, 12)
-        pieces += [Piece(WORDS, chance.uniform(5, 18), 2.0, KEPT if not i else 0.08, half=True) for i in range(steps)]
-        pieces.append(Piece(FIGURE, chance.uniform(40, 190), 3.3, 0.04))
+        ties = [KEPT if not i else 0.08 for i in range(steps)]
+        pieces += [PageItem(WORDS, chance.uniform(5, 18), 2.0, tie, half=True) for tie in ties]
+        pieces.append(PageItem(FIGURE, chance.uniform(40, 190), 3.3, 0.04))
     return pieces
 
 
@@ -65,7 +66,8 @@ def test_an_equation_is_never_parted_from_its_first_step(seed):
 
 
 def test_a_figure_without_room_gives_way_to_the_words_behind_it():
-    pieces = [Piece(WORDS, 100.0), Piece(FIGURE, 180.0, 3.0, 0.04), Piece(WORDS, 100.0, 5.0), Piece(WORDS, 40.0, 5.0)]
+    words, figure = [PageItem(WORDS, size, 5.0) for size in (100.0, 40.0)], PageItem(FIGURE, 180.0, 3.0, 0.04)
+    pieces = [PageItem(WORDS, 100.0), figure, *words]
     assert [[0, 2], [1, 3]] == [numbers(pieces, page) for page in pages(pieces)]
 
 
@@ -74,17 +76,17 @@ def test_steps_in_two_columns_are_about_as_high_on_both_sides():
 
 
 def test_room_to_write_in_takes_what_the_page_has_left():
-    first, _ = pages([Piece(WORDS, 100.0), Piece(ROOM, 0.0, 3.0), Piece(FRESH, 50.0)])
+    first, _ = pages([PageItem(WORDS, 100.0), PageItem(ROOM, 0.0, 3.0), PageItem(FRESH, 50.0)])
     assert pytest.approx(157.0) == first[1].height
 
 
 def test_a_page_is_not_filled_beyond_its_height_by_a_millimetre():
-    pieces = [Piece(WORDS, 150.0), Piece(WORDS, 111.0), Piece(WORDS, 20.0)]
+    pieces = [PageItem(WORDS, 150.0), PageItem(WORDS, 111.0), PageItem(WORDS, 20.0)]
     assert [[0], [1, 2]] == [numbers(pieces, page) for page in pages(pieces)]
 
 
 def test_steps_in_two_columns_take_half_their_height_below_what_stands_above_them():
-    pieces = [Piece(WORDS, 100.0), *(Piece(WORDS, 70.0, 2.0, 0.08, half=True) for _ in range(4))]
+    pieces = [PageItem(WORDS, 100.0), *(PageItem(WORDS, 70.0, 2.0, 0.08, half=True) for _ in range(4))]
     assert [[0, 1, 2, 3, 4]] == [numbers(pieces, page) for page in pages(pieces)]
 
 

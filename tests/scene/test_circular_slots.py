@@ -11,7 +11,7 @@ import pytest
 import graphkin
 from graphkin.account.given import given_shapes
 from graphkin.account.headings import structure_words
-from graphkin.account.notation import Letters
+from graphkin.account.notation import Notation
 from graphkin.errors import SceneError
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import joints
@@ -79,7 +79,7 @@ def test_a_pin_in_one_counts_as_a_higher_pair() -> None:
     ],
 )
 def test_it_is_among_the_given_data(scene: dict[str, Any], language: str, told: str) -> None:
-    assert told == given_shapes(mechanism_of(scene), Letters("chinese"), language)[-1]
+    assert told == given_shapes(mechanism_of(scene), Notation("chinese"), language)[-1]
 
 
 @pytest.mark.parametrize(

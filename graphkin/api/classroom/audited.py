@@ -116,7 +116,7 @@ class Audited(OfScene, Result):
             lead = [own[key] for key in self._named]
             for row in rows_of(self.mechanism, who, judged, self.language):
                 percent, gap = row["deviation_pct"], row.get("loop_gap")
-                off = f"{round(percent, 2) + 0.0:+.2f} %" if isinstance(percent, float) else ""
+                deviation = f"{round(percent, 2) + 0.0:+.2f} %" if isinstance(percent, float) else ""
                 verdict = word(str(row["verdict"] or "not judged"), self.language)
                 said = str(row.get("looks_like", row.get("why", "") if row["verdict"] == "not readable" else ""))
                 if isinstance(gap, dict):
@@ -124,7 +124,7 @@ class Audited(OfScene, Result):
                     mark = word("list semicolon", self.language)
                     said = mark.join(filter(None, (said, say(open_, self.language))))
                 values = str(row["written"]), _shown(row["exact"]), str(row["unit"])
-                rows.append([*lead, str(row["symbol"]), *values, off, verdict, said])
+                rows.append([*lead, str(row["symbol"]), *values, deviation, verdict, said])
         return rows
 
     def __getitem__(self, name: str) -> tuple[JudgedValue, ...]:

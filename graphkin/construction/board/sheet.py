@@ -322,14 +322,14 @@ class Sheet:
 
     def trials(self, diagram: DiagramName) -> list[Vector]:
         """The vectors of trial polygons in a diagram."""
-        return [aid for step in self.steps if step.diagram == diagram for aid in step.aids if aid.trial]
+        return [aid for step in self.steps if step.diagram == diagram for aid in step.auxiliary if aid.trial]
 
     def vectors_seen(self, diagram: DiagramName) -> Iterator[Vector]:
         """The vectors of a diagram that are seen from held links, without those that lead to special points."""
         held = {step.held for step in self.steps if step.reason == "seen from"}
         special = self.special_points.keys()
         for step in self.steps if held else ():
-            for aid in step.aids if step.diagram == diagram else ():
+            for aid in step.auxiliary if step.diagram == diagram else ():
                 of, to = aid.symbol.of, aid.symbol.to
                 if to is None or special & {to.point, of.point if of else ""}:
                     continue

@@ -273,7 +273,7 @@ class Step:
         return tuple(s for s in self.strokes if isinstance(s, Vector) and not s.aid)
 
     @property
-    def aids(self) -> tuple[Vector, ...]:
+    def auxiliary(self) -> tuple[Vector, ...]:
         """Its vectors of the construction only."""
         return tuple(s for s in self.strokes if isinstance(s, Vector) and s.aid)
 
@@ -379,11 +379,11 @@ class Step:
             return _assumed([pair for pair in data.assumed if pair[1]] or data.assumed)
         assert isinstance(data, Superposed)
         open_at = ", ".join(f"{name} ({direction})" for name, direction in zip(data.closing, data.ways, strict=True))
-        apart = true_minus("; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in data.apart))
+        gaps = true_minus("; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in data.apart))
         of_links = [(f"{'ω' if rate.kind == 'omega' else 'α'}_{{{rate.link}}}", value) for rate, value in data.found]
         rates = true_minus(", ".join(f"{name} = {amount(value, 5)}" for name, value in of_links))
         names = ", ".join(name for name, _ in of_links)
-        return {"open_at": open_at, "apart": apart, "names": names, "rates": rates, **_assumed(data.found)}
+        return {"open_at": open_at, "apart": gaps, "names": names, "rates": rates, **_assumed(data.found)}
 
     @property
     def finds_rate(self) -> bool:

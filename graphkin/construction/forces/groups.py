@@ -138,14 +138,14 @@ class CutFree:
 
     def at_pair(self, pair: Pair, links: Sequence[str]) -> ForceVector:
         """The force of a pair on that of some links which it holds, of no size yet."""
-        link, off = (pair.a, pair.b) if pair.a in links else (pair.b, pair.a)
+        link, other = (pair.a, pair.b) if pair.a in links else (pair.b, pair.a)
         if pair.turns:
             symbol = self.drawn.of_pin(pair.point, pair.a, self.done)
             at = self.drawn.point(pair.a, pair.point)
         else:
             symbol, at = self.drawn.of_slide(pair), self.drawn.foot(pair)
             symbol = symbol if link == pair.a else symbol.opposite
-        return ForceVector(symbol, link, at=at, by="closing", off=off)
+        return ForceVector(symbol, link, at=at, by="closing", off=other)
 
     def set_balance(self, balance: ForceVector, acting: ForceVector) -> None:
         """Set a balancing load, as found on one of its two links."""
@@ -533,10 +533,10 @@ def _unknown_forces(cut: CutFree, members: Sequence[str], balances: Sequence[For
         held = any(n not in inside and n not in cut.done for n in holders)
         hosts = {guest: host for guest, host in cut.drawn.hosts[point].items() if host in inside}
         first = next(n for n in mine if n not in hosts)
-        at, off = cut.drawn.point(first, point), "" if held else first
+        at, other = cut.drawn.point(first, point), "" if held else first
         for link in (n for n in mine if held or n != first):
             symbol = cut.drawn.of_pin(point, link, cut.done | inside)
-            force = ForceVector(symbol, link, at=at, off=hosts.get(link, off))
+            force = ForceVector(symbol, link, at=at, off=hosts.get(link, other))
             unknowns += [(replace(force, force=along), point, None) for along in (1 + 0j, 1j)]
     for slide in structure.slides:
         if slide.key not in cut.slides and {slide.a, slide.b} & inside:

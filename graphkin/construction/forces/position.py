@@ -140,8 +140,8 @@ class DrawnPosition:
             along = said.turn * (self.sheet.poses[said.link].axis if said.follows else 1.0)
             return ForceVector(Symbol("F", link=said.link), said.link, along, self.place(said.link, said.at), off=frame)
         if said is not None or driver.turns:
-            link, off = (driver.link, driver.relative_to) if said is None else (said.link, frame)
-            return ForceVector(Symbol("M", link=link), link, moment=1.0, off=off)
+            link, other = (driver.link, driver.relative_to) if said is None else (said.link, frame)
+            return ForceVector(Symbol("M", link=link), link, moment=1.0, off=other)
         slide = self.structure.slide(driver.key)
         symbol = Symbol("F", link=slide.of or slide.a)
         return ForceVector(symbol, slide.a, self.along(slide), self.foot(slide), off=slide.b)

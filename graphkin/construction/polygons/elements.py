@@ -226,10 +226,10 @@ def _draw_move(plot: Polygons, order: Order, group: LargerGroup, step: VectorCha
     """Draw a move of a plan."""
     for edge in (e for path in step.sides for e in path if e.held):
         # the point of the contour that the equation needs
-        apart = plot.seen[edge.held]
-        before = len(apart.board.steps)
-        apart.end(order, edge.end if edge.forward else edge.start)
-        for drawn in apart.board.steps[before:] if not plot.trial else ():
+        held_plot = plot.seen[edge.held]
+        before = len(held_plot.board.steps)
+        held_plot.end(order, edge.end if edge.forward else edge.start)
+        for drawn in held_plot.board.steps[before:] if not plot.trial else ():
             plot.do(drawn)
     if step.is_special and step.end.point not in plot.places:
         _mark_special(plot, step)
@@ -413,17 +413,17 @@ def _turn_driven(plot: Polygons, order: Order, rest: LargerGroup) -> None:
 def _draw_contours(plot: Polygons, order: Order, group: LargerGroup) -> None:
     """Draw the contours of a group, each in its motion seen from one of its links."""
     for held, rest in plot.contours.get(group, ()):
-        apart = plot.seen[held] if held in plot.seen else plot.holding(group, held)
-        if rest.members[0] in apart.rates[order]:
+        held_plot = plot.seen[held] if held in plot.seen else plot.holding(group, held)
+        if rest.members[0] in held_plot.rates[order]:
             continue
-        before, equations = len(apart.board.steps), len(plot.board.equations)
-        spread(apart, order, held, rest)
-        _turn_driven(apart, order, rest)
-        _draw_group(apart, order, rest)
+        before, equations = len(held_plot.board.steps), len(plot.board.equations)
+        spread(held_plot, order, held, rest)
+        _turn_driven(held_plot, order, rest)
+        _draw_group(held_plot, order, rest)
         for name in rest.members:
-            apart.complete(order, name)
+            held_plot.complete(order, name)
         first = equations + 1 if len(plot.board.equations) > equations else None
-        drawn = apart.board.steps[before:]
+        drawn = held_plot.board.steps[before:]
         points = [step for step in drawn if step.diagram == "mechanism"]
         seen = Step("carry over", "seen from", order, (), first, held=held, links=rest.links)
         for step in (*points, seen, *(step for step in drawn if step.diagram != "mechanism")):
@@ -574,11 +574,11 @@ class TrialPolygons:
         """The true rates by proportional division of the trial polygons' gaps."""
         plot, order, plan = self.plot, self.order, self.plan
         rates, far = plan.assumed[order], plan.far and replace(plan.far, away=plan.far.away * plot.scales.length)
-        apart: list[list[float]] = []
+        gaps: list[list[float]] = []
         ends: list[dict[PointRef, complex]] = []
         for number, assumed in enumerate(rates, 1):
             trial = self.polygon(number, assumed)
-            apart.append([plot.board.instrument.read(mm) for mm in self.gaps(trial)])
+            gaps.append([plot.board.instrument.read(mm) for mm in self.gaps(trial)])
             ends.append(trial.ends[order])
             plot.links.update(trial.links)
             plot.places.update(trial.places)
@@ -587,17 +587,17 @@ class TrialPolygons:
                 if step.diagram == "mechanism":  # special points met with first
                     plot.do(step)
             steps = [step for step in trial.board.steps if step.diagram == order]
-            strokes = [replace(aid, trial=number) for step in steps for aid in step.aids]
+            strokes = [replace(aid, trial=number) for step in steps for aid in step.auxiliary]
             assumption = RateTrial(number, self.as_symbols(assumed), far)
             plot.do(Step("trial", "polygon", order, tuple(strokes), data=assumption))
         shared = [ref for ref in ends[0] if all(ref in end for end in ends)]
         places = [[end[ref] for ref in shared] for end in ends]
-        plot.board.notice(order, "magnified", self.group.named, size=magnified(places, apart))
-        true = self._as_noted(rates, apart)
+        plot.board.notice(order, "magnified", self.group.named, size=magnified(places, gaps))
+        true = self._as_noted(rates, gaps)
         edges = [edge for edge, _ in plan.open_ends]
         closing = tuple(edge.link or (edge.slide.key if edge.slide else "") for edge in edges)
         divided = Superposed(
-            self.as_symbols(true), closing, tuple(map(tuple, apart)),
+            self.as_symbols(true), closing, tuple(map(tuple, gaps)),
             tuple(Direction("square" if across else "along", e.bar if e.link else e.direction.names)
                   for e, across in plan.open_ends),
             tuple((plot.label(e.labels[0]), plot.label(e.labels[1])) for e in edges),
@@ -613,15 +613,15 @@ class TrialPolygons:
             if p.span and abs(dot(p.span, direction)) > NAUGHT * abs(p.span):
                 yield p, dot(p.span, direction)
 
-    def _as_noted(self, rates: Sequence[Sequence[float]], apart: Sequence[Sequence[float]]) -> list[float]:
+    def _as_noted(self, rates: Sequence[Sequence[float]], gaps: Sequence[Sequence[float]]) -> list[float]:
         """The divided rates as they are written down: the step from the first assumed rate with the figures of the
         divided lengths."""
         noted, made = self.plot.board.instrument.noted, []
-        for i, (unknown, rate) in enumerate(zip(self.plan.tried, map(float, divide(rates, apart)), strict=True)):
+        for i, (unknown, rate) in enumerate(zip(self.plan.tried, map(float, divide(rates, gaps)), strict=True)):
             unit = 1.0 if unknown.kind == "turning" else self.plot.structure.scene.units.rates.metres
             low, more = rates[0][i] / unit, (rates[i + 1][i] - rates[0][i]) / unit
             if len(self.plan.tried) == 1:
-                lengths = on_paper(apart[0][0]), on_paper(apart[0][0] - apart[1][0])
+                lengths = on_paper(gaps[0][0]), on_paper(gaps[0][0] - gaps[1][0])
                 added = noted(rate / unit - low, figures(*lengths))
             else:
                 added = noted((rate / unit - low) / more, MOST - 1) * more

@@ -227,13 +227,13 @@ def _cross(plot: Polygons, order: Order, end: PointRef, sides: Sequence[Side], e
         lines.append((at, parts[open_at]))
         carried.append(at - before)
     whole = plot.symbol(letter(order), end)
-    meeting = _lines_meet(plot, order, whole, 0j, lines, equation)
-    mark = Mark(plot.label(end), meeting)
+    intersection = _lines_meet(plot, order, whole, 0j, lines, equation)
+    mark = Mark(plot.label(end), intersection)
     plot.do(Step("cross", "lines", order, (mark,), equation, ref=mark.ref))
     for side, (start, _), behind in zip(sides, lines, carried, strict=True):
         if len(_open(side)) == 1:
-            _fill(plot, order, side, meeting - behind, start - behind, equation)
-    plot.reach(order, end, meeting, equation)
+            _fill(plot, order, side, intersection - behind, start - behind, equation)
+    plot.reach(order, end, intersection, equation)
 
 
 def _carry(plot: Polygons, order: Order, parts: Iterable[Term], at: complex, equation: int | None) -> complex:
@@ -254,11 +254,11 @@ def _lines_meet(
     """Draw lines along two vectors of unknown size, each through a point; the vector ``symbol`` from ``tail`` ends at
     their crossing."""
     (p, left), (q, right) = ((at, plot.own_values.line(part.symbol, part.along)) for at, part in lines)
-    meeting = plot.own_values.found(symbol, tail, plot.board.cross(order, p, left, q, right, symbol))
+    intersection = plot.own_values.found(symbol, tail, plot.board.cross(order, p, left, q, right, symbol))
     for through, part in lines:
-        ray = Ray(through, part.along, meeting, part.direction, part.symbol)
+        ray = Ray(through, part.along, intersection, part.direction, part.symbol)
         plot.do(Step("line", "direction", order, (ray,), equation, symbol=part.symbol, direction=part.direction))
-    return meeting
+    return intersection
 
 
 def _draw_vector(plot: Polygons, order: Order, group: LargerGroup, equation: VectorChain) -> None:
@@ -549,7 +549,7 @@ def _contact_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[T
     omega, other = (plot.rates["velocity"][n].value for n in (link, other_link))
     _, speed = _slip_read(plot, edge, tangent)
     turning = other - omega
-    off = turning * speed - (turning - bends[0] * speed) * (turning - bends[1] * speed) / (bends[0] - bends[1])
+    difference = turning * speed - (turning - bends[0] * speed) * (turning - bends[1] * speed) / (bends[0] - bends[1])
     if link in touch.centres:
         curves = (link, other_link) if other_link in touch.centres else (link,)
         size = Size("slip on curves", (other_link, link), symbol_of(plot, "v", edge), curves=curves)
@@ -558,7 +558,7 @@ def _contact_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[T
     turned = Direction("turned", edge.direction.names)
     parts = [
         _coriolis(plot, edge, link, normal, 2 * omega * speed / per, turned),
-        _term(plot, edge, "an", normal, off / per, Direction("along", ("n-n",)), size),
+        _term(plot, edge, "an", normal, difference / per, Direction("along", ("n-n",)), size),
         _term(plot, edge, "ar", tangent, None, edge.direction),
     ]
     return parts[1:] if link in plot.still else parts
@@ -576,20 +576,20 @@ def _rolling_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[T
     touch = plot.touch(edge.rolling)
     bends = touch.curvatures((link, other_link), plot.paper.mm)
     turning = plot.rates["velocity"][other_link].value - plot.rates["velocity"][link].value
-    off = turning**2 / (bends[1] - bends[0]) / plot.scales.acceleration
-    along = touch.normal if off >= 0.0 else -touch.normal
+    length = turning**2 / (bends[1] - bends[0]) / plot.scales.acceleration
+    along = touch.normal if length >= 0.0 else -touch.normal
     links = tuple(n for n in (other_link, link) if n not in plot.still) or (other_link,)
     if len(touch.centres) == 1:
         ((letter, centre),) = touch.centres.values()
         names = letter, edge.start.point
         size = _by_rate(plot, links, names, square=True)
-        written = Direction("towards", names if off * dot(touch.normal, touch.at - centre) > 0 else names[::-1])
+        written = Direction("towards", names if length * dot(touch.normal, touch.at - centre) > 0 else names[::-1])
     else:
         inside = bends[0] * bends[1] > 0.0
         pair = (link, other_link) if not inside or abs(bends[0]) > abs(bends[1]) else (other_link, link)
         radius = abs(1.0 / (bends[1] - bends[0]))
         size, written = Size("rolling curves", links, curves=pair, hollow=inside, radius=radius), edge.direction
-    return [_term(plot, edge, "a" if plot.fixed(edge.start) else "an", along, abs(off), written, size)]
+    return [_term(plot, edge, "a" if plot.fixed(edge.start) else "an", along, abs(length), written, size)]
 
 
 def _given(plot: Polygons, key: str, order: Order) -> float | None:

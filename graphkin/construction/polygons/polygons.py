@@ -291,9 +291,10 @@ class Polygons:
             return
         # a special point may lie far away: it serves where the link has no other two
         near = [r for r in refs if r.point not in self.special]
-        apart = max((abs(self.places[r.point] - self.places[s.point]) for r in near for s in near), default=0.0)
+        distance = max((abs(self.places[r.point] - self.places[s.point]) for r in near for s in near), default=0.0)
+        choices = near if distance > self.tiny else refs
         a, b = max(
-            ((a, b) for a in (near if apart > self.tiny else refs) for b in (near if apart > self.tiny else refs)),
+            ((a, b) for a in choices for b in choices),
             key=lambda ab: abs(self.places[ab[0].point] - self.places[ab[1].point]),
         )
         bar = self.places[b.point] - self.places[a.point]

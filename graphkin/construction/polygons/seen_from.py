@@ -52,8 +52,8 @@ def contours(
     free = motions[int(np.sum(sizes > ALIKE)) :].T.reshape(len(links), 3, -1)
     sets: list[list[int]] = []
     for i in range(len(links)):
-        off = (np.abs(free[members[0]] - free[i]).max(initial=0.0) for members in sets)
-        home = next((members for members, apart in zip(sets, off, strict=True) if apart < 10 * ALIKE), None)
+        distances = (np.abs(free[members[0]] - free[i]).max(initial=0.0) for members in sets)
+        home = next((members for members, distance in zip(sets, distances, strict=True) if distance < 10 * ALIKE), None)
         if home is None:
             sets.append([i])
         else:

@@ -336,7 +336,7 @@ def _rrp(paper: PlacedLinks, dyad: Dyad, first: RigidBody, second: RigidBody) ->
     radius = paper.instrument.compass(abs(inner - local))
     if radius == 0.0:
         return LOST
-    off = abs(cross(p - q0, step))
+    distance = abs(cross(p - q0, step))
     places = cross_line_arc(q0, step, p, radius) or ()
 
     def steps(k: int) -> Steps:
@@ -349,7 +349,7 @@ def _rrp(paper: PlacedLinks, dyad: Dyad, first: RigidBody, second: RigidBody) ->
     poses: list[Poses] = [
         {**first.through((local, inner), (p, q)), **second.shifted(start, dot(q - q0, step) * step)} for q in places
     ]
-    return _arcs((radius - off) * (radius + off) / radius**2, poses, steps)
+    return _arcs((radius - distance) * (radius + distance) / radius**2, poses, steps)
 
 
 def _rpr(paper: PlacedLinks, dyad: Dyad, first: RigidBody, second: RigidBody) -> Intersection:
@@ -562,5 +562,5 @@ def _ahead(before: Poses, at: Poses, times: float) -> dict[str, Pose]:
 
 def moved(poses: Poses, other: Poses, size: float = 1.0) -> float:
     """The greatest displacement of a link (in the size of the mechanism, and of its direction)."""
-    apart = (abs(p.origin - other[n].origin) / size + abs(p.axis - other[n].axis) for n, p in poses.items())
-    return max(apart, default=0.0)
+    changes = (abs(p.origin - other[n].origin) / size + abs(p.axis - other[n].axis) for n, p in poses.items())
+    return max(changes, default=0.0)

@@ -145,8 +145,8 @@ def _dyad_steps(board: Board, paper: PlacedLinks, dyad: Dyad, intersection: Inte
     result, finds = (point, Symbol("v", PointRef(point))) if dyad.inner.turns else (whose, turned)
     board.notice("mechanism", "sharp crossing", result, size=intersection.sharpness, finds=finds)
     if not dyad.inner.turns and outer_first.turns and outer_second.turns:
-        apart = abs(paper.point(outer_first.b, outer_first.point) - paper.point(outer_second.b, outer_second.point))
-        board.notice("mechanism", "short arm", whose, outer_first.point, outer_second.point, size=apart)
+        arm = abs(paper.point(outer_first.b, outer_first.point) - paper.point(outer_second.b, outer_second.point))
+        board.notice("mechanism", "short arm", whose, outer_first.point, outer_second.point, size=arm)
     which = "one assembly" if dyad.is_two_lines else f"{dyad.kind} {index}"
     first, inner, last = (pair.key for pair in dyad.pairs)
     board.assembly[whose] = Phrase(which, first=first, inner=inner, last=last)
@@ -413,9 +413,9 @@ def sketched_poses(structure: Structure, group: LargerGroup, known: PlacedLinks)
 
     spread()
     for name, points in points_of.items():
-        apart = [(abs(points[b] - points[a]), a, b) for a, b in combinations(points, 2) if places[a] != places[b]]
-        if apart and name not in axes:
-            _, a, b = max(apart)
+        pairs = [(abs(points[b] - points[a]), a, b) for a, b in combinations(points, 2) if places[a] != places[b]]
+        if pairs and name not in axes:
+            _, a, b = max(pairs)
             axes[name] = unit((places[b] - places[a]) / (points[b] - points[a]))
     spread()
     poses = dict(known.poses)
@@ -429,8 +429,8 @@ def sketched_poses(structure: Structure, group: LargerGroup, known: PlacedLinks)
 def _is_told(structure: Structure, paper: PlacedLinks, poses: Poses) -> bool:
     """Whether all points lie near their sketched places."""
     places = {**structure.scene.sketch, **structure.scene.drawn}
-    off = (abs(z - places[p]) for p, z in paper.fresh(poses).items() if p in places)
-    return max(off, default=0.0) <= ROUGHLY * structure.scene.size
+    distances = (abs(z - places[p]) for p, z in paper.fresh(poses).items() if p in places)
+    return max(distances, default=0.0) <= ROUGHLY * structure.scene.size
 
 
 def _without_twins(
@@ -449,8 +449,8 @@ def _without_twins(
     for poses in sorted(fits, key=positive, reverse=True):
         places = paper.fresh(poses)
         # of links without points the links themselves
-        apart = (max((abs(z - other[p]) for p, z in places.items()), default=moved(poses, kept_poses) * size)
+        distances = (max((abs(z - other[p]) for p, z in places.items()), default=moved(poses, kept_poses) * size)
                  for kept_poses, other in kept)  # fmt: skip
-        if all(distance > TWINS * size for distance in apart):
+        if all(distance > TWINS * size for distance in distances):
             kept.append((poses, places))
     return [poses for poses in fits if any(poses is kept_poses for kept_poses, _ in kept)]

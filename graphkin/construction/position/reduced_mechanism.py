@@ -301,8 +301,8 @@ class RemovedConstraint:
         (slide,), lies, other = self.slides, self.placed(paper), poses[self.other_side]
         assert lies is not None
         block, rail = (lies, other) if slide.a == self.left_out else (other, lies)
-        off = cross(rail.axis * slide.guide.direction, block.origin - rail.place(slide.guide.through * mm))
-        return off if slide.a == self.left_out else -off
+        distance = cross(rail.axis * slide.guide.direction, block.origin - rail.place(slide.guide.through * mm))
+        return distance if slide.a == self.left_out else -distance
 
     def coordinates(self, poses: Poses, mm: float) -> dict[str, float]:
         """The angles within a turn and the travel of rolling links (rad, m), by the names of the coordinates."""

@@ -19,7 +19,7 @@ import numpy as np
 
 from graphkin.account.centres import line_through, place_of, velocity_sentences
 from graphkin.account.headings import describe, figure_title, number, term
-from graphkin.account.notation import Letters, in_counting_order
+from graphkin.account.notation import Notation, in_counting_order
 from graphkin.construction.board.scales import Room
 from graphkin.construction.centres import Centre, CentreRelation, Centres, LinkPair
 from graphkin.drawing.box import Box
@@ -123,9 +123,9 @@ def _free(
     near = [radius - np.abs(places - middle), *(np.abs(places - w) - HALF for w in taken)]
     near += [np.abs(cross(places - p, np.array(q - p))) / abs(q - p) for p, q in others]
     room = np.minimum.reduce([np.full(81, 9.0), *near]).tolist()
-    off = np.abs(places - (a + b) / 2).tolist()
+    distance = np.abs(places - (a + b) / 2).tolist()
     # of two places that are alike the first: rounding, so that the last bit does not choose
-    best = max(range(81), key=lambda k: (round(min(room[k], 3.0), 6), -round(off[k], 6)))
+    best = max(range(81), key=lambda k: (round(min(room[k], 3.0), 6), -round(distance[k], 6)))
     return complex(places[best]) if room[best] > CLEAR else None
 
 
@@ -150,7 +150,7 @@ def mark_of(centre: Centre, frame: str, at: complex) -> tuple[Primitive, ...]:
     return *(Line(at - 1.7 * w, at + 1.7 * w, strokes.OUTLINE) for w in across), Circle(at, 0.65, strokes.BLACK)
 
 
-def _lines_of(centre: Centre, letters: Letters) -> str:
+def _lines_of(centre: Centre, letters: Notation) -> str:
     """The lines that cross in a centre, by the centres on each, or as the normal of a pin in a slot."""
     named = (line_through(line, letters.centre, lambda pin: "n_{" + pin.partition("/")[0] + "}")
              for line in centre.lines)  # fmt: skip
@@ -169,7 +169,7 @@ def near_box(centres: Centres, mechanism: Box, most: tuple[float, float]) -> Box
     return box
 
 
-def centre_marks(centres: Centres, letters: Letters, panel: Box, drawn: tuple[Primitive, ...]) -> Piece:
+def centre_marks(centres: Centres, letters: Notation, panel: Box, drawn: tuple[Primitive, ...]) -> Piece:
     """All centres of a figure about the world's origin (y down); ``drawn`` is the mechanism, from which arrows to
     centres outside the panel keep clear."""
     inside, frame = panel.grown(-2.5), centres.scene.frame.name
@@ -232,19 +232,19 @@ def _one_way(a: Centre, b: Centre) -> bool:
     return a.direction is not None and b.direction is not None and abs(cross(a.direction, b.direction)) < 1e-9
 
 
-def _names(group: Sequence[Centre], letters: Letters, tail: str = "") -> list[str]:
+def _names(group: Sequence[Centre], letters: Notation, tail: str = "") -> list[str]:
     """The names of centres at one place, in lines."""
     names = [f"${letters.centre(c.pair)}$" for c in group]
     lines = [", ".join(names[i : i + IN_LINE]) for i in range(0, len(names), IN_LINE)]
     return [*(line + "," for line in lines[:-1]), lines[-1] + tail]
 
 
-def _key(group: Sequence[Centre], letters: Letters) -> Text:
+def _key(group: Sequence[Centre], letters: Notation) -> Text:
     """The name of the first of several centres, for all of them."""
     return Text(0j, rich(f"${letters.centre(group[0].pair)}$" + ", …" * (len(group) > 1), 3.2))
 
 
-def _far_names(centres: Centres, group: Sequence[Centre], letters: Letters) -> list[str]:
+def _far_names(centres: Centres, group: Sequence[Centre], letters: Notation) -> list[str]:
     """Names of centres at infinity; for a far centre with its distance from a fixed pivot."""
     first, scene = group[0], centres.scene
     if first.point is None:
@@ -303,8 +303,8 @@ def _pointer(inside: Box, solid: Sequence[tuple[complex, complex]], centre: Cent
             start = middle + 1j * towards(middle, sense) * aside
             aim = towards(start, sense)
             for back in (0.0, 4.0, 10.0):
-                off = 0.12 * abs(aside) + 0.5 * back + 3.0 * (sense < 0)
-                if best is not None and off >= best[0]:
+                price = 0.12 * abs(aside) + 0.5 * back + 3.0 * (sense < 0)
+                if best is not None and price >= best[0]:
                     continue
                 chord = inside.clip(start, start + 1e4 * aim)
                 if chord is None or abs(chord[1] - chord[0]) < ARROW + back:
@@ -312,7 +312,7 @@ def _pointer(inside: Box, solid: Sequence[tuple[complex, complex]], centre: Cent
                 tip = chord[1] - back * aim
                 tail = tip - ARROW * aim
                 gaps = distances(tail + (tip - tail) * np.arange(4) / 3, drawn).min(axis=0)
-                cost = off + float(np.maximum(0.0, 7.0 - gaps).sum())  # how much is drawn near it
+                cost = price + float(np.maximum(0.0, 7.0 - gaps).sum())  # how much is drawn near it
                 if best is None or cost < best[0]:
                     best = cost, tail, tip
     assert best is not None, "a panel is larger than an arrow"
@@ -375,7 +375,7 @@ def background(piece: Piece, *also: str) -> Piece:
     return Piece({"mechanism": pale(kept)}, names, piece.marks)
 
 
-def _side(centres: Centres, letters: Letters, language: str) -> Block:
+def _side(centres: Centres, letters: Notation, language: str) -> Block:
     """The column beside the mechanism: circle diagram, legend, and the centres in the order of construction, with their
     constructions."""
     radius = RADIUS.get(len(centres.names), 23.0)
@@ -408,12 +408,12 @@ def _legend(centres: Centres, language: str) -> Iterator[Block]:
             yield row(mark, prose((term(kind, language),), SIDE - 8.0, classes=LEGEND))
 
 
-def _how_found(centre: Centre, letters: Letters, language: str) -> str:
+def _how_found(centre: Centre, letters: Notation, language: str) -> str:
     """The construction of a centre in short: the two lines that cross, or the name of another method."""
     return _lines_of(centre, letters) or term(f"way {centre.way or 'none'}", language)
 
 
-def _report(centres: Centres, letters: Letters, language: str, width: float) -> Block:
+def _report(centres: Centres, letters: Notation, language: str, width: float) -> Block:
     """The centres that Kennedy's theorem does not give, with the reason, and the velocities by centres."""
     lines: list[str] = []
     for each in languages(language):
@@ -429,14 +429,14 @@ def _report(centres: Centres, letters: Letters, language: str, width: float) -> 
                   prose(velocities, width, 3.0, classes=TOLD))  # fmt: skip
 
 
-def _in_all(phrase: Phrase, language: str, letters: Letters) -> tuple[str, ...]:
+def _in_all(phrase: Phrase, language: str, letters: Notation) -> tuple[str, ...]:
     """A sentence in each language of a sheet: its formulas and symbols once, with the further languages in brief."""
     sentences = [as_markup(_rich(phrase, each, letters)) for each in languages(language)]
     brief = [word(f"{phrase.key} briefly", each, "") for each in languages(language)[1:]]
     return (" ".join((sentences[0], *brief)),) if brief and all(brief) else tuple(dict.fromkeys(sentences))
 
 
-def _rich(phrase: Phrase, language: str, letters: Letters) -> RichText:
+def _rich(phrase: Phrase, language: str, letters: Notation) -> RichText:
     """A sentence with its symbols in the letters of a convention."""
 
     def show(argument: object) -> str:
@@ -454,7 +454,7 @@ def _bare(markup: str) -> str:
     return markup.replace("$", "").replace("_{", "").replace("}", "")
 
 
-def _description(centres: Centres, letters: Letters, language: str) -> str:
+def _description(centres: Centres, letters: Notation, language: str) -> str:
     """Every centre in words, for readers who do not see the figure."""
     said = []
     for each in languages(language):
@@ -522,7 +522,7 @@ def untold(centres: Centres, drawn: Sequence[Primitive]) -> tuple[Centre, ...]:
 
 
 def _centre_by_centre(
-    centres: Centres, some: Sequence[Centre], letters: Letters, language: str
+    centres: Centres, some: Sequence[Centre], letters: Notation, language: str
 ) -> Iterator[Drawing]:
     """Pages with a small picture of each of some centres: the mechanism, the two lines through known centres, and their
     crossing."""
@@ -542,7 +542,7 @@ def _centre_by_centre(
         )  # fmt: skip
 
 
-def _picture(centres: Centres, centre: Centre, behind: Piece, letters: Letters, room: Box) -> Piece:
+def _picture(centres: Centres, centre: Centre, behind: Piece, letters: Notation, room: Box) -> Piece:
     """A centre with its two lines and the centres on them."""
     through = dict.fromkeys(pair for line in centre.lines for pair in line.through if not isinstance(pair, str))
     known = (centres.of(*pair) for pair in through)

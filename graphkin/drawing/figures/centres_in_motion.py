@@ -129,8 +129,8 @@ def _centre(centres: Centres, pair: LinkPair, path: Places, name: str, k: int) -
         return
     base = complex(path[good[0]])
     mark = mark_of(centres.of(*pair), centres.sheet.scene.frame.name, on_page(base))
-    off, anchor = NAMES[k % len(NAMES)]
-    text = Text(on_page(base) + off, rich(name, 3.0), anchor, classes=("label", "centre"))
+    offset, anchor = NAMES[k % len(NAMES)]
+    text = Text(on_page(base) + offset, rich(name, 3.0), anchor, classes=("label", "centre"))
     motion = _travel(path, base) if _moves(path) or len(good) < len(path) else None
     yield Group((*mark, text), id=id_of(pair), classes=("centre",), motion=motion)
 

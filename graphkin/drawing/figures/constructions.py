@@ -540,8 +540,8 @@ def _face(d: CamStation, half: float, stroke: Stroke) -> Line:
 def _ray(sheet: CamSheet, d: CamStation, far: float) -> tuple[list[Primitive], complex]:
     """The line of a division, turned back about the cam, and the place of its number."""
     if not sheet.cam.turns:
-        beyond = math.sqrt(max((far + sheet.roller + PAST) ** 2 - sheet.offset**2, 0.0))
-        end = d.line + beyond * d.way
+        length = math.sqrt(max((far + sheet.roller + PAST) ** 2 - sheet.offset**2, 0.0))
+        end = d.line + length * d.way
         return [Line(on_page(d.line), on_page(end), THIN)], end
     pivot = d.line
     arm = abs(d.point - pivot)

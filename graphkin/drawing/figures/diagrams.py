@@ -22,7 +22,7 @@ from graphkin.account.headings import (
     term,
     written,
 )
-from graphkin.account.notation import letters_of
+from graphkin.account.notation import notation_of
 from graphkin.account.voice import Voice
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import measured
@@ -121,7 +121,7 @@ def figure_in_motion(
     """The mechanism or one of its polygons, every name beside its mark, wherever that is; parameters as for
     `graphkin.drawing.figures.diagrams.diagram_figure`."""
     spoken = language or sheet.scene.question.sheet.language
-    letters = letters_of(sheet, convention or sheet.scene.question.sheet.convention)  # type: ignore[arg-type]
+    letters = notation_of(sheet, convention or sheet.scene.question.sheet.convention)  # type: ignore[arg-type]
     if diagram == "mechanism":
         piece = bare_mechanism(sheet, letters)
         content = ink_box(piece.drawn) or Box(-20.0, -20.0, 20.0, 20.0)

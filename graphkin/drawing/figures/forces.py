@@ -24,7 +24,7 @@ from graphkin.account.forces import (
 )
 from graphkin.account.given import given_loads
 from graphkin.account.headings import figure_title, written
-from graphkin.account.notation import Letters, as_vector, force_letters, pole
+from graphkin.account.notation import Notation, as_vector, force_letters, pole
 from graphkin.checking.report import Report
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import Vector
@@ -136,9 +136,9 @@ def _groups(page: FigurePage, forces: ForceSheet, room: float) -> Iterator[Block
             yield from (column(caption, first, gap=CLOSE), *more, text)
 
 
-def _loaded(page: FigurePage, again: bool) -> Block:
+def _loaded(page: FigurePage, acts: bool) -> Block:
     """Whether loads act that begin or end here."""
-    return page.prose((Phrase("force with load" if again else "force without load"),), bold=True)
+    return page.prose((Phrase("force with load" if acts else "force without load"),), bold=True)
 
 
 def group_picture(page: FigurePage, forces: ForceSheet, stage: ForceStage, tag: str) -> Drawing:
@@ -178,9 +178,9 @@ def _pictures(
         return
     yield sketch
     singles = []
-    for apart in polygons:
-        link, *_, box = apart
-        drawn = polygon(apart, max(box.width, NARROW), max(box.height, SMALLEST))
+    for polygon_apart in polygons:
+        link, *_, box = polygon_apart
+        drawn = polygon(polygon_apart, max(box.width, NARROW), max(box.height, SMALLEST))
         said = (" / ".join(page.said("force on link", link=link)),) if link else ()
         singles.append(column(prose(said, drawn.width, 2.4), drawn))
     yield from rows(singles, page.width, gap=2.0)
@@ -320,9 +320,10 @@ def _acting(plate: Plate, page: FigurePage, stage: ForceStage, times: float, tag
         if not group.polygon and of.kind == "F" and {of.link, of.other} <= outside:
             continue  # between two links of the group
         along, at = unit(vector.span), lines.get(of, vector.at) * times
-        again = sum(abs(at - z) < NEAR and abs(along - e) < 0.1 for z, e in taken)
+        stacked = sum(abs(at - z) < NEAR and abs(along - e) < 0.1 for z, e in taken)
         taken.append((at, along))
-        plate.arrow("forces", f"acts-{tag}-{n}", at, at + along * (ARROW + NEXT * again), _letters_of(letters, vector),
+        tip = at + along * (ARROW + NEXT * stacked)
+        plate.arrow("forces", f"acts-{tag}-{n}", at, tip, _letters_of(letters, vector),
                     kind=_kind(vector), colour=_colour(sheet, vector), classes=("acting",),
                     step=stage.on_links(vector))  # fmt: skip
     at_pairs = (equation.found for equation in group.couples)
@@ -356,7 +357,7 @@ def _colour(sheet: Sheet, vector: ForceVector) -> str:
     return strokes.colour_of_link(sheet.scene, next(moving, vector.link))
 
 
-def _letters_of(letters: Letters, vector: ForceVector) -> str:
+def _letters_of(letters: Notation, vector: ForceVector) -> str:
     r"""A force as a vector, with its part; ``−`` before the opposite of its symbol."""
     markup = force_letters(letters.convention, vector.symbol, vector.part)
     return ("−" if vector.turned else "") + as_vector(letters.convention, markup)
@@ -557,10 +558,10 @@ def _drawn_lever(page: FigurePage, lever: Lever, per_mm: float, tag: str) -> Pie
         turned = term.acting.turned
         named = ("−" * turned) + (as_vector(convention, letter) if term.pair is None else f"{letter}/l")
         for n, (at, along) in enumerate(acting, 1):
-            again = sum(abs(at - z) < NEAR and abs(along - e) < 0.1 for z, e in taken)
+            stacked = sum(abs(at - z) < NEAR and abs(along - e) < 0.1 for z, e in taken)
             taken.append((at, along))
             name = f"{term.symbol.id}{'-opposite' * turned}{f'-{n}' if len(acting) > 1 else ''}"
-            plate.arrow("forces", f"lever-{name}{tag}", at, at + along * (LEVER_ARROW + NEXT * again), named,
+            plate.arrow("forces", f"lever-{name}{tag}", at, at + along * (LEVER_ARROW + NEXT * stacked), named,
                         kind=RESULTANT if balances else COMPONENT, classes=("acting",),
                         colour=strokes.LINK_COLOURS[1] if balances else strokes.BLACK)  # fmt: skip
         if term.pair is None and term.arm and abs(term.arm) > SEEN * per_mm and acting:
@@ -587,7 +588,7 @@ def _forces_at(row: MomentTerm, per_mm: float) -> list[tuple[complex, complex]]:
     return [(tip, unit(force)), (tail, -unit(force))]
 
 
-def _row(row: MomentTerm, newtons: float, per_mm: float, letters: Letters) -> tuple[str, str, str, str]:
+def _row(row: MomentTerm, newtons: float, per_mm: float, letters: Notation) -> tuple[str, str, str, str]:
     """A force with its arm and moment."""
     acting, arm = row.acting, on_paper(abs(row.arm or 0.0) / per_mm)
     size = amount(abs(acting.force) / newtons, DIGITS)

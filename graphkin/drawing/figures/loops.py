@@ -11,7 +11,7 @@ from itertools import product
 
 from graphkin.account.headings import number
 from graphkin.account.loops import MatrixEquation, equation, matrices, projections, root, size_name
-from graphkin.account.notation import letters_of
+from graphkin.account.notation import notation_of
 from graphkin.checking.loop_gaps import places_of_loops, stated_arrows
 from graphkin.construction.board.scales import next_of_series
 from graphkin.construction.board.sheet import Sheet
@@ -123,7 +123,7 @@ def _polygon(sheet: Sheet, loop: Loop, block: LoopBlock, scale: float) -> tuple[
     for arrow, at in zip(loop.arrows, corners, strict=False):
         if arrow.names[0]:
             drawn.append(Circle(on_page(at), 0.55, fill=strokes.BLACK))
-            plate.name(symbol(letters_of(sheet, "chinese").point(arrow.names[0])), at, rank=1)
+            plate.name(symbol(notation_of(sheet, "chinese").point(arrow.names[0])), at, rank=1)
     _as_printed(plate, sheet, loop, scale)
     plate.put("mechanism", *drawn, id=f"loop-{name}")
     marks = tuple(map(on_page, corners))

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 from graphkin.account.headings import number
-from graphkin.account.notation import Letters
+from graphkin.account.notation import Notation
 from graphkin.checking.readings import read_off
 from graphkin.construction import Plan, execute, plan
 from graphkin.construction.board.sheet import LimitPosition, Sheet
@@ -233,8 +233,8 @@ def positions_figure(shown: Shown, *, language: str | None = None, convention: s
     if (crank := _limits_of_crank(shown)) is not None:  # drawn beyond its pivot in its second limit position
         _, pivot, _, second = crank
         back = (Line(on_page(pivot), on_page(pivot - 1.35 * second), strokes.DIRECTION),)
-    beyond = Piece({"answers": back} if back else {})
-    drawn = joined((paths, *numbered, *limits, *least, beyond, bare_mechanism(sheet, letters)))
+    answers = Piece({"answers": back} if back else {})
+    drawn = joined((paths, *numbered, *limits, *least, answers, bare_mechanism(sheet, letters)))
     whole = joined((drawn, _dimensions(shown, drawn), _numbers(shown)))
     box = ink_box(whole.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     page = page.wide_enough(box.width + 2 * ROOM)
@@ -247,7 +247,7 @@ def positions_figure(shown: Shown, *, language: str | None = None, convention: s
     )  # fmt: skip
 
 
-def _position(sheet: Sheet, letters: Letters, stroke: Stroke, id: str) -> Piece:
+def _position(sheet: Sheet, letters: Notation, stroke: Stroke, id: str) -> Piece:
     """The bars, blocks and pins of one position, without names."""
     here = MechanismOnPaper(sheet, letters)
     parts: list[Primitive] = []

@@ -109,7 +109,7 @@ def sheet_page(
         _below_left(term("step number", page.language, number="(9)"), plan.page),
         title_block(page, [row.compared for row in rows if row.compared], plan.block),
     ]  # fmt: skip
-    further = overleaf(page, rest, plan.page)
+    further = continuation(page, rest, plan.page)
     for kind in ("plan", "loops") if sheet.scene.question.sheet.loops else ("plan",):
         figure = figure_kinds()[kind].draw(sheet, language=page.language, convention=page.convention)
         for drawn_page in (figure, *figure.further) if figure is not None else ():
@@ -132,10 +132,10 @@ class _Writing:
     once for each of its rooms, for all plans tried."""
 
     def __init__(
-        self, page: FigurePage, rows: Sequence[TableRow], lines: Sequence[LineToSet], senses: Sequence[CoriolisTerm]
+        self, page: FigurePage, rows: Sequence[TableRow], lines: Sequence[LineToSet], coriolis: Sequence[CoriolisTerm]
     ) -> None:
         self.page = page
-        self.whole = cache(lambda size: Remainder(lines, senses, (), rows, size))
+        self.whole = cache(lambda size: Remainder(lines, coriolis, (), rows, size))
         self._set = cache(lambda part, rest, room: part(page, rest, room, "own"))
 
     def on(self, plan: SheetPlan, size: float) -> tuple[list[Piece], Remainder]:
@@ -231,17 +231,17 @@ class Remainder:
     """
 
     equations: Sequence[LineToSet] = ()
-    senses: Sequence[CoriolisTerm] = ()
+    coriolis: Sequence[CoriolisTerm] = ()
     given: Sequence[tuple[Run, ...]] = ()
     readings: Sequence[TableRow] = ()
     size: float = GIVEN[0]
     begun: bool = False
 
     def __len__(self) -> int:
-        return len(self.equations) + len(self.senses) + len(self.given) + len(self.readings)
+        return len(self.equations) + len(self.coriolis) + len(self.given) + len(self.readings)
 
 
-Place: TypeAlias = Literal["own", "spare", "overleaf"]
+Place: TypeAlias = Literal["own", "spare", "continuation"]
 """Where a room is: that of its kind, below the caption; left by others on the first page; on a further page."""
 Part: TypeAlias = tuple[Piece, Remainder, Box]
 """What of one kind a room holds, what is left, and the room below it."""
@@ -265,7 +265,7 @@ def continued(page: FigurePage, rest: Remainder, rooms: Sequence[Box]) -> Piece 
     return None if rest else joined(pieces)
 
 
-def overleaf(page: FigurePage, rest: Remainder, frame: Box) -> tuple[Drawing, ...]:
+def continuation(page: FigurePage, rest: Remainder, frame: Box) -> tuple[Drawing, ...]:
     """The further pages of the rest, each of the size of a first page with the inside ``frame``, halved down to A4 or
     Letter, since the rest are words."""
     short, long = sorted((frame.left + frame.right, frame.top + frame.bottom))
@@ -277,7 +277,7 @@ def overleaf(page: FigurePage, rest: Remainder, frame: Box) -> tuple[Drawing, ..
     while rest:
         number, before = len(made) + 2, rest
         corner = _in_corner(say(Phrase("sheet number", number=number), languages(page.language)[0]), frame)
-        pieces, rest = _into(page, rest, Box(frame.left, frame.top + HEAD, frame.right, frame.bottom), "overleaf")
+        pieces, rest = _into(page, rest, Box(frame.left, frame.top + HEAD, frame.right, frame.bottom), "continuation")
         size = frame.left + frame.right, frame.top + frame.bottom
         made.append(replace(
             _drawn_page(page, *size, (heading(page, frame), corner, *pieces), f" ({number})"),
@@ -293,7 +293,7 @@ def _held(page: FigurePage, before: Remainder, after: Remainder) -> str:
     kinds = {
         "equations": len(before.equations) - len(after.equations), "given": len(before.given) - len(after.given),
         "readings": len(before.readings) - len(after.readings),
-        FIGURE_WORDS["acceleration"]: len(before.senses) - len(after.senses),
+        FIGURE_WORDS["acceleration"]: len(before.coriolis) - len(after.coriolis),
     }  # fmt: skip
     shown = [page.term(kind) for kind, count in kinds.items() if count]
     return punctuation("list comma", page.language).join(shown)
@@ -344,7 +344,7 @@ def _own_given(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Pa
 def _own_equations(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Part:
     """The equations, and below them insets, if all equations have room above these."""
     above = Box(room.left, room.top, room.right, _foot(room).top - GUTTER)
-    if rest.senses and above.height >= EQUATIONS_ROOM:
+    if rest.coriolis and above.height >= EQUATIONS_ROOM:
         written, left, _ = _equations(page, rest, above, place)
         if not left.equations:
             insets, left, _ = _senses(page, left, _foot(room), place)
@@ -354,7 +354,7 @@ def _own_equations(page: FigurePage, rest: Remainder, room: Box, place: Place) -
 
 def _equations(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Part:
     box = _under_caption(room, place)
-    if place == "overleaf":
+    if place == "continuation":
         blocks, count = equations_on_page(rest.equations, box.width, box.height)
     else:
         most = (LEAST_LETTERS,) if place == "spare" else ()
@@ -369,12 +369,12 @@ def _equations(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Pa
 
 def _senses(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Part:
     pieces: list[Piece] = []
-    senses, count = rest.senses, per_row(room.width)
-    while senses and room.height >= INSET[1] - ROUNDING:
+    terms, count = rest.coriolis, per_row(room.width)
+    while terms and room.height >= INSET[1] - ROUNDING:
         row = Box(room.left, room.top, room.right, room.top + INSET[1])
-        pieces.append(coriolis_row(page.sheet, senses[:count], page.letters, row))
-        senses, room = senses[count:], Box(room.left, row.bottom + GAP, room.right, room.bottom)
-    return joined(pieces), replace(rest, senses=senses), room
+        pieces.append(coriolis_row(page.sheet, terms[:count], page.letters, row))
+        terms, room = terms[count:], Box(room.left, row.bottom + GAP, room.right, room.bottom)
+    return joined(pieces), replace(rest, coriolis=terms), room
 
 
 def _given(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Part:
@@ -389,14 +389,14 @@ def _given(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Part:
 
 
 def _readings(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Part:
-    least = CAPTION + (LEAST_TABLE if place == "overleaf" else 0.0)
+    least = CAPTION + (LEAST_TABLE if place == "continuation" else 0.0)
     if place != "own" and (not rest.readings or room.height < least or room.width < TABLE_WIDTH):
         return Piece(), rest, room
     box = _under_caption(room, place)
     table, count = readings_table(page.sheet, rest.readings, page.letters, page.language, box)
     if not count and place != "own":
         return Piece(), rest, room
-    caption = page.term("readings continued" if rest.begun and place != "overleaf" else "readings")
+    caption = page.term("readings continued" if rest.begun and place != "continuation" else "readings")
     left = replace(rest, readings=rest.readings[count:], begun=True)
     return captioned(box, caption, "answers", table), left, below(box, table, GAP)
 

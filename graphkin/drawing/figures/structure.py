@@ -9,7 +9,7 @@ from dataclasses import replace
 from functools import partial
 
 from graphkin.account.headings import term
-from graphkin.account.notation import Letters
+from graphkin.account.notation import Notation
 from graphkin.construction.board.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import GAP, Block, FigurePage, column, framed, panel, prose, row, rows
@@ -54,15 +54,15 @@ def structure_figure(
     counted = _counted(sheet.structure, page_.language)
     diagram = panel(*DIAGRAM, lambda room: _diagram(sheet, page_.letters, page_.language, room))
     told = [prose((text,), page_.width - DIAGRAM[0] - BESIDE, SIZE, bold=bold) for text, bold in counted]
-    apart = (_taken_apart(page_, structure) for structure in (sheet.structure, *others))
-    body = column(row(diagram, column(*told), gap=BESIDE), *apart, gap=4.0)
+    groups = (_taken_apart(page_, structure) for structure in (sheet.structure, *others))
+    body = column(row(diagram, column(*told), gap=BESIDE), *groups, gap=4.0)
     return page_.drawing(
         page_.term("structure"), body, None, title="structure",
         said=". ".join(text for text, _ in counted),
     )  # fmt: skip
 
 
-def _diagram(sheet: Sheet, letters: Letters, spoken: str, panel: Box) -> Piece:
+def _diagram(sheet: Sheet, letters: Notation, spoken: str, panel: Box) -> Piece:
     """The numbered diagram, as large as it fits, with a badge at each compound hinge and each high pair."""
     box = Box.around(sheet.points.values())
     room = min((panel.width - 26.0) / max(box.width, 1.0), (panel.height - 26.0) / max(box.height, 1.0))
@@ -193,7 +193,7 @@ def _joints(element: Element) -> tuple[list[Pair], list[Pair]]:
     return inner, [p for p in element.pairs if not {p.a, p.b} <= own]
 
 
-def _group(sheet: Sheet, elements: Sequence[Element], letters: Letters, tag: str, panel: Box) -> Piece:
+def _group(sheet: Sheet, elements: Sequence[Element], letters: Notation, tag: str, panel: Box) -> Piece:
     """The links of a group alone, in their places, inner joints filled and outer ones open; links that replace a higher
     pair are dashed.  As large as the panel allows, but not larger than in the diagram of the sheet."""
     here = MechanismOnPaper(sheet, letters)

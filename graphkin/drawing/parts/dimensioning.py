@@ -197,8 +197,8 @@ def _frame(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts]:
             if datum is not None and spot != datum:
                 pairs.add(_levels(datum, spot, upright))
         for guide in guides[upright] if spots else ():
-            apart = {_levels(spot, guide, upright) for spot in spots.values()}
-            pairs.add(min(apart, key=lambda pair: (pair[1] - pair[0], pair)))
+            levels = {_levels(spot, guide, upright) for spot in spots.values()}
+            pairs.add(min(levels, key=lambda pair: (pair[1] - pair[0], pair)))
         wide = [pair for pair in sorted(pairs) if pair[1] - pair[0] >= SHORTEST]
         whole = None
         if len(wide) > 1 and all(one[1] == two[0] for one, two in pairwise(wide)):
@@ -357,14 +357,14 @@ def _off_pivot(here: MechanismOnPaper, room: DimensionClearance, slider: Slider)
     """The distance of a slanted guide of the frame from the nearest fixed point, square to the guide."""
     frame = here.scene.frame
     guide = slider.slide.guide
-    apart = {p: abs(cross(z - guide.through, guide.direction)) for p, z in frame.points.items() if p in here.places}
-    if not apart:
+    distances = {p: abs(cross(z - guide.through, guide.direction)) for p, z in frame.points.items() if p in here.places}
+    if not distances:
         return None
-    nearest = min(apart, key=lambda p: (apart[p], p))
+    nearest = min(distances, key=lambda p: (distances[p], p))
     pivot = here.places[nearest]
-    off = (guide.through - frame.points[nearest]) / here.scene.units.metres
-    for way, given in ((1j, off.imag), (1 + 0j, off.real)):
-        if abs(given) < LEVEL or abs(off - given * way) > LEVEL * abs(off):
+    offset = (guide.through - frame.points[nearest]) / here.scene.units.metres
+    for way, given in ((1j, offset.imag), (1 + 0j, offset.real)):
+        if abs(given) < LEVEL or abs(offset - given * way) > LEVEL * abs(offset):
             continue  # the problem gives no distance straight from the pivot
         foot = pivot + given * way * here.scene.units.metres / here.sheet.scales.length
         end = min((slider.at + s * GUIDE_LENGTH / 2 * slider.along for s in (1, -1)), key=lambda z: abs(z - foot))
@@ -374,7 +374,7 @@ def _off_pivot(here: MechanismOnPaper, room: DimensionClearance, slider: Slider)
             return found
     end = GUIDE_LENGTH / 2 * slider.along
     spots = (slider.at - end, slider.at + end)
-    return _apart(room, (pivot,), spots, slider.along * 1j, apart[nearest] / here.scene.units.metres)
+    return _apart(room, (pivot,), spots, slider.along * 1j, distances[nearest] / here.scene.units.metres)
 
 
 def _slant(room: DimensionClearance, slider: Slider) -> Parts | None:

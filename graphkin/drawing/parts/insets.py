@@ -15,7 +15,7 @@ from dataclasses import replace
 from typing import TypeAlias
 
 from graphkin.account.headings import term
-from graphkin.account.notation import Letters
+from graphkin.account.notation import Notation
 from graphkin.account.voice import ZERO
 from graphkin.checking.scans import judge_scans
 from graphkin.construction.board.instruments import EXACT_NAME
@@ -67,7 +67,7 @@ MOST_DETAILS, MOST_CROWDS = 3, 3
 
 
 def polygon_with_insets(
-    sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, panel: Box, origin: complex,
+    sheet: Sheet, diagram: DiagramName, letters: Notation, language: str, panel: Box, origin: complex,
     strip: Box | None = None,
 ) -> tuple[Piece, list[CoriolisTerm]]:  # fmt: skip
     """A polygon with names and insets in their places.
@@ -82,12 +82,12 @@ def polygon_with_insets(
     -------
     the piece, and the Coriolis terms without room for their insets
     """
-    senses, small = _coriolis(sheet, diagram), details(sheet, diagram)[:MOST_DETAILS]
-    count = len(senses) + len(small)
+    terms, small = _coriolis(sheet, diagram), details(sheet, diagram)[:MOST_DETAILS]
+    count = len(terms) + len(small)
     bare = PolygonOnPage(sheet, diagram, letters, language, panel, origin, ())
     plain = polygon_piece(bare)
     boxes = _boxes(panel, plain, strip, count, INSET)
-    shown = senses[: len(boxes)]
+    shown = terms[: len(boxes)]
     boxes += _boxes(panel, plain, None, len(shown) + len(small) - len(boxes), SMALL_INSET, boxes)
     enlarged = small[: len(boxes) - len(shown)]
     here = replace(bare, enlarged=tuple(enlarged))
@@ -108,7 +108,7 @@ def polygon_with_insets(
     arrows = [(step, here.drawn(vector), names.get(f"label-{vector.symbol.id}")) for step, vector in here.in_order()]
     numbers = Piece({"labels": step_numbers(arrows, keyed, panel, around)})
     numerals = ring_numerals(here, around + obstacles_of(numbers.drawn))
-    return joined((figure, numbers, numerals, *pieces)), senses[len(shown) :]
+    return joined((figure, numbers, numerals, *pieces)), terms[len(shown) :]
 
 
 def _boxes(
@@ -135,7 +135,7 @@ def _with_details(
     placed names."""
     pieces = []
     shown: set[str] = set()
-    again: set[str] = set()  # with the letters that stand at other vectors too
+    repeated: set[str] = set()  # with the letters that stand at other vectors too
     for number, (detail, box) in enumerate(zip(here.enlarged, boxes, strict=False), 1):
         middle, reach = here.at(detail.centre), detail.radius + 0.6
         points = [name for name in own.labels if isinstance(name.mark, complex) and abs(name.mark - middle) <= reach]
@@ -143,12 +143,12 @@ def _with_details(
         pieces.append(inset)
         ids = (text.id for text in inset.layers["labels"] if isinstance(text, Text))
         letters = {id.replace("label-detail-", "label-") for id in ids}
-        again |= letters
+        repeated |= letters
         shown |= {id for id in letters if detail.crowd is not None or id.startswith("label-foot-")}
     own = replace(own, labels=tuple(label for label in own.labels if label.text.id not in shown))
     figure, crowd = with_crowd(own, here.panel, fences)
-    again &= {label.text.id for label in crowd}
-    return without(figure, again), pieces, tuple(label for label in crowd if label.text.id not in again)
+    repeated &= {label.text.id for label in crowd}
+    return without(figure, repeated), pieces, tuple(label for label in crowd if label.text.id not in repeated)
 
 
 def strip_height(sheet: Sheet, diagram: DiagramName, width: float) -> float:
@@ -237,7 +237,7 @@ CAPTION = 5.0
 
 
 def mechanism_with_inset(
-    sheet: Sheet, letters: Letters, language: str, piece: Piece, origin: complex, panel: Box
+    sheet: Sheet, letters: Notation, language: str, piece: Piece, origin: complex, panel: Box
 ) -> Piece:
     """A mechanism with names in their places, the scene's picture under it, and the inset for its two nearest points.
 
@@ -253,7 +253,7 @@ def mechanism_with_inset(
 
 
 def _mechanism_detail(
-    sheet: Sheet, letters: Letters, language: str, panel: Box, drawn: tuple[Primitive, ...]
+    sheet: Sheet, letters: Notation, language: str, panel: Box, drawn: tuple[Primitive, ...]
 ) -> Piece:
     """The inset for the two nearest points, in a free corner of the panel; none where all points lie apart, where there
     is no room, or for erring hands, which would draw it anew.
@@ -330,7 +330,7 @@ def coriolis_terms(sheet: Sheet) -> list[CoriolisTerm]:
     return found
 
 
-def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Letters, box: Box) -> Piece:
+def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Notation, box: Box) -> Piece:
     """The inset of a Coriolis term in a box of the page, with its names."""
     vector, velocity, rule = term
     slip, turned = unit(velocity.span), unit(vector.span)
@@ -362,7 +362,7 @@ def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Letters, box: Box)
     return with_labels(dated(replace(piece, labels=tuple(names)), max(drawn, default=None)), inner)
 
 
-def coriolis_row(sheet: Sheet, terms: Sequence[CoriolisTerm], letters: Letters, row: Box) -> Piece:
+def coriolis_row(sheet: Sheet, terms: Sequence[CoriolisTerm], letters: Notation, row: Box) -> Piece:
     """Insets of Coriolis terms side by side in a row, up to the last that fits."""
     boxes = inset_boxes(row, min(len(terms), per_row(row.width)))
     return joined(coriolis_inset(sheet, one, letters, box) for one, box in zip(terms, boxes, strict=False))

@@ -10,7 +10,7 @@ import math
 from cmath import phase, rect
 from collections.abc import Collection, Iterator
 
-from graphkin.account.notation import Letters
+from graphkin.account.notation import Notation
 from graphkin.account.voice import SAME
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import Bar, CompassArc, TrialCurve
@@ -114,8 +114,8 @@ def _profile(here: MechanismOnPaper, one: CamOnPaper) -> Iterator[Group]:
     end = tuple(_follower_end(here, one))
     if end:
         yield Group(end, id=f"follower-{one.cam.follower}", classes=("cam",), since=here.stands)
-    beyond = one.contact + one.roller * one.normal
-    thin = ((one.contact - NORMAL * one.normal, beyond + NORMAL * one.normal),
+    far_side = one.contact + one.roller * one.normal
+    thin = ((one.contact - NORMAL * one.normal, far_side + NORMAL * one.normal),
             (one.point - NORMAL * across, one.point + NORMAL * across))  # fmt: skip
     lines = tuple(Line(on_page(a), on_page(b), strokes.DIRECTION) for a, b in thin[: 1 if one.cam.flat else 2])
     yield Group(lines, id=f"touch-{one.cam.link}", classes=("touch",), since=here.stands)
@@ -346,7 +346,7 @@ def _frame_name(here: MechanismOnPaper) -> Iterator[Label]:
         yield Label(_number(here, here.ground, strokes.BLACK), on_page(at), (phase(into),), 1)
 
 
-def mechanism_piece(sheet: Sheet, letters: Letters, room: tuple[float, float] | None = None) -> tuple[Piece, Box]:
+def mechanism_piece(sheet: Sheet, letters: Notation, room: tuple[float, float] | None = None) -> tuple[Piece, Box]:
     """Draw the mechanism about the world's origin.
 
     Parameters
@@ -386,15 +386,15 @@ def _least_cut(ink: Box, points: Box, room: tuple[float, float]) -> complex:
     """The middle of a room around points with their symbols that cuts the fewest strokes."""
     right = max(0.0, (room[0] - points.width) / 2 - AROUND_POINTS)
     down = max(0.0, (room[1] - points.height) / 2 - AROUND_POINTS)
-    off = ink.centre - points.centre
-    return points.centre + complex(max(-right, min(right, off.real)), max(-down, min(down, off.imag)))
+    shift = ink.centre - points.centre
+    return points.centre + complex(max(-right, min(right, shift.real)), max(-down, min(down, shift.imag)))
 
 
 def _fits(box: Box, room: tuple[float, float]) -> bool:
     return box.width <= room[0] and box.height <= room[1]
 
 
-def bare_mechanism(sheet: Sheet, letters: Letters) -> Piece:
+def bare_mechanism(sheet: Sheet, letters: Notation) -> Piece:
     """Frame, links and points of the mechanism with their names, about the world's origin: without lengths, senses, and
     special points, which only its polygons need."""
     here = MechanismOnPaper(sheet, letters)

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from graphkin.account.notation import Letters
+from graphkin.account.notation import Notation
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import Mark
 from graphkin.construction.touching import outlines_on_paper, station
@@ -96,7 +96,7 @@ class MechanismOnPaper:
     """A sheet's mechanism with the letters of a convention; places in mm, y up, about the world's origin."""
 
     sheet: Sheet
-    letters: Letters
+    letters: Notation
 
     @property
     def scene(self) -> Mechanism:

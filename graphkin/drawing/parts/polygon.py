@@ -17,7 +17,7 @@ from functools import cached_property
 import numpy as np
 
 from graphkin.account.headings import number
-from graphkin.account.notation import Letters, pole, unit_of
+from graphkin.account.notation import Notation, pole, unit_of
 from graphkin.account.spoken import spoken_ref, spoken_vector
 from graphkin.account.voice import SAME, NamedPoint, PolygonPoints
 from graphkin.construction.board.scales import SERIES
@@ -65,7 +65,7 @@ class PolygonOnPage:
 
     sheet: Sheet
     diagram: DiagramName
-    letters: Letters
+    letters: Notation
     language: str
     panel: Box
     origin: complex
@@ -449,14 +449,14 @@ def _line(here: PolygonOnPage, ray: Ray, end: complex) -> tuple[Segment | None, 
     way = end - ray.through
     e = way / abs(way) if abs(way) > 1.0 else ray.along
     first, last = ray.through, end + BEYOND * e
-    beyond = here.panel.clip(here.at(end), here.at(last))
-    if beyond is None or abs(beyond[1] - beyond[0]) < 5.0:
+    free = here.panel.clip(here.at(end), here.at(last))
+    if free is None or abs(free[1] - free[0]) < 5.0:
         # no room beyond: the line shows on its other side
         base = ray.through if abs(way) > 1.0 else end
         behind = here.panel.clip(here.at(base), here.at(base - BEYOND * e))
         if behind is not None:
-            beyond, first, last = behind, base - BEYOND * e, end
-    return here.panel.clip(here.at(first), here.at(last)), beyond
+            free, first, last = behind, base - BEYOND * e, end
+    return here.panel.clip(here.at(first), here.at(last)), free
 
 
 def _vectors(here: PolygonOnPage) -> Iterator[Group]:
@@ -546,10 +546,10 @@ def step_numbers(
     half = np.array([complex(box.width, box.height) / 2 for box in boxes])
     tails, tips = (np.array([ends[k] for _, ends, _ in shown]) for k in (0, 1))
     way = (tips - tails) / np.abs(tips - tails)
-    off = OFF + np.abs(way.imag) * half.real + np.abs(way.real) * half.imag
+    distance = OFF + np.abs(way.imag) * half.real + np.abs(way.real) * half.imag
     sides = np.array((1.0, -1.0))
     along = tails[:, None] + (tips - tails)[:, None] * SHARES
-    by_vectors = (along[:, :, None] + (1j * way * off)[:, None, None] * sides).reshape(len(shown), -1)
+    by_vectors = (along[:, :, None] + (1j * way * distance)[:, None, None] * sides).reshape(len(shown), -1)
     by_names = [_by_name(name, size) for (_, _, name), size in zip(shown, half.tolist(), strict=True)]
     gaps = distances(by_vectors, np.array([ends for _, ends, _ in arrows]))  # of the middles of numbers
     last = gaps.min(axis=-1) < gaps[np.arange(len(long)), :, long] - 1e-6
@@ -574,15 +574,15 @@ def trial_marks_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
     """Trial polygons, each in its own kind of line and with its number at its letters; vectors to special points."""
     held = {step.held for step in here.steps if step.reason == "seen from"}
     for step in here.steps:
-        aids = [aid for aid in step.aids if abs(aid.span) > SAME]
-        if not aids:
+        vectors = [aid for aid in step.auxiliary if abs(aid.span) > SAME]
+        if not vectors:
             continue
-        trial = aids[0].trial
+        trial = vectors[0].trial
         stroke = strokes.TRIALS[(trial - 1) % len(strokes.TRIALS)] if trial else strokes.CONSTRUCTION
         parts: list[Primitive] = []
         labels: list[Label] = []
         named: set[complex] = set()
-        for aid in aids:
+        for aid in vectors:
             clipped = here.panel.clip(here.at(aid.tail), here.at(aid.tip))
             if clipped is None or (not trial and here.covered(aid.tail, aid.tip)):
                 continue

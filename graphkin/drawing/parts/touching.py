@@ -207,5 +207,5 @@ def _dashed(start: complex, end: complex, colour: str, clear: float) -> Iterator
     """A bar that replaces a higher pair; none between pins that cover each other."""
     far = abs(end - start)
     if far > 2 * clear + TOUCHING:
-        off = (end - start) / far * clear
-        yield Line(on_page(start + off), on_page(end - off), strokes.REDUNDANT.coloured(colour))
+        gap = (end - start) / far * clear
+        yield Line(on_page(start + gap), on_page(end - gap), strokes.REDUNDANT.coloured(colour))

@@ -217,15 +217,15 @@ class DimensionClearance:
                 found.append(choice._replace(parts=(*kept, *others), extensions=kept))
         bad, over = np.zeros((2, len(found)), dtype=bool)
         of_numbers, numbers = _owned([choice.numbers for choice in found], _boxes)
-        of_beyond, beyond = _owned([_ends(choice.extensions) for choice in found], _segments)
+        of_beyond, extensions = _owned([_ends(choice.extensions) for choice in found], _segments)
         of_all, lines = _owned([[*choice.lines, *_ends(choice.extensions)] for choice in found], _segments)
         line, number = meets(lines, numbers[0], numbers[1])
         bad[of_all[line[of_all[line] == of_numbers[number]]]] = True  # past the end of a short one stands the next
         if crossing:
             bad[of_all[_run_over(lines, self.numbers, 0.3)]] = True
         else:
-            bad[of_beyond[_run_over(beyond, self._symbols(over_lines), 0.4)]] = True
-        over[of_beyond[_crossings(beyond, self.segments)[0]]] = True
+            bad[of_beyond[_run_over(extensions, self._symbols(over_lines), 0.4)]] = True
+        over[of_beyond[_crossings(extensions, self.segments)[0]]] = True
         over[of_numbers[meets(self.dashed, numbers[0], numbers[1] + 0.3 * (1 + 1j))[1]]] = True
         return found, bad, over
 
@@ -275,8 +275,8 @@ def _owned(each: Sequence[Sequence[_Thing]], arrays: Callable[[Sequence[_Thing]]
 
 def _stand_on(boxes: Points, taken: Points) -> Indices:
     """Whether boxes stand on taken boxes, shape (boxes,)."""
-    off, reach = boxes[0][:, None] - taken[0], boxes[1][:, None] + SPACE + taken[1]
-    found: Indices = ((np.abs(off.real) < reach.real) & (np.abs(off.imag) < reach.imag)).nonzero()[0]
+    offset, reach = boxes[0][:, None] - taken[0], boxes[1][:, None] + SPACE + taken[1]
+    found: Indices = ((np.abs(offset.real) < reach.real) & (np.abs(offset.imag) < reach.imag)).nonzero()[0]
     return found
 
 

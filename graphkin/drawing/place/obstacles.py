@@ -49,11 +49,11 @@ def sides_around(start: Floats, end: Floats) -> Sides:
 def overlapping(boxes: Sides, others: Sides) -> Flags:
     """Whether upright boxes (columns) meet others (rows); a box of nan meets none."""
     left, top, right, bottom = (side[:, None] for side in others)  # the many lie side by side in memory
-    meeting: Flags = boxes[0] <= right
-    meeting &= boxes[2] >= left
-    meeting &= boxes[1] <= bottom
-    meeting &= boxes[3] >= top
-    return meeting
+    met: Flags = boxes[0] <= right
+    met &= boxes[2] >= left
+    met &= boxes[1] <= bottom
+    met &= boxes[3] >= top
+    return met
 
 
 def near(boxes: Sides, others: Sides) -> Iterator[tuple[Indices, Indices]]:
@@ -78,7 +78,7 @@ def joined(lots: Iterable[tuple[Indices, Indices]]) -> tuple[Indices, Indices]:
     return np.concatenate(which), np.concatenate(what)
 
 
-def separated(off: Floats, half: Floats, along: Floats) -> Flags:
+def separated(offset: Floats, half: Floats, along: Floats) -> Flags:
     """Whether the normal of a segment separates it from a box; the caller checks the axes of the box.
 
     Parameters
@@ -87,17 +87,17 @@ def separated(off: Floats, half: Floats, along: Floats) -> Flags:
     half : half the size of the box
     along : from the start of the segment to its end
     """
-    distance = np.abs(along[0] * off[1] - along[1] * off[0])
-    apart: Flags = distance > half[0] * np.abs(along[1]) + half[1] * np.abs(along[0])
-    return apart
+    distance = np.abs(along[0] * offset[1] - along[1] * offset[0])
+    separate: Flags = distance > half[0] * np.abs(along[1]) + half[1] * np.abs(along[0])
+    return separate
 
 
 def meets(segments: Points, centres: Points, half: Points) -> tuple[Indices, Indices]:
     """The pairs of segments, of shape (n, 2), and boxes that meet, by their indices."""
     (start, end), middles, halves = in_rows(segments.T).swapaxes(0, 1), in_rows(centres), in_rows(half)
     which, what = joined(near(sides_around(start, end), sides(middles, halves)))
-    off, along = middles[:, what] - start[:, which], (end - start)[:, which]
-    met = ~separated(off, halves[:, what], along)
+    offset, along = middles[:, what] - start[:, which], (end - start)[:, which]
+    met = ~separated(offset, halves[:, what], along)
     return which[met], what[met]
 
 
@@ -175,8 +175,8 @@ def first_free(
         open_ = (free[first : first + size] & ~np.isnan(places)).nonzero()[0]
         found.append(int(open_[0]) if open_.size else None)
         if open_.size:  # it is in the way of those that come behind it
-            off, room = middles - places[open_[0]], reach + own
-            free &= (np.abs(off.real) >= room.real) | (np.abs(off.imag) >= room.imag)
+            offset, room = middles - places[open_[0]], reach + own
+            free &= (np.abs(offset.real) >= room.real) | (np.abs(offset.imag) >= room.imag)
     return found
 
 
@@ -187,8 +187,8 @@ def _covered(middles: Points, reach: Points, around: Obstacles) -> Flags:
     covered[meets(lines, middles, reach)[1]] = True
     if around.areas:
         areas = np.array([(box.centre, complex(box.width, box.height) / 2) for box in around.areas])
-        off, room = middles[:, None] - areas[:, 0], reach[:, None] + areas[:, 1]
-        covered |= ((np.abs(off.real) < room.real) & (np.abs(off.imag) < room.imag)).any(axis=1)
+        offset, room = middles[:, None] - areas[:, 0], reach[:, None] + areas[:, 1]
+        covered |= ((np.abs(offset.real) < room.real) & (np.abs(offset.imag) < room.imag)).any(axis=1)
     return covered
 
 

@@ -243,8 +243,8 @@ def _between(cam: LawCam, part: LiftPiece, start: float, end: float, rounds: int
         return [(p, 0.0)]
     joint, first, second = two
     probes = (_point(cam, part, start + share * (end - start))[0] for share in (0.2, 0.5, 0.8))
-    off = max(_off(p, joint, first, z) if dot(z - joint, q - p) < 0.0 else _off(joint, q, second, z) for z in probes)
-    if off > KEEPS and rounds:
+    gap = max(_off(p, joint, first, z) if dot(z - joint, q - p) < 0.0 else _off(joint, q, second, z) for z in probes)
+    if gap > KEEPS and rounds:
         half = (start + end) / 2
         return [*_between(cam, part, start, half, rounds - 1), *_between(cam, part, half, end, rounds - 1)]
     return [(p, first), (joint, second)]

@@ -367,11 +367,11 @@ def _row_errors(
     rates = np.abs(all_.omega), np.abs(all_.alpha)
     spins = np.ones_like(lean), rates[0], rates[1] + rates[0] ** 2
     own = np.abs(layout.places) * (lean[:, layout.joints] + FEW * unit[:, None]) + 1.5 * places
-    off = [(spin[:, layout.joints] * own + unit[:, None] * np.abs(place)).sum(axis=1)
+    place_errors = [(spin[:, layout.joints] * own + unit[:, None] * np.abs(place)).sum(axis=1)
            for spin, place in zip(spins, parts.place, strict=True)]  # fmt: skip
     axis = [np.abs(layout.along) * spin[:, layout.axis] for spin in spins]
     bent = lean[:, layout.axis] + 1.5 * directed + FEW * unit
-    moved = product(axis, [x[:, layout.joint] for x in off])
+    moved = product(axis, [x[:, layout.joint] for x in place_errors])
     leant = product([x * bent for x in axis], [np.abs(x[:, layout.joint]) for x in parts.gap])
     found, weights = np.zeros((3, len(refined), layout.rows)), np.abs(layout.rolled).T
     one, two = layout.one, layout.two
@@ -382,6 +382,6 @@ def _row_errors(
     for order, rate in enumerate(rates, start=1):
         found[order][:, layout.turn_rows] += unit * (rate[:, one] + rate[:, two])
     if len(layout.rolling_rows):
-        for order, off in enumerate((lean + FEW * unit, *((FEW + 1) * unit * rate for rate in rates))):
-            found[order][:, layout.rolling_rows] += off @ weights
+        for order, place_errors in enumerate((lean + FEW * unit, *((FEW + 1) * unit * rate for rate in rates))):
+            found[order][:, layout.rolling_rows] += place_errors @ weights
     return found

@@ -63,8 +63,8 @@ class GroupSolved:
     def same_assembly(self, place: Array) -> bool:
         """Whether a place nearby (rows, 3) certainly belongs to the same assembly, whatever the rates there: by the
         bound on its matrix, which stays regular around it (of the first position)."""
-        off = (self.place[0] - place)[: len(self.system.group.members)]
-        moved = float(np.linalg.norm(off / np.array([self.system.structure.scene.size] * 2 + [1.0])))
+        shift = (self.place[0] - place)[: len(self.system.group.members)]
+        moved = float(np.linalg.norm(shift / np.array([self.system.structure.scene.size] * 2 + [1.0])))
         return bool(self.condition[0] * _bending(self.system, self.poses)[0] * moved < 0.5)
 
     @cached_property

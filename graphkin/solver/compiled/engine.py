@@ -318,13 +318,13 @@ class _Run:
         slack = np.concatenate(self.slack, axis=1) if self.slack else np.zeros((self.n, 0))
         state = State(poses, self.drive, dict(sorted(groups.items())), np.zeros(self.n, dtype=bool), sharp > CLEAR,
                       slack, np.where(exact, TINY, SINGULAR), self._found())  # fmt: skip
-        again = exact
+        repeated = exact
         if names and explicit and self.extended and self.rates and upto == len(self.structure.elements):
-            again = exact | self._rough(state)
-        if not again.any():
+            repeated = exact | self._rough(state)
+        if not repeated.any():
             return state
         extended = self._extended(program.code((first, upto, self.rates), asked, self.varying))
-        return replace(state, refined=extended.place(again, asked, columns))  # the columns are those of the poses
+        return replace(state, refined=extended.place(repeated, asked, columns))  # the columns are those of the poses
 
     def _found(self) -> dict[Name, Array]:
         """The inputs of the formulas from followers of cams, rolling links and larger groups."""

@@ -258,8 +258,8 @@ def _apart(place: Array, rows: Array, size: float, least: float) -> Array:
     while len(rows):
         first = rows[0]
         found.append(int(first))
-        off = np.hypot(*np.moveaxis(place[rows, :, :2] - place[first, :, :2], 2, 0)) / size
-        far = np.maximum(off, np.abs(turned[rows] - turned[first])).max(axis=1)
+        distance = np.hypot(*np.moveaxis(place[rows, :, :2] - place[first, :, :2], 2, 0)) / size
+        far = np.maximum(distance, np.abs(turned[rows] - turned[first])).max(axis=1)
         rows = rows[far >= least]
     return np.array(sorted(found), dtype=int)
 

@@ -86,11 +86,11 @@ def _walk_group(
         root = (1 - step / left) ** 0.5
         guess = places[-1] + (2 / (1 + root)) * step * slope
         there, new_slope = at(t + step, guess)
-        off = float(np.max(np.abs((there.place[0] - guess) / weight)))
+        misfit = float(np.max(np.abs((there.place[0] - guess) / weight)))
         moved = float(np.max(np.abs((there.place[0] - places[-1]) / weight)))
         found = there.residual[0] < CLOSE and bool(np.all(np.isfinite(new_slope)))
         steady = _bend(slope / root, new_slope, weight) < BEND
-        good = found and off < min(0.03, 0.003 + 0.3 * moved) and (steady or there.same_assembly(places[-1]))
+        good = found and misfit < min(0.03, 0.003 + 0.3 * moved) and (steady or there.same_assembly(places[-1]))
         if good and np.sign(there.determinant[0]) != sense:
             passed = _passed(at, t, places[-1], slope, step, there, new_slope, weight)
             if passed is not None:
@@ -108,7 +108,7 @@ def _walk_group(
             places.append(there.place[0])
             determinants.append(float(there.determinant[0]))
             # what has just been too far is not tried again at once
-            step, fresh = min(most, step * (1.0 if not fresh else 2.0 if off < 0.005 else 1.2)), True
+            step, fresh = min(most, step * (1.0 if not fresh else 2.0 if misfit < 0.005 else 1.2)), True
             continue
         step, fresh, left = step / 2, False, np.inf
         if step < LEAST:
@@ -116,8 +116,8 @@ def _walk_group(
     if t < end and end - t < NARROW:
         # the end of the path may itself be singular, and roundings lead astray beside it: what stands there says so
         there, _ = at(end, places[-1])
-        off = float(np.max(np.abs((there.place[0] - places[-1]) / weight)))
-        if end - t < AT_END or (there.residual[0] < CLOSE and off < BESIDE):
+        misfit = float(np.max(np.abs((there.place[0] - places[-1]) / weight)))
+        if end - t < AT_END or (there.residual[0] < CLOSE and misfit < BESIDE):
             t = end
     stop = None if t >= end else min(_singular_ahead(nodes[-len(determinants) :], determinants), end)
     return np.array(nodes), np.array(places), stop, tuple(flips)
@@ -143,8 +143,8 @@ def _singular_ahead(nodes: Sequence[float], determinants: Sequence[float]) -> fl
     power = round(2 * math.log(more / less) / math.log((first - far) / (first - near)))
     roots = {0: (), 2: (1, 2)}.get(power, (power,))
     ends = (extrapolated(places, [size ** (1 / root) for size in sizes]) for root in roots)
-    end, off = min(ends, key=itemgetter(1), default=(last, 0.0))
-    return end if last <= end <= 2 * last - far and off < SETTLED * (end - last) + LEAST else last
+    end, error = min(ends, key=itemgetter(1), default=(last, 0.0))
+    return end if last <= end <= 2 * last - far and error < SETTLED * (end - last) + LEAST else last
 
 
 def _bend(slope: Array, new_slope: Array, weight: Array) -> float:
@@ -192,11 +192,11 @@ def _passed(
         if not 0 < s < 1:
             continue
         found, _ = at(t + s * step, between(s))
-        off = np.max(np.abs((found.place[0] - between(s)) / weight))
+        misfit = np.max(np.abs((found.place[0] - between(s)) / weight))
         expected = sign if s < flip else -sign
         if (
             not found.residual[0] < CLOSE
-            or off > 1e-3 * abs(s - flip) * step + 1e-7
+            or misfit > 1e-3 * abs(s - flip) * step + 1e-7
             or (np.sign(found.determinant[0]) != expected)
         ):
             return None

@@ -142,9 +142,9 @@ def without_singular(
     for i, dead in singular(structure, state, len(status)):
         for k in np.flatnonzero(dead & (status == "ok")):
             own = {j: f[k : k + 1] for j, f in modes.items()}
-            apart = _apart(structure, i, values[k], own)
-            status[k] = "not assembled" if apart else "dead point"
-            reasons[k] = apart or _dead_why(structure, i, values[k], own)
+            why_open = _apart(structure, i, values[k], own)
+            status[k] = "not assembled" if why_open else "dead point"
+            reasons[k] = why_open or _dead_why(structure, i, values[k], own)
     return status, reasons
 
 
@@ -261,8 +261,8 @@ def _fold_where(structure: Structure, solved: GroupSolved, values: Array) -> Wor
     way = ASIDE * solved.system.scaled(free[None, -1])
     ahead, behind = (solved.system.matrix(solved.system.at(place + side))[0] for side in (way, -way))
     second = float(u[:, -1] @ (ahead - behind) @ free[-1]) / (4 * ASIDE)
-    off = float(sigma[-1] ** 2 / (4 * second * (u[:, -1] @ solved.right_side[0])))
-    return lies_at(structure, float(values[0]) + off, abs(off), about=True)
+    distance = float(sigma[-1] ** 2 / (4 * second * (u[:, -1] @ solved.right_side[0])))
+    return lies_at(structure, float(values[0]) + distance, abs(distance), about=True)
 
 
 def _where(structure: Structure, i: int, values: Array, modes: Mapping[int, Array]) -> Wording:

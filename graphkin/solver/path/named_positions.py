@@ -73,8 +73,8 @@ def name_at(scene: Mechanism, positions: Mapping[str, float], value: float) -> s
     """The name of the position at a driver's value (rad, m), without whole turns; "" if it has none."""
     driver = scene.drivers[0]
     for name, own in positions.items():
-        off = math.remainder(value - own, math.tau) if driver.turns else (value - own) / scene.size
-        if abs(off) < SAME:
+        difference = math.remainder(value - own, math.tau) if driver.turns else (value - own) / scene.size
+        if abs(difference) < SAME:
             return name
     return ""
 
