@@ -66,8 +66,10 @@ def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str,
     count = sum(e is not None for e in centred.errors.values())
     still = ", ".join(name(centre.pair) for centre in centres.found if centred.errors[centre.pair] is None)
     verdict = Phrase("centres checked but", centres=count, still=still)
-    if wrong or not still:
-        verdict = Phrase("check failed", readings=", ".join(wrong)) if wrong else Phrase("centres checked", centres=count)
+    if wrong:
+        verdict = Phrase("check failed", readings=", ".join(wrong))
+    elif not still:
+        verdict = Phrase("centres checked", centres=count)
     heads = ["", *(word(key, language) for key in ("centre", "place", "how found"))]
     head = [*why, *[""] * bool(why), word("velocities by centres", language)]
     return heads, rows, [*head, *velocities, *near, say(verdict, language)]
