@@ -56,7 +56,7 @@ def titles(sheet: Sheet, language: str) -> tuple[str, ...]:
     name its own."""
     scene = sheet.scene
     own = all(
-        d.dead_point is not None or math.isclose(sheet.drivers[d.key], d.values[0], rel_tol=1e-9, abs_tol=1e-12)
+        d.distance is not None or math.isclose(sheet.drivers[d.key], d.values[0], rel_tol=1e-9, abs_tol=1e-12)
         for d in scene.drivers
     )
     found = (scene.question.title_in(each) or scene.name for each in languages(language))

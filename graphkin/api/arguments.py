@@ -130,7 +130,7 @@ def as_scene(scene: SceneLike) -> Mechanism:
         from graphkin.solver.path.named_positions import standing
 
         given = standing(given)
-    if any((d.dead_point and not d.dead_point.exact) or d.given_speed for d in given.drivers):
+    if any((d.distance is not None and not d.exact) or d.given_speed for d in given.drivers):
         from graphkin.solver import structure_of
 
         return structure_of(given).scene

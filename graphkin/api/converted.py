@@ -12,7 +12,7 @@ from pathlib import Path
 from graphkin.api.arguments import as_scene, write_files
 from graphkin.api.results import Result
 from graphkin.errors import CallError, Problem, Unsolvable
-from graphkin.exchange import FRAME, READ, Bodies, BodyDrive, BodySlide, is_address, read_bodies, write_bodies
+from graphkin.exchange import FRAME, READ, Bodies, BodySlide, is_address, read_bodies, write_bodies
 from graphkin.files import Json, path_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import Scene, SceneLike, safe_name, toml_text, written
@@ -161,7 +161,7 @@ def _bodies(scene: Mechanism) -> Bodies:
         if driver.law is not None:
             made.lost.append(Phrase("lost law", name=driver.key))
         if driver.turns_about(scene.frame.name):
-            made.drives.append(BodyDrive(driver.link, driver.rate))
+            made.drive(driver.link, driver.rate)
             if driver.second and driver.law is None:
                 made.left.append(Phrase("lost acceleration", link=driver.link))
         else:

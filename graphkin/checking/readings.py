@@ -238,18 +238,17 @@ def _lengths(sheet: Sheet, symbol: Symbol, instrument: Instrument, place: Place 
 
 
 def _of_turn(sheet: Sheet, symbol: Symbol, instrument: Instrument) -> Measured | None:
-    limits = sheet.limits.get(symbol.pair)
-    if limits is None:
+    if symbol.pair not in sheet.limits:
         return None
-    mm = 1.0 / sheet.scales.length
-    low, high = limits.low.poses, limits.high.poses
+    mm, (lowest, highest) = 1.0 / sheet.scales.length, sheet.limits[symbol.pair]
+    low, high = lowest.poses, highest.poses
     if symbol.kind == "stroke":
         slide = sliding_pair(sheet.structure.slides, symbol)
         return _length(sheet, instrument, abs(travel(slide, high, mm) - travel(slide, low, mm)))
     if symbol.kind == "swing":
         turned = high[symbol.link].axis / low[symbol.link].axis
         angle = phase(instrument.read_direction(turned))
-        return None, abs(angle + math.tau * round((limits.swing - angle) / math.tau))
+        return None, abs(angle + math.tau * round((highest.angle - lowest.angle - angle) / math.tau))
     driver = sheet.scene.drivers[0]
     one, two = (poses[driver.link].axis / poses[driver.relative_to].axis for poses in (low, high))
     between = phase(instrument.read_direction(two / one))

@@ -34,25 +34,17 @@ class BodySlide:
 
 
 @dataclass
-class BodyDrive:
-    """A driver: a body that turns (rate in rad/s), or a slide by its body and point (rate in the length unit/s)."""
-
-    body: str
-    rate: float
-    point: str = ""
-
-
-@dataclass
 class Bodies:
     """Points at places in the world (length unit), bodies with the points that they have, the fixed one by the name
-    ``FRAME``; ``names`` are the names of points by their keys in the file that is read.  ``lost`` names the parts that
-    move, drive or load and cannot be carried over, ``left`` other parts that cannot."""
+    ``FRAME``; ``names`` are the names of points by their keys in the file that is read.  ``drives`` are the rates of
+    drivers by body and point: of a body that turns (rad/s; "" for the point), or of a slide (length unit/s).  ``lost``
+    names the parts that move, drive or load and cannot be carried over, ``left`` other parts that cannot."""
 
     title: str
     places: dict[str, complex] = field(default_factory=dict)
     bodies: dict[str, list[str]] = field(default_factory=dict)
     slides: list[BodySlide] = field(default_factory=list)
-    drives: list[BodyDrive] = field(default_factory=list)
+    drives: dict[tuple[str, str], float] = field(default_factory=dict)
     unit: str = "mm"
     left: list[Wording] = field(default_factory=list)
     lost: list[Wording] = field(default_factory=list)
@@ -108,9 +100,15 @@ class Bodies:
         as lost."""
         body = self.holder(keys, but=FRAME)
         if body is not None:
-            self.drives.append(BodyDrive(body, rate))
+            self.drive(body, rate)
         elif otherwise:
             self.lost.append(otherwise)
+
+    def drive(self, body: str, rate: float, point: str = "") -> None:
+        """Let a body turn at a rate (rad/s), or a slide of it go (length unit/s); a second rate is noted as lost."""
+        if (body, point) in self.drives:
+            self.lost.append(Phrase("lost driver of", link=body))
+        self.drives.setdefault((body, point), rate)
 
     def scene(self) -> dict[str, Json]:
         """The mapping of a scene file at this position.
@@ -145,7 +143,7 @@ class Bodies:
         made: dict[str, Json] = {"title": self.title, "units": {"length": self.unit}, "frame": frame, "links": links}
         if pins:
             made["pins"] = pins
-        drivers = [self._driver(drive) for drive in self.drives]
+        drivers = [self._driver(*drive, rate) for drive, rate in self.drives.items()]
         if drivers:
             made["driver"] = drivers[0] if len(drivers) == 1 else drivers
         if sketch:
@@ -156,8 +154,8 @@ class Bodies:
         """These bodies with pins in slots instead of blocks of a single pin, and with two points of its body on every
         line on which bodies slide: for programs that know no other slides."""
         made = Bodies(self.title, dict(self.places), {n: list(points) for n, points in self.bodies.items()}, [],
-                      list(self.drives), self.unit, self.left, self.lost)  # fmt: skip
-        guides, driven = {s.on for s in self.slides}, {d.body for d in self.drives if d.point}
+                      dict(self.drives), self.unit, self.left, self.lost)  # fmt: skip
+        guides, driven = {s.on for s in self.slides}, {body for body, point in self.drives if point}
         for slide in self.slides:
             block = slide.body
             alone = [s for s in self.slides if s.body == block] == [slide] and len(self.bodies[block]) == 1
@@ -189,9 +187,10 @@ class Bodies:
                 del self.bodies[name]
                 self.left.append(Phrase("lost point of one", link=name))
         slid = {(s.body, s.point) for s in self.slides}
-        kept = [d for d in self.drives if ((d.body, d.point) in slid if d.point else d.body in self.bodies)]
-        self.lost += [Phrase("lost driver of", link=d.body) for d in self.drives if d not in kept]
-        self.drives = kept
+        for body, point in list(self.drives):
+            if (body, point) not in slid if point else body not in self.bodies:
+                self.lost.append(Phrase("lost driver of", link=body))
+                del self.drives[body, point]
 
     def _lines(self) -> tuple[dict[str, dict[str, BodySlide]], list[tuple[BodySlide, str]]]:
         """The lines of each body by their names, and with each slide the name of its line."""
@@ -255,14 +254,14 @@ class Bodies:
             raise CallError.of(where, "slides on more than two others", "a scene has two at most")
         return {"on": [before, ref], "angle_on": [angles, angle]}
 
-    def _driver(self, drive: BodyDrive) -> dict[str, Json]:
-        if drive.point:
-            slide = next(s for s in self.slides if s.body == drive.body and s.point == drive.point)
+    def _driver(self, body: str, point: str, rate: float) -> dict[str, Json]:
+        if point:
+            slide = next(s for s in self.slides if s.body == body and s.point == point)
             at = (self.places[slide.point] - slide.through) / cmath.rect(1.0, slide.angle)
             name = slide.point if slide.turns else slide.body
-            return {"slide": f"{name}/{slide.on}", "travel": number(at.real), "velocity": number(drive.rate)}
-        angle = _degrees(cmath.phase(self._axis(drive.body)[1]))
-        return {"link": drive.body, "angle": angle, "omega": number(drive.rate)}
+            return {"slide": f"{name}/{slide.on}", "travel": number(at.real), "velocity": number(rate)}
+        angle = _degrees(cmath.phase(self._axis(body)[1]))
+        return {"link": body, "angle": angle, "omega": number(rate)}
 
 
 def number(value: float) -> float:

@@ -19,7 +19,7 @@ from collections.abc import Iterable, Sequence
 from urllib.parse import parse_qs, unquote, urlparse
 
 from graphkin.errors import CallError, Problem
-from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide, number
+from graphkin.exchange.bodies import FRAME, Bodies, BodySlide, number
 from graphkin.words import Phrase
 
 DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"
@@ -109,7 +109,7 @@ def read_table(text: str, title: str) -> Bodies:
     made.bodies.setdefault(FRAME, [])
     moved = next((n for n in made.bodies if n.lower() == "input"), None)
     if moved is not None:
-        made.drives.append(BodyDrive(moved, INPUT_SPEED))
+        made.drive(moved, INPUT_SPEED)
     return made
 
 
@@ -221,7 +221,7 @@ def _block(made: Bodies, ends: list[str], joints: dict[str, _SharedJoint], links
     block = holders[0] if pin.welded and holders else made.body("".join(ends), [pin.id])
     made.slides.append(BodySlide(block, point, on, through, angle))
     if line.driven:
-        made.drives.append(BodyDrive(block, rate, point))
+        made.drive(block, rate, point)
 
 
 # -- pyslvs ------------------------------------------------------------------------------------------------------------
@@ -303,7 +303,7 @@ def write_pyslvs(bodies: Bodies) -> str:
             joint("P", place, [slide.on, slide.body], slide.angle)
     bodies.left += [Phrase("lost unit", unit=bodies.unit)] if bodies.unit != "mm" else []
     text = "M[" + ", ".join(joints) + "]\n"
-    driven = {drive.body for drive in read_pyslvs(text, bodies.title).drives}  # it names no input
-    bodies.lost += [Phrase("lost driver of", link=d.body) for d in bodies.drives if f"link{d.body}" not in driven]
-    bodies.left += [Phrase("lost speed", link=drive.body) for drive in bodies.drives]
+    driven = {body for body, _ in read_pyslvs(text, bodies.title).drives}  # it names no input
+    bodies.lost += [Phrase("lost driver of", link=body) for body, _ in bodies.drives if f"link{body}" not in driven]
+    bodies.left += [Phrase("lost speed", link=body) for body, _ in bodies.drives]
     return text

@@ -17,7 +17,7 @@ import math
 from xml.etree import ElementTree
 
 from graphkin.errors import CallError
-from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide, number
+from graphkin.exchange.bodies import FRAME, Bodies, BodySlide, number
 from graphkin.exchange.constructions import STEP, construct_linkage
 from graphkin.files import OwnTables, Tables
 from graphkin.words import Phrase
@@ -74,7 +74,7 @@ def read_linkage2(text: str, title: str) -> Bodies:
             if not turned:
                 made.lost.append(Phrase("lost motor", name=node.get("name") or key))
             else:
-                made.drives.append(BodyDrive(turned[0], _number(node, "rpm", RPM) * math.tau / 60))
+                made.drive(turned[0], _number(node, "rpm", RPM) * math.tau / 60)
     return made
 
 
@@ -125,7 +125,7 @@ def _cylinder(made: Bodies, element: ElementTree.Element, label: str, ends: list
     made.slides.append(BodySlide(rod, made.names[ends[1]], cylinder, start, cmath.phase(end - start)))
     throw = _number(element, "throw") or abs(end - start)
     # out and in again once a cycle
-    made.drives.append(BodyDrive(rod, 2 * throw * _number(element, "cpm", RPM) / 60, made.names[ends[1]]))
+    made.drive(rod, 2 * throw * _number(element, "cpm", RPM) / 60, made.names[ends[1]])
 
 
 def write_linkage2(bodies: Bodies) -> str:
@@ -136,13 +136,13 @@ def write_linkage2(bodies: Bodies) -> str:
     ids = {point: str(k) for k, point in enumerate(bodies.places)}
     fixed = set(bodies.bodies.get(FRAME, ()))
     motors: dict[str, float] = {}
-    for drive in bodies.drives:
-        pivot = next((p for p in bodies.bodies.get(drive.body, ()) if p in fixed), "")
+    for (body, point), rate in bodies.drives.items():
+        pivot = next((p for p in bodies.bodies.get(body, ()) if p in fixed), "")
         turning = [name for name in bodies.having(pivot) if name != FRAME]
-        if drive.point or turning != [drive.body]:  # a motor stands at a pivot, and turns what there is about it
-            bodies.lost.append(Phrase("lost driver of", link=drive.body))
+        if point or turning != [body]:  # a motor stands at a pivot, and turns what there is about it
+            bodies.lost.append(Phrase("lost driver of", link=body))
         else:
-            motors[pivot] = drive.rate * 60 / math.tau
+            motors[pivot] = rate * 60 / math.tau
     ends: dict[str, list[str]] = {}
     scale = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "ft": 304.8}[bodies.unit]
     for slide in bodies.slides:
@@ -216,7 +216,7 @@ def _mechanism(made: Bodies, data: Tables) -> None:
         keys = [*joints, *(t["id"] for t in trackers if {t["ref_joint1_id"], t["ref_joint2_id"]} <= {*joints})]
         name = made.body(str(link.get("name") or link["id"]), keys)
         if "driver" in str(link.get("type")):
-            made.drives.append(BodyDrive(name, float(link.get("angular_velocity", STEP))))
+            made.drive(name, float(link.get("angular_velocity", STEP)))
             if link["type"] == "arc_driver":
                 made.left.append(Phrase("lost arc ends", link=name))
     for key, joint in sliding.items():
@@ -250,8 +250,8 @@ def write_pylinkage(bodies: Bodies) -> str:
     pivots = [p for p in bodies.places if p in fixed]
     links: list[OwnTables] = [{"id": "ground", "type": "ground", "joints": pivots}]
     bodies.left += [Phrase("lost unit", unit=bodies.unit)] if bodies.unit != "mm" else []
-    driven = {d.body: d for d in bodies.drives if not d.point}
-    bodies.lost += [Phrase("lost driver of", link=d.body) for d in bodies.drives if d.point]
+    driven = {body: rate for (body, point), rate in bodies.drives.items() if not point}
+    bodies.lost += [Phrase("lost driver of", link=body) for body, point in bodies.drives if point]
     for name, points in bodies.bodies.items():
         if name == FRAME or (len(points) < 2 and name not in driven):
             continue
@@ -261,7 +261,7 @@ def write_pylinkage(bodies: Bodies) -> str:
             bodies.lost.append(Phrase("lost driver of no bar", link=name))
         elif name in driven and pivot is not None:
             crank = next(bodies.places[p] - bodies.places[pivot] for p in points if p != pivot)
-            link |= {"type": "driver", "motor_joint": pivot, "angular_velocity": number(driven[name].rate),
+            link |= {"type": "driver", "motor_joint": pivot, "angular_velocity": number(driven[name]),
                      "initial_angle": cmath.phase(crank)}  # fmt: skip
         links.append(link)
     data = {"name": bodies.title, "joints": joints, "links": links, "ground": "ground"}

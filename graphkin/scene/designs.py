@@ -11,7 +11,7 @@ import cmath
 import math
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
@@ -129,9 +129,9 @@ KINDS: dict[str, type[DesignTask]] = {
 }
 
 
-@file_table
-class _DesignTables(FileTable):
-    """A design file without its task."""
+@file_table_by_name
+class Design(FileTable):
+    """A design file: a task, read from its table ``design``, with its units and the wishes for its sheet."""
 
     title: Text = ""
     title_zh: Text = ""
@@ -139,21 +139,15 @@ class _DesignTables(FileTable):
     design: dict[str, Any] = field(default_factory=dict)
     units: Units = Units()
     sheet: SheetWishes = SheetWishes()
-
-
-@dataclass(frozen=True, kw_only=True)
-class Design(_DesignTables):
-    """A design file: a task with its units and the wishes for its sheet."""
-
-    task: DesignTask
-    name: str = "design"
+    task: DesignTask = field(default=None, metadata={"beside": True})  # type: ignore[assignment]  # read after the file
+    name: str = field(default="design", metadata={"beside": True})
 
     def title_in(self, language: str) -> str:
         """Title in a language, the other where there is none."""
         return (self.title_zh or self.title) if language == "zh" else (self.title or self.title_zh)
 
 
-DESIGN = Form(_DesignTables, "graphkin design")
+DESIGN = Form(Design, "graphkin design")
 
 # -- finding and reading -----------------------------------------------------------------------------------------------
 
@@ -223,12 +217,12 @@ def _read(raw: Tables, name: str) -> Design:
         problems.append(Problem("links", found, "this is a scene a design file has"))
     if given.get("design") is None:
         problems.append(Problem("design", "is missing", "a design file has a table design with"))
-    tables, wrong, _ = DESIGN.checked(given)
-    task = _task(tables.design, problems) if tables.design else None
+    design, wrong, _ = DESIGN.checked(given)
+    task = _task(design.design, problems) if design.design else None
     problems += wrong
     if problems or task is None:
         raise SceneError(*problems)
-    return Design(**vars(tables), task=task, name=name)
+    return replace(design, task=task, name=name)
 
 
 def _task(raw: OwnTables, problems: list[Problem]) -> DesignTask | None:

@@ -18,7 +18,7 @@ from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene import model
 from graphkin.scene.bodies import Reading
 from graphkin.scene.laws import LiftPiece, MotionLaw, form_of
-from graphkin.scene.model import FromDeadPoint, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.scene_tables import SMALLEST, DrivenSlide, Driver, DriverLaw, Positions
 from graphkin.scene.tables import Units, in_si, in_units
 from graphkin.words import Phrase, alternatives
@@ -52,7 +52,7 @@ def drives(reading: Reading) -> dict[str, model.Driver]:
             continue
         si = in_si(driver, reading.units)
         value = si.angle if isinstance(si, Driver) else si.travel
-        dead = None if driver.origin is None or value is None else FromDeadPoint(value, si.near)
+        distance = None if driver.origin is None else value
         if law is not None and driver.time is not None:
             value = law.at(law.time).lift
         value = math.nan if value is None else value
@@ -63,12 +63,15 @@ def drives(reading: Reading) -> dict[str, model.Driver]:
             speed = (si.of, sign * si.speed) if si.speed is not None and si.of is not None else None
             position = "" if si.position is None else str(si.position)
             drivers[where] = model.Driver(
-                name, base, value, omega + 0.0, sign * si.alpha + 0.0, "", dead, position, rpm, speed, law
+                name, base, value, omega + 0.0, sign * si.alpha + 0.0, "", distance, position, rpm, speed, law,
+                near=si.near,
             )
         else:
             ends = {pair.key: (pair.link, pair.on) for pair in reading.slides}
             sliding, on = ends.get(name, (name, ""))  # of a pin in a slot its block
-            drivers[where] = model.Driver(sliding, on, value, si.velocity or 0.0, si.acceleration, name, dead, law=law)
+            drivers[where] = model.Driver(
+                sliding, on, value, si.velocity or 0.0, si.acceleration, name, distance, law=law, near=si.near
+            )
     return drivers
 
 

@@ -159,20 +159,6 @@ class PlacedLink:
 
 
 @dataclass(frozen=True)
-class FromDeadPoint:
-    """A driver's value given as the distance from a dead point (rad, m): ``angle`` or ``travel`` is that distance until
-    the dead point has been found, and then the value itself, of which ``exact`` holds fifty digits.
-
-    A positive distance is beyond a dead point at which the motion begins, a negative one before one where it ends.
-    ``near`` tells which dead point, where there are several.
-    """
-
-    distance: float
-    near: float | None = None
-    exact: str = ""
-
-
-@dataclass(frozen=True)
 class Driver:
     """The given motion of a link relative to another: the angle of its own x axis, or its travel in a sliding pair.
 
@@ -182,7 +168,10 @@ class Driver:
         a pin in a slot) that slides, and the link on which it slides
     value, rate, second : an angle (rad, rad/s, rad/s2), or a travel along the guide's sense (m, m/s, m/s2)
     slide : key of the sliding pair or pin in slot of a travel, "" of an angle
-    dead_point : the dead point and the distance from it, where these give the value
+    distance : from a dead point (rad, m), where that gives the value: positive beyond one at which the motion begins,
+        negative before one where it ends; until the dead point has been found the value is not known
+    near : the value near to which the dead point lies, where there are several
+    exact : the value so found, in fifty digits; "" until then
     position : the name of the position, where its angle follows from a stroke that is not known yet
     rpm : the rate in turns per minute, where the problem gives it so
     given_speed : a point and its speed (m/s, with the sign of the turning), from which the rate follows, 0 until it has
@@ -202,13 +191,15 @@ class Driver:
     rate: float
     second: float
     slide: str = ""
-    dead_point: FromDeadPoint | None = None
+    distance: float | None = None
     position: str = ""
     rpm: float | None = None
     given_speed: tuple[str, float] | None = None
     law: MotionLaw | None = None
     ratios: tuple[float, ...] = ()
     through: tuple[str, ...] = ()
+    near: float | None = None
+    exact: str = ""
 
     turns: bool = field(init=False, repr=False, compare=False)
     key: str = field(init=False, repr=False, compare=False)
@@ -239,7 +230,7 @@ class Driver:
 
     def at_value(self, value: float) -> Driver:
         """This driver at another value (rad, m)."""
-        return replace(self, value=value, dead_point=None, position="")
+        return replace(self, value=value, distance=None, near=None, exact="", position="")
 
     def at_rate(self, rate: float) -> Driver:
         """This driver at a steady rate (rad/s, m/s)."""

@@ -55,7 +55,7 @@ def structure_of(scene: Mechanism | Structure) -> Structure:
         if found is None:
             raise
         raise Unsolvable("mobility", *stop.problems, found) from None
-    if any(d.dead_point and not d.dead_point.exact for d in scene.drivers):
+    if any(d.distance is not None and not d.exact for d in scene.drivers):
         structure = from_dead_point(structure)
     if structure.slides:
         structure = with_sensible_slots(structure)
@@ -221,14 +221,13 @@ def from_dead_point(structure: Structure) -> Structure:
     """
     scene = structure.scene
     driver = scene.drivers[0]
-    dead = driver.dead_point
-    assert dead is not None
+    assert driver.distance is not None
     with working():
-        distance = meant_value(driver, dead.distance)
+        distance = meant_value(driver, driver.distance)
     side = 1 if distance > 0 else -1
     known: list[tuple[DeadPoint, int]] = []
     found: list[tuple[DeadPoint, Structure]] = []
-    for point in dead_points(structure, dead.near or 0.0):
+    for point in dead_points(structure, driver.near or 0.0):
         for way in point.sides:
             with working():
                 value = point.value + way * abs(distance)
@@ -249,18 +248,18 @@ def from_dead_point(structure: Structure) -> Structure:
             behind = links_named([name for links in missing for name in links])
             wanted.append(Phrase("links were not looked at", links=behind, most=MOST_GROUPS))
         raise Unsolvable("dead point", Problem(what, Phrase(key), clauses(wanted)))
-    if dead.near is None and len(found) > 1:
+    if driver.near is None and len(found) > 1:
         names = listed([driver_text(scene, driver, float(p.value)) for p, _ in found])
         raise Unsolvable("dead point", Problem(what, "there are dead points at", "write near to tell which one",
                                                names=names))
 
     def away(point: DeadPoint) -> float:
-        return abs(driver.wrapped(float(point.value) - (dead.near or 0.0)))
+        return abs(driver.wrapped(float(point.value) - (driver.near or 0.0)))
 
     taken = min(found, key=lambda pair: away(pair[0]))
     nearest, way = min(known, key=lambda pair: (away(pair[0]), pair[1] != side))
-    if dead.near is not None and away(nearest) < away(taken[0]) - SAME:
-        wish, at = (driver_text(scene, driver, x) for x in (dead.near, float(nearest.value)))
+    if driver.near is not None and away(nearest) < away(taken[0]) - SAME:
+        wish, at = (driver_text(scene, driver, x) for x in (driver.near, float(nearest.value)))
         key = "nearest dead point where the motion begins" if way > 0 else "nearest dead point where the motion ends"
         raise Unsolvable("dead point", Problem(
             what, Phrase(key, wish=wish, at=at), clauses([Phrase("change the sign of the distance or near"), *others])))
@@ -284,6 +283,4 @@ def _listed(scene: Mechanism, known: Sequence[tuple[DeadPoint, int]]) -> list[Ph
 def _at(structure: Structure, value: Decimal) -> Structure:
     scene = structure.scene
     driver = scene.drivers[0]
-    assert driver.dead_point is not None
-    exact = replace(driver.dead_point, exact=str(value))
-    return analyse(replace(scene, drivers=(replace(driver, value=float(value), dead_point=exact),)))
+    return analyse(replace(scene, drivers=(replace(driver, value=float(value), exact=str(value)),)))

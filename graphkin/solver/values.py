@@ -266,22 +266,13 @@ NODES, WEIGHTS = np.polynomial.legendre.leggauss(12)
 
 
 @dataclass(frozen=True)
-class MomentArea:
-    """An area between the two moments over the driver, from one crossing to the next, offsets growing; ``work`` is the
-    work of the driving moment less that of the needed one (J)."""
-
-    first: float
-    last: float
-    work: float
-
-
-@dataclass(frozen=True)
 class FlywheelStudy:
     """A flywheel on a link.
 
     driving : constant driving moment on the driver (N m), in its sense positive
     work : of a cycle (J)
-    areas : between driving and needed moment, over a cycle from the start on
+    areas : between driving and needed moment, over a cycle from the start on: the work of the driving moment less that
+        of the needed one (J), by the offsets of the driver at two crossings
     excess : the greatest difference of kinetic energy (J)
     slowest, fastest : offsets of the driver at the least and the greatest speed
     speed : mean angular velocity of the link (rad/s)
@@ -292,7 +283,7 @@ class FlywheelStudy:
     delta: float
     driving: float
     work: float
-    areas: tuple[MomentArea, ...]
+    areas: Mapping[tuple[float, float], float]
     excess: float
     slowest: float
     fastest: float
@@ -340,8 +331,7 @@ def _found(reach: DriverRange) -> FlywheelStudy:
     places = np.array(sorted({0.0, cycle, *crossings}))
     stored = np.concatenate([[0.0], np.cumsum(driving * np.diff(edges) - work)])
     energy = np.array([_stored(reach, edges, stored, driving, x) for x in places])
-    areas = tuple(MomentArea(float(a), float(b), float(d)) for a, b, d in
-                  zip(places[:-1], places[1:], np.diff(energy), strict=True))  # fmt: skip
+    areas = dict(zip(pairwise(places.tolist()), np.diff(energy).tolist(), strict=True))
     low, high = int(np.argmin(energy)), int(np.argmax(energy))
     excess = float(energy[high] - energy[low])
     inertia = excess / (wanted.delta * speed**2)

@@ -281,7 +281,7 @@ def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> Design
     """
     written = mechanism_of(source)
     for driver in written.drivers:
-        found = "the driver is given from a dead point, which moves with each" if driver.dead_point else ""
+        found = "the driver is given from a dead point, which moves with each" if driver.distance is not None else ""
         if driver.given_speed:
             found = "the driver's rate is given by the speed of a point, and is another with each"
         elif driver.position:

@@ -7,6 +7,7 @@ Where a load begins, ends or reverses the curve jumps: both its values are shown
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -18,7 +19,7 @@ from graphkin.scene.model import forces_named
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange
 from graphkin.solver.forces import forces_of
-from graphkin.solver.values import FlywheelStudy, MomentArea, load_edges, needed_moment
+from graphkin.solver.values import FlywheelStudy, load_edges, needed_moment
 from graphkin.study import charts
 from graphkin.study.extremes import Extreme
 from graphkin.study.quantities import Quantity
@@ -234,11 +235,11 @@ def flywheel_page(reach: DriverRange, study: FlywheelStudy, language: str) -> ch
             axes.fill_between(x, needed, driving, where=over, color=colour, linewidth=0.0, zorder=0.5, interpolate=True)
         axes.tick_params(labelbottom=False)
         labels, growing = [], np.argsort(x, kind="stable")
-        for area in _joined(study.areas, reach.ends[1]):
-            middle = float(axis.at(np.array([(area.first + area.last) / 2 % reach.ends[1]]))[0])
+        for (first, last), work in _joined(study.areas, reach.ends[1]).items():
+            middle = float(axis.at(np.array([(first + last) / 2 % reach.ends[1]]))[0])
             near = float(np.interp(middle, x[growing], needed[growing]))
-            sign = "+" if area.work > 0 else ""
-            labels.append((f"{sign}{charts.number(area.work / per)}", (middle, (near + driving) / 2)))
+            sign = "+" if work > 0 else ""
+            labels.append((f"{sign}{charts.number(work / per)}", (middle, (near + driving) / 2)))
         chart.add_labels(axes, labels)
         top = MOMENT_TOP + MOMENT_TALL + ENERGY_GAP
         box = Box(charts.LEFT, top, charts.WIDTH - charts.RIGHT, top + ENERGY_LOW)
@@ -265,10 +266,11 @@ def flywheel_page(reach: DriverRange, study: FlywheelStudy, language: str) -> ch
     )  # fmt: skip
 
 
-def _joined(areas: tuple[MomentArea, ...], cycle: float) -> list[MomentArea]:
+def _joined(areas: Mapping[tuple[float, float], float], cycle: float) -> dict[tuple[float, float], float]:
     """The areas of a cycle, the last and the first joined if they have the same sign."""
-    kept = [area for area in areas if area.last > area.first]
-    if len(kept) > 1 and (kept[0].work > 0) == (kept[-1].work > 0):
-        both = MomentArea(kept[-1].first, kept[0].last + cycle, kept[-1].work + kept[0].work)
-        kept = [both, *kept[1:-1]]
+    kept = {ends: work for ends, work in areas.items() if ends[1] > ends[0]}
+    if len(kept) > 1:
+        first, *_, last = kept
+        if (kept[first] > 0) == (kept[last] > 0):
+            kept = {(last[0], first[1] + cycle): kept.pop(last) + kept.pop(first), **kept}
     return kept

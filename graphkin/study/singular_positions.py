@@ -30,7 +30,7 @@ from graphkin.construction.centres import find_centres
 from graphkin.errors import Unsolvable
 from graphkin.plane import added_up, cross_arcs
 from graphkin.scene import mechanism_of, mechanism_of_text
-from graphkin.scene.model import FromDeadPoint, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.scene_tables import Tools
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
@@ -178,7 +178,7 @@ def dead_point(kind: str, mp: MPContext, samples: int = 4) -> Singularity:
     def from_dead_point(e: float) -> Answer:
         with working():
             value = given.value + Decimal(side * e)
-        there = replace(driver, value=float(value), dead_point=FromDeadPoint(side * e, None, str(value)))
+        there = replace(driver, value=float(value), distance=side * e, exact=str(value))
         return Answer((max(errors(solver.solve(replace(scene, drivers=(there,))), e)),))
 
     def drawn(e: float) -> Answer:

@@ -24,9 +24,9 @@ def _flywheel(turn: TurnStudy) -> dict[str, Json]:
     if isinstance(found, Unsolvable):
         return {"flywheel": {"excess_W": None, "J_F": None, "why": found.why}}
     areas = [
-        {"from": _driver(turn.scene, float(turn.reach.value(np.array(area.first)))),
-         "to": _driver(turn.scene, float(turn.reach.value(np.array(area.last)))), "work": area.work / units.newtons}
-        for area in found.areas
+        {"from": _driver(turn.scene, float(turn.reach.value(np.array(first)))),
+         "to": _driver(turn.scene, float(turn.reach.value(np.array(last)))), "work": work / units.newtons}
+        for (first, last), work in found.areas.items()
     ]  # fmt: skip
     return {
         "flywheel": {

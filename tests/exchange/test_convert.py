@@ -15,7 +15,7 @@ import graphkin
 from graphkin.api.converted import convert
 from graphkin.api.solved import Solved
 from graphkin.errors import CallError
-from graphkin.exchange import read_bodies
+from graphkin.exchange import Bodies, read_bodies
 
 from ..command import run
 
@@ -285,6 +285,14 @@ def test_a_joint_of_pmks_without_a_name_is_refused():
 def test_a_block_of_pmks_whose_line_has_an_unknown_end_slides_on_nothing():
     with pytest.raises(CallError, match=r"block BP \(it slides on nothing\): would be lost"):
         convert(SLOT.replace("0,CD,C,D", "0,CD,C,Z"))
+
+
+def test_a_body_is_driven_once_and_a_second_rate_is_named_as_lost():
+    bodies = Bodies("", bodies={"1": []})
+    bodies.drive("1", 2.0)
+    bodies.drive("1", 3.0)
+    assert {("1", ""): 2.0} == bodies.drives
+    assert ["driver of 1"] == [str(lost) for lost in bodies.lost]
 
 
 def test_the_driver_of_a_slide_that_is_lost_is_lost_with_it():

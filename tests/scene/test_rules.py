@@ -9,7 +9,6 @@ import pytest
 import graphkin
 from graphkin.errors import SceneError
 from graphkin.scene import mechanism_of_text
-from graphkin.scene.model import FromDeadPoint
 from graphkin.scene.tables import value_at
 
 from .scenes import FOUR_BAR, SIX_BAR, changed
@@ -303,12 +302,12 @@ DEAD = ('angle = 50', 'angle = 1e-9\nfrom = "dead point"')
 
 def test_an_angle_may_count_from_a_dead_point() -> None:
     driver = mechanism_of_text(changed(SIX_BAR, DEAD), "scene").drivers[0]
-    assert driver.dead_point == FromDeadPoint(math.radians(1e-9))
+    assert (math.radians(1e-9), None) == (driver.distance, driver.near)
 
 
 def test_a_dead_point_is_told_by_what_it_is_near_to() -> None:
     driver = mechanism_of_text(changed(SIX_BAR, (DEAD[0], DEAD[1] + "\nnear = 90")), "scene").drivers[0]
-    assert driver.dead_point == FromDeadPoint(math.radians(1e-9), math.radians(90))
+    assert (math.radians(1e-9), math.radians(90)) == (driver.distance, driver.near)
 
 
 def test_near_alone_means_nothing() -> None:

@@ -167,22 +167,17 @@ class Reading:
 
 @dataclass(frozen=True)
 class LimitPosition(OnPaper):
-    """The mechanism drawn once more, at a limit position of an output: the crank's value (rad) and the poses of
-    links."""
+    """The mechanism drawn once more, at a limit position of an output: the crank's value (rad) and the poses of links;
+    ``angle`` is that of the output (rad), to a few degrees and with whole turns, 0 of a slide."""
 
     value: float
     poses: Mapping[str, Pose]
+    angle: float = 0.0
 
 
-@dataclass(frozen=True)
-class Limits(OnPaper):
-    """Both limit positions of a slide or of a link over a whole turn of the crank, ``high`` is the farthest along the
-    guide's sense, or counter-clockwise; ``swing`` is the angle of a link between them (rad), to a few degrees."""
-
-    low: LimitPosition
-    high: LimitPosition
-    swing: float
-
+Limits = tuple[LimitPosition, LimitPosition]
+"""Both limit positions of a slide or of a link over a whole turn of the crank; the second is the farthest along the
+guide's sense, or counter-clockwise."""
 
 GroupWay = Literal["special points", "superposition"]
 """How a group larger than a dyad is drawn in polygons: by special points, or by superposing motions: trial polygons, or
@@ -273,7 +268,7 @@ class Sheet:
             steps=tuple(step.scaled(k[step.diagram]) for step in self.steps),
             held_still=tuple(step.scaled(k[step.diagram]) for step in self.held_still),
             noticed=tuple(remark.scaled(k[remark.diagram]) for remark in self.noticed),
-            limits={pair: limits.scaled(length) for pair, limits in self.limits.items()},
+            limits={pair: (low.scaled(length), high.scaled(length)) for pair, (low, high) in self.limits.items()},
         )
 
     @property

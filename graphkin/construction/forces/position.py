@@ -268,8 +268,8 @@ def _acts(sheet: Sheet, growing: Sheet, load: LoadOn) -> bool | None:
         driver = sheet.scene.drivers[0]
         acts, edge = load.acts_at(sheet.drivers[driver.key], driver.turns)
     else:
-        slide, limits = sheet.structure.slide(phase.stroke), sheet.limits[phase.stroke]
-        here, low, high = (travel(slide, poses, 0.0) for poses in (sheet.poses, limits.low.poses, limits.high.poses))
+        slide, ends = sheet.structure.slide(phase.stroke), [end.poses for end in sheet.limits[phase.stroke]]
+        here, low, high = (travel(slide, poses, 0.0) for poses in (sheet.poses, *ends))
         slip, most = DrawnPosition(growing).slip(slide)
         running = abs(slip) > STILL * most and (slip > 0) == (phase.sense > 0)
         acts, edge = load.acts_on_stroke((here - low) / (high - low) if high > low else 0.0, running)

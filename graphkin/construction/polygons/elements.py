@@ -465,12 +465,12 @@ class TrialPolygons:
 
     def assume(self, plot: Polygons, rates: Sequence[float]) -> None:
         """Let links turn, or pairs slide, at assumed rates (rad/s, m/s; per second)."""
-        for unknown, value in zip(self.plan.tried, rates, strict=True):
-            if unknown.kind == "turning":
-                plot.rates[self.order][unknown.name] = Rate(unknown.name, value)
-                spread(plot, self.order, unknown.name, self.group)
+        for (kind, name), value in zip(self.plan.tried, rates, strict=True):
+            if kind == "angle":
+                plot.rates[self.order][name] = Rate(name, value)
+                spread(plot, self.order, name, self.group)
             else:
-                plot.tried[self.order, unknown.name] = value
+                plot.tried[self.order, name] = value
 
     def polygon(self, number: int, rates: Sequence[float]) -> Polygons:
         """The polygon that follows from some rates."""
@@ -488,7 +488,7 @@ class TrialPolygons:
         if not fastest:
             fastest = max((abs(d.values[1]) for d in scene.drivers), default=0.0) / scene.size or 1.0
         base = fastest if self.order == "velocity" else fastest**2
-        once = [base * (1.0 if t.kind == "turning" else scene.size) for t in self.plan.tried]
+        once = [base * (1.0 if kind == "angle" else scene.size) for kind, _ in self.plan.tried]
         return [[0.0] * len(once), *([x if i == j else 0.0 for j, x in enumerate(once)] for i in range(len(once)))]
 
     def along(self, edge: RelativeMotion, across: bool) -> complex:
@@ -617,8 +617,8 @@ class TrialPolygons:
         """The divided rates as they are written down: the step from the first assumed rate with the figures of the
         divided lengths."""
         noted, made = self.plot.board.instrument.noted, []
-        for i, (unknown, rate) in enumerate(zip(self.plan.tried, map(float, divide(rates, gaps)), strict=True)):
-            unit = 1.0 if unknown.kind == "turning" else self.plot.structure.scene.units.rates.metres
+        for i, ((kind, _), rate) in enumerate(zip(self.plan.tried, map(float, divide(rates, gaps)), strict=True)):
+            unit = 1.0 if kind == "angle" else self.plot.structure.scene.units.rates.metres
             low, more = rates[0][i] / unit, (rates[i + 1][i] - rates[0][i]) / unit
             if len(self.plan.tried) == 1:
                 lengths = on_paper(gaps[0][0]), on_paper(gaps[0][0] - gaps[1][0])
@@ -631,15 +631,15 @@ class TrialPolygons:
     def as_symbols(self, values: Sequence[float]) -> tuple[tuple[Symbol, float], ...]:
         """Rates by their symbols, in scene units."""
         plot, named = self.plot, []
-        for unknown, value in zip(self.plan.tried, values, strict=True):
-            if unknown.kind == "turning":
-                named.append((Symbol(RATE[self.order], link=unknown.name), value))
+        for (kind, name), value in zip(self.plan.tried, values, strict=True):
+            if kind == "angle":
+                named.append((Symbol(RATE[self.order], link=name), value))
                 continue
-            slide = plot.structure.slide(unknown.name)
+            slide = plot.structure.slide(name)
             point = slide.pin or next(iter(plot.links[slide.a].points), "")
             of, to = plot.label(PointRef(point, slide.a)), plot.label(PointRef(point, slide.b))
-            kind = "v" if self.order == "velocity" else "ar"
-            named.append((Symbol(kind, of, to), value / plot.structure.scene.units.rates.metres))
+            letter = "v" if self.order == "velocity" else "ar"
+            named.append((Symbol(letter, of, to), value / plot.structure.scene.units.rates.metres))
         return tuple(named)
 
 

@@ -33,7 +33,6 @@ from graphkin.construction.board.steps import (
 from graphkin.construction.polygons.polygons import PARTS, RATE, Polygons, letter
 from graphkin.construction.polygons.vector_graph import (
     RelativeMotion,
-    Unknown,
     VectorChain,
     contacts_of,
     links_alike,
@@ -279,7 +278,7 @@ def _draw_vector(plot: Polygons, order: Order, group: LargerGroup, equation: Vec
         begun = [(0j, _parts(side), _open(side)[0]) for side in sides]
     else:
         (side,) = sides
-        rate = Unknown("turning", same_turn(plot, group).get(equation.link, equation.link))
+        rate = "angle", same_turn(plot, group).get(equation.link, equation.link)
         open_ends = [(edge, part) for edge, parts in side for part in parts if part.span is None]
         bar, turning = next((e, p) for e, p in open_ends if e.link == equation.link and e.unknown == rate)
         free = [part for edge, part in open_ends if edge is not bar][-1]  # both legs leave that free

@@ -80,7 +80,7 @@ class _Search:
     def turns(self, link: str) -> bool:
         """Whether the rate of a link is known."""
         unknown = self.graph.turning(link)
-        return unknown.name not in self.graph.inside or unknown in self.known
+        return unknown[1] not in self.graph.inside or unknown in self.known
 
     @property
     def size(self) -> float:

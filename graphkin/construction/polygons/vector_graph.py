@@ -19,22 +19,19 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from copy import copy
 from dataclasses import dataclass, replace
 from itertools import chain, pairwise
-from typing import Literal, NamedTuple
 
 from graphkin.construction.board.steps import Direction
 from graphkin.scene.model import PlacedLink
 from graphkin.scene.pairs import PlacedContact
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import DrivenJoint, Dyad, LargerGroup, Pair, Structure
+from graphkin.structure.model import Coordinate
 
 LONGEST = 5  # edges of an equation
 
 
-class Unknown(NamedTuple):
-    """An unknown rate: of a link, with all links that turn alike, or the speed along a sliding pair or at a contact."""
-
-    kind: Literal["turning", "sliding", "slipping"]
-    name: str
+Unknown = Coordinate
+"""An unknown rate: of the angle of a link, with all links that turn alike, of a travel, or ("slip", contact)."""
 
 
 @dataclass(frozen=True)
@@ -183,7 +180,7 @@ class VectorGraph:
                     self._add_bar(a, b, name)
         given = {j.pair.key for j in joints if not j.pair.turns}.union(driven)
         for s in slides:
-            direction, unknown = Direction("along", guide_names[s.key]), Unknown("sliding", s.key)
+            direction, unknown = Direction("along", guide_names[s.key]), ("travel", s.key)
             for b, a, labels in self._coincident(letters, s.b, s.a):
                 self._add(RelativeMotion(b, a, labels, direction, slide=s, unknown=None if s.key in given else unknown))
         for j in (j for j in joints if j.pair.turns):
@@ -192,7 +189,7 @@ class VectorGraph:
         for c in contacts:
             # against the frame where it can be: its point stands in the pole
             a, b = (PointRef(c.name, link) for link in sorted(c.links, key=lambda link: link != frame))
-            direction, unknown = Direction("along", ("t-t",)), Unknown("slipping", c.name)
+            direction, unknown = Direction("along", ("t-t",)), ("slip", c.name)
             self._add(RelativeMotion(a, b, (a, b), direction, contact=c.name, unknown=unknown))
         for relation, (letter, both) in rolling.items():
             a, b = (PointRef(letter, link) for link in both)
@@ -271,7 +268,7 @@ class VectorGraph:
 
     def turning(self, link: str) -> Unknown:
         """The rate of a link, by the name of a link that turns alike."""
-        return Unknown("turning", self.shares.get(link, link))
+        return "angle", self.shares.get(link, link)
 
     def _add(self, edge: RelativeMotion) -> None:
         self.edges[edge.start].append(edge)
@@ -281,7 +278,7 @@ class VectorGraph:
         """Add the edge between two distinct points of a link."""
         turning = self.turning(link)
         if abs(self.places[a.point] - self.places[b.point]) > self.tiny:
-            self._add(RelativeMotion.of_link(a, b, link, turning if turning.name in self.inside else None))
+            self._add(RelativeMotion.of_link(a, b, link, turning if turning[1] in self.inside else None))
 
     def _coincident(
         self, letters: Sequence[str], link: str, other: str

@@ -96,8 +96,8 @@ class TurnOfCrank:
         return None if poses is None else LimitPosition(value, poses)
 
     def limits(self, output: Pair | str, why: str) -> Limits:
-        """The lowest and the highest position of a slide (by its travel) or of a link (by its angle); of a slide
-        ``swing`` is its stroke (mm of paper).  Raises Unsolvable for a link that turns on and on.
+        """The lowest and the highest position of a slide (by its travel) or of a link (by its angle).  Raises
+        Unsolvable for a link that turns on and on.
         """
         travels: list[float] = []
         for here in self.positions:
@@ -110,7 +110,9 @@ class TurnOfCrank:
             raise Unsolvable("no whole turn", Problem(why, "does not move it has no limit positions",
                                                       "ask for an output that moves", name=name))
         low, high = (self._extreme(output, travels, sign) for sign in (-1.0, 1.0))
-        return Limits(low[0], high[0], high[1] - low[1])
+        if isinstance(output, str):
+            return replace(low[0], angle=low[1]), replace(high[0], angle=high[1])
+        return low[0], high[0]
 
     def _extreme(self, output: Pair | str, travels: Sequence[float], sign: float) -> tuple[LimitPosition, float]:
         """The highest position (``sign`` 1), or the lowest (-1), and the travel there; of equal ones the position at
@@ -197,14 +199,12 @@ def _follower_limits(scene: Mechanism, asked: Sequence[Symbol], values: Mapping[
         if cam is None or driver.key != cam.link or not driver.turns_about(scene.frame.name):
             said = Phrase("is drawn of followers of the driven cam"), Phrase("ask for s_ theta_ or d_ at single")
             raise Unsolvable("no whole turn", Problem(str(symbol), *said))
-        ends = []
-        for lift in (cam.law.least, cam.law.greatest):
+        ends, side = [], cam.motion.side if isinstance(cam.motion, SwingingFollower) else 1
+        for lift in (cam.law.least, cam.law.greatest)[::side]:
             value = cam.leaves(lift, -1 if driver.rate < 0.0 else 1)
             poses = poses_at(PlacedElements(structure, structure.elements), {**values, driver.key: value})
-            ends.append(LimitPosition(value, poses))
-        backwards = isinstance(cam.motion, SwingingFollower) and cam.motion.side < 0
-        low, high = ends[::-1] if backwards else ends
-        limits[symbol.pair] = Limits(low, high, cam.law.greatest - cam.law.least)
+            ends.append(LimitPosition(value, poses, side * lift))
+        limits[symbol.pair] = ends[0], ends[1]
     return limits
 
 
@@ -215,14 +215,15 @@ def limits_on_paper(
     """Limit positions, found by exact hands on paper of the mechanism's size, drawn at a scale by any hands."""
     mm, key, on_paper = 1.0 / scales.length, structure.scene.drivers[0].key, dict[str, Limits]()
     if hand.faultless or structure.scene.cams:
-        return {pair: limits.scaled(structure.scene.size * mm) for pair, limits in exact.items()}
+        k = structure.scene.size * mm
+        return {pair: (low.scaled(k), high.scaled(k)) for pair, (low, high) in exact.items()}
     for pair, limits in exact.items():
         drawn = []
-        for limit in (limits.low, limits.high):
+        for limit in limits:
             there = {**values, key: limit.value}
             assembly = assembly_at(structure, elements, there, Assembly(there, limit.poses))
-            drawn.append(LimitPosition(limit.value, place(structure, elements, mm, assembly, hand).poses))
-        on_paper[pair] = Limits(drawn[0], drawn[1], limits.swing)
+            drawn.append(replace(limit, poses=place(structure, elements, mm, assembly, hand).poses))
+        on_paper[pair] = drawn[0], drawn[1]
     return on_paper
 
 

@@ -119,8 +119,8 @@ def shown_positions(what: Plan, values: Mapping[str, float]) -> Shown:
             except Unsolvable as stop:  # no whole turn, or an output that turns on and on
                 without[asked[0]] = stop.problems[0].found
                 continue
-            found = turned.limits[output]
-            limits[output] = drawn(found.low.value), drawn(found.high.value)
+            low, high = turned.limits[output]
+            limits[output] = drawn(low.value), drawn(high.value)
             for reading in read_off(turned):
                 if reading.symbol in asked:
                     measured[reading.symbol.kind, output] = float(reading.value.real)

@@ -327,8 +327,8 @@ def _driver_errors(structure: Structure, drive: Drive, refined: Array, value_err
             if by_laws[0, j]:
                 continue
             own = float(drive.value[k, j])
-            dead = driver.dead_point and driver.dead_point.exact and own == driver.values[0]
-            known = dead or (meant_angle if driver.turns else meant)(own)[1]
+            exact = driver.exact and own == driver.values[0]
+            known = exact or (meant_angle if driver.turns else meant)(own)[1]
             found[0][k, j] = 0.0 if known else GIVEN * abs(own)
             for error, rate in ((found[1], drive.rate[k, j]), (found[2], drive.second[k, j])):
                 error[k, j] = 0.0 if meant(float(rate))[1] else GIVEN * abs(rate)

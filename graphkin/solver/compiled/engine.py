@@ -37,7 +37,7 @@ def known_exactly(drivers: Sequence[Driver], values: Array) -> Array:
     """Positions whose driver values, shape (n, drivers), are known to fifty digits, shape (n,)."""
     found = np.zeros(len(values), dtype=bool)
     for j, driver in enumerate(drivers):
-        if driver.dead_point and driver.dead_point.exact:
+        if driver.exact:
             found |= values[:, j] == driver.values[0]
     return found
 
@@ -117,9 +117,8 @@ class ExtendedPrecision:
         for j, (driver, doubts) in enumerate(zip(self.drivers, by_laws, strict=True)):
             value, first, second = (float(x[k, j]) for x in (self.drive.value, self.drive.rate, self.drive.second))
             number, exact = meant_angle(value) if driver.turns else meant(value)
-            dead = driver.dead_point
-            if dead and dead.exact and value == driver.values[0]:
-                number, exact = Decimal(dead.exact), True
+            if driver.exact and value == driver.values[0]:
+                number, exact = Decimal(driver.exact), True
             if j < len(at):
                 number, exact, doubts[0] = at[j], True, 0.0
             error = Decimal(doubts[0] + (0 if exact else GIVEN * abs(value)))
