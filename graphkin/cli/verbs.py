@@ -275,7 +275,7 @@ def _print_solution(solved: Solved, lang: str | None) -> None:
 )  # fmt: skip
 def sweep(given: Given) -> None:
     """Tables and motion diagrams over a turn, limit positions, strokes and K; and the same over designs."""
-    from graphkin.drawing.write.pdf import leave_undocumented
+    from graphkin.drawing.chart import leave_undocumented
     from graphkin.scene import mechanism_of
 
     target = given.out if given.out is not None else Path(mechanism_of(given.scene).name)

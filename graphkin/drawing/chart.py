@@ -8,35 +8,29 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from html import escape, unescape
 from io import BytesIO
 from itertools import pairwise
+from threading import RLock, local
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.font import FAMILY, Style, face_rules, families, holds
-from graphkin.drawing.ink.primitives import Primitive, Stroke, Text
+from graphkin.drawing.font import FAMILY, FOLDER, Style, face_rules, families, holds
+from graphkin.drawing.ink.primitives import Line, Stroke, Text
 from graphkin.drawing.place.labels import Label, Mark
 from graphkin.drawing.place.obstacles import Obstacles
 from graphkin.drawing.place.placement import place
-from graphkin.drawing.text import rich, width
+from graphkin.drawing.text import rich, start_runs, width
 from graphkin.drawing.write.drawing import Kept
-from graphkin.drawing.write.pdf import (
-    MM_PER_INCH,
-    POINTS_PER_MM,
-    empty_page,
-    faces,
-    figure_pdf,
-    figure_png,
-    ink,
-    own_settings,
-    whole_pixels,
-)
+from graphkin.drawing.write.pdf import CHINESE, MM_PER_INCH, SvgPage
 from graphkin.errors import CallError
 from graphkin.words import Phrase
 
@@ -50,6 +44,7 @@ Look = dict[str, Any]
 """Properties of a line of matplotlib, by their names there."""
 Shape = Literal["circle", "disc", "up", "down", "square", "diamond", "cross"]
 
+POINTS_PER_MM = 72 / MM_PER_INCH
 NUMBER, TITLE = 2.5, 3.0  # letters, mm
 MARKER = 1.8  # mm across
 IN_FRONT = 100
@@ -65,8 +60,11 @@ _SIGNS: dict[Shape, str] = {
 }  # fmt: skip
 _SMALLER = {"up": 0.9, "down": 0.9, "diamond": 0.8, "square": 0.9}  # of the side, to look as large as a disc
 
+# The look of a chart, and everything of the user's settings of matplotlib that could change a stroke or a letter.
 _SETTINGS = {
     "text.parse_math": True,  # powers at ticks; words never are
+    "text.usetex": False, "text.hinting": "none", "text.antialiased": True, "lines.scale_dashes": False,
+    "path.simplify": False, "path.snap": False, "path.sketch": None, "path.effects": [],
     "font.family": [FAMILY],
     "font.size": NUMBER * POINTS_PER_MM,
     "mathtext.fontset": "stix",
@@ -88,6 +86,8 @@ _SETTINGS = {
     "ytick.major.pad": 1.2 * POINTS_PER_MM,
     **{f"{axis}tick.minor.size": 0.0 for axis in "xy"},
 }
+_ALONE = RLock()
+_UPRIGHT = f"{FAMILY} Upright"  # so that what a bold or italic face lacks is found there, as in an SVG
 _FAMILY = re.compile(f"; font-family: '(?:{FAMILY}|STIXGeneral)'(?:, '[^']*')*")
 _TEXT = re.compile("<text([^>]*)>(.*?)</text>", re.DOTALL)
 _TAG = re.compile("<[^>]*>")
@@ -119,44 +119,39 @@ class ChartPage(Kept):
 
     def figure(self, dpi: float = 72.0) -> Figure:
         """The page as a new matplotlib figure, which the caller may change."""
-        faces(self._more, warn=False)
-        with own_settings(**_SETTINGS):
-            figure = self._painted(self.width, self.height, dpi)
+        with own_settings():
+            figure = self._painted(dpi)
             figure.draw_without_rendering()  # ticks are made where they are first drawn, with the settings of then
             return figure
 
-    @property
-    def _more(self) -> bool:
-        """Whether its title has Chinese characters that the family lacks."""
-        return not holds(self.title)
+    def _painted(self, dpi: float = 72.0) -> Figure:
+        from matplotlib.figure import Figure
 
-    def _painted(self, width: float, height: float, dpi: float = 72.0) -> Figure:
-        figure: Figure = empty_page(width, height, dpi)
+        _register()
+        size = self.width / MM_PER_INCH, self.height / MM_PER_INCH
+        figure = Figure(figsize=size, dpi=dpi, facecolor="white", edgecolor="none", linewidth=0.0)
         self.paint(figure)
         return figure
 
-    def _png(self, dpi: float) -> bytes:
-        faces(self._more)  # warns
-        with own_settings(**_SETTINGS):
-            return figure_png(self._painted(whole_pixels(self.width, dpi), whole_pixels(self.height, dpi), dpi))
-
-    def _pdf(self) -> bytes:
-        faces(self._more)
-        with own_settings(**_SETTINGS):
-            return figure_pdf(self._painted(self.width, self.height), self.title, self._more)
-
-    def _svg(self, outlines: bool = False) -> bytes:
-        """The SVG with the head and the font faces of all figures."""
+    def _written(self, outlines: bool = False, on_paper: bool = True) -> tuple[str, str]:
+        """What matplotlib writes as SVG, texts with their lengths: the beginning of the element, and the rest of it."""
         from matplotlib.backends.backend_svg import FigureCanvasSVG
 
         buffer = BytesIO()
-        faces(self._more, warn=False)
-        with own_settings(**{**_SETTINGS, "svg.fonttype": "path" if outlines else "none"}):
-            nothing = dict.fromkeys(("Date", "Creator", "Format", "Type"))
-            FigureCanvasSVG(self._painted(self.width, self.height)).print_svg(buffer, metadata=nothing)
+        with own_settings(**{"svg.fonttype": "path" if outlines else "none"}):
+            figure = self._painted()
+            figure.patch.set_visible(on_paper)
+            FigureCanvasSVG(figure).print_svg(buffer, metadata=dict.fromkeys(("Date", "Creator", "Format", "Type")))
         text = _FAMILY.sub("", buffer.getvalue().decode())
         start, rest = text[text.index("<svg ") :].split(">", 1)
-        rest = _TEXT.sub(_with_length, rest)
+        return start, _TEXT.sub(_with_length, rest)
+
+    def _svg_pages(self) -> Iterator[SvgPage]:
+        yield self.width, self.height, ">".join(self._written(on_paper=False)), self.desc, not holds(self.title)
+
+    def _svg(self, outlines: bool = False) -> bytes:
+        """The SVG with the head and the font faces of all figures."""
+        start, rest = self._written(outlines)
         name, rules = face_rules(_used(rest))
         facing = f'role="img" lang="{self.lang}" xml:lang="{self.lang}" font-family="{families(name)}"'
         facts = json.dumps(self.metadata, ensure_ascii=False, sort_keys=True, allow_nan=False, separators=(",", ":"))
@@ -208,11 +203,27 @@ def add_panel(figure: Figure, box: Box, id: str, title: str = "", x_title: str =
     return axes
 
 
-def add_words(figure: Figure, *things: Primitive) -> None:
+def add_words(figure: Figure, *things: Text | Line) -> None:
     """Texts with their strokes, in mm of the page."""
+    from matplotlib.patches import PathPatch
+    from matplotlib.path import Path
+    from matplotlib.transforms import Affine2D
+
+    mm = Affine2D().scale(1 / MM_PER_INCH, -1 / MM_PER_INCH).translate(0.0, figure.get_figheight())
+    placed: Look = {"transform": mm + figure.dpi_scale_trans, "zorder": IN_FRONT, "clip_on": False}
     for thing in things:
-        more = isinstance(thing, Text) and not holds(thing.string)
-        ink(figure, (thing,), faces(more, warn=False), IN_FRONT)
+        if isinstance(thing, Line):
+            ends = [(z.real, z.imag) for z in (thing.start, thing.end)]
+            line = {"edgecolor" if key == "color" else key: value for key, value in look(thing.stroke).items()}
+            figure.add_artist(PathPatch(
+                Path(ends), facecolor="none", capstyle="butt", joinstyle="round", snap=False, **line, **placed))
+            continue
+        for k, run in enumerate(start_runs(thing)):
+            figure.text(
+                run.x, run.y, run.text, family=_faces(run.text), size=run.size * POINTS_PER_MM,
+                style="italic" if run.italic else "normal", weight="bold" if run.bold else "normal", color=thing.colour,
+                ha="left", va="baseline", parse_math=False, gid=thing.id if thing.id and k == 0 else None, **placed,
+            )  # fmt: skip
 
 
 def add_legend(figure: Figure, at: complex, entries: Sequence[tuple[Look, str]]) -> None:
@@ -220,7 +231,7 @@ def add_legend(figure: Figure, at: complex, entries: Sequence[tuple[Look, str]])
     from matplotlib.lines import Line2D
 
     width, height = _size(figure)
-    family = faces(not all(holds(words) for _, words in entries), warn=False)
+    family = _faces("".join(words for _, words in entries))
     legend = figure.legend(
         [Line2D([], [], **style) for style, _ in entries], [words for _, words in entries],
         loc="center left", bbox_to_anchor=(at.real / width, 1 - at.imag / height), ncols=len(entries), frameon=False,
@@ -356,3 +367,90 @@ def _in_the_way(axes: Axes) -> Obstacles:
             reach = line.get_markersize() / POINTS_PER_MM / 2
             areas += [Box.around((z,)).grown(reach) for z in points if math.isfinite(abs(z))]
     return Obstacles(tuple(solid), tuple(ground), tuple(areas))
+
+
+# -- matplotlib with our settings and faces ----------------------------------------------------------------------------
+
+
+@contextmanager
+def own_settings(**further: object) -> Iterator[None]:
+    """A context with our settings of matplotlib in this thread alone: the user's settings stay, also for the user's
+    other threads meanwhile, whose changes are kept.
+
+    matplotlib's settings are one dict for the whole process.  During a drawing that dict answers the drawing thread
+    with our settings; all writes go to the user's.  One thread draws at a time, since matplotlib's reader of formulas
+    cannot serve two.
+    """
+    import matplotlib
+
+    users = matplotlib.rcParams
+    with _ALONE, warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Glyph .* missing from")
+        kind, before = type(users), getattr(_OF_THREAD, "settings", None)
+        _OF_THREAD.settings = _settings() | further if before is None else {**before, **further}
+        users.__class__ = _answering()
+        try:
+            yield
+        finally:
+            users.__class__ = kind
+            _OF_THREAD.settings = before
+
+
+def leave_undocumented() -> None:
+    """Keep matplotlib from writing the documentation of its classes during its import: a third of the import's time.
+    Only for processes of our own, where nobody reads it."""
+    from matplotlib import artist
+
+    artist.kwdoc = lambda artist: ""
+    artist.Artist._update_set_signature_and_docstring = classmethod(lambda _: None)  # type: ignore[attr-defined]
+
+
+_OF_THREAD = local()
+
+
+def _settings() -> dict[str, object]:
+    """matplotlib's default settings with ours over them, in its own form."""
+    import matplotlib
+
+    ours = matplotlib.RcParams(_SETTINGS)
+    both = {**dict.copy(matplotlib.rcParamsDefault), **dict.copy(ours)}
+    return {key: value for key, value in both.items() if not key.startswith("backend")}
+
+
+@lru_cache(maxsize=1)
+def _answering() -> type:
+    """The user's settings, which answer a thread that draws here out of ours."""
+    from matplotlib import RcParams
+
+    class Answering(RcParams):
+        def __getitem__(self, key: str) -> object:
+            ours = getattr(_OF_THREAD, "settings", None)
+            return ours[key] if ours is not None and key in ours else super().__getitem__(key)
+
+        def copy(self) -> RcParams:
+            """A copy of the user's settings, as one of the user's threads may make it meanwhile."""
+            made = RcParams()
+            dict.update(made, dict.copy(self))
+            return made
+
+    return Answering
+
+
+def _faces(words: str) -> list[str]:
+    """Faces in the order of the search for a glyph of some words."""
+    from matplotlib.font_manager import fontManager
+
+    more = [] if holds(words) else [name for name in CHINESE if name in fontManager.get_font_names()]
+    return [FAMILY, _UPRIGHT, *more[:1]]
+
+
+@lru_cache(maxsize=1)
+def _register() -> None:
+    """Make the family known to matplotlib, in this process."""
+    from matplotlib.font_manager import FontEntry, fontManager
+
+    looks = {"regular": ("normal", 400), "italic": ("italic", 400), "bold": ("normal", 700)}
+    for name, (style, weight) in looks.items():
+        for family, file in ((FAMILY, name), (_UPRIGHT, "regular")):
+            path = str(FOLDER / f"{file}.ttf")
+            fontManager.ttflist.append(FontEntry(path, name=family, style=style, weight=weight, size="scalable"))

@@ -1,7 +1,7 @@
-"""Documents as typeset PDF, with the extra ``pdf`` (Typst): pages filled, figures at true scale, page numbers, the same
+"""Documents as typeset PDF, by Typst: pages filled, figures at true scale, page numbers, the same
 bytes every time.
 
-Typst stays behind this module.  The template is fixed; the document is given to it as data, so that no word of a scene
+The template is fixed; the document is given to it as data, so that no word of a scene
 is read as a command.  Typst measures each piece of a document once.  Words stay with the block to which they lead; a
 figure without room on a page may stand at the head of the next one, after the words that follow it.  Of all page breaks
 those with the least white are taken, as Knuth and Plass break the lines of a paragraph (Software: Practice and
@@ -16,16 +16,15 @@ import re
 import warnings
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache, lru_cache
+from functools import cache
 from importlib.resources import files
-from importlib.util import find_spec
 from itertools import groupby, pairwise
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
-from graphkin.drawing.font import FAMILY, FOLDER
 from graphkin.drawing.ink.primitives import Scan, map_tree
 from graphkin.drawing.text import is_italic
 from graphkin.drawing.write.drawing import Drawing
+from graphkin.drawing.write.pdf import faces, in_faces
 from graphkin.drawing.write.svg import svg_element
 from graphkin.papers.blocks import (
     Beside,
@@ -49,43 +48,19 @@ from graphkin.plane import added_up
 from graphkin.words import word
 from graphkin.words.symbols import Atom, parsed
 
-if TYPE_CHECKING:
-    import typst
-
 FORMATS = ("html", "pdf")
 """What papers are written as."""
 Data: TypeAlias = dict[str, object]
 """What the template reads, as JSON holds it."""
 
-CHINESE = (
-    "Noto Serif CJK SC", "Noto Serif SC", "Source Han Serif SC", "Source Han Serif CN", "Songti SC", "SimSun", "STSong",
-    "Noto Serif CJK JP", "Noto Sans CJK SC", "Source Han Sans SC", "Noto Sans SC", "PingFang SC", "Microsoft YaHei",
-    "SimHei", "WenQuanYi Zen Hei", "WenQuanYi Micro Hei", "Droid Sans Fallback",
-)  # fmt: skip
 EDGE = 0.5  # mm around a figure, for lines on its edge
-SIGNS = ("DejaVu Sans Mono", "New Computer Modern")  # come with Typst: for signs that no other face has
-
-
-def can_typeset() -> bool:
-    """Whether the extra ``pdf`` is installed."""
-    return find_spec("typst") is not None
-
-
-def can_join() -> bool:
-    """Whether several PDFs can be joined: the extra ``pdf`` has a library for it."""
-    return find_spec("pypdf") is not None
 
 
 def pdf(document: Document) -> bytes:
-    """The document as a PDF on its paper, without a date.
-
-    Raises
-    ------
-    ImportError : the extra ``pdf`` is not installed (see `can_typeset`)
-    """
+    """The document as a PDF on its paper, without a date."""
     import typst
 
-    names, fonts = _fonts()
+    names, fonts = faces(True)
     template = files("graphkin.papers").joinpath("template.typ").read_bytes()
     frame = {
         "title": clean(document.title),
@@ -117,11 +92,11 @@ def pdf(document: Document) -> bytes:
 
 
 def papers_as(formats: Collection[str], documents: Mapping[str, Document]) -> dict[str, bytes]:
-    """Documents as files by name: HTML, and PDF if it can be typeset."""
+    """Documents as files by name, in HTML, in PDF or in both."""
     made: dict[str, bytes] = {}
     if "html" in formats:
         made |= {f"{name}.html": document_page(document).encode() for name, document in documents.items()}
-    if "pdf" in formats and can_typeset():
+    if "pdf" in formats:
         made |= {f"{name}.pdf": pdf(document) for name, document in documents.items()}
     return made
 
@@ -131,12 +106,7 @@ def _inputs(data: Data) -> dict[str, str]:
 
 
 def one_after_another(papers: Sequence[bytes]) -> bytes:
-    """Several PDFs as one, for printing at once.
-
-    Raises
-    ------
-    ImportError : the extra ``pdf`` is not installed (see `can_join`)
-    """
+    """Several PDFs as one, for printing at once."""
     from pypdf import PdfWriter
 
     whole = PdfWriter()
@@ -145,16 +115,6 @@ def one_after_another(papers: Sequence[bytes]) -> bytes:
     made = io.BytesIO()
     whole.write(made)
     return made.getvalue()
-
-
-@lru_cache(maxsize=1)
-def _fonts() -> tuple[list[str], typst.Fonts]:
-    """Names of the font faces in order of preference, and the found faces, read once."""
-    import typst
-
-    fonts = typst.Fonts(font_paths=[str(FOLDER)])
-    known = set(fonts.families())
-    return [name for name in (FAMILY, *CHINESE, *SIGNS) if name in known], fonts
 
 
 def _block(block: Leaf, bare: bool = False) -> Data:
@@ -197,10 +157,9 @@ def _drawing(drawing: Drawing) -> Data:
     # a handout has no picture under its figures
     inked = map_tree(drawing.children, lambda thing: None if isinstance(thing, Scan) else thing.moved(EDGE * (1 + 1j)))
     wide, high = drawing.width + 2 * EDGE, drawing.height + 2 * EDGE
-    faces = f'<svg xmlns="http://www.w3.org/2000/svg" font-family="{", ".join(_fonts()[0])}" '
-    svg = svg_element(replace(drawing, width=wide, height=high, children=inked)) if inked else ""
+    svg = svg_element(replace(drawing, width=wide, height=high, children=inked), alone=True) if inked else ""
     size = {"width": _mm(drawing.width), "height": _mm(drawing.height), "edge": EDGE}
-    return {**size, "seen": seen, "svg": svg.replace("<svg ", faces, 1)}
+    return {**size, "seen": seen, "svg": in_faces(svg, faces(True)[0])}
 
 
 def _mm(value: float) -> float:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from graphkin.account.notation import Notation
 from graphkin.construction.board.scales import next_of_series
-from graphkin.drawing import Box, Primitive, Text, chart
+from graphkin.drawing import Box, Text, chart
 from graphkin.drawing.ink.primitives import Stroke
 from graphkin.drawing.text import rich
 from graphkin.scene.model import Mechanism
@@ -55,7 +55,7 @@ def title_of(scene: Mechanism, language: str) -> str:
     return in_markup(scene.question.title_in(language))
 
 
-def heading(scene: Mechanism, title: str, facts: Sequence[str], language: str) -> tuple[Primitive, ...]:
+def heading(scene: Mechanism, title: str, facts: Sequence[str], language: str) -> tuple[Text, ...]:
     """Title (markup), title of the scene and facts, below each other."""
     return (
         Text(complex(LEFT, 15.0), rich(title, 5.0, bold=True)),

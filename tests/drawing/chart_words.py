@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from graphkin.drawing import Box
-from graphkin.drawing.chart import ChartPage
-from graphkin.drawing.write.pdf import own_settings
+from graphkin.drawing.chart import ChartPage, own_settings
 
 SLACK = 0.2  # mm
 

@@ -24,6 +24,7 @@ from graphkin.drawing.chart import (
     degree_step,
     look,
     marker,
+    own_settings,
 )
 from graphkin.drawing.font import FALLBACK
 from graphkin.drawing.ink.primitives import Text
@@ -167,6 +168,46 @@ def test_threads_give_the_same_bytes_and_leave_the_users_settings_alone() -> Non
     assert made[0] == WAVES.content("svg")
 
 
+def test_another_thread_keeps_the_users_settings_while_one_draws() -> None:
+    import matplotlib
+
+    def users() -> tuple[object, object]:
+        with matplotlib.rc_context({"font.size": 7.0}):
+            matplotlib.rcParams["lines.linewidth"] = 3.25
+            return matplotlib.rcParams["text.hinting"], matplotlib.rcParams["font.size"]
+
+    with matplotlib.rc_context({"text.hinting": "native"}), ThreadPoolExecutor(1) as pool:
+        with own_settings():
+            assert ("none", ("native", 7.0)) == (matplotlib.rcParams["text.hinting"], pool.submit(users).result())
+        assert "native" == matplotlib.rcParams["text.hinting"]
+
+
+def test_what_another_thread_changes_while_one_draws_is_kept() -> None:
+    import matplotlib
+
+    with matplotlib.rc_context(), ThreadPoolExecutor(1) as pool:
+        with own_settings():
+            pool.submit(matplotlib.rcParams.update, {"lines.linewidth": 3.25}).result()
+        assert 3.25 == matplotlib.rcParams["lines.linewidth"]
+
+
+def test_the_settings_are_of_their_own_kind_again() -> None:
+    import matplotlib
+
+    kind = type(matplotlib.rcParams)
+    with own_settings(), own_settings(**{"svg.fonttype": "path"}):
+        pass
+    assert (matplotlib.RcParams, matplotlib.RcParams) == (kind, type(matplotlib.rcParams))
+
+
+def test_the_users_own_matplotlib_settings_do_not_show() -> None:
+    import matplotlib
+
+    before = WAVES.content("png")
+    with matplotlib.rc_context({"text.usetex": True, "font.family": "monospace", "path.snap": True}):
+        assert before == WAVES.content("png")
+
+
 def test_the_svg_holds_text_in_the_faces_of_all_figures() -> None:
     svg = WAVES.content("svg").decode()
     assert ">速度</text>" in svg
@@ -211,7 +252,7 @@ def test_the_png_has_as_many_pixels_as_the_page() -> None:
 
 
 def test_a_missing_chinese_font_is_a_warning_and_no_failure(monkeypatch) -> None:
-    monkeypatch.setattr("graphkin.drawing.write.pdf._chinese_face", lambda: None)
+    monkeypatch.setattr("graphkin.drawing.write.pdf.CHINESE", ())
     with pytest.warns(MissingFont):
         assert chart(wave, title="鑫", lang="zh").content("png")
 

@@ -5,18 +5,21 @@ import re
 import shutil
 import subprocess
 import warnings
-import zlib
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from pypdf import PdfReader
 
+from graphkin.drawing.font import FAMILY
 from graphkin.drawing.ink.primitives import Arc, Line, Text
 from graphkin.drawing.ink.strokes import CONSTRUCTION, LINK
 from graphkin.drawing.ink.symbols import vector_group
 from graphkin.drawing.text import plain, rich
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.drawing.write.pdf import MissingFont, own_settings, pdf_bytes, png_bytes
+from graphkin.drawing.write.pdf import SIGNS, MissingFont, faces
+from tests.drawing.pdf_page import painted, size
 
 A4 = Drawing(210.0, 297.0, (vector_group("v_B", 1, 20 + 50j, 80 + 30j), Text(20 + 90j, rich("$v_{B_3}$ = 0"))), "Title")
 CHINESE = Drawing(60.0, 30.0, (Text(5 + 15j, rich("速度 $v_B$")),), lang="zh")
@@ -26,25 +29,17 @@ def ink(drawing: Drawing, dpi: float = 254.0):
     """Rows and columns (0.1 mm) of the inked pixels."""
     from PIL import Image
 
-    grey = np.asarray(Image.open(io.BytesIO(png_bytes(drawing, dpi))).convert("L"))
+    grey = np.asarray(Image.open(io.BytesIO(drawing.content("png", dpi))).convert("L"))
     return np.nonzero(grey < 128)
 
 
-def content(pdf: bytes) -> str:
-    """The strokes of the page, unpacked."""
-    streams = re.findall(rb"stream\r?\n(.*?)\r?\nendstream", pdf, re.S)
-    return zlib.decompress(streams[0]).decode("latin-1")
-
-
 def test_the_pdf_page_is_a4():
-    box = re.search(rb"/MediaBox \[ ?0 0 ([\d.]+) ([\d.]+) ?\]", pdf_bytes(A4))
-    across, down = (float(n) / 72 * 25.4 for n in box.groups())
-    assert (pytest.approx(210, abs=0.001), pytest.approx(297, abs=0.001)) == (across, down)
+    assert (210, 297) == pytest.approx(size(A4.content("pdf")), abs=0.001)
 
 
 @pytest.mark.skipif(shutil.which("pdffonts") is None, reason="poppler is not installed")
 def test_all_fonts_of_the_pdf_are_embedded(tmp_path):
-    (tmp_path / "a.pdf").write_bytes(pdf_bytes(A4))
+    (tmp_path / "a.pdf").write_bytes(A4.content("pdf"))
     listed = subprocess.run(["pdffonts", tmp_path / "a.pdf"], capture_output=True, text=True, check=True).stdout
     rows = listed.splitlines()[2:]
     assert rows
@@ -52,40 +47,37 @@ def test_all_fonts_of_the_pdf_are_embedded(tmp_path):
 
 
 def test_a_stroke_of_the_pdf_is_where_the_drawing_has_it():
-    pdf = content(pdf_bytes(Drawing(100.0, 100.0, (Line(12.345 + 20j, 60 + 70j, LINK),))))
-    move, line = (re.search(rf"([\d.]+) ([\d.]+) {op}\n", pdf).groups() for op in "ml")
-    drawn = [float(n) / 72 * 25.4 for n in (*move, *line)]
-    assert [pytest.approx(n, abs=1e-3) for n in (12.345, 80, 60, 30)] == drawn
+    pdf = Drawing(100.0, 100.0, (Line(12.345 + 20j, 60 + 70j, LINK),)).content("pdf")
+    assert [("S", pytest.approx([12.345 + 80j, 60 + 30j], abs=1e-3))] == painted(pdf)
 
 
 def test_a_run_of_the_pdf_stands_where_the_drawing_has_it():
-    pdf = content(pdf_bytes(Drawing(100.0, 100.0, (Text(12.3 + 40j, plain("B")),))))
-    placed = re.search(r"1 0 -?0 1 ([\d.]+) ([\d.]+) cm\s+BT", pdf)
-    x, y = (float(n) / 72 * 25.4 for n in placed.groups())
-    assert (pytest.approx(12.3, abs=0.05), pytest.approx(60, abs=0.05)) == (x, y)
+    pdf = Drawing(100.0, 100.0, (Text(12.3 + 40j, plain("B")),)).content("pdf")
+    assert [("Tj", [pytest.approx(12.3 + 60j, abs=0.05)])] == painted(pdf)
 
 
 def test_the_pdf_has_no_date():
-    assert b"Date" not in pdf_bytes(A4)
+    written = A4.content("pdf")
+    assert (False, False) == (b"CreationDate" in written, b"ModDate" in written)
 
 
-@pytest.mark.parametrize("write", [pdf_bytes, png_bytes])
+@pytest.mark.parametrize("format", ["pdf", "png"])
 @pytest.mark.parametrize("drawing", [A4, CHINESE], ids=["latin", "chinese"])
 @pytest.mark.filterwarnings("ignore::graphkin.drawing.write.pdf.MissingFont")
-def test_the_bytes_are_the_same_again(write, drawing):
-    assert write(drawing) == write(drawing)
+def test_the_bytes_are_the_same_again(format, drawing):
+    assert drawing.content(format) == drawing.content(format)
 
 
 def test_the_png_has_as_many_pixels_as_the_page():
     from PIL import Image
 
-    assert Image.open(io.BytesIO(png_bytes(A4, dpi=254.0))).size == (2100, 2970)
+    assert Image.open(io.BytesIO(A4.content("png", dpi=254.0))).size == (2100, 2970)
 
 
 def test_the_png_says_its_resolution():
     from PIL import Image
 
-    assert Image.open(io.BytesIO(png_bytes(A4, dpi=254.0))).info["dpi"] == pytest.approx((254, 254), abs=0.1)
+    assert Image.open(io.BytesIO(A4.content("png", dpi=254.0))).info["dpi"] == pytest.approx((254, 254), abs=0.1)
 
 
 def test_a_line_of_the_png_is_where_the_drawing_has_it():
@@ -108,62 +100,33 @@ def test_counter_clockwise_is_counter_clockwise_on_the_page():
     assert columns.min() >= 199
 
 
-def test_the_users_own_matplotlib_settings_do_not_show():
-    import matplotlib
-
-    before = png_bytes(A4)
-    with matplotlib.rc_context({"text.usetex": True, "font.family": "monospace", "path.snap": True}):
-        assert png_bytes(A4) == before
-
-
 def test_eight_threads_get_the_bytes_of_one_alone():
-    alone = [write(drawing) for write in (pdf_bytes, png_bytes) for drawing in (A4, CHINESE)]
-    given = [(write, drawing) for write in (pdf_bytes, png_bytes) for drawing in (A4, CHINESE)] * 4
+    given = [(drawing, format) for format in ("pdf", "png") for drawing in (A4, CHINESE)]
+    alone = [drawing.content(format) for drawing, format in given]
     with ThreadPoolExecutor(8) as pool:
-        made = [pool.submit(*each) for each in given]
+        made = [pool.submit(drawing.content, format) for drawing, format in given * 4]
     assert alone * 4 == [one.result() for one in made]
 
 
-def test_another_thread_keeps_the_users_settings_while_one_draws():
-    import matplotlib
-
-    def users() -> tuple[object, object]:
-        with matplotlib.rc_context({"font.size": 7.0}):
-            matplotlib.rcParams["lines.linewidth"] = 3.25
-            return matplotlib.rcParams["text.hinting"], matplotlib.rcParams["font.size"]
-
-    with matplotlib.rc_context({"text.hinting": "native"}), ThreadPoolExecutor(1) as pool:
-        with own_settings():
-            assert ("none", ("native", 7.0)) == (matplotlib.rcParams["text.hinting"], pool.submit(users).result())
-        assert "native" == matplotlib.rcParams["text.hinting"]
-
-
-def test_what_another_thread_changes_while_one_draws_is_kept():
-    import matplotlib
-
-    with matplotlib.rc_context(), ThreadPoolExecutor(1) as pool:
-        with own_settings():
-            pool.submit(matplotlib.rcParams.update, {"lines.linewidth": 3.25}).result()
-        assert 3.25 == matplotlib.rcParams["lines.linewidth"]
-
-
-def test_the_settings_are_of_their_own_kind_again():
-    import matplotlib
-
-    kind = type(matplotlib.rcParams)
-    with own_settings(), own_settings(**{"pdf.fonttype": 42}):
-        pass
-    assert (matplotlib.RcParams, matplotlib.RcParams) == (kind, type(matplotlib.rcParams))
-
-
 def test_a_missing_chinese_font_is_one_warning_and_no_failure(monkeypatch):
-    monkeypatch.setattr("graphkin.drawing.write.pdf._chinese_face", lambda: None)
+    monkeypatch.setattr("graphkin.drawing.write.pdf.CHINESE", ())
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        pdf_bytes(Drawing(60.0, 30.0, (Text(5 + 15j, rich("鑫")),), lang="zh"))
+        Drawing(60.0, 30.0, (Text(5 + 15j, rich("鑫")),), lang="zh").content("pdf")
     assert [MissingFont] == [warning.category for warning in caught]
 
 
-def test_a_latin_figure_looks_for_no_chinese_font(monkeypatch):
-    monkeypatch.setattr("graphkin.drawing.write.pdf._chinese_face", lambda: pytest.fail("looked for one"))
-    assert png_bytes(A4).startswith(b"\x89PNG")
+def test_a_figure_in_the_family_alone_looks_for_no_other_fonts():
+    names, _ = faces(more=False)
+    assert set(names) <= {FAMILY, *SIGNS}
+
+
+def test_a_pdf_has_a_page_for_each_page_of_a_drawing():
+    further = Drawing(60.0, 30.0, ())
+    pages = PdfReader(io.BytesIO(replace(A4, further=(further,)).content("pdf"))).pages
+    assert [(595, 842), (170, 85)] == [(round(page.mediabox.width), round(page.mediabox.height)) for page in pages]
+
+
+def test_a_pdf_describes_its_figure_to_those_who_do_not_see_it():
+    (words,) = re.findall(rb"/Alt\s*\(([^)]*)\)", replace(A4, desc="v of B").content("pdf"))
+    assert b"v of B" == words

@@ -17,7 +17,6 @@ from graphkin.drawing.ink.primitives import Line, Polygon, Text, walk
 from graphkin.papers.blocks import Heading, Picture, StepItem, TableBlock, laid_out
 from graphkin.papers.documents import accepted, answer_key, key_rows, problem, result_cells, solution
 from graphkin.papers.html import document_page
-from graphkin.papers.pdf import can_typeset
 from graphkin.papers.pictures import POLYGONS, mechanism_picture, workspace
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.scene import written
@@ -71,7 +70,6 @@ def test_figures_of_a_solution_are_numbered_and_equations_name_theirs(name):
     assert set(named) <= set(range(1, len(captions) + 1))
 
 
-@pytest.mark.skipif(not can_typeset(), reason="needs the extra pdf")
 def test_pages_of_a_solution_are_filled(shaper):
     from pypdf import PdfReader
 
@@ -205,14 +203,6 @@ def test_chinese_words_are_text_in_the_pdf(six_bar, tmp_path):
     text = _pdftotext(six_bar.files["solution.pdf"], tmp_path).replace(" ", "")
     assert "哥氏加速度" in text
     assert "第1页" in text
-
-
-def test_without_the_extra_the_figure_sheets_are_written_and_it_is_said(monkeypatch):
-    monkeypatch.setattr("graphkin.api.classroom.handouts.can_typeset", lambda: False)
-    made = handout("slotter-75-150", formats=("pdf",))
-    expected = {"mechanism.pdf", "velocity.pdf", "acceleration.pdf", "key.csv", "answers_template.csv"}
-    assert expected == set(made.files)
-    assert ["no pdf extra"] == [note.key for note in made.notes]
 
 
 def test_what_nothing_asked_for_needs_is_left_out_and_every_paper_says_so():

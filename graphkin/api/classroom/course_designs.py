@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import ClassVar
 
 from graphkin.api.arguments import (
     ON_SHEETS,
@@ -40,7 +41,7 @@ from graphkin.papers.courses import (
 from graphkin.papers.documents import answers_template
 from graphkin.papers.lesson import lesson_of
 from graphkin.papers.paper import paper_of, paper_plan
-from graphkin.papers.pdf import FORMATS, can_join, can_typeset, one_after_another, papers_as
+from graphkin.papers.pdf import FORMATS, one_after_another, papers_as
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike, safe_name
 from graphkin.scene.symbol import Symbol
@@ -61,7 +62,8 @@ class CourseDesigns(OfScene, Result):
     asked: tuple[Symbol, ...]
     content: Mapping[str, bytes]
     agrees: bool
-    typeset: bool = True
+    notes: ClassVar[tuple[Phrase, ...]] = ()
+    """Deviations from the request: none."""
 
     @property
     def ok(self) -> bool:
@@ -89,11 +91,6 @@ class CourseDesigns(OfScene, Result):
     def files(self) -> Mapping[str, bytes]:
         """Content of each file by name: the reports, class.csv, class.html, class.pdf, answers_template.csv."""
         return self.content
-
-    @property
-    def notes(self) -> tuple[Phrase, ...]:
-        """Deviations from the request: typeset PDF without the extra ``pdf``."""
-        return () if self.typeset else (Phrase("no pdf extra"),)
 
     def __repr__(self) -> str:
         return f"<CourseDesigns {self.mechanism.name}: {len(self.rows)} reports>"
@@ -186,14 +183,13 @@ def course_design(
     whole = class_document(lesson, lines, asked, given.unit_of(given.drivers[0]).written)
     bound = [paper for name, paper in content.items() if name.endswith(".pdf")]
     content |= papers_as(formats, {"class": whole})
-    if len(bound) > 1 and can_join():
+    if len(bound) > 1:
         content["all-reports.pdf"] = one_after_another(bound)
     content["class.csv"] = class_table(given, lines, asked).harmless().csv().encode("utf-8-sig")
     drawn = [(student.name, student.id, student.scheme, f"{values.driver:.9g}") for student, values in lines]
     blank = answers_template(asked, given.units, "en", drawn, "variant", "at in a class")
     content["answers_template.csv"] = blank.harmless().csv().encode("utf-8-sig")
-    typeset = "pdf" not in formats or can_typeset()
-    return CourseDesigns(given, tuple(lines), asked, content, agrees, typeset).saved(out)
+    return CourseDesigns(given, tuple(lines), asked, content, agrees).saved(out)
 
 
 def _stem(k: int, count: int, who: Student) -> str:

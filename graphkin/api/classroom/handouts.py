@@ -23,7 +23,6 @@ from graphkin.api.arguments import (
     whole_number,
 )
 from graphkin.api.results import OfScene, Result, named
-from graphkin.drawing.figures.diagrams import diagram_figures
 from graphkin.errors import CallError, as_list
 from graphkin.files import Json, path_of
 from graphkin.jobs import Progress
@@ -42,7 +41,7 @@ from graphkin.papers.documents import (
 from graphkin.papers.exports import PLATFORMS, Question, files_for, question_of
 from graphkin.papers.lesson import Lesson, lesson_of, usual_count, views_of
 from graphkin.papers.paper import paper_plan
-from graphkin.papers.pdf import FORMATS, can_typeset, papers_as
+from graphkin.papers.pdf import FORMATS, papers_as
 from graphkin.papers.screen import handout_page, motion_data
 from graphkin.papers.variants import Variant, asked_of
 from graphkin.scene.drivers import moves_by_law
@@ -104,10 +103,9 @@ class Handout(OfScene, Result):
 
     @property
     def notes(self) -> tuple[Phrase, ...]:
-        """Deviations from the request: typeset PDF without the extra ``pdf``, quantities of other positions."""
-        untypeset = (Phrase("no pdf extra"),) if "pdf" in self.formats and not can_typeset() else ()
+        """Deviations from the request: quantities of other positions."""
         names = ", ".join(map(str, self.elsewhere))
-        return (*untypeset, *([Phrase("papers leave out", names=names)] if names else []))
+        return (Phrase("papers leave out", names=names),) if names else ()
 
     @cached_property
     def files(self) -> Mapping[str, bytes]:
@@ -250,7 +248,7 @@ def papers_in(
     lesson: Lesson, formats: Sequence[str], page: Callable[[Sequence[Block]], str] | None = None
 ) -> dict[str, bytes]:
     """The papers of a lesson by name: problem sheet and key in each format, the key as CSV, with "pdf" the worked
-    solution typeset, or the figure sheets where nothing can be typeset.
+    solution typeset.
 
     Parameters
     ----------
@@ -260,10 +258,7 @@ def papers_in(
     sheets = {"problem": problem(lesson), "key": answer_key(lesson)}
 
     def typeset() -> dict[str, bytes]:
-        if can_typeset():
-            return papers_as(("pdf",), {**sheets, "solution": solution(lesson, worked)})
-        drawn = diagram_figures(lesson.sheet, language=lesson.language, convention=lesson.convention)
-        return {f"{name}.pdf": figure.content("pdf") for name, figure in drawn.items()}
+        return papers_as(("pdf",), {**sheets, "solution": solution(lesson, worked)})
 
     with ThreadPoolExecutor(1) as beside:  # typesetting runs beside Python
         pdf = beside.submit(typeset) if "pdf" in formats else None

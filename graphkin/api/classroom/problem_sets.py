@@ -32,7 +32,7 @@ from graphkin.papers.data_rows import Columns, columns_of, replaced
 from graphkin.papers.documents import answers_template
 from graphkin.papers.exports import BANKED, bank
 from graphkin.papers.fresh_numbers import Spread, rules_checked, varied_keys
-from graphkin.papers.pdf import can_join, one_after_another
+from graphkin.papers.pdf import one_after_another
 from graphkin.papers.variants import (
     Answer,
     Job,
@@ -203,7 +203,7 @@ def problem_set(
                 write_files(folder, {"answers_template.csv": blank.csv().encode("utf-8-sig")})
             for paper in ("problem", "key"):
                 own = [folder / f"{name}-{variant}-{paper}.pdf" for variant in made.answers]
-                if own and all(path.is_file() for path in own) and can_join():
+                if own and all(path.is_file() for path in own):
                     whole = one_after_another([path.read_bytes() for path in own])
                     write_files(folder / f"{paper}s", {f"all-{paper}s.pdf": whole})
             names = [[f"{name}-{variant}-{file}" for file in BANKED] for variant in made.answers]

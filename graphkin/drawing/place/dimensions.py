@@ -80,7 +80,7 @@ def angle_dimension(
     )
 
 
-def check_bar(at: complex, runs: tuple[Run, ...] = (), length: float = 50.0) -> Parts:
+def check_bar(at: complex, runs: tuple[Run, ...] = (), length: float = 50.0) -> tuple[Line | Text, ...]:
     """A bar of 50 mm with a tick each 10 mm, from its left end: lay a ruler on it to see that a print is true to scale.
 
     The words stand above it; by default its length.

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from graphkin.drawing.ink.primitives import Page
-from graphkin.drawing.write.svg import svg_bytes
+from graphkin.drawing.font import holds
+from graphkin.drawing.ink.primitives import Page, Text, walk
+from graphkin.drawing.write.pdf import SvgPage, pdf_bytes, png_bytes
+from graphkin.drawing.write.svg import svg_bytes, svg_element
 from graphkin.errors import CallError
 from graphkin.files import path_of, whole_file
 
@@ -17,6 +20,8 @@ TEXTS = ("glyphs", "outlines")
 
 class Kept:
     """A drawing or a chart: it can be saved in a file, or shown in a notebook."""
+
+    title: str
 
     def content(self, format: str, dpi: float = 200.0, text: str = "glyphs") -> bytes:
         """The page as a file of a format, "svg", "pdf", "png" (at ``dpi``) or "dxf"; the letters of an SVG as text with
@@ -36,7 +41,10 @@ class Kept:
             raise CallError.of("text", f'"{text!s:.60}"', "known here", names=', '.join(TEXTS))
         if format == "svg":
             return self._svg(text == "outlines")
-        return self._pdf() if format == "pdf" else self._png(dpi) if format == "png" else self._dxf()
+        if format == "dxf":
+            return self._dxf()
+        pages = self._svg_pages()
+        return pdf_bytes(list(pages), self.title) if format == "pdf" else png_bytes(next(pages), self.title, dpi)
 
     def save(self, path: str | os.PathLike[str], dpi: float = 200.0) -> Path:
         """Write the page to a file, as SVG, PDF, PNG or DXF by the ending of its name; returns the path."""
@@ -51,10 +59,8 @@ class Kept:
     def _dxf(self) -> bytes:
         raise CallError.of("format", '"dxf"', "charts are written as svg pdf or png")
 
-    def _pdf(self) -> bytes:
-        raise NotImplementedError
-
-    def _png(self, dpi: float) -> bytes:
+    def _svg_pages(self) -> Iterator[SvgPage]:
+        """Its pages for PDF and PNG, on no paper."""
         raise NotImplementedError
 
 
@@ -79,15 +85,10 @@ class Drawing(Page, Kept):
 
         return dxf_bytes(self)
 
-    def _pdf(self) -> bytes:
-        from graphkin.drawing.write.pdf import pdf_bytes
-
-        return pdf_bytes(self, *self.further)
-
-    def _png(self, dpi: float) -> bytes:
-        from graphkin.drawing.write.pdf import png_bytes
-
-        return png_bytes(self, dpi)
+    def _svg_pages(self) -> Iterator[SvgPage]:
+        for page in (self, *self.further):
+            held = all(holds(thing.string) for thing in walk(page.children) if isinstance(thing, Text))
+            yield page.width, page.height, svg_element(page, alone=True), page.desc, not held
 
 
 def save(drawing: Kept, path: str | os.PathLike[str], dpi: float = 200.0) -> Path:

@@ -98,7 +98,7 @@ def svg_bytes(drawing: Page, debug: bool = False, embed: bool = True, outlines: 
     return f'<?xml version="1.0" encoding="utf-8"?>\n{text}\n'.encode()
 
 
-def svg_element(drawing: Page, named: bool = False) -> str:
+def svg_element(drawing: Page, named: bool = False, alone: bool = False) -> str:
     """The drawing as an element of a page, which has the letters; screen readers read its title and description.
 
     It is as short as possible, since a page may have hundreds: no layers, no lengths of texts, no default values.
@@ -109,6 +109,7 @@ def svg_element(drawing: Page, named: bool = False) -> str:
     drawing : sizes and places in mm
     named : whether vectors, points and links keep their names, which are unique in a page, and vectors have an
         invisible band of a finger's breadth for the pointer
+    alone : whether it is a picture by itself, for another program: with its namespaces, without white paper
 
     Raises
     ------
@@ -116,7 +117,11 @@ def svg_element(drawing: Page, named: bool = False) -> str:
     """
     ink = _InPage(drawing.lang, named)
     words = _clean(_HIDING.sub("", _SPACES.sub(" ", f"{drawing.title}. {drawing.desc}".strip(". "))))
-    return ink.element("svg", {**_head(drawing), "aria-label": words, "focusable": "false"}, ink.page(drawing))
+    head = {**_head(drawing), "aria-label": words, "focusable": "false"}
+    if alone:
+        spaces = {name: _NAMESPACES[name] for name in ("xmlns", "xmlns:xlink")}
+        return ink.element("svg", {**head, **spaces}, "".join(map(ink.draw, drawing.children)))
+    return ink.element("svg", head, ink.page(drawing))
 
 
 def _head(drawing: Page) -> dict[str, str]:
