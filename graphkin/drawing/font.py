@@ -1,10 +1,9 @@
 """The font family of all figures, read from its files: glyphs, advances, and embedded parts of it; and Chinese
 characters that it lacks, from a face of this machine.
 
-``fonts`` holds it as three TrueType files (made by figures/make_fonts.py).  Widths are read from them here, since
-fontTools takes 40 ms for that and every drawing command needs them. fontTools packs the used part of a face as WOFF: in
-5 ms a figure, while WOFF2 takes 20 to 70 ms and a further library, for letters smaller by a quarter and files smaller
-by 3 %.
+``fonts`` holds it as three TrueType files (made by figures/make_fonts.py).  fontTools reads them, and packs the used
+part of a face as WOFF: in 5 ms a figure, while WOFF2 takes 20 to 70 ms and a further library, for letters smaller by a
+quarter and files smaller by 3 %.
 
 A file contains its letters, so that a figure looks the same everywhere: the used glyphs of the family as
 a rule of a style sheet; or as outlines, for programs that have no fonts.
@@ -17,7 +16,7 @@ import struct
 from base64 import b64encode
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import cache, cached_property, lru_cache
+from functools import cache, lru_cache
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -54,71 +53,34 @@ class Glyph:
         return left, low, right, high
 
 
-class _Face:
-    """One file of the family."""
-
-    def __init__(self, style: Style) -> None:
-        self.data = (FOLDER / f"{style}.ttf").read_bytes()
-        (count,) = struct.unpack(">H", self.data[4:6])
-        records = struct.iter_unpack(">4s3I", self.data[12 : 12 + 16 * count])
-        self.places = {tag.decode(): (offset, length) for tag, _, offset, length in records}
-
-    def table(self, tag: str) -> bytes:
-        offset, length = self.places[tag]
-        return self.data[offset : offset + length]
-
-    @cached_property
-    def codes(self) -> Mapping[int, int]:
-        """Number of the glyph of each character: the files hold their characters in order, without gaps."""
-        cmap = self.table("cmap")
-        (start,) = struct.unpack(">I", cmap[8:12])
-        count = struct.unpack(">H", cmap[start + 6 : start + 8])[0] // 2
-        ends = struct.unpack(f">{count}H", cmap[start + 14 : start + 14 + 2 * count])
-        starts = struct.unpack(f">{count}H", cmap[start + 16 + 2 * count : start + 16 + 4 * count])
-        held = [code for low, high in zip(starts, ends, strict=True) if low < 0xFFFF for code in range(low, high + 1)]
-        return {code: number for number, code in enumerate(held, 1)}
-
-    @cached_property
-    def advances(self) -> tuple[int, ...]:
-        count = int.from_bytes(self.table("hhea")[34:36], "big")
-        pairs = struct.iter_unpack(">Hh", self.table("hmtx")[: 4 * count])
-        wide = tuple(int(advance) for advance, _ in pairs)
-        return wide + wide[-1:] * (len(self.codes) + 1 - count)
-
-    @cached_property
-    def offsets(self) -> tuple[int, ...]:
-        loca = self.table("loca")
-        if struct.unpack(">h", self.table("head")[50:52])[0]:
-            return tuple(int(place) for (place,) in struct.iter_unpack(">I", loca))
-        return tuple(2 * half for half in struct.unpack(f">{len(loca) // 2}H", loca))
-
-    def glyph(self, code: int) -> Glyph | None:
-        number = self.codes.get(code)
-        if number is None:
-            return None
-        start = self.places["glyf"][0]
-        outline = self.data[start + self.offsets[number] : start + self.offsets[number + 1]]
-        return Glyph(self.advances[number], outline)
-
-
 @cache
-def _face(style: Style) -> _Face:
-    return _Face(style)
+def _face(style: Style) -> tuple[TTFont, Mapping[int, str]]:
+    """A file of the family, and the names of its glyphs by their characters."""
+    from fontTools.ttLib import TTFont
+
+    font = TTFont(FOLDER / f"{style}.ttf", lazy=True)
+    return font, font.getBestCmap()
+
+
+def _own_glyph(code: int, style: Style) -> Glyph | None:
+    font, names = _face(style)
+    if (name := names.get(code)) is None:
+        return None
+    outlines = font["glyf"]
+    return Glyph(font["hmtx"][name][0], outlines.glyphs[name].compile(outlines, recalcBBoxes=False))
 
 
 @lru_cache(maxsize=4096)
 def holds(text: str) -> bool:
     """Whether the family has all Chinese characters of a text."""
-    return all(ord(c) <= 0x2E7F or ord(c) in _face("regular").codes for c in text)
+    return all(ord(c) <= 0x2E7F or ord(c) in _face("regular")[1] for c in text)
 
 
 @lru_cache(maxsize=8192)
 def glyph(character: str, style: Style = "regular") -> Glyph | None:
     """A glyph of the family; for a Chinese character that it lacks a glyph from a face of this machine, None without
     such a face."""
-    own = _face(style).glyph(ord(character))
-    if own is None and style != "regular":
-        own = _face("regular").glyph(ord(character))
+    own = _own_glyph(ord(character), style) or _own_glyph(ord(character), "regular")
     if own is None and ord(character) > 0x2E7F:
         found = machine_glyph(character)
         return Glyph(*found) if found is not None else None
