@@ -138,8 +138,16 @@ class PreparedMechanism:
             return None
         return {("sign", i): float(mode[0]) for i, mode in self.range.modes(np.zeros(1)).items() if mode.ndim == 1}
 
-    def _reached(self, value: Array) -> Array:
-        return self.range.reaches(self.range.offsets(value))
+    def _reached(self, steps: GivenValues | UniformGrid) -> Array:
+        """Whether the motion reaches each position."""
+        reach = self.range
+        if not isinstance(steps, UniformGrid):
+            return reach.reaches(reach.offsets(steps.values))
+        if not self.turns:
+            return np.ones(len(steps), dtype=bool)  # even steps of a travel lie inside the range
+        offset, (low, high) = reach.table_offsets(steps.n, steps.first, steps.last), reach.ends
+        ahead = offset <= high
+        return ahead if reach.rolls_apart else np.asarray(ahead | (offset >= low + 2 * math.pi))
 
     # code
 
@@ -349,13 +357,13 @@ class PreparedMechanism:
         """All columns: those of formulas, below them forces and moments, at last the bounds of both, infinite where
         they are unknown; NaN where the position does not exist."""
         count, n = len(self.asked), len(steps)
-        ok = self._formulas(steps, out[:count], fast) if count or not self.loads else self._reached(steps.values)
+        ok = self._formulas(steps, out[:count], fast) if count or not self.loads else self._reached(steps)
         if self.clear:
             return ok
         bounds = out[len(self.names) :]
         if self.loads:
             rows, of_loads, solved = force_rows(self.range, self.loads, steps.values, self.bounded)
-            ok = ok & solved & self._reached(steps.values)
+            ok = ok & solved & self._reached(steps)
             rows_of_out = [*out[count : len(self.names)], *bounds[len(self.wanted) :]]
             for row, value in zip(rows_of_out, [*rows, *of_loads], strict=True):
                 row[:] = value
@@ -364,7 +372,7 @@ class PreparedMechanism:
             self._bounds(steps.values[some], ok[some], bounds[: len(self.wanted), some])
         bounds[np.isnan(bounds)] = np.inf
         if not ok.all():
-            out[:, ~ok] = np.nan
+            np.copyto(out, np.nan, where=~ok)
         return ok
 
     def _formulas(self, steps: GivenValues | UniformGrid, out: Array, fast: bool) -> Array:
@@ -373,7 +381,7 @@ class PreparedMechanism:
         if n > CHUNK and not compiled:
             parts = [slice(k, min(k + CHUNK, n)) for k in range(0, n, CHUNK)]
             return np.concatenate([self._formulas(steps[p], out[:, p], fast) for p in parts])
-        ok = _every(n) if self._regular else np.ones(n, dtype=bool) if self.whole else self._reached(steps.values)
+        ok = _every(n) if self._regular else np.ones(n, dtype=bool) if self.whole else self._reached(steps)
         if not ok.any():
             return ok
         given: dict[Name, Array] = {} if self.signs is not None else self.signs_at(steps.values)
