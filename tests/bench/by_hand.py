@@ -58,11 +58,12 @@ def slider_crank(angle: np.ndarray) -> np.ndarray:
 WRITTEN = {"four-bar": four_bar, "slider-crank": slider_crank}
 
 
-def compiled_shaper() -> Callable[[float, float, np.ndarray], None]:
+def compiled_shaper(sizes: tuple[float, ...]) -> Callable[[float, float, np.ndarray], None]:
     """Function of first angle, step and twelve columns, shape (12, n), that fills them on one thread."""
     import numba
 
     block, fine = 512, 64
+    r, high, lever, rod, guide, w = *sizes, OMEGA
 
     @numba.njit(error_model="numpy", fastmath={"contract"}, forceinline=True)
     def turn(angle):
@@ -81,7 +82,6 @@ def compiled_shaper() -> Callable[[float, float, np.ndarray], None]:
 
     @numba.njit(error_model="numpy", fastmath={"contract"})
     def shaper(start, step, out):
-        r, high, lever, rod, guide, w = 0.09, 0.35, 0.58, 0.174, 0.57, OMEGA
         n = out.shape[1]
         cosine, sine, fc, fs = np.empty(block), np.empty(block), np.empty(fine), np.empty(fine)
         gc, gs = np.empty(block // fine), np.empty(block // fine)

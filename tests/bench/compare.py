@@ -1,6 +1,6 @@
 """graphkin against its peers on the same mechanisms: run by hand, ``python -m tests.bench.compare [MECHANISM ...]``.
 
-Position, velocity and acceleration of two points of a four-bar, a slider-crank and a shaper (twelve columns) over a
+Position, velocity and acceleration of two points of a four-bar, a slider-crank and two shapers (twelve columns) over a
 turn, into arrays that are there already, on one thread; "all threads" and "a new array" say what they say.  Everyone's
 values are checked against each other first.  Times depend on the machine, ratios within one run much less.  A peer that
 is not installed is left out.
@@ -94,7 +94,7 @@ def rows(case: Case) -> list[tuple[str, int, float, str]]:
     scene = mechanism_of_text(case.text, case.name)
     ready = prepare(scene, case.asked)
     public, compiled = (graphkin.prepare(scene, find=case.asked, fast=fast) for fast in (False, True))
-    shaper = by_hand.compiled_shaper() if peers.have("numba") else None
+    shaper = by_hand.compiled_shaper(case.sizes) if case.sizes and peers.have("numba") else None
     found: list[tuple[str, int, float, str]] = []
     for n in COUNTS:
         mine, ok = ready.sweep(n)
@@ -109,7 +109,7 @@ def rows(case: Case) -> list[tuple[str, int, float, str]]:
             calls["fast, a new array"] = one_thread(lambda n=n: compiled.sweep(n))
             calls["fast, all threads"] = lambda n=n, out=out: ready.sweep(n, out, fast=True)
             values["graphkin, fast"] = agree("fast", mine, ready.sweep(n, fast=True)[0])
-            if case.name == "shaper":
+            if shaper is not None:
                 start, step = float(ready.range.grid(1).values[0]), 2 * math.pi / n
                 shaper(start, step, out)
                 calls["by hand, numba"] = one_thread(lambda a=start, d=step, out=out: shaper(a, d, out))

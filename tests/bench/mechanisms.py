@@ -9,12 +9,14 @@ __all__ = ["MECHANISMS", "Case"]
 
 @dataclass(frozen=True)
 class Case:
-    """``asked`` gives twelve columns: place, velocity and acceleration of two points, metres and seconds."""
+    """``asked`` gives twelve columns: place, velocity and acceleration of two points, metres and seconds; ``sizes`` of
+    a shaper are crank, height of its pivot, guide bar, rod and height of the guide."""
 
     name: str
     text: str
     asked: tuple[str, ...]
     points: tuple[str, str]
+    sizes: tuple[float, ...] = ()
 
 
 def _asked(one: str, two: str) -> tuple[str, ...]:
@@ -68,20 +70,20 @@ SHAPER = """
 [units]
 length = "m"
 [frame]
-points = { O2 = [0, 0.35], O4 = [0, 0] }
-guides = { h = { through = [0, 0.57], angle = 0 } }
+points = {{ O2 = [0, {1}], O4 = [0, 0] }}
+guides = {{ h = {{ through = [0, {4}], angle = 0 }} }}
 [links.2]
 points = ["O2", "A"]
-length = 0.09
+length = {0}
 [links.3]
 points = ["A"]
 on = "4"
 [links.4]
 points = ["O4", "B"]
-length = 0.58
+length = {2}
 [links.5]
 points = ["B", "C"]
-length = 0.174
+length = {3}
 [links.6]
 points = ["C"]
 on = "0.h"
@@ -90,11 +92,20 @@ link = "2"
 angle = 30
 omega = 10
 [sketch]
-C = [-0.15, 0.57]
+C = [{5}, {4}]
 """
+
+OF_THE_LIBRARY = 0.09, 0.35, 0.58, 0.174, 0.57
+WITH_A_LONG_CRANK = 1.0, 2.0, 5.0, 1.5, 4.9
+"""Half as long as the distance of the pivots: a guide bar on which the block comes near to its pivot."""
+
+
+def _shaper(name: str, sizes: tuple[float, ...]) -> Case:
+    return Case(name, SHAPER.format(*sizes, -sizes[3]), _asked("B", "C"), ("B", "C"), sizes)
 
 MECHANISMS = (
     Case("four-bar", FOUR_BAR, _asked("B", "C"), ("B", "C")),
     Case("slider-crank", SLIDER_CRANK, _asked("B", "C"), ("B", "C")),
-    Case("shaper", SHAPER, _asked("B", "C"), ("B", "C")),
+    _shaper("shaper", OF_THE_LIBRARY),
+    _shaper("long shaper", WITH_A_LONG_CRANK),
 )

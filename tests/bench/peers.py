@@ -49,11 +49,12 @@ def pylinkage(case: Case, n: int) -> Call:
         )
         parts, which = [pivot, one, two, driver, end], (3, 4)
     else:
-        pivot, driver = crank(0.0, 0.35, 0.09)
+        long, height, lever, rod, guide = case.sizes
+        pivot, driver = crank(0.0, height, long)
         foot = Ground(0.0, 0.0, name="O4")
-        one, two = Ground(-0.1, 0.57, name="L1"), Ground(0.0, 0.57, name="L2")
-        top = FixedDyad(anchor1=foot, anchor2=driver.output, distance=0.58, angle=0.0, name="B")
-        end = RRPDyad(revolute_anchor=top, line_anchor1=one, line_anchor2=two, distance=0.174, x=-0.1, y=0.57, name="C")
+        one, two = Ground(-0.1, guide, name="L1"), Ground(0.0, guide, name="L2")
+        top = FixedDyad(anchor1=foot, anchor2=driver.output, distance=lever, angle=0.0, name="B")
+        end = RRPDyad(revolute_anchor=top, line_anchor1=one, line_anchor2=two, distance=rod, x=-0.1, y=guide, name="C")
         parts, which = [pivot, foot, one, two, driver, top, end], (5, 6)
     linkage = Linkage(parts)
     linkage.set_input_velocity(driver, omega=OMEGA, alpha=0.0)
@@ -87,10 +88,11 @@ def sympy_lambdify(case: Case, n: int) -> Call:
         bx, by = 0.05 * sp.cos(angle), 0.05 * sp.sin(angle)
         cx, cy = bx + sp.sqrt(0.15**2 - (0.02 - by) ** 2), sp.Float(0.02) + 0 * t
     else:
-        ax, ay = 0.09 * sp.cos(angle), 0.35 + 0.09 * sp.sin(angle)
+        crank, height, lever, rod, guide = case.sizes
+        ax, ay = crank * sp.cos(angle), height + crank * sp.sin(angle)
         long = sp.sqrt(ax**2 + ay**2)
-        bx, by = 0.58 * ax / long, 0.58 * ay / long
-        cx, cy = bx - sp.sqrt(0.174**2 - (0.57 - by) ** 2), sp.Float(0.57) + 0 * t
+        bx, by = lever * ax / long, lever * ay / long
+        cx, cy = bx - sp.sqrt(rod**2 - (guide - by) ** 2), sp.Float(guide) + 0 * t
     places = [bx, by, cx, cy]
     columns = [sp.diff(x, t, k) for k in range(3) for x in places]
     function = sp.lambdify(t, columns, "numpy", cse=True)

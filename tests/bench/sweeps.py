@@ -1,8 +1,9 @@
 """The user's way against the engine behind it, and against peers: run by hand, ``python -m tests.bench.sweeps``.
 
 ``graphkin.sweep`` returning arrays, from a scene that is read, against the sweep of a mechanism that is prepared
-already, and against pylinkage's compiled sweep of the same twelve columns; then the command line writing a table,
-against pyarrow writing the same numbers.  Times depend on the machine, ratios within one run much less.
+already, and against pylinkage's compiled sweep of the same twelve columns; the bundled scenes of class II, each
+compiled sweep against its bare formulas; then the command line writing a table, against pyarrow writing the same
+numbers.  Times depend on the machine, ratios within one run much less.
 """
 
 from __future__ import annotations
@@ -16,13 +17,19 @@ from collections.abc import Callable
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+import numpy as np
+
 import graphkin
-from graphkin.scene import mechanism_of_text
-from graphkin.solver.compiled.kernel import pays
+from graphkin.scene import mechanism_of, mechanism_of_text
+from graphkin.scene.scene import library
+from graphkin.solver.algebra.expressions import Code
+from graphkin.solver.compiled.engine import SINGULAR
+from graphkin.solver.compiled.kernel import Kernel, pays
+from graphkin.solver.mobility import structure_of
 from graphkin.solver.prepared import prepare
 
 from . import peers
-from .compare import best, header
+from .compare import best, header, one_thread
 from .mechanisms import MECHANISMS
 
 COUNTS = (10_000, 100_000, 1_000_000)
@@ -45,6 +52,30 @@ def arrays() -> None:
             took = best(calls)
             times = f"{took['engine'] * 1e3:11.2f}{took['sweep'] * 1e3:10.2f}{took['sweep'] / took['engine']:10.2f}x"
             print(f"{case.name:14}{n:10}{times}" + (f"{took['peer'] / took['sweep']:13.1f}x" if peer else ""))
+
+
+def scenes(n: int = 10_000) -> None:
+    """Place, velocity and acceleration of two points of each bundled scene of class II that has a closed form."""
+    print(f"{'scene':30}{'columns':>8}{'bare ns':>9}{'sweep ns':>10}{'of bare':>9}  positions that are looked at")
+    for name in library():
+        structure = structure_of(mechanism_of(name))
+        if not all(element.explicit for element in structure.elements):
+            continue
+        scene = structure.scene
+        moving = dict.fromkeys(p for link in scene.links for p in link.points if p not in scene.frame.points)
+        asked = [f"{kind}{point}" for kind in ("", "v_", "a_") for point in list(moving)[-2:]]
+        ready, public = prepare(structure, asked), graphkin.prepare(structure.scene, find=asked, fast=True)
+        code = Code(ready.dimensioned.program.graph, ready.asked, ready.fixed)
+        bare, grid = Kernel(code, ready.turns, True, len(ready.asked), SINGULAR), ready.range.grid(n)
+        numbers, out = np.array([*ready.given(code), *ready._numbers[-2:]]), np.empty((len(ready.asked), n))
+        signs = [np.array([ready.signs_at(grid.values)[name] for name in bare.signs])] if bare.signs else []
+        took = best({
+            "bare": one_thread(lambda b=bare, g=grid, rows=signs, x=numbers, o=out: b(n, x, *g.given, *rows, o)),
+            "sweep": one_thread(lambda p=public: p.sweep(n)),
+        })  # fmt: skip
+        ns = {what: seconds / n * 1e9 for what, seconds in took.items()}
+        times = f"{ns['bare']:9.1f}{ns['sweep']:10.1f}{ns['sweep'] / ns['bare']:8.2f}x"
+        print(f"{name:30}{len(ready.asked):8}{times}  {'none' if ready.clear else 'all'}", flush=True)
 
 
 def tables(n: int = 100_000) -> None:
@@ -75,4 +106,5 @@ if __name__ == "__main__":
     warnings.simplefilter("ignore")
     print(header())
     arrays()
+    scenes()
     tables()
