@@ -7,13 +7,12 @@ A step is told by its reason, in the tables of `InMechanism` and `InPolygon`.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
 
 from graphkin.account.arithmetic import bound, factors_of, lengths_measured, rule_sum
 from graphkin.account.in_mechanism import InMechanism
 from graphkin.account.in_polygon import InPolygon, alike, rate_name
 from graphkin.account.notation import Notation
-from graphkin.account.voice import Telling, Voice
+from graphkin.account.voice import Account, Telling
 from graphkin.construction.board.sheet import Equation, Sheet
 from graphkin.construction.board.steps import Reason, Step, Term, Vector
 from graphkin.scene.symbol import PointRef, Symbol
@@ -22,31 +21,15 @@ from graphkin.words import Phrase, languages, sense_of, word
 from graphkin.words.written import pointing
 
 
-@dataclass(frozen=True)
-class Account(Voice):
-    """Tells the construction of one sheet in the letters of one convention."""
+def telling(account: Account, step: Step) -> Telling:
+    """The telling of a step."""
+    return InMechanism(account, step) if step.diagram == "mechanism" else InPolygon(account, step)
 
-    def step(self, step: Step, language: str) -> str:
-        """The sentence of a step, with the letters of its first and last point."""
-        return self.sentence(self.telling(step).said, language)
 
-    def telling(self, step: Step) -> Telling:
-        """The teller of a step."""
-        return InMechanism(self, step) if step.diagram == "mechanism" else InPolygon(self, step)
-
-    def work(self, step: Step) -> tuple[str, ...]:
-        """The sums of a step, as lines of symbols and numbers."""
-        return tuple(self.telling(step).work)
-
-    def lines(self, step: Step, language: str) -> Iterator[str]:
-        """The lines from which a step can be repeated, of words and symbols."""
-        for line in self.telling(step).written(language):
-            yield self.say(line, languages(language)[0]) if isinstance(line, Phrase) else line
-
-    def why(self, equation: Equation, language: str) -> str:
-        """The reasons of an equation, in sentences; "" without any."""
-        told = (self.sentence(phrase, language) for phrase in reasons(self.sheet, equation))
-        return word("between sentences", language).join(told)
+def why(account: Account, equation: Equation, language: str) -> str:
+    """The reasons of an equation, in sentences; "" without any."""
+    told = (account.sentence(phrase, language) for phrase in reasons(account.sheet, equation))
+    return word("between sentences", language).join(told)
 
 
 # -- what is written to repeat it --------------------------------------------------------------------------------------
@@ -83,7 +66,7 @@ def written_lines(sheet: Sheet, letters: Notation, language: str) -> list[Writte
                 lines.append(account.say(Phrase("written seen", link=step.held), languages(language)[0]))
             lines.append(equation)
             lines += _products(sheet, equation, letters)
-        for line in account.lines(step, language):
+        for line in telling(account, step).written(language):
             before = lines[-1] if lines else None
             if shared and step.reason in SHARE_A_LINE and isinstance(before, str):
                 lines[-1] = f"{before};  {line}"

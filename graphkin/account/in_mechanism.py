@@ -160,7 +160,7 @@ class InMechanism(Telling):
     def _special_lines(self, language: str) -> Iterator[Phrase]:
         """The place of the special point."""
         step = self.step
-        joints = map(Markup, map(self.voice.letters.point, (step.point, *step.points)))
+        joints = map(Markup, map(self.account.letters.point, (step.point, *step.points)))
         key = "written relative special" if step.base and step.kind != "driven" else "written special"
         point, first, second = joints
         told = Phrase(key, point=point, first=first, second=second, base=step.base, link=step.link)
@@ -252,7 +252,7 @@ class InMechanism(Telling):
         return f"${in_markup(name)}$" if name else pair
 
     def _points(self, names: Sequence[str]) -> str:
-        return ", ".join(f"${self.voice.letters.point(name)}$" for name in names)
+        return ", ".join(f"${self.account.letters.point(name)}$" for name in names)
 
     def _moved_and_missed(self, table: TrialPositions) -> tuple[Phrase, Phrase]:
         """All moved quantities of trial positions, and all gaps."""

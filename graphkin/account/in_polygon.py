@@ -62,7 +62,8 @@ class InPolygon(Telling):
 
     def _letter(self, name: str) -> str | None:
         refs = self.step.ref if name in "cC" else self.step.refs["abAB".index(name) % 2]
-        return self.voice.end_of(self.step.diagram, refs) if name.islower() else self.voice.letters.point(refs.point)
+        account = self.account
+        return account.end_of(self.step.diagram, refs) if name.islower() else account.letters.point(refs.point)
 
     # -- the letters between which a step goes -------------------------------------------------------------------------
 
@@ -83,12 +84,12 @@ class InPolygon(Telling):
     @property
     def begin(self) -> Markup | None:
         """The letter at its beginning."""
-        return self.voice.end_at(self.step.diagram, self.places and self.places[0])
+        return self.account.end_at(self.step.diagram, self.places and self.places[0])
 
     @property
     def end(self) -> Markup | None:
         """The letter at its end."""
-        return self.voice.end_at(self.step.diagram, self.places and self.places[1])
+        return self.account.end_at(self.step.diagram, self.places and self.places[1])
 
     @property
     def ends(self) -> Markup | None:
@@ -217,7 +218,7 @@ class InPolygon(Telling):
         if self.places is None or not step.mm:
             return self.measured()
         computed, on_scale = laid_sum(self.sheet, step.diagram, step.size, abs(self.places[1] - self.places[0]))
-        return f"{self.voice.symbol(step.symbol)} = {computed}", on_scale
+        return f"{self.account.symbol(step.symbol)} = {computed}", on_scale
 
     # -- images --------------------------------------------------------------------------------------------------------
 
@@ -266,10 +267,10 @@ class InPolygon(Telling):
             yield Phrase("written image seen", vector=step.symbol, link=step.link)
         elif self.gap("abc") is None:
             vector = Symbol("v" if step.diagram == "velocity" else "a", step.ref)
-            if self.voice.letters.convention == "us" and vector in self.sheet.vectors(step.diagram):
+            if self.account.letters.convention == "us" and vector in self.sheet.vectors(step.diagram):
                 similar = f"${self.gap('AC')}$ : ${self.gap('AB')}$" if on_line else f"△${self.gap('ABC')}$"
                 named = Phrase("written image named", vector=vector, link=step.link, points=Neutral(similar))
-                yield bound(self.voice.say(named, languages(language)[0]))
+                yield bound(self.account.say(named, languages(language)[0]))
         elif on_line:
             yield bound(f"${self.gap('ac')}$ : ${self.gap('ab')}$ = ${self.gap('AC')}$ : ${self.gap('AB')}$")
         else:
@@ -309,12 +310,12 @@ class InPolygon(Telling):
 
     def _by_rates_lines(self, language: str) -> Iterator[str]:
         """``v_CB = ω_3 l_CB = 1.4737 × 151.21 = 222.84 mm/s,  ⊥CB``."""
-        letters = self.voice.letters
+        letters = self.account.letters
         for part, _ in self.parts:
             assert part.size is not None
             way = letters.direction(part.direction, self.sheet.scene.frame.name)
             rule = f"${letters.size(part.size)}$ =\u00a0{bound(rule_sum(self.sheet, part.size, self.step.diagram))}"
-            yield f"{self.voice.symbol(part.symbol)} =\u00a0{rule},  ${way}$"
+            yield f"{self.account.symbol(part.symbol)} =\u00a0{rule},  ${way}$"
 
     # -- rates ---------------------------------------------------------------------------------------------------------
 
@@ -333,7 +334,7 @@ class InPolygon(Telling):
         """``ω_4 = ω_3 = v_A4 / l_AO4 = 0.74 rad/s, clockwise``: the quotient of a vector and a bar."""
         step, rates = self.step, self.sheet.rates(self.step.kind)
         value = step.value if step.held else rates[step.link].value
-        rule = f"{self.voice.symbol(step.symbol)} / ${self.voice.letters.length(step.points)}$"
+        rule = f"{self.account.symbol(step.symbol)} / ${self.account.letters.length(step.points)}$"
         shown = bound(rate_sum(self.sheet, step, units=False)) or f"{number(abs(value), 5)} {RATE_UNITS[step.kind]}"
         names = (rate_name(step.kind, name) for name in self.turning_links)
         yield " =\u00a0".join((*names, rule, shown)) + _turning(value, language)
@@ -354,7 +355,7 @@ class InPolygon(Telling):
     def _summed_lines(self, language: str) -> Iterator[str]:
         """``ω_2 = ω_3 + ω_23 = −0.04162 + 0.08323 = 0.04161 rad/s``: of a link with a known rate relative to a link of
         known rate."""
-        yield bound(self.voice.say(self.step.phrase, languages(language)[0]))
+        yield bound(self.account.say(self.step.phrase, languages(language)[0]))
 
     # -- trial polygons ------------------------------------------------------------------------------------------------
 
@@ -395,7 +396,7 @@ class InPolygon(Telling):
         """The measured gaps, ``I: ω_3 = 0.2 rad/s; open 3.21 mm``, a line for each trial, and the proportional
         division.
         """
-        divided, symbol = self._divided, self.voice.symbol
+        divided, symbol = self._divided, self.account.symbol
         trials = trials_of(self.sheet, self.step, divided)
         numerals = [Markup(roman(trial.number)) for trial in trials]
         closing = listed([
@@ -429,7 +430,7 @@ class InPolygon(Telling):
         told, divided = [], self._divided
         for way, refs, less in zip(divided.ways, divided.between, divided.less, strict=True):
             begin, end = (
-                self.voice.end_of(self.step.diagram, ref) or Phrase("point on link", point=ref.point, link=ref.link)
+                self.account.end_of(self.step.diagram, ref) or Phrase("point on link", point=ref.point, link=ref.link)
                 for ref in refs
             )
             across, names = "square" if way.relation == "square" else "along", tuple(ref.point for ref in refs)

@@ -1,4 +1,5 @@
-"""A voice: the words on a sheet in a school of notation, and the points of its polygons with their letters.
+"""The account of a sheet in a school of notation: the telling of its steps, and the points of its polygons with their
+letters.
 
 Sentences hold symbols between dollar signs, in the notation of `graphkin.words.symbols`; sums are the same in every
 language.
@@ -28,7 +29,7 @@ from graphkin.construction.board.steps import (
     Vector,
 )
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Markup, Neutral, Phrase, as_markup, filled, rich_text, word
+from graphkin.words import Markup, Neutral, Phrase, as_markup, filled, languages, rich_text, word
 from graphkin.words.written import in_markup
 
 SAME = 0.02  # mm: nearer end points fall together on paper
@@ -184,8 +185,8 @@ def _links(holders: Mapping[str, tuple[str, ...]], ref: PointRef) -> list[str]:
 
 
 @dataclass(frozen=True)
-class Voice:
-    """Speaks of a sheet in the letters of a convention."""
+class Account:
+    """Tells the construction of one sheet in the letters of one convention."""
 
     sheet: Sheet
     letters: Notation
@@ -257,7 +258,7 @@ class Telling:
     """The telling of a step: by its reason its ``sentences``, keys of the table of words from the fullest to the
     barest, of which the first with filled gaps is said; its ``sums``, and the ``lines`` to repeat it."""
 
-    voice: Voice
+    account: Account
     step: Step
     sentences: ClassVar[Mapping[Reason, Any]] = {}
     arithmetic: ClassVar[Mapping[Reason, Callable[[Any], Iterable[str]]]] = {}
@@ -266,7 +267,7 @@ class Telling:
     @property
     def sheet(self) -> Sheet:
         """The sheet of the step."""
-        return self.voice.sheet
+        return self.account.sheet
 
     def gap(self, name: str) -> object:
         """The value of a gap by its name: a property of the telling, else an argument of the step; None without a
@@ -285,20 +286,25 @@ class Telling:
         return (keys(self) if callable(keys) else self.first(*keys)) or self.step.phrase
 
     @property
-    def work(self) -> Iterable[str]:
+    def work(self) -> tuple[str, ...]:
         """Its sums, as lines of symbols and numbers."""
-        return self.arithmetic.get(self.step.reason, type(self).measured)(self)
+        return tuple(self.arithmetic.get(self.step.reason, type(self).measured)(self))
 
     def measured(self) -> Iterable[str]:
         """Each measured vector of the step."""
         for vector in self.step.vectors:
             size = abs(vector.span)
             value = times_scale(self.sheet, self.step.diagram, size) if size else "0"
-            yield f"{self.voice.symbol(vector.symbol)} = {value}"
+            yield f"{self.account.symbol(vector.symbol)} = {value}"
 
-    def written(self, language: str) -> Iterable[str | Phrase]:
-        """The lines to repeat it."""
-        return self.lines[self.step.reason](self, language) if self.step.reason in self.lines else ()
+    def sentence(self, language: str) -> str:
+        """Its sentence in a language, with the letters of its first and last point."""
+        return self.account.sentence(self.said, language)
+
+    def written(self, language: str) -> Iterator[str]:
+        """The lines to repeat it, of words and symbols."""
+        for line in self.lines[self.step.reason](self, language) if self.step.reason in self.lines else ():
+            yield self.account.say(line, languages(language)[0]) if isinstance(line, Phrase) else line
 
 
 def whole_sentence(text: str, language: str) -> str:

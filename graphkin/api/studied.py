@@ -25,21 +25,18 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 
-class _Charted(Result):
-    """The common part of both studies: charts and a table, written to files or shown in a notebook."""
-
-    figure_formats = CHART_FORMATS
-
-    def _repr_html_(self) -> str:
-        return "".join(f"<figure>{f._repr_svg_()}<figcaption>{html.escape(f.title)}</figcaption></figure>"
-                       for f in self.figures.values())  # fmt: skip
+def charts_html(study: Result) -> str:
+    """The charts of a study with their titles, for a notebook."""
+    return "".join(f"<figure>{f._repr_svg_()}<figcaption>{html.escape(f.title)}</figcaption></figure>"
+                   for f in study.figures.values())  # fmt: skip
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class SpeedAccuracy(_Charted):
+class SpeedAccuracy(Result):
     """The cost of each method for a position, and its error: measured in one run on this machine."""
 
     name, table_file = "speed-accuracy", "speed-accuracy.csv"
+    figure_formats, _repr_html_ = CHART_FORMATS, charts_html
     race: Race
     language: str
 
@@ -108,10 +105,11 @@ def speed_accuracy(
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Stability(_Charted):
+class Stability(Result):
     """The error of each method against the distance from each kind of singular position, with fitted slopes."""
 
     name, table_file = "stability", "stability.csv"
+    figure_formats, _repr_html_ = CHART_FORMATS, charts_html
     singularities: tuple[Singularity, ...]
     language: str
 

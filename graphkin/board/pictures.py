@@ -11,9 +11,10 @@ from pathlib import Path
 import numpy as np
 
 from graphkin import solver
-from graphkin.account.account import Account
+from graphkin.account.account import telling
 from graphkin.account.forces import ForceAccount
 from graphkin.account.notation import Notation, notation_of
+from graphkin.account.voice import Account
 from graphkin.api.arguments import asked_here, driver_values, hand_of, placed
 from graphkin.api.checked import checked
 from graphkin.api.drawn import Drawn, drawn_figure, known_figures
@@ -286,9 +287,9 @@ def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
     except GraphkinError as error:
         limits = {"low": None, "high": None, "turns": False, "why": _said(error, spoken)}
     steps: list[dict[str, Json]] = [
-        {"n": step.number, "figure": step.diagram, "html": words_html(account.step(step, spoken), spoken),
-         "work": [words_html(line, spoken) for line in account.work(step)]}
-        for step in sheet.steps
+        {"n": told.step.number, "figure": told.step.diagram, "html": words_html(told.sentence(spoken), spoken),
+         "work": [words_html(line, spoken) for line in told.work]}
+        for told in (telling(account, step) for step in sheet.steps)
     ]  # fmt: skip
     return {
         "readings": [

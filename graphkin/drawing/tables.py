@@ -17,7 +17,7 @@ from graphkin.account.given import (
 )
 from graphkin.account.headings import remarks, term, written
 from graphkin.account.notation import Notation
-from graphkin.account.voice import Voice
+from graphkin.account.voice import Account
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import Compared, Report, deviation, exact, measured, paper
 from graphkin.construction.board.sheet import Reading, Sheet
@@ -138,7 +138,7 @@ def given_lines(sheet: Sheet, letters: Notation, language: str, width: float, si
     fixed += [f"{guide} ${name}$ {place} {unit}, {angle}°" for name, place, angle in fixed_guides(scene, letters)]
     lines = [line for group in (items, fixed) for line in _flowed(group, size, width)]
     for each in languages(language):
-        notes = (Voice(sheet, letters).sentence(note, each) for note in remarks(sheet))
+        notes = (Account(sheet, letters).sentence(note, each) for note in remarks(sheet))
         lines += [line for note in notes for line in wrapped(note, size, width)]
     return lines
 

@@ -14,7 +14,6 @@ import math
 import operator
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from itertools import permutations, product
 
@@ -116,33 +115,27 @@ def _evaluated(node: ast.expr, known: Mapping[str, float]) -> float:
     raise ValueError(Phrase("only these signs are possible"))
 
 
-@dataclass(frozen=True)
-class Columns:
-    """The columns of a table: the column that names the row, the data by column with their short names, and the heads
-    that are no data of the scene."""
-
-    name: int | None
-    data: Mapping[int, str]
-    unused: tuple[str, ...]
-
-
-def columns_of(source: Tables, heads: Sequence[str]) -> Columns:
-    """Distinguish the columns of a table."""
+def columns_of(source: Tables, heads: Sequence[str]) -> tuple[dict[int, str], list[int]]:
+    """The columns of a table that are data of the scene, with their short names; and the others, of which the first
+    names the row."""
     known = _known_names(source)
     shorts = {i: _short(head) for i, head in enumerate(heads)}
     data = {i: short for i, short in shorts.items() if "." in short or _bare(short) in known}
-    others = [i for i in shorts if i not in data]
-    return Columns(others[0] if others else None, data, tuple(heads[i] for i in others[1:]))
+    return data, [i for i in shorts if i not in data]
 
 
-def replaced(source: Tables, columns: Columns, cells: Sequence[str]) -> list[Setting]:
+def replaced(source: Tables, data: Mapping[int, str], cells: Sequence[str]) -> list[Setting]:
     """Keys of the scene file with their values in a row.
+
+    Parameters
+    ----------
+    data : the columns of data with their short names
 
     Raises
     ------
     ValueError : a cell that is no number, with the name of its column
     """
-    texts = {short: cells[i] for i, short in columns.data.items() if i < len(cells) and cells[i].strip()}
+    texts = {short: cells[i] for i, short in data.items() if i < len(cells) and cells[i].strip()}
     known = _known_names(source)
     values = _values(texts).items()
     return [s for short, v in values for s in ([(short, v)] if "." in short else known[_bare(short)](v))]

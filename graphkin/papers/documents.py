@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from graphkin import table
+from graphkin.account.account import telling, why
 from graphkin.account.forces import ForceAccount, ForceStage
 from graphkin.account.given import (
     drivers,
@@ -582,10 +583,10 @@ def stage_title(lesson: Lesson, stage: Stage) -> Said:
 
 def step_items(lesson: Lesson, stage: Stage, parted: bool = False) -> tuple[StepItem, ...]:
     """The steps of a stage in words and numbers."""
-    account, names = lesson.account, languages(lesson.language)
+    names = languages(lesson.language)
     return tuple(
-        StepItem(step.number, tuple((each, account.step(step, each)) for each in names), account.work(step), parted)
-        for step in stage.steps
+        StepItem(told.step.number, tuple((each, told.sentence(each)) for each in names), told.work, parted)
+        for told in (telling(lesson.account, step) for step in stage.steps)
     )
 
 
@@ -604,9 +605,9 @@ def _told(lesson: Lesson, stage: Stage, count: int) -> Iterator[Heading | Paragr
     where = dict(said("see figure", lesson.language, figure=count))
     yield Heading(tuple((each, f"{title}{where[each]}") for each, title in stage_title(lesson, stage)))
     yield Picture(pictures.equation_picture(lesson, equation), joined=True)
-    why = in_each(lesson.language, lambda each: lesson.account.why(equation, each))
-    if any(text for _, text in why):
-        yield Paragraph(why, small=True)
+    reasons = in_each(lesson.language, lambda each: why(lesson.account, equation, each))
+    if any(text for _, text in reasons):
+        yield Paragraph(reasons, small=True)
 
 
 def _stage(

@@ -11,8 +11,8 @@ from functools import cached_property, reduce
 import numpy as np
 
 from graphkin import solver
-from graphkin.account.account import Account
 from graphkin.account.notation import Notation, notation_of
+from graphkin.account.voice import Account
 from graphkin.checking.readings import report_on
 from graphkin.checking.report import Compared, Report, Uncertainty
 from graphkin.checking.uncertainty import predict

@@ -8,9 +8,9 @@ from itertools import combinations
 import pytest
 
 from graphkin import draw
-from graphkin.account.account import Account, written_lines
+from graphkin.account.account import telling, why, written_lines
 from graphkin.account.notation import notation_of
-from graphkin.account.voice import Voice
+from graphkin.account.voice import Account
 from graphkin.construction import draft
 from graphkin.construction.board.sheet import Equation
 from graphkin.construction.board.steps import TrialPositions
@@ -90,7 +90,7 @@ def test_what_trial_polygons_leave_open_is_told_with_its_sense():
 @pytest.mark.parametrize(("name", "triangles"), [("double-butterfly", 6), ("single-flier", 8), ("loader-cylinder", 4)])
 def test_triangles_that_are_told_are_similar_in_one_sense(name, triangles):
     sheet, _ = drafted(name)
-    ends = Voice(sheet, notation_of(sheet, "chinese"))
+    ends = Account(sheet, notation_of(sheet, "chinese"))
     found = [pair for line in told(name) for pair in re.findall(r"△\$([^$]+)\$ ∽ △\$([^$]+)\$", line)]
     assert triangles <= len(found)
     for image, link in found:
@@ -128,7 +128,7 @@ def test_what_a_driver_between_links_of_a_group_adds_is_told_and_true(scene):
     assert {"omega", "alpha"} == {step.kind for step in steps}
     account = Account(sheet, notation_of(sheet, "chinese"))
     for step in steps:
-        (line,) = account.lines(step, "en")
+        (line,) = telling(account, step).written("en")
         line = line.replace("\u00a0", " ")
         terms, value = re.fullmatch(r".*\$ = ([^=$]+) = (\S+)(?: \(\S+\))? rad/s²?", line).groups()
         value = float(value.replace("−", "-"))
@@ -188,7 +188,7 @@ def test_writing_that_no_panel_needs_room_for_goes_on_one_page():
 def test_an_open_end_on_a_block_is_told_by_its_letter():
     # a pin of link 5 in the block 7 of a guide on 6: the block has a letter, c7, that bears its index
     sheet, _ = drafted("loader-cylinder")
-    ends = Voice(sheet, notation_of(sheet, "chinese"))
+    ends = Account(sheet, notation_of(sheet, "chinese"))
     assert "e_{7}" == ends.end_of("velocity", PointRef("E", "7")) == ends.end_of("velocity", PointRef("E"))
     assert "e_{6}" == ends.end_of("velocity", PointRef("E", "6"))
 
@@ -202,7 +202,7 @@ def test_chinese_lists_break_after_their_commas():
 def test_an_acceleration_as_seen_from_a_held_link_bears_its_mark():
     sheet, _ = drafted("scissor-lift")
     speaker = Account(sheet, notation_of(sheet, "chinese"))
-    said = " ".join(speaker.step(step, "en") for step in sheet.steps if step.diagram == "acceleration")
+    said = " ".join(telling(speaker, step).sentence("en") for step in sheet.steps if step.diagram == "acceleration")
     assert "$a^{(3)}_{FF3}$" in said
     assert "$a_{FF3}$" not in said
 
@@ -214,6 +214,6 @@ def test_trial_polygons_say_that_a_link_is_left_out_not_an_equation():
 def test_a_moving_point_over_a_pivot_is_no_fixed_pivot():
     sheet, _ = drafted("scissor-lift")
     speaker = Account(sheet, notation_of(sheet, "chinese"))
-    said = " ".join(speaker.why(equation, "en") for equation in sheet.equations)
+    said = " ".join(why(speaker, equation, "en") for equation in sheet.equations)
     assert "fixed pivot $A_{3}$" not in said
     assert "$B$ and $A_{3}$ are points of the rigid link 3: the relative acceleration has a part" in said

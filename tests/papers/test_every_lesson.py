@@ -8,8 +8,9 @@ import re
 
 import pytest
 
-from graphkin.account.account import Account
+from graphkin.account.account import telling, why
 from graphkin.account.notation import notation_of
+from graphkin.account.voice import Account
 from graphkin.api.classroom.handouts import handout
 from graphkin.construction import draft
 from graphkin.papers.lesson import stages
@@ -32,7 +33,7 @@ def test_symbols_in_sentences_are_closed_in_every_scene_and_convention():
                 for markup in (
                     speaker.sentence(step.phrase, "en"),
                     speaker.sentence(step.phrase, "zh"),
-                    *speaker.work(step),
+                    *telling(speaker, step).work,
                 ):
                     assert "$" not in plain_words(markup)
                     assert not {"{", "}", "@", "\x02", "\x03"} & set(plain_words(markup)), (name, markup)
@@ -42,7 +43,7 @@ def test_symbols_in_sentences_are_closed_in_every_scene_and_convention():
 def test_every_term_that_an_equation_draws_has_a_reason(name):
     lesson = handout(name, language="en", formats=("pdf",)).lesson
     for equation in lesson.sheet.equations:
-        said = lesson.account.why(equation, "en")
+        said = why(lesson.account, equation, "en")
         terms = {t.symbol for side in equation.sides for t in side if t.direction_known} - {equation.sides[0][0].symbol}
         named = [lesson.account.point(s.of) for s in terms if s.of and s.kind in ("v", "an", "ar", "ak")]
         assert [] == [name for name in named if name not in said]
@@ -53,7 +54,7 @@ def test_a_point_laid_off_by_rates_is_where_its_printed_lengths_and_angles_lead(
     steps = [step for step in lesson.sheet.steps if step.reason == "rates" and not step.held]
     assert ["velocity", "acceleration"] == [step.diagram for step in steps]
     for step in steps:
-        told = re.findall(r"= ([\d.]+) mm,  (−?[\d.]+)°", " ".join(lesson.account.work(step)))
+        told = re.findall(r"= ([\d.]+) mm,  (−?[\d.]+)°", " ".join(telling(lesson.account, step).work))
         laid = sum(cmath.rect(float(mm), math.radians(float(way.replace("−", "-")))) for mm, way in told)
         drawn = {s.of.point: v.span for s, v in lesson.sheet.vectors(step.diagram).items() if s.of and s.to is None}
         assert abs(laid - (drawn["C"] - drawn["B"])) < 0.1

@@ -227,18 +227,18 @@ def test_a_set_that_goes_on_says_the_remarks_of_its_first_run(tmp_path):
 )
 def test_a_head_is_understood(head, key):
     source = tomllib.loads(library_text(SHAPER))
-    columns = columns_of(source, ["group", head])
-    assert key in [k for k, _ in replaced(source, columns, ["1", "60"])]
+    data, _ = columns_of(source, ["group", head])
+    assert key in [k for k, _ in replaced(source, data, ["1", "60"])]
 
 
 def test_a_speed_keeps_the_sense_of_the_scene():
     source = tomllib.loads(library_text(SHAPER))
-    assert [("driver.rpm", -60.0)] == replaced(source, columns_of(source, ["n2"]), ["60"])
+    assert [("driver.rpm", -60.0)] == replaced(source, columns_of(source, ["n2"])[0], ["60"])
 
 
 def test_a_column_that_is_no_datum_is_left_alone():
-    columns = columns_of(tomllib.loads(library_text(SHAPER)), ["方案", "n2", "G4 (N)"])
-    assert (0, ("G4 (N)",)) == (columns.name, columns.unused)
+    data, others = columns_of(tomllib.loads(library_text(SHAPER)), ["方案", "n2", "G4 (N)"])
+    assert ([1], [0, 2]) == ([*data], others)
 
 
 @pytest.mark.parametrize(("text", "value"), [("0.3 lO4B", 174), ("2*(O4B-80)", 1000), ("-5e1", -50), ("asin(0.5)", 30)])

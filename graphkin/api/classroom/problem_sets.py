@@ -28,7 +28,7 @@ from graphkin.api.results import OfScene, Result, named
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, printable
 from graphkin.files import Json, OwnTables, Tables, folder_alone, path_of
 from graphkin.jobs import Progress, Workers
-from graphkin.papers.data_rows import Columns, columns_of, replaced
+from graphkin.papers.data_rows import columns_of, replaced
 from graphkin.papers.documents import answers_template
 from graphkin.papers.exports import BANKED, bank
 from graphkin.papers.fresh_numbers import Spread, rules_checked, varied_keys
@@ -243,8 +243,8 @@ def _jobs(
             raise CallError.of("variants", "nothing in the scene can vary", "give lengths and a driver")
         spread = spread if spread.reach else replace(spread, reach=_reach(as_scene(source)))
         return jobs_of_seed(source, count, whole_number("seed", seed, -MOST_SEED, MOST_SEED), spread), ()
-    table, columns = _data_of(source, rows)
-    return list(_jobs_of_rows(source, columns, table.rows)), columns.unused
+    table, data, others = _data_of(source, rows)
+    return list(_jobs_of_rows(source, data, others, table.rows)), tuple(table.heads[i] for i in others[1:])
 
 
 def _reach(scene: Mechanism) -> tuple[float, float] | None:
@@ -259,14 +259,15 @@ def _reach(scene: Mechanism) -> tuple[float, float] | None:
     return None if reach.full or high - low > MOST_OF_A_TURN else (low, high)
 
 
-def _data_of(source: Tables, rows: str | os.PathLike[str]) -> tuple[Rows, Columns]:
-    """A table of data, and the meaning of its columns.  Raises CallError where none is a datum of the scene."""
+def _data_of(source: Tables, rows: str | os.PathLike[str]) -> tuple[Rows, dict[int, str], list[int]]:
+    """A table of data, its columns with data and the others, as `columns_of`.  Raises CallError where none is a datum
+    of the scene."""
     table = with_points(table_of(rows))
-    columns = columns_of(source, table.heads)
-    if not columns.data:
+    data, others = columns_of(source, table.heads)
+    if not data:
         raise CallError.of(str(rows), "no column is a datum of the scene",
                            "write heads like links.1.length o4b n2 or phi1", names=', '.join(table.heads)[:200])
-    return table, columns
+    return table, data, others
 
 
 def schemes_of(
@@ -279,18 +280,17 @@ def schemes_of(
     CallError : no column is a datum of the scene; every row that gives no scene
     """
     source, _ = _source(scene)
-    table, columns = _data_of(source, rows)
+    table, data, others = _data_of(source, rows)
     made: dict[str, Mechanism] = {}
     problems: list[Problem] = []
-    for (line, _), job in zip(table.rows, _jobs_of_rows(source, columns, table.rows), strict=True):
+    for (line, _), job in zip(table.rows, _jobs_of_rows(source, data, others, table.rows), strict=True):
         if job.trouble:
             problems.append(Problem(Phrase("line of students and line", students=rows, line=line), job.trouble))
         else:
             made[job.name] = as_scene(job.source)
     if problems:
         raise CallError(*problems)
-    first = columns.name
-    order = [i for i in range(len(table.heads)) if i != first]
+    order = [i for i in range(len(table.heads)) if i not in others[:1]]
     lines = [tuple(cells[i] if i < len(cells) else "" for i in order) for _, cells in table.rows]
     heads = ("", *(table.heads[i] for i in order))
     return made, (heads, *((name, *line) for name, line in zip(made, lines, strict=True)))
@@ -333,17 +333,18 @@ def _head_of(source: Tables, path: KeyPath) -> str:
     return str(path[-1])
 
 
-def _jobs_of_rows(source: Tables, columns: Columns, lines: Sequence[tuple[int, tuple[str, ...]]]) -> Iterator[Job]:
+def _jobs_of_rows(
+    source: Tables, data: Mapping[int, str], others: Sequence[int], lines: Sequence[tuple[int, tuple[str, ...]]]
+) -> Iterator[Job]:
     """A job for each row of data: its scene file, that file with the driver unchanged, its problems."""
     used: set[str] = set()
     for number, (line, cells) in enumerate(lines, 1):
-        known = columns.name is not None and columns.name < len(cells)
-        name = safe_name(cells[columns.name or 0]) if known else f"line-{line}"
+        name = next((safe_name(cells[i]) for i in others[:1] if i < len(cells)), f"line-{line}")
         while name in used:
             name = f"{name}-{line}"
         used.add(name)
         try:
-            settings = dict(replaced(source, columns, cells))
+            settings = dict(replaced(source, data, cells))
             moving = {k for k in settings if k.startswith("driver") and k.endswith((".angle", ".travel"))}
             before = {k: value for k, value in settings.items() if k not in moving}
             made, base = (applied(source, list(some), list(some.values())) for some in (settings, before))

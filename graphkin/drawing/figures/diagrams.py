@@ -23,7 +23,7 @@ from graphkin.account.headings import (
     written,
 )
 from graphkin.account.notation import notation_of
-from graphkin.account.voice import Voice
+from graphkin.account.voice import Account
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import measured
 from graphkin.construction import Room, Scales
@@ -81,8 +81,8 @@ def diagram_figure(
             whole, _ = polygon_with_insets(sheet, diagram, letters, spoken, around, origin, insets)
         return joined((scan_piece(sheet, diagram, origin, around), whole)) if sheet.scene.question.scans else whole
 
-    voice = Voice(sheet, letters)
-    notes = [voice.sentence(note, each) for each in languages(spoken) for note in remarks(sheet)]
+    account = Account(sheet, letters)
+    notes = [account.sentence(note, each) for each in languages(spoken) for note in remarks(sheet)]
     told = prose(notes, page.width, 2.5, classes=("remark",))
     title = FIGURE_WORDS[diagram]
     unit = dimensions_in(sheet, spoken) if diagram == "mechanism" else ""

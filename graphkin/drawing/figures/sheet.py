@@ -5,7 +5,7 @@ their own place go to the room that others leave, or to further pages.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import islice, product
@@ -82,15 +82,15 @@ def sheet_page(
     written = written_lines(sheet, page.letters, page.language)
     lines = [line_to_set(line, sheet, page.letters, page.language) for line in written]
     rows = table_rows(sheet, report)
-    words = _Writing(page, rows, lines, homeless)
-    writing, rest = words.on(plan, GIVEN[0])
+    written_on = _writing(page, rows, lines, homeless)
+    writing, rest = written_on(plan, GIVEN[0])
     if rest and plan.equations:
         usual, panels = (plan, *with_less_mechanism(plan, sheet)), zip(
             POLYGONS, (plan.velocity, plan.acceleration), strict=True)  # fmt: skip
         high = [extent(sheet, diagram, box.grown(-3.0)).height + 2 * NAMES for diagram, box in panels]
         closer = (*usual, *(less for each in usual for less in with_less_polygons(each, high)))
         for each, size in islice(product(closer, GIVEN), 1, None):
-            there, left = words.on(each, size)
+            there, left = written_on(each, size)
             if left:
                 continue
             drawn = _polygons(page, each) if each.beside else (velocity, acceleration, homeless)
@@ -106,7 +106,7 @@ def sheet_page(
     pieces += [
         heading(page, plan.page), _panel(plan.mechanism, _caption(page, "mechanism")),
         _panel(plan.velocity, _caption(page, "velocity")), _mechanism(page, plan.mechanism), velocity, *writing,
-        _below_left(term("step number", page.language, number="(9)"), plan.page),
+        _below(plan.page, fitted(term("step number", page.language, number="(9)"), 2.4, 0.7 * plan.page.width)),
         title_block(page, [row.compared for row in rows if row.compared], plan.block),
     ]  # fmt: skip
     further = continuation(page, rest, plan.page)
@@ -115,7 +115,7 @@ def sheet_page(
         for drawn_page in (figure, *figure.further) if figure is not None else ():
             further += (_as_page(sheet, drawn_page, plan, len(further) + 2),)
     if further:
-        pieces.append(_in_corner(word("goes on", languages(page.language)[0]), plan.page))
+        pieces.append(_below(plan.page, plain(word("goes on", languages(page.language)[0]), 2.6), "end"))
     made = _drawn_page(page, plan.width, plan.height, pieces, "")
     return replace(made, desc=describe(sheet, shown, page.language), further=further)
 
@@ -127,27 +127,24 @@ def _drawn_page(page: FigurePage, width: float, height: float, pieces: Sequence[
                    facts(page.sheet, "sheet"))  # fmt: skip
 
 
-class _Writing:
-    """Equations, given data and readings, with the insets of Coriolis terms without room in their panel; each is set
-    once for each of its rooms, for all plans tried."""
+def _writing(
+    page: FigurePage, rows: Sequence[TableRow], lines: Sequence[LineToSet], coriolis: Sequence[CoriolisTerm]
+) -> Callable[[SheetPlan, float], tuple[list[Piece], Remainder]]:
+    """The equations, given data and readings, with the insets of Coriolis terms without room in their panel, as a
+    function of a plan and of the largest letters of the given data (mm): the writing on the plan, and the rest for
+    further pages.  Each part is set once for each of its rooms, for all plans tried."""
+    all_of = cache(lambda size: Remainder(lines, coriolis, (), rows, size))
+    part_in = cache(lambda part, rest, room: part(page, rest, room, "own"))
 
-    def __init__(
-        self, page: FigurePage, rows: Sequence[TableRow], lines: Sequence[LineToSet], coriolis: Sequence[CoriolisTerm]
-    ) -> None:
-        self.page = page
-        self.whole = cache(lambda size: Remainder(lines, coriolis, (), rows, size))
-        self._set = cache(lambda part, rest, room: part(page, rest, room, "own"))
-
-    def on(self, plan: SheetPlan, size: float) -> tuple[list[Piece], Remainder]:
-        """The writing on a plan, given data in letters of at most ``size``; and the rest for further pages."""
-        page, whole = self.page, self.whole(size)
+    def on(plan: SheetPlan, size: float) -> tuple[list[Piece], Remainder]:
+        whole = all_of(size)
         parts = (_own_given, plan.given), (_own_equations, plan.equations), (_readings, plan.readings)
         rest, pieces, rooms = whole, list[Piece](), list[Box]()
         for part, box in parts:
             if box is None:
                 given = given_lines(page.sheet, page.letters, page.language, plan.page.width, GIVEN[0])
                 return [], replace(whole, given=given)
-            piece, rest, _ = self._set(part, rest, box)
+            piece, rest, _ = part_in(part, rest, box)
             pieces.append(piece)
             rooms.append(below(box, piece.drawn))
         if plan.beside is not None:  # what is written there goes on from the equations
@@ -160,10 +157,12 @@ class _Writing:
             first = replace(rest, readings=whole.readings[:before], begun=False)
             turned = continued(page, first, rooms[:-1])
             others = replace(whole, readings=whole.readings[before:], begun=True)
-            last, left, _ = self._set(_readings, others, plan.readings)
+            last, left, _ = part_in(_readings, others, plan.readings)
             if turned is not None and not left.readings:
                 pieces[-1], more = last, turned
         return [*pieces, more], Remainder()
+
+    return on
 
 
 def _as_page(sheet: Sheet, figure: Drawing, plan: SheetPlan, number: int) -> Drawing:
@@ -174,15 +173,10 @@ def _as_page(sheet: Sheet, figure: Drawing, plan: SheetPlan, number: int) -> Dra
                    title=f"{figure.title} ({number})", metadata=facts(sheet, "sheet"), further=())  # fmt: skip
 
 
-def _in_corner(words: str, frame: Box) -> Piece:
-    """Words below the right lower corner of a page."""
-    return Piece({"labels": (Text(complex(frame.right, frame.bottom + 4.0), plain(words, 2.6), "end"),)})
-
-
-def _below_left(words: str, frame: Box) -> Piece:
-    """A note below the left lower corner of a page."""
-    text = Text(complex(frame.left, frame.bottom + 4.0), fitted(words, 2.4, 0.7 * frame.width))
-    return Piece({"labels": (text,)})
+def _below(frame: Box, words: tuple[Run, ...], anchor: str = "start") -> Piece:
+    """A note below the left lower corner of a page, or its right one."""
+    corner = complex(frame.right if anchor == "end" else frame.left, frame.bottom + 4.0)
+    return Piece({"labels": (Text(corner, words, anchor),)})
 
 
 def _caption(page: FigurePage, diagram: DiagramName) -> str:
@@ -276,7 +270,8 @@ def continuation(page: FigurePage, rest: Remainder, frame: Box) -> tuple[Drawing
     made: list[Drawing] = []
     while rest:
         number, before = len(made) + 2, rest
-        corner = _in_corner(say(Phrase("sheet number", number=number), languages(page.language)[0]), frame)
+        said = say(Phrase("sheet number", number=number), languages(page.language)[0])
+        corner = _below(frame, plain(said, 2.6), "end")
         pieces, rest = _into(page, rest, Box(frame.left, frame.top + HEAD, frame.right, frame.bottom), "continuation")
         size = frame.left + frame.right, frame.top + frame.bottom
         made.append(replace(

@@ -35,7 +35,6 @@ from graphkin.drawing.parts.dimensioning import drawn_lengths
 from graphkin.drawing.parts.mechanism_on_paper import (
     GUIDE_LENGTH,
     CamOnPaper,
-    CurvedSlot,
     LinkShape,
     MechanismOnPaper,
 )
@@ -54,6 +53,7 @@ from graphkin.drawing.place.piece import Piece, cut_to, dated, ink_box, joined, 
 from graphkin.drawing.text import plain, symbol
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.model import Driver
+from graphkin.scene.pairs import CircularSlot
 
 AROUND_POINTS = 5.0  # mm for the symbols of points, which no edge cuts
 
@@ -63,8 +63,8 @@ def links(here: MechanismOnPaper) -> Piece:
     areas = [_link(here, shape) for shape in here.shapes if shape.corners]
     bars = sorted((shape for shape in here.shapes if not shape.corners), key=lambda shape: _depth(here, shape))
     profiles = [group for one in here.cams for group in _profile(here, one)]
-    slots = (Group(tuple(_curved(here, one)), id=f"slot-{one.slot.bar}", classes=("link",), since=here.stands)
-             for one in here.curved)  # fmt: skip
+    slots = (Group(tuple(_curved(here, slot)), id=f"slot-{slot.bar}", classes=("link",), since=here.stands)
+             for slot in here.curved)  # fmt: skip
     return Piece({"mechanism": (*profiles, *areas, _frame(here), *slots, *(_link(here, shape) for shape in bars))})
 
 
@@ -172,9 +172,10 @@ def _link(here: MechanismOnPaper, shape: LinkShape) -> Group:
         parts += _welds(here, shape, colour)
     for start, end in shape.slots:
         parts += symbols.slot(on_page(start), on_page(end), colour)
-    for curved in here.curved:
-        if curved.slot.block and curved.slot.bar == shape.link:
-            parts += symbols.block(on_page(curved.at), phase(1j * (curved.at - curved.centre)), colour)
+    for slot in here.curved:
+        if slot.block and slot.bar == shape.link:
+            at = here.places[slot.point]
+            parts += symbols.block(on_page(at), phase(1j * (at - here.places[slot.centre])), colour)
     for b in here.sliders:
         if b.slide.b == shape.link and b.slide.key in here.cylinders:
             parts += symbols.cylinder(on_page(here.pivot(b)), on_page(b.at), colour)
@@ -189,16 +190,17 @@ def _link(here: MechanismOnPaper, shape: LinkShape) -> Group:
     return Group(tuple(parts), id=f"link-{shape.link}", classes=("link",), since=here.since(shape.link))
 
 
-def _curved(here: MechanismOnPaper, curved: CurvedSlot) -> Iterator[Primitive]:
+def _curved(here: MechanismOnPaper, slot: CircularSlot) -> Iterator[Primitive]:
     """A circular slot, and the bars that join it to its moving link."""
-    slot, radius = curved.slot, abs(curved.at - curved.centre)
+    (start, end), centre = here.curved[slot], here.places[slot.centre]
+    radius = abs(here.places[slot.point] - centre)
     colour = strokes.BLACK if slot.on == here.ground else here.colour(slot.on)
     if slot.on != here.ground:
-        rim = curved.centre + radius * rect(1.0, curved.start)
+        rim = centre + radius * rect(1.0, start)
         held = [here.places[p] for p in here.scene.by_name[slot.on].points if p in here.places and p != slot.centre]
-        near = min(held or [curved.centre], key=lambda z: abs(z - rim))
+        near = min(held or [centre], key=lambda z: abs(z - rim))
         yield Line(on_page(near), on_page(rim), strokes.LINK.coloured(colour))
-    yield from symbols.circular_slot(on_page(curved.centre), radius, curved.start, curved.end, colour)
+    yield from symbols.circular_slot(on_page(centre), radius, start, end, colour)
 
 
 def _welds(here: MechanismOnPaper, shape: LinkShape, colour: str) -> list[Primitive]:

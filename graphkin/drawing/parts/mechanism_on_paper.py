@@ -58,18 +58,6 @@ class CamOnPaper:
 
 
 @dataclass(frozen=True)
-class CurvedSlot:
-    """A circular slot on paper: its centre, the point that runs in it, and the angles (rad) between which it is
-    drawn."""
-
-    slot: CircularSlot
-    centre: complex
-    at: complex
-    start: float
-    end: float
-
-
-@dataclass(frozen=True)
 class LinkShape:
     """The parts of a link on paper (mm): the corners of its area, bars, slots, and the places of its points."""
 
@@ -206,9 +194,9 @@ class MechanismOnPaper:
         return tuple(found)
 
     @cached_property
-    def curved(self) -> tuple[CurvedSlot, ...]:
-        """The circular slots between links on paper."""
-        found = []
+    def curved(self) -> Mapping[CircularSlot, tuple[float, float]]:
+        """The circular slots between links on paper, and the angles (rad) between which each is drawn."""
+        curved = {}
         for slot in self.scene.whole.slots:  # what stands for a cam is no slot
             if slot.on not in self.sheet.poses or not {slot.centre, slot.point} <= set(self.places):
                 continue
@@ -217,8 +205,8 @@ class MechanismOnPaper:
             half = min(CURVED_ALONG / abs(at - centre), math.pi / 3)
             start, end = (here - half, here + half) if slot.ends is None else sorted(axis + a for a in slot.ends)
             here = (start + end) / 2 + math.remainder(here - (start + end) / 2, math.tau)
-            found.append(CurvedSlot(slot, centre, at, min(start, here), max(here, end)))  # it runs beyond no end
-        return tuple(found)
+            curved[slot] = min(start, here), max(here, end)  # it runs beyond no end
+        return curved
 
     @cached_property
     def cylinders(self) -> frozenset[str]:
