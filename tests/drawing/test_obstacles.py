@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.place.obstacles import Obstacles, first_free, free_boxes
+from graphkin.drawing.place.obstacles import Obstacles, clearest, first_free, free_boxes
 
 PANEL = Box(0.0, 0.0, 100.0, 100.0)
 HALF = 3 + 2j
@@ -48,3 +48,23 @@ def test_boxes_at_the_edge_of_a_panel_begin_in_its_corners():
     found = free_boxes(3, (20.0, 10.0), PANEL, Obstacles(areas=(Box(90.0, 90.0, 99.0, 99.0),)))
     assert [Box(0.0, 90.0, 20.0, 100.0), Box(80.0, 0.0, 100.0, 10.0), Box(0.0, 0.0, 20.0, 10.0)] == found
     assert [] == free_boxes(1, (120.0, 10.0), PANEL, Obstacles())
+
+
+WALL = np.array([(0j, 10 + 0j)])
+
+
+def test_the_place_that_wants_room_which_a_stroke_takes_pays_for_what_is_lacking():
+    middles = np.array([[5 + 1j], [5 + 3j]])  # the nearer place lacks 2 mm, the further one none
+    assert 1 == clearest(np.array([0.0, 1.5]), ((middles, 3.0, 1.0),), WALL)
+    assert 0 == clearest(np.array([0.0, 2.5]), ((middles, 3.0, 1.0),), WALL)
+
+
+def test_of_places_that_cost_alike_but_for_rounding_the_first_is_taken():
+    middles = np.array([[5 + 9j], [5 + 9j], [5 + 9j]])
+    assert 1 == clearest(np.array([2.0, 1.0 + 1e-12, 1.0]), ((middles, 3.0, 1.0),), WALL)
+
+
+def test_the_cheapest_of_many_places_is_found_though_the_dearest_are_not_looked_at():
+    middles = np.array([[complex(5, k)] for k in range(200)])
+    prices = np.array([0.001 * k for k in range(200)])
+    assert 7 == clearest(prices, ((middles, 7.0, 1.0),), WALL)

@@ -41,7 +41,19 @@ from graphkin.drawing.boxes import (
 )  # fmt: skip
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Stroke, Text, on_page, walk
+from graphkin.drawing.ink.primitives import (
+    Arc,
+    Circle,
+    Group,
+    Line,
+    Polygon,
+    Primitive,
+    Segment,
+    Stroke,
+    Text,
+    on_page,
+    walk,
+)
 from graphkin.drawing.ink.strokes import colour_of_link, pale
 from graphkin.drawing.ink.symbols import POINTER, arrow
 from graphkin.drawing.parts.mechanism import bare_mechanism
@@ -49,7 +61,7 @@ from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
 from graphkin.drawing.parts.touching import replacing_links
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_crowd, without
-from graphkin.drawing.place.obstacles import distances
+from graphkin.drawing.place.obstacles import clearest
 from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece, obstacles_of, renamed
 from graphkin.drawing.plate import centred
 from graphkin.drawing.text import SMALLEST, plain, rich, runs_width, stacked, text_box
@@ -133,7 +145,7 @@ def _free(
 
 TOGETHER = 1.3  # mm: centres so near to each other share one mark
 BEYOND = 5.0  # mm of a construction line beyond what it finds
-ARROW = 11.0  # mm, to what lies off the figure
+ARROW, FAR_CLEAR = 11.0, 7.0  # mm, to what lies off the figure; between it and what is drawn
 IN_LINE = 4  # names of centres at one place
 
 
@@ -286,10 +298,10 @@ def _leads_through(centres: Centres, relation: CentreRelation) -> Iterator[compl
             yield centres.point(name)
 
 
-def _pointer(inside: Box, solid: Sequence[tuple[complex, complex]], centre: Centre) -> tuple[complex, complex]:
+def _pointer(inside: Box, solid: Sequence[Segment], centre: Centre) -> Segment:
     """The place of an arrow to a far centre: it points straight at the centre, clear of strokes, near the edge."""
-    middle, drawn = inside.centre, np.array(solid, dtype=complex).reshape(-1, 2)
-    best: tuple[float, complex, complex] | None = None
+    prices: list[float] = []
+    arrows: list[Segment] = []
 
     def towards(start: complex, sense: int) -> complex:
         if centre.point is not None:
@@ -300,23 +312,19 @@ def _pointer(inside: Box, solid: Sequence[tuple[complex, complex]], centre: Cent
     asides = [s * k * 6.0 for k in range(18) for s in ((1, -1) if k else (1,))]
     for sense in (1, -1) if centre.point is None else (1,):
         for aside in asides:
-            start = middle + 1j * towards(middle, sense) * aside
+            start = inside.centre + 1j * towards(inside.centre, sense) * aside
             aim = towards(start, sense)
+            chord = inside.clip(start, start + 1e4 * aim)
             for back in (0.0, 4.0, 10.0):
-                price = 0.12 * abs(aside) + 0.5 * back + 3.0 * (sense < 0)
-                if best is not None and price >= best[0]:
-                    continue
-                chord = inside.clip(start, start + 1e4 * aim)
-                if chord is None or abs(chord[1] - chord[0]) < ARROW + back:
-                    continue
-                tip = chord[1] - back * aim
-                tail = tip - ARROW * aim
-                gaps = distances(tail + (tip - tail) * np.arange(4) / 3, drawn).min(axis=0)
-                cost = price + float(np.maximum(0.0, 7.0 - gaps).sum())  # how much is drawn near it
-                if best is None or cost < best[0]:
-                    best = cost, tail, tip
-    assert best is not None, "a panel is larger than an arrow"
-    return best[1], best[2]
+                if chord is not None and abs(chord[1] - chord[0]) >= ARROW + back:
+                    tip = chord[1] - back * aim
+                    prices.append(0.12 * abs(aside) + 0.5 * back + 3.0 * (sense < 0))
+                    arrows.append((tip - ARROW * aim, tip))
+    assert arrows, "a panel is larger than an arrow"
+    tails, tips = np.array(arrows).T[..., None]
+    points = tails + (tips - tails) * np.arange(4) / 3
+    drawn = np.array(solid, dtype=complex).reshape(-1, 2)
+    return arrows[clearest(np.array(prices), ((points, FAR_CLEAR, 1.0),), drawn)]
 
 
 # -- the figure --------------------------------------------------------------------------------------------------------

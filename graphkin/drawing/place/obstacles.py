@@ -1,6 +1,6 @@
 """Obstacles on a figure: solid lines, dashed lines, and areas that no label may cover; the intersection of many lines
-and upright boxes at once; and the search for a first free place: for numbers of steps, insets, lists of names, arcs of
-rates.
+and upright boxes at once; and the search for a first free place: for numbers of steps, insets, lists of names; or for
+the clearest one: for arcs of rates, arrows to far centres.
 
 Many boxes are arrays of complex numbers, by their middle and half size; many segments have their two ends in the last
 dimension.
@@ -214,6 +214,8 @@ def _places(size: tuple[float, float], panel: Box) -> list[Box]:
     return [Box(x, y, x + width, y + height) for x, y in (*corners, *edges)]
 
 
+TRIED = 48  # places at a time
+ROUNDING = 1e-6  # of a price
 ARC_RADII = (5.5, 8.0, 11.0)  # mm, in the order of liking
 HALF_SPAN = math.radians(37)
 LABEL_AT = 3.6  # mm beyond the arc: where its name would stand
@@ -244,17 +246,39 @@ def clearest_arc(
     ways = np.exp(-1j * (_MIDDLES[:, None] + _SPREAD))  # middle x sample
     arcs = np.array(centres)[:, None, None, None] + radii[:, None, None] * ways
     names = np.array(centres)[:, None, None] + (radii[:, None] + LABEL_AT) * np.exp(-1j * _MIDDLES)
-    cost = 10.0 * np.clip(CLEAR_ARC - least_distance(arcs, near), 0.0, None).sum(axis=-1)
-    cost += 2.0 * np.clip(CLEAR_LABEL - least_distance(names, near), 0.0, None)
-    cost += 0.35 * (radii - radius)[:, None] + 0.5 * np.arange(len(centres))[:, None, None]
-    cost += 0.05 * np.abs(np.angle(np.exp(1j * (_MIDDLES - math.radians(50)))))
-    c, r, m = np.unravel_index(int(np.argmin(np.round(cost, 6))), cost.shape)
+    prices = 0.35 * (radii - radius)[:, None] + 0.5 * np.arange(len(centres))[:, None, None]
+    prices = prices + 0.05 * np.abs(np.angle(np.exp(1j * (_MIDDLES - math.radians(50)))))
+    clear = (arcs.reshape(-1, len(_SPREAD)), CLEAR_ARC, 10.0), (names.reshape(-1, 1), CLEAR_LABEL, 2.0)
+    c, r, m = np.unravel_index(clearest(prices.ravel(), clear, near), prices.shape)
     name = complex(names[c, r, m])
     taken = (*pairwise(arcs[c, r, m].tolist()), (name - 1.2, name + 1.2))
     return (centres[int(c)], float(radii[r]), float(_MIDDLES[m])), taken
 
 
-def least_distance(points: NDArray[Any], segments: Points) -> Floats:
+def clearest(prices: Floats, clear: Iterable[tuple[Points, float, float]], around: Points) -> int:
+    """The index of the cheapest of some places, of those that cost alike but for rounding the first: each has a price
+    of its own, and pays for every point that lies too near to a segment.
+
+    Parameters
+    ----------
+    prices : of the places, shape (places,)
+    clear : points of the places, shape (places, points), the room that they want (mm), and what a mm less costs
+    around : segments, shape (segments, 2)
+    """
+    order = np.argsort(prices, kind="stable")
+    costs = np.full(len(prices), np.inf)
+    for first in range(0, len(order), TRIED):
+        some = order[first : first + TRIED]
+        if prices[some[0]] > costs.min() + ROUNDING:
+            break  # nor can those behind it be cheaper
+        costs[some] = prices[some]
+        for points, room, per_mm in clear:
+            lacking = np.clip(room - least_distance(points[some], around), 0.0, None)
+            costs[some] += per_mm * lacking.sum(axis=-1)
+    return int(np.argmin(np.round(costs / ROUNDING)))
+
+
+def least_distance(points: Points, segments: Points) -> Floats:
     """Least distance of each point to any segment; infinite where there is none."""
     if not len(segments):
         return np.full(points.shape, np.inf)
