@@ -11,7 +11,7 @@ import re
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import lru_cache
 from html import escape, unescape
 from io import BytesIO
@@ -319,7 +319,7 @@ def add_labels(
         if all(label_placed.clear for label_placed in placed):
             break
     for k, label_placed in enumerate(placed, 1):
-        text = replace(label_placed.text, id=f"{axes.get_gid()}-label-{k}")
+        text = label_placed.text._replace(id=f"{axes.get_gid()}-label-{k}")
         add_words(_figure(axes), text, *([label_placed.leader] if label_placed.leader is not None else []))
 
 

@@ -6,7 +6,6 @@ Lines of a step have its number; names, points, links and senses have the number
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import (
@@ -37,7 +36,7 @@ def stepped(children: Iterable[Primitive]) -> tuple[Primitive, ...]:
     """The figure with the step of every primitive as a class, by which pages show and hide it."""
 
     def change(thing: Primitive) -> Primitive:
-        return replace(thing, step=step_of(thing)) if isinstance(thing, Group | Text) else thing
+        return thing._replace(step=step_of(thing)) if isinstance(thing, Group | Text) else thing
 
     return tied(map_tree(children, change))
 
@@ -54,7 +53,7 @@ def tied(children: Iterable[Primitive]) -> tuple[Primitive, ...]:
             if isinstance(part, Line) and isinstance(after, Text) and "label" in after.classes else part
             for part, after in zip(held, (*held[1:], None), strict=False)
         )  # fmt: skip
-        return replace(thing, children=inside)
+        return thing._replace(children=inside)
 
     return map_tree(children, change)
 
@@ -68,7 +67,7 @@ def so_far(children: Iterable[Primitive], first: int, last: int) -> tuple[Primit
             continue
         if step is None and isinstance(thing, Group):
             inside = so_far(thing.children, first, last)
-            found += [replace(thing, children=inside)] if inside else []
+            found += [thing._replace(children=inside)] if inside else []
         elif step is not None and step < first:
             found += strokes.pale((thing,), FADED, FADED + 0.2)
         elif step is not None and isinstance(thing, Group):
@@ -88,7 +87,7 @@ def _band(thing: Primitive) -> list[Primitive]:
     if isinstance(thing, Line) and thing.start != thing.end:
         return [Line(thing.start, thing.end, Stroke(HALO_WIDTH, (), HALO))]
     if isinstance(thing, Polyline | Arc):
-        return [replace(thing, stroke=Stroke(HALO_WIDTH, (), HALO))]
+        return [thing._replace(stroke=Stroke(HALO_WIDTH, (), HALO))]
     if isinstance(thing, Polygon) and thing.stroke is not None and not thing.fill:
         return [Polygon(thing.points, "", Stroke(HALO_WIDTH, (), HALO))]
     if isinstance(thing, Circle):

@@ -128,7 +128,7 @@ def mechanism_picture(lesson: Lesson) -> Drawing:
                 thing for thing, after in both if not names_result(thing)
                 and not (isinstance(thing, Group) and "leader" in thing.classes and names_result(after))
             )  # fmt: skip
-            kept.append(replace(layer, children=things))
+            kept.append(layer._replace(children=things))
     described = describe(lesson.sheet, ("mechanism",), lesson.language)
     return _cropped(lesson, kept, term("mechanism", lesson.language), described, "mechanism")
 

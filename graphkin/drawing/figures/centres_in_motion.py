@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -104,9 +103,9 @@ def _moving(
     kind, _, name = thing.id.partition("-")
     if kind in ("link", "cam", "follower") and name in origins:
         path = origins[name]
-        return replace(thing, motion=_travel(path, path[0], turned[name], on_page(complex(path[0]))))
+        return thing._replace(motion=_travel(path, path[0], turned[name], on_page(complex(path[0]))))
     moves = kind == "point" and name in points
-    return replace(thing, motion=_travel(points[name], points[name][0])) if moves else thing
+    return thing._replace(motion=_travel(points[name], points[name][0])) if moves else thing
 
 
 def _moves(path: Places) -> bool:

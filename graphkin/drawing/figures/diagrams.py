@@ -148,7 +148,7 @@ def _beside(label: Label) -> Text:
         away = page_direction(0.8)
     half = abs(away.real) * box.width / 2 + abs(away.imag) * box.height / 2
     centre = middle_of(label.mark) + away * (half + ASIDE)
-    return replace(label.text, at=centre - box.centre, anchor="start", since=None)
+    return label.text._replace(at=centre - box.centre, anchor="start", since=None)
 
 
 GUTTER = 4.0  # mm between panels

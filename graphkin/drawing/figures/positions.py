@@ -304,7 +304,7 @@ def _dimensions(shown: Shown, drawn: Piece) -> Piece:
             continue
         *lines, text = choices[0]
         assert isinstance(text, Text)
-        labels.append(Label(replace(text, anchor="start", id=f"label-{id}", classes=("label",)), _mark(lines)))
+        labels.append(Label(text._replace(anchor="start", id=f"label-{id}", classes=("label",)), _mark(lines)))
         parts += lines
     return Piece({"answers": tuple(parts)} if parts else {}, tuple(labels))
 

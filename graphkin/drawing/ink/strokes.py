@@ -7,7 +7,6 @@ the mechanism and in every diagram, where a vector has the colour of the link wh
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 
 from graphkin.account.voice import link_of_vector
 from graphkin.construction.board.sheet import Sheet
@@ -69,11 +68,11 @@ def pale(children: Iterable[Primitive], strength: float = 0.45, words: float = 1
         if isinstance(thing, Group | Scan):
             return thing
         if isinstance(thing, Text):
-            return thing if words == 1.0 else replace(thing, colour=tint(thing.colour, words))
+            return thing if words == 1.0 else thing._replace(colour=tint(thing.colour, words))
         if isinstance(thing, Polygon | Circle):
             stroke = thing.stroke and thing.stroke.coloured(tint(thing.stroke.colour, strength))
-            return replace(thing, fill=thing.fill and tint(thing.fill, strength), stroke=stroke)
-        return replace(thing, stroke=thing.stroke.coloured(tint(thing.stroke.colour, strength)))
+            return thing._replace(fill=thing.fill and tint(thing.fill, strength), stroke=stroke)
+        return thing._replace(stroke=thing.stroke.coloured(tint(thing.stroke.colour, strength)))
 
     return map_tree(children, thinned)
 

@@ -197,7 +197,7 @@ def _detail_inset(here: PolygonOnPage, detail: Detail, box: Box, number: int, po
         if inner.distance(spot) == 0.0:
             parts.append(Circle(spot, END_RADIUS, fill=strokes.BLACK))
             id = f"label-detail-{point.text.id.removeprefix('label-')}"
-            name = replace(point.text, id=id, step=detail.crowd, since=here.since(detail))
+            name = point.text._replace(id=id, step=detail.crowd, since=here.since(detail))
             names.append(Label(name, spot, point.toward, rank=1))
     id, classes = f"detail-{here.diagram}-{number}", ("inset", "detail")
     runs = fitted(f"{roman(number)}: {_enlarged(detail.factor, here.language)}", NUMERAL, box.width - 1.6)
@@ -286,7 +286,7 @@ def _mechanism_detail(
     parts, classes = named.layers["mechanism"], ("inset", "detail")
     frame = _inset(box, "mechanism", parts, words, 1.6, "detail-mechanism", "label-detail-mechanism", classes)
     labels = tuple(
-        replace(thing, id=f"label-detail-{thing.id.removeprefix('label-')}", step=None, since=None)
+        thing._replace(id=f"label-detail-{thing.id.removeprefix('label-')}", step=None, since=None)
         if isinstance(thing, Text) else thing for thing in named.layers.get("labels", ())
     )  # fmt: skip
     return joined((Piece({"labels": labels}), frame))

@@ -374,7 +374,7 @@ def ring_numerals(here: PolygonOnPage, around: Obstacles) -> Piece:
         (place,) = first_free([middles.ravel()], [half], around, CLEAR, here.panel)
         if place is not None:
             gap, way = divmod(place, len(WAYS))
-            written = replace(text, at=complex(middles[gap, way]) - box.centre)
+            written = text._replace(at=complex(middles[gap, way]) - box.centre)
             leader = Line(complex(edges[way]), complex(ends[gap, way]), strokes.LEADER)
             led = (Group((leader,)),) if gap >= UNLED else ()
             pieces.append(dated(Piece({"labels": (*led, written)}), here.since(d)))
@@ -469,7 +469,7 @@ def _vectors(here: PolygonOnPage) -> Iterator[Group]:
         )  # fmt: skip
         ends = ((here.at(vector.tail), tail), (here.at(vector.tip), tip)) if vector.symbol in here.shifts else ()
         ties = tuple(Line(true, shown, strokes.CONSTRUCTION) for true, shown in ends)
-        yield replace(group, children=(*group.children, *ties))
+        yield group._replace(children=(*group.children, *ties))
 
 
 def _vector_names(here: PolygonOnPage) -> Iterator[Label]:
@@ -509,7 +509,7 @@ def _name(
     key = step_number(step, text.colour)
     if LEAST <= length < SHORT and len(here.vectors) <= MANY:
         by = runs_width(key.runs) + BESIDE
-        text = replace(text, runs=(*key.runs, *(run._replace(x=run.x + by) for run in text.runs)), step=step)
+        text = text._replace(runs=(*key.runs, *(run._replace(x=run.x + by) for run in text.runs)), step=step)
     ends = [letters.get(same_place(end), "") for end in (first.tail, first.tip)]
     between = "→".join(ends) if all(ends) else ""
     return Label(text, here.drawn(first), rank=2 if resultants and not us else 1, key=key, between=between)
@@ -557,7 +557,7 @@ def step_numbers(
     places = np.take_along_axis(np.hstack((by_vectors, np.array(by_names))), order, axis=1)
     found = first_free([*places], half.tolist(), around, CLEAR, panel)
     return tuple(
-        replace(text, at=complex(row[i]) - box.centre)
+        text._replace(at=complex(row[i]) - box.centre)
         for text, box, row, i in zip(texts, boxes, places, found, strict=True) if i is not None
     )  # fmt: skip
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -232,7 +232,7 @@ class LabelPanel:
         for i in some:
             text, key = self.labels[i].text, self.labels[i].key
             assert key is not None
-            self.texts.append(replace(key, id=text.id, classes=("label", *key.classes), since=text.since))
+            self.texts.append(key._replace(id=text.id, classes=("label", *key.classes), since=text.since))
         self._ask()
         if some:
             self._find([*self.keys.values()], AROUND_POINT, AROUND_VECTOR)

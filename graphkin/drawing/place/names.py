@@ -146,7 +146,7 @@ def _in_columns(
     tops = list(accumulate((height + APART[1] for height in heights), initial=0.0))
     size = added_up(widths) + APART[0] * (len(widths) - 1), tops[-1] - APART[1]
     return tuple(
-        replace(entries[i], at=complex(room.left + left, room.top + tops[k] - boxes[i].top))
+        entries[i]._replace(at=complex(room.left + left, room.top + tops[k] - boxes[i].top))
         for room in free_boxes(1, size, panel, around, clear)
         for left, column in zip(lefts, columns, strict=True) for k, i in enumerate(column)
     )  # fmt: skip

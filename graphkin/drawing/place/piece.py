@@ -66,10 +66,10 @@ def dated(piece: Piece, since: int | None) -> Piece:
     """The piece with the number of the step from which it is shown, on its parts and names without one."""
 
     def known(thing: Primitive) -> Primitive:
-        return replace(thing, since=since) if isinstance(thing, Group | Text) and thing.since is None else thing
+        return thing._replace(since=since) if isinstance(thing, Group | Text) and thing.since is None else thing
 
     layers = {layer: tuple(map(known, things)) for layer, things in piece.layers.items()}
-    names = (label.text if label.text.since else replace(label.text, since=since) for label in piece.labels)
+    names = (label.text if label.text.since else label.text._replace(since=since) for label in piece.labels)
     labels = (replace(label, text=name) for label, name in zip(piece.labels, names, strict=True))
     return Piece(layers, tuple(labels), piece.marks)
 
@@ -87,7 +87,7 @@ def cut_to(children: Iterable[Primitive], box: Box) -> tuple[Primitive, ...]:
             return thing
         if isinstance(thing, Line):
             inside = box.clip(thing.start, thing.end)
-            return None if inside is None or inside[0] == inside[1] else replace(thing, start=inside[0], end=inside[1])
+            return None if inside is None or inside[0] == inside[1] else thing._replace(start=inside[0], end=inside[1])
         reach = _outermost(thing)
         return thing if reach and box.holds(Box.around(reach)) else None
 
@@ -138,7 +138,7 @@ def renamed(piece: Piece, suffix: str) -> Piece:
     """The piece with other ids, for a page with others of its kind."""
 
     def renamed(thing: Primitive) -> Primitive:
-        return replace(thing, id=thing.id + suffix) if isinstance(thing, Group | Text) and thing.id else thing
+        return thing._replace(id=thing.id + suffix) if isinstance(thing, Group | Text) and thing.id else thing
 
     return replace(piece, layers={layer: map_tree(things, renamed) for layer, things in piece.layers.items()})
 

@@ -10,7 +10,6 @@ import math
 import re
 from base64 import b64encode
 from collections.abc import Mapping
-from dataclasses import replace
 from functools import cache, lru_cache
 from html import escape
 from itertools import count
@@ -324,7 +323,7 @@ class _InPage(_Ink):
     def draw(self, thing: Primitive) -> str:
         if isinstance(thing, Line) and thing.covered:
             inked = abs(thing.inked_end - thing.start)
-            dashed = replace(thing.stroke, dash=(inked, abs(thing.end - thing.start) + 1.0))
+            dashed = thing.stroke._replace(dash=(inked, abs(thing.end - thing.start) + 1.0))
             thing = Line(thing.start, thing.end, dashed)
         return super().draw(thing)
 
