@@ -26,7 +26,6 @@ from graphkin.drawing.place.obstacles import (
     in_rows,
     joined,
     near,
-    overlapping,
     separated,
     sides,
     sides_around,
@@ -130,40 +129,42 @@ class Places(NamedTuple):
         return Places(*columns)
 
 
+NOWHERE, TOLD = 0, 1  # in place of a place's number: of labels given up, and named in a list
 LEADER_SPACE = 0.25  # mm between a leader and the box of any other label
 
 
-def meeting(ones: Floats, others: Floats, space: tuple[float, float]) -> Flags:
-    """Whether boxes with leaders, in rows, meet others, in columns: they come nearer than a space (mm, across and
-    down), or the leader of one runs over the box of the other, or nearly, or crosses its leader.
+def outlined(forms: Floats, space: tuple[float, float]) -> Floats:
+    """Forms of `Places`, followed by the lower and the higher corners of upright boxes, shape (2, 20, places) (mm).
 
-    Both are forms of `Places`; a form of nan is nowhere, and meets none.
+    Four are of what may meet another label (its box with a space, across and down, its leader, its box with
+    `LEADER_SPACE`, its leader), four of what that meets in turn (box, box with `LEADER_SPACE`, leader, leader).  A
+    missing leader is nowhere (nan).
     """
-    room = np.array(space)[:, None]
-    met = overlapping(sides(others[:, 0], others[:, 1]), sides(ones[:, 0], ones[:, 1] + room))
-    led, leading = _with_leader(ones), _with_leader(others)
-    for leads, some, boxes, struck in ((ones, led, others, met), (others, leading, ones, met.T)):
-        if some.size:
-            middles, halves = boxes[:, 0], boxes[:, 1] + LEADER_SPACE
-            start, end = leads[:, 2].take(some, axis=1), leads[:, 3].take(some, axis=1)
-            lead, box = joined(near(sides_around(start, end), sides(middles, halves)))
-            off, along = middles.take(box, axis=1) - start.take(lead, axis=1), (end - start).take(lead, axis=1)
-            hit = ~separated(off, halves.take(box, axis=1), along)
-            struck[some.take(lead[hit]), box[hit]] = True
-    if led.size and leading.size:
-        a, b, c, d = (
-            forms[:, end].take(some, axis=1) for forms, some in ((ones, led), (others, leading)) for end in (2, 3)
-        )
-        one, other = joined(near(sides_around(a, b), sides_around(c, d)))
-        a, b, c, d = (ends.take(some, axis=1) for ends, some in ((a, one), (b, one), (c, other), (d, other)))
-        crossed = crosses(a, b, c, d)
-        met[led.take(one[crossed]), leading.take(other[crossed])] = True
+    middles, halves, feet, tips = forms.swapaxes(0, 1)
+    led = (feet != tips).any(axis=0)
+    leader = np.where(led, np.minimum(feet, tips), np.nan), np.where(led, np.maximum(feet, tips), np.nan)
+    halves_with = halves + np.array(space)[:, None], halves + LEADER_SPACE, halves
+    wide, close, bare = ((middles - half, middles + half) for half in halves_with)
+    kinds = zip(wide, leader, close, leader, strict=True), zip(bare, close, leader, leader, strict=True)
+    return np.stack((*forms.swapaxes(0, 1), *(side for kind in kinds for sides in kind for side in sides)), axis=1)
+
+
+def meeting(ones: Floats, others: Floats) -> Flags:
+    """Whether labels, in rows, meet others, in columns, both as `outlined`: they come nearer than the space, or the
+    leader of one runs over the box of the other, or nearly, or crosses its leader.  Nowhere (nan) is met by none."""
+    near = ones[:, 4:8, :, None] <= others[:, 16:20, None]
+    near &= ones[:, 8:12, :, None] >= others[:, 12:16, None]
+    near = near[0] & near[1]
+    met: Flags = near[0]
+    pairs = np.flatnonzero((near[1] | near[2] | near[3]) & ~met)
+    _, over, under, leaders = near.reshape(4, -1).take(pairs, axis=1)
+    row, column = np.divmod(pairs, met.shape[1])
+    one, other = (labels[:, :4].take(some, axis=2) for labels, some in ((ones, row), (others, column)))
+    for hit, lead, box in ((over, one, other), (under, other, one)):
+        hit &= ~separated(box[:, 0] - lead[:, 2], box[:, 1] + LEADER_SPACE, lead[:, 3] - lead[:, 2])
+    leaders &= crosses(one[:, 2], one[:, 3], other[:, 2], other[:, 3])
+    met.ravel()[pairs] = over | under | leaders
     return met
-
-
-def _with_leader(forms: Floats) -> Indices:
-    """Whether places have a leader."""
-    return np.flatnonzero((forms[0, 2] != forms[0, 3]) | (forms[1, 2] != forms[1, 3]))
 
 
 LEADER_FROM = 5.0  # mm: a label further off than this has a leader
@@ -184,14 +185,16 @@ NEAR_END = 2.0
 class LabelPanel:
     """A panel with its strokes and marks, and the places of labels and of their keys.
 
-    A request is the number of a label, or a number after these for a label's key.
+    A request is the number of a label, or a number after these for a label's key.  ``places`` are all that were found,
+    behind two nowhere; ``numbers`` those of a request among them, the cheapest first.
     """
 
     def __init__(self, labels: Sequence[Label], panel: Box, obstacles: Obstacles, marks: Sequence[Mark]) -> None:
         self.labels, self.panel = labels, panel
         self.texts = [label.text for label in labels]
         self.keys: dict[int, int] = {}  # the request for the key of a label
-        self.found: dict[int, Places] = {}
+        nowhere = np.full((2, 4, 2), np.nan), np.zeros(2), np.zeros(2), np.zeros(2, dtype=bool), np.full(2, -1)
+        self.places, self.numbers = Places(*nowhere), dict[int, Indices]()
         writing, thick = set(obstacles.writing), set(obstacles.thick)
         areas = [area.grown(LEADER_SPACE) if area in writing else area for area in obstacles.areas]
         diagonals = tuple((complex(area.left, area.top), complex(area.right, area.bottom)) for area in areas)
@@ -244,14 +247,20 @@ class LabelPanel:
             self._find(some, LED_FROM_POINT, LED_FROM_VECTOR)
 
     def _find(self, some: Sequence[int], around_points: Floats, around_vectors: Floats) -> None:
-        """Add the faultless ones of some places to the known places of some requests, the cheapest first."""
-        judged, _ = self._judged(self._around(some, around_points, around_vectors), keep=False)
-        known = [self.found[i] for i in some if i in self.found]
-        found = Places.stacked((*known, judged)) if known else judged
-        found = found.picked(np.lexsort((found.costs, found.owners)))
-        bounds = (np.searchsorted(found.owners, some, side).tolist() for side in ("left", "right"))
+        """Add the faultless ones of some places to the known places of some requests."""
+        first = len(self.places.costs)
+        self.add(self._judged(self._around(some, around_points, around_vectors), keep=False)[0])
+        known = [self.numbers[i] for i in some if i in self.numbers]
+        numbers = np.concatenate((*known, np.arange(first, len(self.places.costs))))
+        costs, owners = self.places.costs.take(numbers), self.places.owners.take(numbers)
+        order = np.lexsort((costs, owners))
+        bounds = (np.searchsorted(owners[order], some, side).tolist() for side in ("left", "right"))
         for i, first, last in zip(some, *bounds, strict=True):
-            self.found[i] = found.picked(np.arange(first, last))
+            self.numbers[i] = numbers[order[first:last]]
+
+    def add(self, places: Places) -> None:
+        """Add places to the table."""
+        self.places = Places.stacked((self.places, places))
 
     def _around(self, some: Sequence[int], around_points: Floats, around_vectors: Floats) -> Places:
         """Places of some requests around their marks, without leaders and obstacles.

@@ -10,18 +10,16 @@ Christensen, Marks and Shieber, An empirical study of algorithms for point-featu
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from itertools import accumulate, pairwise
-from typing import NamedTuple
+from itertools import pairwise
 
 import numpy as np
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Line, Text
-from graphkin.drawing.place.labels import FORBIDDEN, Label, LabelPanel, Mark, Places, meeting
+from graphkin.drawing.place.labels import FORBIDDEN, NOWHERE, TOLD, Label, LabelPanel, Mark, meeting, outlined
 from graphkin.drawing.place.obstacles import Flags, Indices, Obstacles
 from graphkin.plane import added_up
 
@@ -39,9 +37,7 @@ TRIED, LOOKED_AT = 45, 100  # places tried that others stand in, and places that
 ROUNDING = 1e-6  # mm
 LOT = 8  # places of all labels looked at together for some in which no label stands
 IN_THE_WAY = 2  # labels that make room for another at most
-TOLD, NOWHERE = -1, -2  # in place of a request
 NOTHING = Obstacles()
-NO_FORM = (math.nan, 0.0, 0.0, 0.0), (math.nan, 0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -73,41 +69,32 @@ def place(
     return Placement(labels, panel, obstacles, marks).placed
 
 
-class Stand(NamedTuple):
-    """The place of a label: its request (``TOLD`` in a list, ``NOWHERE``), its cost (mm), x and y (mm) of its middle,
-    half size, foot and tip of its leader, and whether it has a fault."""
-
-    request: int
-    cost: float
-    form: Sequence[Sequence[float]] = NO_FORM
-    bad: bool = False
-
-    @classmethod
-    def at(cls, places: Places, k: int | np.intp) -> Stand:
-        """The stand at one of some places."""
-        return cls(int(places.owners[k]), float(places.costs[k]), places.forms[:, :, k].tolist(), bool(places.bad[k]))
-
-
 class Placement:
-    """The labels' places; parameters as for `place`."""
+    """The labels' places; parameters as for `place`.
+
+    stands : the number of each label's place in the table of its panel
+    paid : what each label costs there (mm)
+    met : the places (columns) that labels (rows) leave no room in where they stand, but for those just ``moved``
+    """
 
     def __init__(
         self, labels: Sequence[Label], panel: Box, obstacles: Obstacles = NOTHING, marks: Sequence[Mark] = ()
     ) -> None:
         self.labels = labels
-        self.choices = LabelPanel(labels, panel, obstacles, marks)
-        self.lacking = [Stand(NOWHERE, MISSING[min(label.rank, len(MISSING) - 1)]) for label in labels]
-        self.stands = [*self.lacking]
-        self.forms = np.array([stand.form for stand in self.stands]).reshape(-1, 2, 4).transpose(1, 2, 0).copy()
+        self.panel = LabelPanel(labels, panel, obstacles, marks)
+        self.lacking = [MISSING[min(label.rank, len(MISSING) - 1)] for label in labels]
+        self.stands, self.paid = [NOWHERE] * len(labels), [*self.lacking]
         self.telling = False  # whether a list may tell labels by their ends
+        self.outlines = np.empty((2, 20, 0))
         self._list_places()
-        order = ((label.rank >= DISPENSABLE, len(self.choices.found[i].costs), i) for i, label in enumerate(labels))
-        self._stand([i for _, _, i in sorted(order)])
+        order = ((label.rank >= DISPENSABLE, len(self.numbers[i]), i) for i, label in enumerate(labels))
+        if labels:
+            self._stand([i for _, _, i in sorted(order)])
         self._settle(range(len(labels)))
         for i, label in enumerate(labels):
-            if label.rank == 0 and self.stands[i].request == NOWHERE:
+            if label.rank == 0 and self.stands[i] == NOWHERE:
                 self._insist(i)
-        self.choices.look_further(self._wanting)
+        self.panel.look_further(self._wanting)
         self._list_places()
         self._settle(self._wanting)
         for i in self._wanting:
@@ -116,37 +103,38 @@ class Placement:
     @property
     def _wanting(self) -> list[int]:
         """The labels with a fault, or without a place."""
-        return [i for i, one in enumerate(self.stands) if one.bad or one.request == NOWHERE]
+        return [i for i, k in enumerate(self.stands) if k == NOWHERE or self.panel.places.bad[k]]
 
     @property
     def told(self) -> list[int]:
         """The labels that a list names by their ends."""
-        return [i for i, stand in enumerate(self.stands) if stand.request == TOLD]
+        return [i for i, k in enumerate(self.stands) if k == TOLD]
 
     @property
     def placed(self) -> tuple[Placed, ...]:
         """The labels at their places, in their order."""
-        return tuple(self._placed(i, one) for i, one in enumerate(self.stands) if one.request >= 0)
+        return tuple(self._placed(i, k) for i, k in enumerate(self.stands) if k not in (NOWHERE, TOLD))
 
-    def _placed(self, i: int, stand: Stand) -> Placed:
-        middle, half, foot, tip = map(complex, *stand.form)
-        text, own = self.choices.texts[stand.request], self.choices.boxes[stand.request]
+    def _placed(self, i: int, k: int) -> Placed:
+        middle, half, foot, tip = (complex(*corner) for corner in self.panel.places.forms[:, :, k].T.tolist())
+        request = int(self.panel.places.owners[k])
+        text, own = self.panel.texts[request], self.panel.boxes[request]
         box = Box.around((middle - half, middle + half))
         at = complex(box.left - own.left, box.top - own.top)
         text = Text(at, text.runs, "start", text.colour, text.id, text.classes, text.step, text.since)
         leader = None if foot == tip else Line(foot, tip, strokes.LEADER)
-        return Placed(text, box, leader, stand.cost < FORBIDDEN, stand.request != i)
+        return Placed(text, box, leader, self.paid[i] < FORBIDDEN, request != i)
 
     @property
     def crowded(self) -> list[int]:
         """The labels with a fault, or without a place though they have keys and must be placed."""
         keyed = [label.key is not None and label.rank < DISPENSABLE for label in self.labels]
-        return [i for i in self._wanting if self.stands[i].request != NOWHERE or keyed[i]]
+        return [i for i in self._wanting if self.stands[i] != NOWHERE or keyed[i]]
 
     def shorten(self) -> None:
         """Replace names with faults, and names in their way, by keys; else list them by their ends."""
-        crowded, keys = self.crowded, self.choices.ask_for_keys()
-        self.choices.look_further([keys[i] for i in crowded if i in keys])
+        crowded, keys = self.crowded, self.panel.ask_for_keys()
+        self.panel.look_further([keys[i] for i in crowded if i in keys])
         self._list_places()
         self._settle(crowded)
         self.telling = True
@@ -156,121 +144,121 @@ class Placement:
         """Move some labels, the costliest first, while any move gains."""
         waiting = set(some)
         for _ in range(ROUNDS):
-            for i in sorted(waiting, key=lambda i: (-self.stands[i].cost, i)):
+            for i in sorted(waiting, key=lambda i: (-self.paid[i], i)):
                 if not self._improve(i):
                     waiting.discard(i)
             if not waiting:
                 break
 
-    def _take(self, i: int, stand: Stand) -> None:
-        self.stands[i] = stand
-        self.forms[:, :, i] = stand.form
-
     def _list_places(self) -> None:
-        """List the places of all labels again, with their numbers by label: for its name and for its key, which costs
-        more, the cheapest first."""
-        lots = [self.choices.found[i] for i in range(len(self.labels))]
-        if not lots:
+        """List the places of all labels again: their numbers by label, for its name and for its key, which costs more,
+        the cheapest first; and judge the new ones beside the labels that stand."""
+        table, known = self.panel.places, self.outlines.shape[2]
+        if known == len(table.costs):
             return
-        for i, request in self.choices.keys.items():
-            keys = self.choices.found[request]
-            lot = Places.stacked((lots[i], keys._replace(costs=keys.costs + KEY_COST)))
-            lots[i] = lot.picked(np.argsort(lot.costs, kind="stable"))
-        bounds = accumulate((len(lot.costs) for lot in lots), initial=0)
-        self.numbers = [np.arange(*span) for span in pairwise(bounds)]
-        self.places = Places.stacked(lots)
+        self.outlines = np.concatenate((self.outlines, outlined(table.forms[:, :, known:], SPACE)), axis=2)
+        self.met = np.zeros((len(self.labels), len(table.costs)), dtype=bool)
+        self.moved = {i for i, k in enumerate(self.stands) if k not in (NOWHERE, TOLD)}
+        self.costs = table.costs + KEY_COST * (table.owners >= len(self.labels))
+        self.numbers = [self.panel.numbers[i] for i in range(len(self.labels))]
+        for i, request in self.panel.keys.items():
+            both = np.concatenate((self.numbers[i], self.panel.numbers[request]))
+            self.numbers[i] = both[np.argsort(self.costs[both], kind="stable")]
+        self.prices = [self.costs[numbers] for numbers in self.numbers]
+
+    def _take(self, i: int, k: int, cost: float) -> None:
+        """Let a label stand in a place."""
+        self.stands[i], self.paid[i] = k, cost
+        self.moved.add(i)
 
     def _others_in(self, i: int, some: Indices) -> Flags:
         """Whether labels (rows), except one, stand in some places (columns)."""
-        others = meeting(self.forms, self.places.picked(some).forms, SPACE)
+        if self.moved:
+            moved = sorted(self.moved)
+            self.met[moved] = meeting(self.outlines.take([self.stands[j] for j in moved], axis=2), self.outlines)
+            self.moved.clear()
+        others = self.met.take(some, axis=1)
         others[i] = False
         return others
 
     def _stand(self, order: Sequence[int]) -> None:
         """Let labels take, in order, the cheapest free place."""
-        if not order:
-            return
         lots = [self.numbers[i][:LOT] for i in order]
-        places = self.places.picked(np.concatenate(lots))  # in which mostly there is a free one for each
-        met, shut = meeting(places.forms, places.forms, SPACE), np.zeros(len(places.costs), dtype=bool)
+        outlines = self.outlines.take(np.concatenate(lots), axis=2)  # in which mostly there is a free one for each
+        met, shut = meeting(outlines, outlines), np.zeros(outlines.shape[2], dtype=bool)
         first = 0
         for i, lot in zip(order, lots, strict=True):
             last = first + len(lot)
             free = (~shut[first:last]).nonzero()[0]
             if free.size:
-                self._take(i, Stand.at(self.places, lot[free[0]]))
-                shut |= met[first + free[0]]
-            elif self._stand_further(i):
-                shut |= meeting(self.forms[:, :, i : i + 1], places.forms, SPACE)[0]
+                k, barred = int(lot[free[0]]), met[first + free[0]]
+            else:
+                free = np.flatnonzero(~self._others_in(i, self.numbers[i]).any(axis=0))[:1]
+                k = int(self.numbers[i][free[0]]) if free.size else NOWHERE
+                barred = meeting(self.outlines[:, :, k : k + 1], outlines)[0]
+            if k != NOWHERE:
+                self._take(i, k, float(self.costs[k]))
+            shut |= barred
             first = last
-
-    def _stand_further(self, i: int) -> bool:
-        """Let a label take its cheapest free place; whether there is one."""
-        places = self.numbers[i]
-        free = np.flatnonzero(~self._others_in(i, places).any(axis=0))
-        if free.size:
-            self._take(i, Stand.at(self.places, places[free[0]]))
-        return bool(free.size)
 
     def _improve(self, i: int) -> bool:
         """Move a label, and a few in its way, to places of lower total cost; whether there are such places."""
-        here, without = self.stands[i], self._without(i)
-        least = min(here.cost - GAIN, without.cost)
-        costs = self.places.costs[self.numbers[i]]
-        if here.cost <= without.cost and not (costs[:1] < least).any():
+        paid, (gone, without) = self.paid[i], self._without(i)
+        least = min(paid - GAIN, without)
+        if paid <= without and not (self.prices[i][:1] < least).any():
             return False
-        offers, met = self._offers(i, int(np.searchsorted(costs, least)))
+        offers, met = self._offers(i, int(self.prices[i].searchsorted(least)))
         crowd = sorted({j for others in met for j in others})
         room, lots, clear = self._room(i, crowd, offers, least)
-        costs, room_costs = self.places.costs[offers].tolist(), self.places.costs[room].tolist()
-        forms = self.places.picked(room).forms
+        costs, room_costs = self.costs[offers].tolist(), self.costs[room].tolist()
+        outlines = self.outlines.take(room, axis=2)
         shut: dict[int, Flags] = {}  # what each place of those in the way leaves clear
-        best, moved = without if without.cost < here.cost else here, dict[int, int]()
+        best, moved = (gone, without) if without < paid else None, dict[int, int]()
         for n, others in enumerate(met):
             left, cost, goes = clear[n], costs[n], dict[int, int]()
             for j in others:
-                lot, lacking = lots[j], self._without(j).cost
+                lot, lacking = lots[j], self._without(j)[1]
                 k = lot.start + int(left[lot].argmax()) if lot.start < lot.stop else -1
                 goes[j] = k = k if k >= 0 and left[k] and room_costs[k] < lacking else -1
-                cost += (room_costs[k] if k >= 0 else lacking) - self.stands[j].cost
+                cost += (room_costs[k] if k >= 0 else lacking) - self.paid[j]
                 if cost >= least:
                     break
                 if k >= 0 and j != others[-1]:
                     if k not in shut:
-                        shut[k] = ~meeting(forms[:, :, k : k + 1], forms, SPACE)[0]
+                        shut[k] = ~meeting(outlines[:, :, k : k + 1], outlines)[0]
                     left = left & shut[k]
             else:
                 if cost < least:
-                    least, best, moved = cost, Stand.at(self.places, offers[n]), goes
-        if best == here:
+                    least, best, moved = cost, (int(offers[n]), costs[n]), goes
+        if best is None:
             return False
-        self._take(i, best)
+        self._take(i, *best)
         for j, k in moved.items():
-            self._take(j, Stand.at(self.places, room[k]) if k >= 0 else self._without(j))
+            self._take(j, *((int(room[k]), room_costs[k]) if k >= 0 else self._without(j)))
         return True
 
     def _push(self, i: int) -> None:
         """Put a label in a cheap place, occupied or not, and let the displaced labels find places; undo it if that
         costs more."""
-        before = list(self.stands)
+        before = self.stands.copy(), self.paid.copy()
         places = self.numbers[i][:PUSHED]
         if places.size:
             met = self._others_in(i, places)
-            k = int(np.argmin(self.places.costs[places] + PUSH * met.sum(axis=0)))
-            self._take(i, Stand.at(self.places, places[k]))
+            k = int(np.argmin(self.costs[places] + PUSH * met.sum(axis=0)))
+            self._take(i, int(places[k]), float(self.costs[places[k]]))
             pushed = np.flatnonzero(met[:, k]).tolist()
             for j in pushed:
-                self._take(j, self._without(j))
+                self._take(j, *self._without(j))
             self._settle(pushed)
-        if added_up(one.cost for one in self.stands) > added_up(one.cost for one in before) - GAIN:
-            for j, stand in enumerate(before):
-                if self.stands[j] != stand:
-                    self._take(j, stand)
+        if added_up(self.paid) > added_up(before[1]) - GAIN:
+            for j, (k, cost) in enumerate(zip(*before, strict=True)):
+                if self.stands[j] != k:
+                    self._take(j, k, cost)
 
-    def _without(self, i: int) -> Stand:
-        """The stand of a label without a place: in a list by the ends of its vector, or nowhere."""
-        telling = self.telling and self.labels[i].between and self.lacking[i].cost > TOLD_COST
-        return Stand(TOLD, TOLD_COST) if telling else self.lacking[i]
+    def _without(self, i: int) -> tuple[int, float]:
+        """The stand of a label without a place, and its cost: in a list by the ends of its vector, or nowhere."""
+        telling = self.telling and self.labels[i].between and self.lacking[i] > TOLD_COST
+        return (TOLD, TOLD_COST) if telling else (NOWHERE, self.lacking[i])
 
     def _offers(self, i: int, count: int) -> tuple[Indices, list[list[int]]]:
         """The first places of a label, up to a free one, in which few labels stand, and these labels."""
@@ -292,32 +280,34 @@ class Placement:
         """
         if not some:
             return offers[:0], {}, np.empty((len(offers), 0), dtype=bool)
-        known = self.places.costs
-        now = [self.stands[j].cost for j in some]
+        now = [self.paid[j] for j in some]
         saved = max(
-            cost - known[self.numbers[j]].min(initial=min(cost, self._without(j).cost))
+            cost - self.prices[j][:1].min(initial=min(cost, self._without(j)[1]))
             for j, cost in zip(some, now, strict=True)
         )
-        most = least - known[offers[0]] + saved + ROUNDING
-        counts = [np.searchsorted(known[self.numbers[j]], cost + most) for j, cost in zip(some, now, strict=True)]
-        lots = [self.numbers[j][: min(LOOKED_AT, count)] for j, count in zip(some, counts, strict=True)]
-        places, labels = np.concatenate(lots), np.repeat(some, [len(lot) for lot in lots])
-        standing_offered = np.concatenate((self.forms, self.places.picked(offers).forms), axis=-1)
-        met = meeting(standing_offered, self.places.picked(places).forms, SPACE)
-        standing, offered = met[: len(self.labels)], met[len(self.labels) :]
-        standing[i] = standing[labels, np.arange(len(labels))] = False
+        most = least - self.costs[offers[0]] + saved + ROUNDING
+        counts = [self.prices[j][:LOOKED_AT].searchsorted(cost + most) for j, cost in zip(some, now, strict=True)]
+        lots = [self.numbers[j][:count] for j, count in zip(some, counts, strict=True)]
+        places, labels = np.concatenate(lots), np.repeat(some, counts)
+        standing = self._others_in(i, places)
+        standing[labels, np.arange(len(labels))] = False
         free = np.flatnonzero(~standing.any(axis=0))
         bounds = np.searchsorted(labels[free], [*some, len(self.labels)]).tolist()
         spans = {j: slice(*span) for j, span in zip(some, pairwise(bounds), strict=True)}
-        return places[free], spans, ~offered[:, free]
+        room = places[free]
+        return room, spans, ~meeting(self.outlines.take(offers, axis=2), self.outlines.take(room, axis=2))
 
     def _insist(self, i: int) -> None:
         """Put a label in its least harmful place, and give up labels in its way that may be given up."""
-        places = self.choices.everywhere(i)
-        met = meeting(self.forms, places.forms, (0.0, 0.0))
-        worth = np.array([min(FORBIDDEN, stand.cost) for stand in self.lacking])
+        places, table = self.panel.everywhere(i), self.panel.places
+        standing, everywhere = (outlined(forms, (0.0, 0.0)) for forms in (
+            table.forms.take(self.stands, axis=2), places.forms))  # fmt: skip
+        met = meeting(standing, everywhere)
+        worth = np.array([min(FORBIDDEN, lacking) for lacking in self.lacking])
         k = int(np.argmin(places.costs + worth @ met))
         for j in np.flatnonzero(met[:, k]).tolist():
             if self.labels[j].rank:
-                self._take(j, self.lacking[j])
-        self._take(i, Stand.at(places, k)._replace(cost=FORBIDDEN, bad=True))
+                self._take(j, NOWHERE, self.lacking[j])
+        self.panel.add(places.picked(np.array([k]))._replace(costs=np.array([FORBIDDEN]), bad=np.array([True])))
+        self._list_places()
+        self._take(i, len(table.costs), FORBIDDEN)
