@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 import graphkin
-from graphkin.words import LANGUAGES, Markup, Phrase, as_markup, as_plain, gaps_of, rich_text
+from graphkin.words import LANGUAGES, Markup, Phrase, area, as_markup, as_plain, gaps_of, rich_text
 from graphkin.words.written import roman
 from tests.command import start
 
@@ -39,6 +39,11 @@ def test_a_language_has_every_word_that_english_has(language):
     assert {area: list(table) for area, table in areas("en").items()} == {
         area: list(table) for area, table in areas(language).items()
     }
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_table_is_read_line_by_line_as_toml_reads_it(language):
+    assert areas(language) == {name: area(name, language) for name in areas(language)}
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
