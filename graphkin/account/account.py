@@ -96,7 +96,7 @@ def _products(sheet: Sheet, equation: Equation, letters: Notation) -> list[str]:
 def _shared_with_drivers(sheet: Sheet, equation: Equation) -> Iterator[str]:
     """``ω_2 = ω_1``: links that slide on a driven one turn as it does."""
     kind = "omega" if equation.diagram == "velocity" else "alpha"
-    rates = sheet.rates(kind)
+    rates = sheet.rates[kind]
     for rate in rates.values():
         if rate.vector is None and not rate.same_as and rate.value != 0.0:
             others = alike(rates.values(), rate)
@@ -108,7 +108,7 @@ def rule_alone(sheet: Sheet, equation: Equation) -> bool:
     """Whether an equation is only the rule of a vector."""
     last = equation.sides[-1]
     known = len(last) == 1 and last[0].size_known and len(equation.sides) <= 2
-    return known and last[0].symbol in sheet.vectors(equation.diagram)
+    return known and last[0].symbol in sheet.vectors[equation.diagram]
 
 
 # -- why an equation is as it is written -------------------------------------------------------------------------------
@@ -214,19 +214,19 @@ def _of_a_point(sheet: Sheet, symbol: Symbol) -> Iterator[Phrase]:
 def _coriolis(sheet: Sheet, term: Term) -> Iterator[Phrase]:
     """The rule, and its sense from the two arrows: the sliding velocity and the turning of the guide."""
     symbol = term.symbol
-    moving = sheet.vectors("velocity")
+    moving = sheet.vectors["velocity"]
     slip = moving.get(Symbol("v", symbol.of, symbol.to))
     if slip is None and symbol.to is not None and _rests(sheet, symbol.to):
         slip = moving.get(Symbol("v", symbol.of))  # relative to a point at rest
-    drawn = sheet.vectors("acceleration").get(symbol)
+    drawn = sheet.vectors["acceleration"].get(symbol)
     guide = sheet.structure.slide(term.pair) if term.pair else None
     if slip is None or drawn is None or guide is None or not slip.span or not drawn.span:
         return
-    rate = sheet.omega.get(guide.b)
+    rate = sheet.rates["omega"].get(guide.b)
     if rate is None or not rate.value:
         return
     angles = [pointing(v.span) for v in (slip, drawn)]
-    first = next(s for s in sheet.vectors("acceleration") if s.kind == "ak")
+    first = next(s for s in sheet.vectors["acceleration"] if s.kind == "ak")
     yield Phrase(
         "coriolis rule" if first == symbol else "coriolis sense", vector=symbol, angle=angles[1],
         slip=slip.symbol, slip_angle=angles[0], link=guide.b, sense=sense_of(rate.value),

@@ -119,7 +119,7 @@ def _divided(sheet: Sheet, step: Step) -> tuple[str, str, str] | None:
         drawn = (abs(one.span) for one in sheet.vectors_seen(step.diagram) if one.symbol == step.symbol)
         mm, arm_mm, rate = _as_read(sheet, step.symbol, next(drawn, 0.0)), sheet.arm_mm(step.points), step.value
     else:
-        found = sheet.rates(step.kind)[step.link]
+        found = sheet.rates[step.kind][step.link]
         mm, arm_mm, rate = found.mm, sheet.readings.get(frozenset(step.points), found.arm_mm), found.value
     if mm == 0.0 or not arm_mm:
         return None
@@ -238,7 +238,7 @@ def _rate_read(sheet: Sheet, rule: Size) -> str:
     """The measured rate of a link, the quotient on the sheet; "" for another."""
     if sheet.instrument == EXACT.name or len(rule.links) > 1:
         return ""
-    rate = sheet.rates(rule.rate)[rule.links[0]]
+    rate = sheet.rates[rule.rate][rule.links[0]]
     link = rate.same_as or rate.link
     read = (s for s in sheet.steps if s.reason == "rate" and not s.held)
     own = next((step for step in read if (step.kind, step.link) == (rule.rate, link)), None)
@@ -248,7 +248,7 @@ def _rate_read(sheet: Sheet, rule: Size) -> str:
 
 def _turning(sheet: Sheet, rate: Literal["omega", "alpha"], links: Sequence[str]) -> float:
     """The rate of a link (rad/s, rad/s2), or of the first of two as seen from the second."""
-    rates = [sheet.rates(rate)[name].value for name in links]
+    rates = [sheet.rates[rate][name].value for name in links]
     turning = rates[0] - added_up(rates[1:])
     return turning if abs(turning) > SAME_RATE * max(map(abs, rates)) else 0.0
 
@@ -273,7 +273,7 @@ def rule_sum(sheet: Sheet, rule: Size | None, diagram: DiagramName) -> str:
 
 def _span(sheet: Sheet, symbol: Symbol) -> float | None:
     """The length of a drawn velocity (mm), as read by a finite instrument."""
-    drawn = sheet.vectors("velocity").get(symbol)
+    drawn = sheet.vectors["velocity"].get(symbol)
     if drawn is None:
         drawn = next((one for one in sheet.vectors_seen("velocity") if one.symbol == symbol), None)
     return None if drawn is None else _as_read(sheet, symbol, abs(drawn.span))

@@ -180,7 +180,7 @@ def _vectors(sheet: Sheet, diagram: DiagramName, language: str) -> list[str]:
     unit = unit_of(sheet, diagram)
     per_mm = sheet.scales.of(diagram) / unit.si
     said = []
-    for symbol, vector in sheet.vectors(diagram).items():
+    for symbol, vector in sheet.vectors[diagram].items():
         words = _capital(spoken_vector(symbol, language))
         if vector.span == 0.0:
             said.append(say(Phrase("vector is zero", vector=words), language))

@@ -205,7 +205,7 @@ class InPolygon(Telling):
             return Phrase("written carried over", symbol=step.symbol, vector=told)
         slip = next(s.symbol for s in before if s.verb == "lay off" and s.symbol.of == of and s.symbol.kind == "v")
         size = Size("rate", (seen.to.link, to.link), slip, twice=True)
-        turning = self.sheet.omega[seen.to.link].value - self.sheet.omega[to.link].value
+        turning = self.sheet.rates["omega"][seen.to.link].value - self.sheet.rates["omega"][to.link].value
         rule = Phrase("rule of size", symbol=size, rule=bound(rule_sum(self.sheet, size, "acceleration")))
         gaps = {"symbol": step.symbol, "vector": told, "rule": rule, "slip": slip, "sense": sense_of(turning)}
         return Phrase("written carried over coriolis", **gaps)
@@ -267,7 +267,7 @@ class InPolygon(Telling):
             yield Phrase("written image seen", vector=step.symbol, link=step.link)
         elif self.gap("abc") is None:
             vector = Symbol("v" if step.diagram == "velocity" else "a", step.ref)
-            if self.account.letters.convention == "us" and vector in self.sheet.vectors(step.diagram):
+            if self.account.letters.convention == "us" and vector in self.sheet.vectors[step.diagram]:
                 similar = f"${self.gap('AC')}$ : ${self.gap('AB')}$" if on_line else f"△${self.gap('ABC')}$"
                 named = Phrase("written image named", vector=vector, link=step.link, points=Neutral(similar))
                 yield bound(self.account.say(named, languages(language)[0]))
@@ -322,7 +322,7 @@ class InPolygon(Telling):
     @property
     def turning_links(self) -> tuple[str, ...]:
         """The links with the same rate, as its indices."""
-        step, rates = self.step, self.sheet.rates(self.step.kind)
+        step, rates = self.step, self.sheet.rates[self.step.kind]
         return (step.link + step.held,) if step.held else (step.link, *alike(rates.values(), rates[step.link]))
 
     def _rate_sums(self) -> Iterable[str]:
@@ -332,7 +332,7 @@ class InPolygon(Telling):
 
     def _rate_lines(self, language: str) -> Iterator[str]:
         """``ω_4 = ω_3 = v_A4 / l_AO4 = 0.74 rad/s, clockwise``: the quotient of a vector and a bar."""
-        step, rates = self.step, self.sheet.rates(self.step.kind)
+        step, rates = self.step, self.sheet.rates[self.step.kind]
         value = step.value if step.held else rates[step.link].value
         rule = f"{self.account.symbol(step.symbol)} / ${self.account.letters.length(step.points)}$"
         shown = bound(rate_sum(self.sheet, step, units=False)) or f"{number(abs(value), 5)} {RATE_UNITS[step.kind]}"

@@ -208,7 +208,7 @@ def notation_of(sheet: Sheet, convention: Convention) -> Notation:
     """The names on one sheet."""
     blocks: dict[str, set[str]] = {}
     holders = sheet.scene.holders
-    for symbol in (*sheet.vectors("velocity"), *sheet.vectors("acceleration")):
+    for symbol in (*sheet.vectors["velocity"], *sheet.vectors["acceleration"]):
         if symbol.of is None or symbol.to is None or symbol.of.point != symbol.to.point:
             continue
         for ref in (symbol.of, symbol.to):

@@ -213,7 +213,7 @@ def _in_motion(structure: Structure, at: Mapping[str, float] | None, options: Fi
     sheet = execute(replace(what, scales=options.scales or what.scales))
     words = {"language": options.language, "convention": options.convention}
     there = [name for name in options.figures if name in _IN_MOTION]
-    if not sheet.vectors("acceleration"):
+    if not sheet.vectors["acceleration"]:
         there = [name for name in there if name != "acceleration"]
     drawn = {name: figure_in_motion(sheet, _IN_MOTION[name], **words) for name in there}
     figures = {name: svg_element(figure, named=True) for name, figure in drawn.items()}

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from graphkin.checking.report import Report, compare
 from graphkin.construction.board.instruments import EXACT, Instrument
 from graphkin.construction.board.sheet import MOST_LOST, Reading, Sheet, either_way
-from graphkin.construction.board.steps import DiagramName, Vector
+from graphkin.construction.board.steps import ORDERS, Order, Vector
 from graphkin.construction.position.links_on_paper import travel
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.symbol import PointRef, Symbol, centre_links
@@ -46,19 +46,18 @@ def read_off(
     """
     readings: dict[Symbol, Reading] = {}
     twins = _one_vector(sheet) if instrument is not EXACT else {}
-    for diagram, rate, kind in (("velocity", sheet.omega, "omega"), ("acceleration", sheet.alpha, "alpha")):
-        name: DiagramName = "velocity" if diagram == "velocity" else "acceleration"
-        for symbol, vector in sheet.vectors(name).items():
+    for order, (kind, rates) in zip(ORDERS, sheet.rates.items(), strict=True):
+        for symbol, vector in sheet.vectors[order].items():
             twin = readings.get(twins.get(symbol, symbol))
-            readings[symbol] = replace(twin, symbol=symbol) if twin else _vector(sheet, name, vector, instrument)
-        for link, r in rate.items():
+            readings[symbol] = replace(twin, symbol=symbol) if twin else _vector(sheet, order, vector, instrument)
+        for link, r in rates.items():
             if link == sheet.scene.frame.name or "/" in link:
                 continue
             symbol = Symbol(kind, link=link)
-            readings[symbol] = Reading(symbol, r.mm, r.value, name)
+            readings[symbol] = Reading(symbol, r.mm, r.value, order)
         fixed = Symbol(kind, link=sheet.scene.frame.name)  # it is told to who asks for it
         if fixed in (*sheet.asked, *asked):
-            readings[fixed] = Reading(fixed, 0.0, 0.0, name)
+            readings[fixed] = Reading(fixed, 0.0, 0.0, order)
     readings |= _measured(sheet, (*sheet.asked, *asked), instrument)
     if sheet.has_forces:
         from graphkin.construction.forces import force_readings, readings_of
@@ -150,15 +149,17 @@ def _centres(sheet: Sheet, instrument: Instrument) -> Callable[[str], complex | 
     return place
 
 
-def _vector(sheet: Sheet, diagram: DiagramName, vector: Vector, instrument: Instrument) -> Reading:
-    size = abs(vector.span)
-    read = sheet.readings.get(either_way(vector.symbol), size) if size else 0.0
-    if instrument is EXACT or size == 0.0:
-        span = vector.span if read == size else vector.span * (abs(read) / size)
-        return Reading(vector.symbol, abs(read), span * sheet.scales.of(diagram), diagram)
-    length = abs(read) if either_way(vector.symbol) in sheet.readings else abs(instrument.read(size))
-    along = instrument.read_direction(vector.span / size)
-    return Reading(vector.symbol, length, length * along * sheet.scales.of(diagram), diagram)
+def _vector(sheet: Sheet, order: Order, vector: Vector, instrument: Instrument) -> Reading:
+    span = vector.span
+    size = abs(span)
+    kept = sheet.readings.get(either_way(vector.symbol)) if size and sheet.readings else None
+    if size and instrument is not EXACT:
+        length = abs(instrument.read(size) if kept is None else kept)
+        value = length * instrument.read_direction(span / size)
+    else:
+        length = size if kept is None else abs(kept)
+        value = span if kept is None else span * (length / size)
+    return Reading(vector.symbol, length, value * sheet.scales.of(order), order)
 
 
 # -- positions, measured on the drawn mechanism ------------------------------------------------------------------------

@@ -11,15 +11,15 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from graphkin.construction.board.scales import Scales
-from graphkin.construction.board.sheet import Reading, Sheet, greatest_before
-from graphkin.construction.board.steps import Cause, DiagramName, phrase_of
+from graphkin.construction.board.sheet import Reading, Sheet
+from graphkin.construction.board.steps import ORDERS, Cause, phrase_of
 from graphkin.errors import Disagreement, Problem
 from graphkin.files import Json
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.scene.tables import Unit, Units
 from graphkin.solver.motion import SLIGHT
 from graphkin.solver.values import Lost, Rounding
-from graphkin.structure import by_drivers_alone
+from graphkin.structure import by_drivers_alone, greatest_before
 from graphkin.words import Phrase, say
 from graphkin.words.written import MOST, ROUNDED, amount, computed, figures, on_paper, product
 
@@ -179,9 +179,13 @@ def compare(
     """
     pairs = [(r, exact(r.symbol)) for r in readings]
     row, lost = partial(_row, sheet, predicted), rounding or (lambda symbol: Lost())
-    by_scope = {"motion": _motion(sheet, pairs, row, rounding)}
-    if any(reading.symbol.scope == "force" for reading in readings):
-        by_scope["force"] = _forces(sheet, pairs, row, lost)
+    scopes = [reading.symbol.scope for reading in readings]
+    of_motion, of_forces = (
+        [pair for pair, scope in zip(pairs, scopes, strict=True) if scope == kind] for kind in ("motion", "force")
+    )
+    by_scope = {"motion": _motion(sheet, of_motion, row, rounding)}
+    if of_forces:
+        by_scope["force"] = _forces(sheet, of_forces, row, lost)
 
     def place(reading: Reading, value: Value) -> Compared:
         """A length is judged by the size of the mechanism, an angle by a radian, a number by itself."""
@@ -190,7 +194,7 @@ def compare(
         rounded = lost(reading.symbol).mechanism / (1.0 if length else size)
         return row(reading, float(value.real), whole, max(rounded, ROUNDING * whole), rounded)
 
-    rows = tuple(by_scope.get(reading.symbol.scope, place)(reading, value) for reading, value in pairs)
+    rows = tuple(by_scope.get(scope, place)(*pair) for scope, pair in zip(scopes, pairs, strict=True))
     have = {r.symbol for r in readings}
     scales = replace(sheet.scales, force=forces.per_mm if forces else 0.0)
     return Report(sheet.instrument, scales, rows, tuple(s for s in asked if s not in have), forces)
@@ -230,19 +234,21 @@ def _motion(
     sheet: Sheet, pairs: Sequence[tuple[Reading, Value]], row: Callable[..., Compared], rounding: Rounding | None
 ) -> Callable[[Reading, Value], Compared]:
     """The comparison of vectors and rates, by the largest vector that leads to them and its rounding error."""
-    most_of, share = _largest(sheet, pairs), max(EXACT_TOLERANCE, _grain(sheet))
+    greatest = _largest(sheet, pairs)
+    by_drivers = {r.symbol for r, _ in pairs if by_drivers_alone(sheet.structure, r.symbol)}
     # the largest of each kind that drivers alone give, beside which rounding is nothing
     led: dict[str, float] = {}
     for reading, value in pairs:
-        if reading.symbol.scope == "motion" and by_drivers_alone(sheet.structure, reading.symbol):
+        if reading.symbol in by_drivers:
             led[reading.symbol.kind] = max(led.get(reading.symbol.kind, 0.0), abs(value))
+    share = max(EXACT_TOLERANCE, _grain(sheet))
 
     def compared(reading: Reading, value: Value) -> Compared:
         symbol, lost = reading.symbol, rounding(reading.symbol) if rounding else Lost()
-        most, by = most_of(reading), 1.0 if symbol.is_vector else sheet.scene.size
+        most, by = greatest[symbol], 1.0 if symbol.is_vector else sheet.scene.size
         rounded = 0.0 if rounding is None else getattr(lost, reading.diagram) / by
-        least = ON_PAPER.get(sheet.instrument, HAND) * sheet.scales.of(reading.diagram) / by
-        floor, alone = _floor(sheet, reading, lost, EXACT_TOLERANCE * most), by_drivers_alone(sheet.structure, symbol)
+        least = ON_PAPER.get(sheet.instrument, HAND) * getattr(sheet.scales, reading.diagram) / by
+        floor, alone = _floor(sheet, reading, lost, EXACT_TOLERANCE * most), symbol in by_drivers
         if not symbol.is_vector and math.isfinite(floor):  # over its own bar, which may be short
             rounded = max(rounded, floor)
         made = row(reading, value, most, floor, rounded, share, least, not lost.slight, alone)
@@ -254,25 +260,22 @@ def _motion(
     return compared
 
 
-def _largest(sheet: Sheet, pairs: Sequence[tuple[Reading, complex | float]]) -> Callable[[Reading], float]:
-    """The size by which a reading of the motion is judged: a vector by the largest that leads to it, a rate by the
-    largest rate or by that vector over the size (SI)."""
-    sizes: dict[tuple[str, bool], list[tuple[Symbol, float]]] = {}
-    for reading, value in pairs:
-        if reading.symbol.scope == "motion":
-            group = (reading.diagram, reading.symbol.is_vector)
-            sizes.setdefault(group, []).append((reading.symbol, max(abs(value), abs(reading.value))))
-    diagrams: tuple[DiagramName, ...] = ("velocity", "acceleration")
-    for order in diagrams:
+def _largest(sheet: Sheet, pairs: Sequence[tuple[Reading, Value]]) -> dict[Symbol, float]:
+    """For each reading of the motion the size by which it is judged: a vector by the largest that leads to it, a rate
+    by the largest rate or by that vector over the size (SI)."""
+    spans = {order: {s: abs(v.span) for s, v in sheet.vectors[order].items()} for order in ORDERS}
+    most: dict[Symbol, float] = {}
+    for order, per_mm in zip(ORDERS, (sheet.scales.velocity, sheet.scales.acceleration), strict=True):
+        sizes = {r.symbol: max(abs(value), abs(r.value)) for r, value in pairs if r.diagram == order}
+        vectors = [(symbol, size) for symbol, size in sizes.items() if symbol.is_vector]
+        rates = [(symbol, size) for symbol, size in sizes.items() if not symbol.is_vector]
         # vectors that only lead to the readings asked for belong to the diagram too
-        scale = sheet.scales.of(order)
-        spans = [(s, abs(v.span) * scale) for s, v in sheet.vectors(order).items()]
-        sizes.setdefault((order, True), []).extend(spans)
+        every = [*vectors, *((symbol, mm * per_mm) for symbol, mm in spans[order].items())]
         # a rate that is zero comes from a vector divided by a length
-        vectors = sizes[order, True]
-        sizes.setdefault((order, False), []).extend((s, span / sheet.scene.size) for s, span in vectors)
-    most = {group: greatest_before(sheet.structure, some) for group, some in sizes.items()}
-    return lambda reading: most[reading.diagram, reading.symbol.is_vector](reading.symbol)
+        slow = [(symbol, size / sheet.scene.size) for symbol, size in every]
+        most |= greatest_before(sheet.structure, every, [symbol for symbol, _ in vectors])
+        most |= greatest_before(sheet.structure, [*rates, *slow], [symbol for symbol, _ in rates])
+    return most
 
 
 def _turned(reading: Reading, exact: complex | float, whole: float) -> float:
@@ -299,7 +302,7 @@ def _forces(
     inertia = {r.symbol.link: abs(v) for r, v in forces if r.symbol.kind == "Fi"}
     relative = rounding(forces[0][0].symbol).force / largest if forces and largest else 0.0
     # arms of what stands still are rounding beside the speeds of the links; at rest the driver has a unit rate
-    speeds = (abs(v.span) for v in sheet.vectors("velocity").values())
+    speeds = (abs(v.span) for v in sheet.vectors["velocity"].values())
     fastest = max(most("velocity"), max(speeds, default=0.0) * sheet.scales.velocity or size)
     wholes = {"force": largest, "moment": turning, "velocity": fastest}
 
@@ -345,7 +348,7 @@ def _floor(sheet: Sheet, reading: Reading, rounding: Lost, unknown: float) -> fl
             return min(lost, _TOLD_APART * slow**2 / (abs(ends[0] - ends[1]) * sheet.scales.length))
     if symbol.is_vector:
         return lost
-    rate = sheet.rates(symbol.kind).get(symbol.link)
+    rate = sheet.rates[symbol.kind].get(symbol.link)
     if rate is None or (rate.vector is None and rate.mm is None):
         return 0.0  # given
     return lost / (rate.arm_mm * sheet.scales.length if rate.arm_mm else sheet.scene.size)

@@ -158,7 +158,7 @@ def _ends(sheet: Sheet, diagram: DiagramName) -> dict[str, complex]:
     if diagram == "mechanism":
         return {str(ref): z for ref, z in sheet.points.items() if not ref.link}
     ends = {POLE: 0j, **{str(ref): z for ref, z in sheet.ends[diagram].items()}}
-    return ends | {str(s): v.tip for s, v in sheet.vectors(diagram).items() if s.kind not in ("v", "a")}
+    return ends | {str(s): v.tip for s, v in sheet.vectors[diagram].items() if s.kind not in ("v", "a")}
 
 
 def _lines(
@@ -173,7 +173,7 @@ def _lines(
                     known = (True, link.name == sheet.scene.frame.name)
                     yield ReadLine(f"{a}{b}", ends[b] - ends[a], places[a], places[b], known, within * largest)
         return
-    vectors = sheet.vectors(diagram)
+    vectors = sheet.vectors[diagram]
     largest = max((abs(v.span) for v in vectors.values()), default=0.0)
     known_of = {t.symbol: (t.size_known, t.direction_known)
                 for e in sheet.equations if e.diagram == diagram for side in e.sides for t in side}  # fmt: skip

@@ -213,7 +213,7 @@ OF_TERMS = (
 
 def _terms(plan: Plan, sheet: Sheet) -> Iterator[Alteration]:
     """Each slip in one term, and in all of its role."""
-    drawn = sheet.vectors("acceleration").values()
+    drawn = sheet.vectors["acceleration"].values()
     names = {role: [v.symbol for v in drawn if v.role == role] for role, *_ in OF_TERMS}
     for role, symbols in names.items():
         groups = [(n,) for n in symbols] + ([tuple(symbols)] if len(symbols) > 1 else [])
@@ -390,7 +390,7 @@ def _step(sheet: Sheet, symbol: Symbol) -> float:
     if symbol.scope != "motion":
         return 0.0
     if not symbol.is_vector:
-        rate = sheet.rates(symbol.kind).get(symbol.link)
+        rate = sheet.rates[symbol.kind].get(symbol.link)
         if rate is not None and rate.same_as:
             return _step(sheet, Symbol(symbol.kind, link=rate.same_as))
         return _step(sheet, rate.vector) + 0.5 if rate is not None and rate.vector else 0.0
@@ -405,10 +405,10 @@ def _own_values(plan: Plan, base: Sheet, own: Mapping[Symbol, Value]) -> OwnValu
         if symbol is None or symbol not in own:
             return 1.0
         if symbol.is_vector:
-            drawn = base.vectors("velocity").get(symbol)
+            drawn = base.vectors["velocity"].get(symbol)
             size = abs(drawn.span) * base.scales.velocity if drawn else 0.0
             return abs(own[symbol]) / size if size else 1.0
-        rate = base.omega.get(symbol.link)
+        rate = base.rates["omega"].get(symbol.link)
         return float(own[symbol].real) / rate.value if rate and rate.value else 1.0
 
     def sized(symbol: Symbol, drawn: complex) -> complex:
@@ -426,7 +426,7 @@ def _own_values(plan: Plan, base: Sheet, own: Mapping[Symbol, Value]) -> OwnValu
         if part.symbol in own:
             return replace(part, span=sized(part.symbol, part.span))
         of, to = part.symbol.of, part.symbol.to
-        drawn = base.vectors("acceleration").get(part.symbol)
+        drawn = base.vectors["acceleration"].get(part.symbol)
         if of is None or drawn is None or part.role not in ("coriolis", "normal"):
             return part
         if part.role == "coriolis":

@@ -317,7 +317,7 @@ def measured(links: Centres) -> dict[str, tuple[complex, float]]:
     sheet, ground = links.sheet, links.sheet.scene.frame.name
     per_mm, ends = sheet.scales.velocity / sheet.scales.length, sheet.ends["velocity"]
     motions = {ground: (0j, 0.0)}
-    for name, rate in sheet.omega.items():
+    for name, rate in sheet.rates["omega"].items():
         points = sheet.structure.links[name].points
         for ref, end in ends.items():
             if name != ground and (ref.link == name or (not ref.link and ref.point in points)):

@@ -154,7 +154,7 @@ def _short(sheet: Sheet, equation: Equation, letters: Notation) -> str | None:
     if not rule_alone(sheet, equation):
         return None
     only = equation.sides[-1][0]
-    vector = sheet.vectors(equation.diagram)[only.symbol]
+    vector = sheet.vectors[equation.diagram][only.symbol]
     parts = [f"${letters.vector(side[0].symbol)}$" for side in equation.sides]
     if only.size and only.size != GIVEN:
         parts.append(f"${letters.size(only.size)}$")

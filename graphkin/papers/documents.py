@@ -78,7 +78,7 @@ def problem(lesson: Lesson) -> Document:
     bare = pictures.mechanism_picture(lesson)
     how = sentences(*(said(key, language) for key in ("solve here", "print true", "sense words")))
     words = (*given(lesson), Paragraph(how, small=True))
-    moving = [d for d in pictures.POLYGONS if lesson.sheet.vectors(d)]
+    moving = [d for d in pictures.POLYGONS if lesson.sheet.vectors[d]]
     shown = all(_space(lesson, bare, [d], paper) for d in moving)
     wide = not shown
     if wide:

@@ -159,7 +159,7 @@ class Lesson:
             return False
         if symbol.is_vector or symbol.scope != "motion":
             return True
-        rate = self.sheet.rates(symbol.kind)[symbol.link]
+        rate = self.sheet.rates[symbol.kind][symbol.link]
         return rate.is_own
 
     def unit(self, symbol: Symbol) -> str:

@@ -267,7 +267,7 @@ def _drawings(lesson: Lesson, piece: Piece, frames: Frames) -> Iterator[tuple[Fi
     frame, _ = frames["mechanism"]
     yield "mechanism", with_labels(piece, frame), frame
     for diagram in POLYGONS:
-        if sheet.vectors(diagram):
+        if sheet.vectors[diagram]:
             frame, low = frames[diagram]
             middle, size = extent(sheet, diagram).centre, complex(frame.width, frame.height)
             panel = Box.around((middle - size / 2, middle + size / 2))
@@ -349,7 +349,7 @@ def _found(lesson: Lesson, step: Step) -> dict[str, Json]:
     """The result of a step of the motion: its measured rate, or its last vector."""
     sheet = lesson.sheet
     if step.finds_rate:
-        rate, symbol = sheet.rates(step.kind).get(step.link), Symbol(step.kind, link=step.link)
+        rate, symbol = sheet.rates[step.kind].get(step.link), Symbol(step.kind, link=step.link)
         return {} if rate is None else _find(lesson, symbol, lesson.letters.vector(symbol), rate.value)
     vectors = [vector for vector in step.vectors if vector.span]
     if not vectors:
@@ -498,7 +498,7 @@ def _vectors(motion: Motion, sheet: Sheet, letters: Notation, diagram: DiagramNa
             except (KeyError, ValueError):
                 continue
     vectors = [(-1, number) for number in dict.fromkeys(ends.values())]
-    relative = [s for s in sheet.vectors(diagram) if s.to is not None and s.to in ends and s.of in ends]
+    relative = [s for s in sheet.vectors[diagram] if s.to is not None and s.to in ends and s.of in ends]
     # components of accelerations hide between two ends that are joined
     for symbol in (*(s for s in relative if s.kind == kind), *(relative if diagram == "acceleration" else ())):
         assert symbol.to is not None

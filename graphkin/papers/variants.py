@@ -313,7 +313,7 @@ def _unread(sheet: Sheet, asked: tuple[Symbol, ...]) -> Iterator[Phrase]:
             yield Phrase("unfit not drawn", symbol=str(symbol))
         elif (mm := readings[symbol].on_paper) is not None and mm < LEAST_READING:
             turning = not symbol.is_vector and symbol.scope == "motion"
-            rates = sheet.rates(symbol.kind) if turning else {}
+            rates = sheet.rates[symbol.kind] if turning else {}
             # not of a rate that is given or shared
             if not turning or (symbol.link in rates and rates[symbol.link].vector is not None):
                 yield Phrase("unfit short", symbol=str(symbol), mm=f"{mm:.1f}")

@@ -474,6 +474,40 @@ def by_drivers_alone(structure: Structure, symbol: Symbol) -> bool:
     return all(isinstance(structure.elements[place], Driven) for place in places)
 
 
+def greatest_before(
+    structure: Structure, sizes: Iterable[tuple[Symbol, float]], of: Iterable[Symbol]
+) -> dict[Symbol, float]:
+    """For quantities of the motion the greatest of sizes: of its own links, and of the links on which they depend.
+
+    Greater sizes later in the order of solution do not count: near a dead point of the last group the rates of the
+    others are not affected.  For special points of the drawing, and vectors seen from a held link, all sizes count;
+    theirs count from the first larger group on.
+    """
+    elements = structure.elements
+    special = next((i for i, e in enumerate(elements) if isinstance(e, LargerGroup)), len(elements) - 1)
+
+    def links(symbol: Symbol) -> frozenset[str] | None:
+        try:
+            return None if symbol.seen else links_for(structure, symbol)
+        except CallError:
+            return None
+
+    greatest: dict[int, float] = {}  # of what each element adds
+    for symbol, size in sizes:
+        names = links(symbol)
+        of_frame = [] if names is None else [structure.place_of[n] for n in names if n in structure.place_of]
+        place = special if names is None else max(of_frame, default=-1)
+        greatest[place] = max(greatest.get(place, 0.0), size)
+    greatest.pop(-1, None)
+
+    before: dict[Symbol, float] = {}
+    for symbol in of:
+        names = links(symbol)
+        places = greatest.keys() if names is None else greatest.keys() & leading(structure, names)
+        before[symbol] = max((greatest[place] for place in places), default=0.0)
+    return before
+
+
 def part_of(structure: Structure, asked: Sequence[Symbol]) -> Mechanism:
     """The scene with only the links, pairs and drivers that the asked quantities need; itself if nothing is asked or
     nothing is left out.

@@ -185,14 +185,14 @@ def dead_point(kind: str, mp: MPContext, samples: int = 4) -> Singularity:
         sheet = _exactly_drawn(beside(e))
         if sheet is None:
             return Answer((math.nan,))
-        error = abs(sheet.omega[follower].value / right[e].rates[0] - 1)
+        error = abs(sheet.rates["omega"][follower].value / right[e].rates[0] - 1)
         return Answer((float(error),), any(r.key == "sharp crossing" for r in sheet.remarks))
 
     def by_pencil(e: float) -> Answer:
         what, symbol = plan(beside(e)), Symbol("omega", link=follower)
         sheet = execute(what, EXACT)
         deviation = predict(what, "pencil", scene.question.sheet.tools, together=False)[symbol].deviation
-        part = deviation / abs(sheet.omega[follower].value)
+        part = deviation / abs(sheet.rates["omega"][follower].value)
         warns = any(r.key == "sharp crossing" for r in sheet.remarks)
         return Answer((part if math.isfinite(part) else math.nan,), warns)
 
@@ -558,7 +558,8 @@ def flip(mp: MPContext, samples: int = 4) -> Singularity:
         sheet = _exactly_drawn(_turned(scene, -math.pi / 2 + e))
         if sheet is None:
             return Answer((math.nan,))
-        return Answer((abs(sheet.alpha["3"].value) / rate**2,), any(r.key == "short arm" for r in sheet.remarks))
+        second = abs(sheet.rates["alpha"]["3"].value)
+        return Answer((second / rate**2,), any(r.key == "short arm" for r in sheet.remarks))
 
     x = grid(0.5, 1e-9, samples)
     few = x[::samples]
@@ -629,7 +630,7 @@ def drawing_scale(mp: MPContext, samples: int = 1) -> Singularity:
     symbol = Symbol.parse(f"v_{next(iter(scene.links[-1].points))}")
     what = plan(scene, find=(symbol,))
     crank = (scene.links[0].length or scene.size) / what.scales.length
-    right = abs(execute(what, EXACT).vectors("velocity")[symbol].span * what.scales.velocity)
+    right = abs(execute(what, EXACT).vectors["velocity"][symbol].span * what.scales.velocity)
     sizes = sorted(size for size in (1e3 / v for v in grid(0.3e3, 1.0, 1)) if 3.0 <= size <= 1000.0)
 
     def errors(size: float) -> Answer:

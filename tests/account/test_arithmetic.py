@@ -236,8 +236,8 @@ def test_with_a_pencil_products_take_measured_rates_as_they_stand_on_the_sheet(n
     said = {step.link: rate_sum(sheet, step).rsplit(" = ", 1)[-1].split()[0] for step in sheet.steps
             if step.reason == "rate" and step.kind == "omega"}  # fmt: skip
     sizes = [step.size for step in sheet.steps if step.size and step.size.rule == "rate"]
-    used = [(said[sheet.omega[size.links[0]].same_as or size.links[0]], factors_of(sheet, size)[size.twice])
-            for size in sizes if size.rate == "omega" and sheet.omega[size.links[0]].vector]  # fmt: skip
+    used = [(said[sheet.rates["omega"][size.links[0]].same_as or size.links[0]], factors_of(sheet, size)[size.twice])
+            for size in sizes if size.rate == "omega" and sheet.rates["omega"][size.links[0]].vector]  # fmt: skip
     assert used
     assert [] == [(one, other) for one, other in used if one != other]
 
@@ -353,9 +353,10 @@ def test_a_hand_writes_no_more_than_its_ruler_shows():
 def test_a_rate_has_as_many_figures_as_the_line_that_it_is_read_from(mm, carried):
     sheet, _ = drawn("sixbar-guide-40deg")
     step = next(step for step in sheet.steps if step.reason == "rate" and not step.held)
-    rate = sheet.omega[step.link]
+    of_links = sheet.rates["omega"]
+    rate = of_links[step.link]
     value = mm * sheet.scales.velocity / (rate.arm_mm * sheet.scales.length)
-    short = replace(sheet, omega={**sheet.omega, step.link: replace(rate, value=value, mm=mm)})
+    short = replace(sheet, rates=sheet.rates | {"omega": of_links | {step.link: replace(rate, value=value, mm=mm)}})
     told = rate_sum(short, step, units=False).split(" = ")[1].split(" ")[0]
     assert value == pytest.approx(float(told), rel=0.6 * 10.0 ** (1 - carried))
     assert len(told.replace(".", "").lstrip("0")) <= carried
@@ -363,7 +364,9 @@ def test_a_rate_has_as_many_figures_as_the_line_that_it_is_read_from(mm, carried
 
 def turning(sheet, **rates):
     """The sheet of links that turn at other rates."""
-    return replace(sheet, omega={**sheet.omega, **{n: replace(sheet.omega[n], value=r) for n, r in rates.items()}})
+    of_links = sheet.rates["omega"]
+    others = {n: replace(of_links[n], value=r) for n, r in rates.items()}
+    return replace(sheet, rates=sheet.rates | {"omega": of_links | others})
 
 
 @pytest.mark.parametrize(("more", "told"), [(1e-15, 0.0), (1e-4, 7e-4), (-2.0, 14.0)])
@@ -382,7 +385,7 @@ def test_by_rates_is_laid_off_what_they_give_over_the_length_between_two_points(
     sheet, steps = seen_from_a_held_link()
     for step in steps:
         start, end = (sheet.points[PointRef(ref.point)] for ref in (step.refs[0], step.ref))
-        omega, alpha = (rates[step.link].value - rates[step.held].value for rates in (sheet.omega, sheet.alpha))
+        omega, alpha = (rates[step.link].value - rates[step.held].value for rates in sheet.rates.values())
         arm = (end - start) * sheet.scales.length / sheet.scales.of(step.diagram)
         expected = [1j * omega * arm] if step.diagram == "velocity" else [-(omega**2) * arm, 1j * alpha * arm]
         assert expected == pytest.approx([part.span for part in step.data])
@@ -399,11 +402,13 @@ def test_by_rates_that_are_nought_nothing_is_laid_off():
 def test_quotients_come_to_what_was_measured_and_what_is_laid_off_to_its_length():
     sheet, _ = drawn("sixbar-guide-40deg")
     step = next(step for step in sheet.steps if step.reason == "rate" and not step.held and step.kind == "omega")
-    rate, rng = sheet.omega[step.link], np.random.default_rng(5)
+    of_links, rng = sheet.rates["omega"], np.random.default_rng(5)
+    rate = of_links[step.link]
     carried = []
     for mm, arm in rng.uniform((10.0, 30.0), (180.0, 200.0), (60, 2)).tolist():
         value = mm * sheet.scales.velocity / (arm * sheet.scales.length)
-        other = replace(sheet, omega={**sheet.omega, step.link: replace(rate, value=value, mm=mm, arm_mm=arm)})
+        changed = of_links | {step.link: replace(rate, value=value, mm=mm, arm_mm=arm)}
+        other = replace(sheet, rates=sheet.rates | {"omega": changed})
         quotient, told = rate_sum(other, replace(step, points=("?", "!")), units=False).split(" = ")
         over, under = quotient.split(" / ")
         assert float(f"{value:.4g}") == float(told.split(" ")[0])

@@ -118,7 +118,7 @@ def test_links_seen_from_a_held_one_are_told_with_the_rates_that_add_up():
     for link, (terms, value) in found.items():
         whole = sum(float(part) for part in terms.replace(" ", "").replace("−", "-").split("+"))
         assert whole == pytest.approx(float(value.replace("−", "-")), abs=1e-12)
-        assert whole == pytest.approx(sheet.omega[link].value, abs=2e-6)
+        assert whole == pytest.approx(sheet.rates["omega"][link].value, abs=2e-6)
 
 
 @pytest.mark.parametrize("scene", [BARE, UNBARRED, HELD, WELDED], ids=["bare", "unbarred", "held", "welded"])
@@ -132,7 +132,7 @@ def test_what_a_driver_between_links_of_a_group_adds_is_told_and_true(scene):
         line = line.replace("\u00a0", " ")
         terms, value = re.fullmatch(r".*\$ = ([^=$]+) = (\S+)(?: \(\S+\))? rad/s²?", line).groups()
         value = float(value.replace("−", "-"))
-        rates = sheet.omega if step.kind == "omega" else sheet.alpha
+        rates = sheet.rates[step.kind]
         assert rates[step.link].value == pytest.approx(value, abs=1e-4 * max(abs(step.value), abs(step.other)))
         assert eval(terms.replace("−", "-")) == pytest.approx(value, abs=1e-12)
 
@@ -157,11 +157,11 @@ def test_what_is_carried_over_from_a_held_link_is_told_by_its_parts():
     seen = next(s.span for step in sheet.steps if step.diagram == "acceleration" for s in step.strokes
                 if getattr(s, "symbol", None) is not None and s.symbol.of == PointRef("A")
                 and s.symbol.to == PointRef("A", "3"))  # fmt: skip
-    velocity = next(v.span for v in sheet.vectors("velocity").values() if v.symbol.of == PointRef("A", "3"))
+    velocity = next(v.span for v in sheet.vectors["velocity"].values() if v.symbol.of == PointRef("A", "3"))
     turned = {"clockwise": -1j, "counter-clockwise": 1j}[given[2]]
     per = sheet.scales.acceleration / sheet.scene.units.rates.metres
     share = float(given[1]) / per * turned * velocity / abs(velocity)
-    whole = next(v.span for v in sheet.vectors("acceleration").values() if v.symbol.kind == "ar"
+    whole = next(v.span for v in sheet.vectors["acceleration"].values() if v.symbol.kind == "ar"
                  and v.symbol.of == PointRef("A", "3"))  # fmt: skip
     assert whole == pytest.approx(share - seen, abs=2e-3)
 

@@ -35,7 +35,7 @@ def test_what_is_nothing_but_rounding_is_zero_on_both_sides(name, at):
 @pytest.mark.parametrize(("name", "at"), [("slider-crank-s50-e16-K1.2", 90), ("scissor-lift", None)])
 def test_a_step_tells_no_rate_that_is_nothing_but_rounding(name, at):
     sheet = check(name, at=at).sheet
-    zero = {s.symbol for d in ("velocity", "acceleration") for s in sheet.vectors(d).values() if s.span == 0.0}
+    zero = {s.symbol for d in ("velocity", "acceleration") for s in sheet.vectors[d].values() if s.span == 0.0}
     leading = (aid for step in sheet.steps for aid in step.auxiliary)
     zero |= {s.symbol for s in leading if s.span == 0.0}
     rates = [step for step in sheet.steps if step.reason == "rate" and step.symbol in zero]

@@ -20,7 +20,7 @@ def ends(diagram):
     if diagram == "mechanism":
         return {str(ref): z for ref, z in sheet.points.items()}
     found = {"pole": 0j} | {str(ref): z for ref, z in sheet.ends[diagram].items()}
-    return found | {str(s): v.tip for s, v in sheet.vectors(diagram).items() if s.kind not in "va"}
+    return found | {str(s): v.tip for s, v in sheet.vectors[diagram].items() if s.kind not in "va"}
 
 
 def pixels(z):

@@ -24,7 +24,7 @@ SIXBAR = "sixbar-guide-40deg"
 
 def _vector(sheet, name):
     symbol = Symbol.parse(name)
-    return sheet.vectors("velocity" if symbol.kind == "v" else "acceleration")[symbol]
+    return sheet.vectors["velocity" if symbol.kind == "v" else "acceleration"][symbol]
 
 
 def test_b3_lies_107_578_mm_from_the_pole_at_10_mm_per_s_a_mm():
@@ -52,7 +52,7 @@ def test_a_tangential_vector_is_square_to_its_bar():
 def test_the_coriolis_vector_is_the_sliding_velocity_turned_with_the_guide():
     sheet = draft(mechanism_of(SIXBAR))
     slip = _vector(sheet, "v_B@3/B@2").span
-    sense = 1j if sheet.omega["3"].value > 0 else -1j
+    sense = 1j if sheet.rates["omega"]["3"].value > 0 else -1j
     assert 0 == pytest.approx(cmath.phase(_vector(sheet, "ak_B@3/B@2").span / (sense * slip)), abs=1e-12)
 
 
@@ -62,7 +62,7 @@ def test_every_equation_closes(name):
     special = sheet.special_points
     for equation in sheet.equations:
         seen = {one.symbol: one for one in sheet.vectors_seen(equation.diagram)}
-        vectors = {**seen, **sheet.vectors(equation.diagram)}
+        vectors = {**seen, **sheet.vectors[equation.diagram]}
         terms = [t.symbol for side in equation.sides for t in side]
         if any(ref is not None and ref.point in special for s in terms for ref in (s.of, s.to)):
             continue  # what belongs to a special point only leads on, and is measured nowhere
@@ -204,7 +204,7 @@ def test_whole_turns_are_left_out_of_the_way_to_a_position():
 
 def test_velocities_need_no_acceleration_polygon():
     sheet = draft(mechanism_of(SIXBAR), find=[Symbol.parse("v_D")])
-    assert {} == sheet.vectors("acceleration")
+    assert {} == sheet.vectors["acceleration"]
     assert _vector(sheet, "v_D") == _vector(draft(mechanism_of(SIXBAR)), "v_D")
 
 
@@ -213,10 +213,11 @@ def test_a_sheet_at_other_scales_is_the_same_construction_larger():
     s = sheet.scales
     other = sheet.at(Scales(s.length / 2, s.velocity / 4, s.acceleration * 2))
     for diagram, times in (("velocity", 4.0), ("acceleration", 0.5)):
-        for symbol, vector in sheet.vectors(diagram).items():
-            assert other.vectors(diagram)[symbol].span == pytest.approx(times * vector.span, rel=1e-15)
+        for symbol, vector in sheet.vectors[diagram].items():
+            assert other.vectors[diagram][symbol].span == pytest.approx(times * vector.span, rel=1e-15)
     assert {r: 2 * z for r, z in sheet.points.items()} == other.points
-    assert {n: r.value for n, r in sheet.alpha.items()} == {n: r.value for n, r in other.alpha.items()}
+    first, second = ({n: r.value for n, r in s.rates["alpha"].items()} for s in (sheet, other))
+    assert first == second
 
 
 def test_a_remark_belongs_to_the_scale_of_its_figure():
@@ -248,7 +249,7 @@ def test_a_given_length_is_taken_as_given_however_short_it_is_on_paper():
         "sketch": {"C": [400, 150]},
     }
     sheet = draft(mechanism_of(mapping), instrument=cad())
-    assert 3e-6 == pytest.approx(abs(sheet.vectors("velocity")[V_B].span) * sheet.scales.velocity, rel=1e-12)
+    assert 3e-6 == pytest.approx(abs(sheet.vectors["velocity"][V_B].span) * sheet.scales.velocity, rel=1e-12)
 
 
 def test_a_found_arm_that_a_drafting_program_reads_as_nothing_is_refused_by_name():

@@ -327,7 +327,7 @@ FOUR_BARS = ("contour-four-bars", "double-butterfly")
 def test_trial_polygons_are_whole_in_their_room_and_hardly_larger_than_the_true_one(name: str, at: float) -> None:
     sheet = draft(mechanism_of(name), {"2": math.radians(at)}, room=Room(polygon=(80.0, 70.0)))
     for diagram in ("velocity", "acceleration"):
-        true = [0j, *(z for v in sheet.vectors(diagram).values() for z in (v.tail, v.tip))]
+        true = [0j, *(z for v in sheet.vectors[diagram].values() for z in (v.tail, v.tip))]
         every = [*true, *(z for aid in sheet.trials(diagram) for z in (aid.tail, aid.tip))]
         assert sheet.trials(diagram)
         for ends, most in ((every, (88.0, 77.0)), (every, [1.25 * max(_reach(true))] * 2)):
@@ -434,7 +434,8 @@ def test_what_is_known_of_the_end_left_open_is_taken_off_in_the_sense_in_which_i
     act = [step.data for step in sheet.steps if isinstance(step.data, Superposed)][1]
     (((taken, mm),),) = act.less
     at = {str(ref): z for ref, z in sheet.points.items()}
-    normal = -(sheet.omega["8"].value ** 2) * (at["D"] - at["K"]) * sheet.scales.length / sheet.scales.acceleration
+    scales, omega = sheet.scales, sheet.rates["omega"]["8"].value
+    normal = -(omega**2) * (at["D"] - at["K"]) * scales.length / scales.acceleration
     along = (at["D"] - at["K"]) / abs(at["D"] - at["K"])
     assert "an_D/K" == str(taken.symbol)
     assert mm == pytest.approx((normal * along.conjugate()).real, abs=1e-9)

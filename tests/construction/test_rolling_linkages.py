@@ -62,7 +62,7 @@ def test_where_trial_dyads_fold_more_is_left_out():
 
 def test_a_plan_is_made_again_at_the_values_that_it_tells():
     first = plan(mechanism_of(wheel_at_its_rim()))
-    assert first.exact.omega == plan(first.structure, first.values).exact.omega
+    assert first.exact.rates["omega"] == plan(first.structure, first.values).exact.rates["omega"]
 
 
 def test_a_pencil_stays_within_its_predicted_uncertainty():
@@ -71,7 +71,7 @@ def test_a_pencil_stays_within_its_predicted_uncertainty():
 
 def test_a_wheel_in_a_ring_has_at_the_contact_what_both_radii_give():
     sheet = draft(mechanism_of(planet_by_a_rod()))
-    omega, vector = sheet.omega["3"].value, sheet.vectors("acceleration")[Symbol.parse("a_K@3")]
+    omega, vector = sheet.rates["omega"]["3"].value, sheet.vectors["acceleration"][Symbol.parse("a_K@3")]
     assert 0.080 * 0.025 / (0.080 - 0.025) * omega**2 == pytest.approx(abs(vector.span) * sheet.scales.acceleration)
     (size,) = {t.size for e in sheet.equations for side in e.sides for t in side if str(t.symbol) == "a_K@3" and t.size}
     assert "ω_{3}²·ρ_{3}ρ_{0}/(ρ_{0} − ρ_{3})" == str(size)

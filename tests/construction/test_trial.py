@@ -54,7 +54,7 @@ def far_from_solver(scene: Mechanism, turned: float) -> tuple[float, float]:
     mm = 1.0 / sheet.scales.length
     names = [link.name for link in scene.links]
     place = max(abs(sheet.poses[n].origin / mm - complex(motion.poses[n].z[0])) for n in names) / scene.size
-    rate = max(abs(sheet.omega[n].value - float(motion.omega(n)[0])) for n in names) / abs(driver.values[1])
+    rate = max(abs(sheet.rates["omega"][n].value - float(motion.omega(n)[0])) for n in names) / abs(driver.values[1])
     return place, rate
 
 

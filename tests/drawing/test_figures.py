@@ -76,7 +76,7 @@ def test_one_user_unit_is_one_millimetre() -> None:
 @pytest.mark.parametrize("name", library())
 @pytest.mark.parametrize("figure", ["velocity", "acceleration"])
 def test_every_vector_of_the_drawing_stands_on_the_figure_with_its_length_and_direction(name: str, figure: str) -> None:
-    drawn = drafted(name)[0].vectors(figure)
+    drawn = drafted(name)[0].vectors[figure]
     found = vectors(root(name, figure))
     assert {s.id for s in drawn} == set(found)
     assert max((abs(v.span - found[s.id]) for s, v in drawn.items()), default=0.0) < 1.5e-3
@@ -277,7 +277,7 @@ def test_an_arc_turns_as_the_link_does(id: str, sense: int) -> None:
 
 def test_the_inset_of_a_coriolis_part_shows_the_sliding_velocity_turned_with_the_guide() -> None:
     sheet = drafted(GUIDE)[0]
-    symbols = {str(s): v.span for d in ("velocity", "acceleration") for s, v in sheet.vectors(d).items()}
+    symbols = {str(s): v.span for d in ("velocity", "acceleration") for s, v in sheet.vectors[d].items()}
     group = next(g for g in root(GUIDE, "acceleration").iter(f"{SVG}g") if g.get("id") == "sense-ak_B3-B2")
     lines = group.findall(f"{SVG}line")
     spans = [complex(float(e.get("x2")) - float(e.get("x1")), float(e.get("y1")) - float(e.get("y2"))) for e in lines]

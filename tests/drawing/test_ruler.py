@@ -37,7 +37,7 @@ def test_a_ruler_on_the_printed_sheet_reads_the_exact_values(name: str, kind: st
     sheet, measured = drawn.small.sheet, vectors(paths)
     scale = sheet.scales.of(kind)
     exact = {row.symbol: complex(row.exact) / scale for row in drawn.small.report.rows if row.symbol.is_vector}
-    spans = {s: exact[s] for s in sheet.vectors(kind) if s in exact and abs(exact[s]) > READABLE}
+    spans = {s: exact[s] for s in sheet.vectors[kind] if s in exact and abs(exact[s]) > READABLE}
     assert spans
     off = {str(s): float(np.abs(measured - span).min()) for s, span in spans.items()}
     assert {} == {s: gap for s, gap in off.items() if gap > READABLE}

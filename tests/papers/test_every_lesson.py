@@ -56,5 +56,5 @@ def test_a_point_laid_off_by_rates_is_where_its_printed_lengths_and_angles_lead(
     for step in steps:
         told = re.findall(r"= ([\d.]+) mm,  (−?[\d.]+)°", " ".join(telling(lesson.account, step).work))
         laid = sum(cmath.rect(float(mm), math.radians(float(way.replace("−", "-")))) for mm, way in told)
-        drawn = {s.of.point: v.span for s, v in lesson.sheet.vectors(step.diagram).items() if s.of and s.to is None}
+        drawn = {s.of.point: v.span for s, v in lesson.sheet.vectors[step.diagram].items() if s.of and s.to is None}
         assert abs(laid - (drawn["C"] - drawn["B"])) < 0.1

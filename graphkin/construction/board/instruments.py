@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from graphkin.scene.scene_tables import Tools
-from graphkin.words.written import computed, on_paper
+from graphkin.words.written import MOST, computed, figures, on_paper
 
 EXACT_NAME = "exact"  # of the instrument that errs nowhere
 LAST_PLACE = 0.01  # mm; of a length as it is written
@@ -108,9 +108,11 @@ class Instrument:
         """Whether written numbers are rounded; a ruler without steps has no last figure."""
         return self.notes and self.tools.ruler >= LAST_PLACE
 
-    def noted(self, value: float, carried: int) -> float:
-        """A number computed from readings as it is written down, with their figures."""
-        return float(computed(value, carried)) if self._rounds else value
+    def noted(self, value: float, *read: float, carried: int = MOST) -> float:
+        """A number computed from readings (mm) as it is written down: with their figures, ``carried`` at most."""
+        if not self._rounds:
+            return value
+        return float(computed(value, min([carried, *(figures(on_paper(mm)) for mm in read)])))
 
 
 EXACT = Instrument()

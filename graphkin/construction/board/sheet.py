@@ -8,7 +8,7 @@ acceleration polygons from their poles; their places on a page are decided elsew
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -28,12 +28,12 @@ from graphkin.construction.board.steps import (
     Vector,
 )
 from graphkin.construction.touching import Touching, outlines_on_paper
-from graphkin.errors import CallError, Problem, Unsolvable
+from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Pose, cross, cross_lines
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene_tables import DIAGRAMS, Diagram
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import leading, links_for
+from graphkin.structure import greatest_before
 from graphkin.structure.model import Element, LargerGroup, Structure
 from graphkin.words import Phrase, gaps_of
 
@@ -189,7 +189,7 @@ class Sheet:
     """The whole drawing, in order.
 
     ``ends`` gives the end points in each polygon: ends["velocity"][PointRef("B", "3")] is b3.
-    ``omega`` and ``alpha`` hold the measured rates by link.
+    ``rates`` hold the measured rates by kind, "omega" and "alpha", and by link.
     ``noticed`` are possible remarks on the construction.  ``causes`` gives the source of the acts of the hand: (acts
     made when it was done, source).  ``left_out`` are links that no asked quantity needs; ``held_still`` are steps drawn
     separately, with one link as the frame.  ``asked`` are the asked quantities, if the drawing is limited to them;
@@ -209,8 +209,7 @@ class Sheet:
     poses: Mapping[str, Pose]
     points: Mapping[PointRef, complex]
     ends: Mapping[str, Mapping[PointRef, complex]]
-    omega: Mapping[str, Rate]
-    alpha: Mapping[str, Rate]
+    rates: Mapping[str, Mapping[str, Rate]]
     steps: tuple[Step, ...]
     equations: tuple[Equation, ...]
     assembly: Mapping[Phrase, Phrase]
@@ -240,10 +239,6 @@ class Sheet:
             points={ref: z * times for ref, z in self.points.items() if ref.point not in self.serving},
         )  # fmt: skip
 
-    def rates(self, kind: str) -> Mapping[str, Rate]:
-        """The measured rates by link, of a kind: "omega" or "alpha"."""
-        return self.omega if kind == "omega" else self.alpha
-
     def at(self, scales: Scales) -> Sheet:
         """The construction at other scales: every length on paper multiplied by a factor.
 
@@ -256,18 +251,18 @@ class Sheet:
         if scales == self.scales:
             return self
         k: dict[DiagramName, float] = {name: self.scales.of(name) / scales.of(name) for name in DIAGRAMS}
-        length, velocity, acceleration = k.values()
+        length, *fast = k.values()
         return replace(
             self,
             scales=scales,
             poses={name: pose.scaled(length) for name, pose in self.poses.items()},
             points={ref: z * length for ref, z in self.points.items()},
             ends={order: {ref: z * k[order] for ref, z in self.ends[order].items()} for order in ORDERS},
-            omega={name: rate.scaled(velocity, length) for name, rate in self.omega.items()},
-            alpha={name: rate.scaled(acceleration, length) for name, rate in self.alpha.items()},
+            rates={kind: {name: rate.scaled(times, length) for name, rate in rates.items()}
+                   for (kind, rates), times in zip(self.rates.items(), fast, strict=True)},
+            noticed=tuple(remark.scaled(k[remark.diagram]) for remark in self.noticed),
             steps=tuple(step.scaled(k[step.diagram]) for step in self.steps),
             held_still=tuple(step.scaled(k[step.diagram]) for step in self.held_still),
-            noticed=tuple(remark.scaled(k[remark.diagram]) for remark in self.noticed),
             limits={pair: (low.scaled(length), high.scaled(length)) for pair, (low, high) in self.limits.items()},
         )
 
@@ -307,9 +302,14 @@ class Sheet:
             return None
         return self.readings.get(names, abs(ends[0] - ends[-1]))  # type: ignore[operator]
 
-    def vectors(self, diagram: DiagramName) -> dict[Symbol, Vector]:
-        """All vectors of a diagram by symbol."""
-        return {s.symbol: s for step in self.steps if step.diagram == diagram for s in step.vectors}
+    @cached_property
+    def vectors(self) -> Mapping[DiagramName, Mapping[Symbol, Vector]]:
+        """All vectors of each diagram by symbol."""
+        drawn: dict[DiagramName, dict[Symbol, Vector]] = {"force": {}}
+        drawn.update((diagram, {}) for diagram in DIAGRAMS)
+        for step in self.steps:
+            drawn[step.diagram].update({s.symbol: s for s in step.vectors})
+        return drawn
 
     def before(self, step: Step) -> tuple[Step, ...]:
         """The steps before one of them."""
@@ -348,17 +348,15 @@ class Sheet:
             per = 1.0 / self.scales.length
             places += (z for outline in outlines_on_paper(self.scene, self.poses, per).values() for z in outline)
             places += Touching(self.scene, per, self.poses).outermost()
+        ends: dict[DiagramName, tuple[list[complex], list[complex]]] = {}
+        for order in ORDERS:
+            drawn = [*self.vectors[order].values(), *self.vectors_seen(order)]
+            true, trial = ([z for v in some for z in (v.tail, v.tip)] for some in (drawn, self.trials(order)))
+            ends[order] = [0j, *true], [0j, *true, *trial, *self.carried(order)]
         extents: dict[Diagram, Rectangle] = {"mechanism": extent_of(places, self.scales.length)}
         for order in ORDERS:
-            drawn = [*self.vectors(order).values(), *self.vectors_seen(order)]
-            ends, further = (
-                [z for v in some for z in (v.tail, v.tip)] for some in (drawn, self.trials(order))
-            )
-            true, every = (
-                extent_of([0j, *points], self.scales.of(order))
-                for points in (ends, [*ends, *further, *self.carried(order)])
-            )
-            extents[order] = max(true[0], every[0] / INTO_MARGIN), max(true[1], every[1] / INTO_MARGIN)
+            least, most = (extent_of(spots, self.scales.of(order)) for spots in ends[order])
+            extents[order] = max(least[0], most[0] / INTO_MARGIN), max(least[1], most[1] / INTO_MARGIN)
         return extents
 
     @property
@@ -395,8 +393,8 @@ def without_residues(sheet: Sheet) -> Sheet:
     zero = _residues(sheet)
     if not zero:
         return sheet
-    rates = {"omega": dict(sheet.omega), "alpha": dict(sheet.alpha)}
-    for (kind, of_links), scale in zip(rates.items(), (sheet.scales.velocity, sheet.scales.acceleration), strict=True):
+    rates = {kind: dict(of_links) for kind, of_links in sheet.rates.items()}
+    for (kind, of_links), scale in zip(sheet.rates.items(), map(sheet.scales.of, ORDERS), strict=True):
         for name, rate in of_links.items():
             if rate.vector in zero:  # a driver's own rate on top of one that came from a residue stays
                 residue = rate.mm / rate.arm_mm * scale / sheet.scales.length if rate.arm_mm else 0.0
@@ -414,56 +412,20 @@ def without_residues(sheet: Sheet) -> Sheet:
         return replace(step, value=0.0) if step.reason == "rate" else replace(step, mm=0.0)
 
     noticed = (replace(r, size=0.0) if r.key == "zero vector" and r.of[0] in zero else r for r in sheet.noticed)
-    return replace(sheet, steps=tuple(map(cleared, sheet.steps)), noticed=tuple(noticed), omega=rates["omega"],
-                   alpha=rates["alpha"])  # fmt: skip
-
-
-def greatest_before(structure: Structure, sizes: Iterable[tuple[Symbol, float]]) -> Callable[[Symbol], float]:
-    """Function of a quantity of the motion to the greatest of sizes: of its own links, and of the links on which they
-    depend.
-
-    Greater sizes later in the order of solution do not count: near a dead point of the last group the rates of the
-    others are not affected.  For special points of the drawing, and vectors seen from a held link, all sizes count;
-    theirs count from the first larger group on.
-    """
-    elements = structure.elements
-    special = next((i for i, e in enumerate(elements) if isinstance(e, LargerGroup)), len(elements) - 1)
-
-    def links(symbol: Symbol) -> frozenset[str] | None:
-        try:
-            return None if symbol.seen else links_for(structure, symbol)
-        except CallError:
-            return None
-
-    greatest: dict[int, float] = {}  # of what each element adds
-    for symbol, size in sizes:
-        names = links(symbol)
-        of_frame = [] if names is None else [structure.place_of[n] for n in names if n in structure.place_of]
-        place = special if names is None else max(of_frame, default=-1)
-        greatest[place] = max(greatest.get(place, 0.0), size)
-    greatest.pop(-1, None)
-
-    def before(symbol: Symbol) -> float:
-        names = links(symbol)
-        places = greatest.keys() if names is None else greatest.keys() & leading(structure, names)
-        return max((greatest[place] for place in places), default=0.0)
-
-    return before
+    return replace(sheet, steps=tuple(map(cleared, sheet.steps)), noticed=tuple(noticed), rates=rates)
 
 
 def _residues(sheet: Sheet) -> set[Symbol]:
     """The vectors that are rounding alone."""
     scales, size, structure = sheet.scales, sheet.scene.size, sheet.structure
-    velocity, acceleration = (
-        {v.symbol: abs(v.span) for v in [*sheet.vectors_seen(order), *sheet.vectors(order).values()]}
-        for order in ORDERS
-    )
-    # the largest vector that leads to one (mm), and how sharp the crossings are
-    fastest, pushed = (greatest_before(structure, mm.items()) for mm in (velocity, acceleration))
+    drawn = [[*sheet.vectors_seen(order), *sheet.vectors[order].values()] for order in ORDERS]
+    velocity, acceleration = ({vector.symbol: abs(vector.span) for vector in vectors} for vectors in drawn)
     crossings = [(r.diagram, r.finds, 1.0 / max(r.size, 1e-9)) for r in sheet.noticed if r.finds is not None]
-    sharp_before, sharp = (
-        greatest_before(structure, ((symbol, lean) for diagram, symbol, lean in crossings if diagram in diagrams))
-        for diagrams in (("mechanism", "velocity"), ("mechanism", "velocity", "acceleration"))
+    leans = [[(symbol, lean) for diagram, symbol, lean in crossings if diagram in DIAGRAMS[:last]] for last in (2, 3)]
+    # the largest vector that leads to one (mm), and how sharp the crossings are
+    fastest, pushed, sharp_before, sharp = (
+        greatest_before(structure, sizes, [*velocity, *acceleration])
+        for sizes in (velocity.items(), acceleration.items(), *leans)
     )
 
     def lost(sharpest: float) -> float:
@@ -472,12 +434,12 @@ def _residues(sheet: Sheet) -> set[Symbol]:
 
     def residue(symbol: Symbol) -> float:
         # a motion without acceleration still has velocities, whose rounding is carried on as v squared over a length
-        most, speed = pushed(symbol), fastest(symbol) * scales.velocity
-        carried = max(most, speed**2 / size / scales.acceleration) * lost(sharp(symbol))
+        most, speed = pushed[symbol], fastest[symbol] * scales.velocity
+        carried = max(most, speed**2 / size / scales.acceleration) * lost(sharp[symbol])
         # beside a dead point v squared over a length far exceeds all accelerations
         return min(carried, MOST_LOST * most) if most > carried else carried
 
-    zero = {s for s, mm in velocity.items() if 0.0 < mm <= lost(sharp_before(s)) * fastest(s)}
+    zero = {s for s, mm in velocity.items() if 0.0 < mm <= lost(sharp_before[s]) * fastest[s]}
     still = zero | {symbol for symbol, mm in velocity.items() if mm == 0.0}
     fixed, touching = sheet.scene.frame.points, {c.name for c in sheet.scene.contacts}
     for symbol, mm in acceleration.items():
@@ -528,9 +490,9 @@ class Board:
 
     def read(self, between: Symbol | frozenset[str], mm: float) -> float:
         """The length of a vector, or the distance of two points of the mechanism (mm), read when it is first needed."""
-        thing = either_way(between) if isinstance(between, Symbol) else between
         if self.instrument.errs is None:
             return self.instrument.read(mm)  # it shows the same each time
+        thing = either_way(between) if isinstance(between, Symbol) else between
         if thing not in self.readings:
             self.readings[thing] = self.instrument.read(mm)
         return self.readings[thing]

@@ -205,7 +205,8 @@ def _on_lever(images: DrawnPosition, acting: ForceVector, hand: Instrument) -> M
         arm = hand.read_signed(mm) * per_mm if abs(mm) > 1e-13 * abs(end) else 0.0
         return MomentTerm(replace(acting, at=end * per_mm), arm, abs(acting.force) * arm)
     far = images.image("velocity", link) if link != images.sheet.scene.frame.name else None
-    omega = images.sheet.omega[link].value if link in images.sheet.omega else 0.0
+    rates = images.sheet.rates["omega"]
+    omega = rates[link].value if link in rates else 0.0
     if far is None or omega == 0.0:
         # a link without two points on the figure: its rate is that of another link
         return MomentTerm(replace(acting, force=complex(acting.moment), at=0j), omega, acting.moment * omega)

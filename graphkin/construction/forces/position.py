@@ -187,10 +187,10 @@ class DrawnPosition:
         if far is not None:
             (a, a_end), (b, b_end) = far
             return a_end + (b_end - a_end) * ((at - a) / (b - a))
-        scales, omega = self.sheet.scales, self.sheet.omega[link].value
+        scales, omega = self.sheet.scales, self.sheet.rates["omega"][link].value
         if order == "velocity":
             return end + 1j * omega * (at - start) * (scales.length / scales.velocity)
-        turning = 1j * self.sheet.alpha[link].value - omega**2
+        turning = 1j * self.sheet.rates["alpha"][link].value - omega**2
         return end + turning * (at - start) * (scales.length / scales.acceleration)
 
 
@@ -292,7 +292,7 @@ def _inertia(sheet: Sheet, drawn: DrawnPosition, mass: LinkMass, hand: Instrumen
     image = drawn.end("acceleration", mass.link, centre)
     size = hand.read(abs(image))
     push = image / abs(image) * size * sheet.scales.acceleration if image else 0j
-    force, moment = -mass.mass * push, -mass.inertia * sheet.alpha[mass.link].value
+    force, moment = -mass.mass * push, -mass.inertia * sheet.rates["alpha"][mass.link].value
     line = shifted_line(force, centre, moment, drawn.mm) if force else ()
     return Inertia(mass, centre, push, force, moment, *line)
 

@@ -61,7 +61,7 @@ from graphkin.scene.pairs import LawCam
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Pair, Rolled, driver_pair
 from graphkin.words import links_named
-from graphkin.words.written import MOST, figures, on_paper
+from graphkin.words.written import LONGEST, MOST
 
 LETTERS = tuple("SQTUVWXYZ") + tuple(f"S{i}" for i in range(1, 30))  # of special points
 MOST_WAYS = 12  # choices of held links that are tried
@@ -621,11 +621,10 @@ class TrialPolygons:
             unit = 1.0 if kind == "angle" else self.plot.structure.scene.units.rates.metres
             low, more = rates[0][i] / unit, (rates[i + 1][i] - rates[0][i]) / unit
             if len(self.plan.tried) == 1:
-                lengths = on_paper(gaps[0][0]), on_paper(gaps[0][0] - gaps[1][0])
-                added = noted(rate / unit - low, figures(*lengths))
+                added = noted(rate / unit - low, gaps[0][0], gaps[0][0] - gaps[1][0], carried=LONGEST)
             else:
-                added = noted((rate / unit - low) / more, MOST - 1) * more
-            made.append(noted(low + added, MOST) * unit)
+                added = noted((rate / unit - low) / more, carried=MOST - 1) * more
+            made.append(noted(low + added) * unit)
         return made
 
     def as_symbols(self, values: Sequence[float]) -> tuple[tuple[Symbol, float], ...]:

@@ -41,7 +41,7 @@ from graphkin.construction.polygons.vector_graph import (
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Pair
-from graphkin.words.written import MOST, figures, on_paper
+from graphkin.words.written import MOST
 
 Side = list[tuple[RelativeMotion, list[Term]]]
 
@@ -340,7 +340,7 @@ def _rate(plot: Polygons, order: Order, edge: RelativeMotion, vector: Vector, gr
     mm = abs(cross(arm, span) / abs(arm) if plot.trial else span)
     hand, rate = plot.board.instrument, RATE[order]
     read = abs(hand.read(mm) if plot.trial else plot.board.read(symbol, mm))
-    size = hand.noted(read * plot.per[order] / plot.length(arm, bar), min(MOST - 1, figures(on_paper(read))))
+    size = hand.noted(read * plot.per[order] / plot.length(arm, bar), read, carried=MOST - 1)
     value = size if cross(arm, span) >= 0 else -size
     believed = plot.own_values.rate(Symbol(rate, link=edge.link), value)
     if believed is not None:

@@ -63,7 +63,7 @@ def diagram_figure(
     language : "en", "zh" or "both"; the scene's own if None
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
     """
-    if diagram == "acceleration" and not sheet.vectors(diagram):
+    if diagram == "acceleration" and not sheet.vectors[diagram]:
         return None
     page = FigurePage.of(sheet, diagram, language, convention)
     spoken, letters = page.language, page.letters
@@ -178,7 +178,7 @@ def polygons_beside(
     scales = Scales(first.scales.length, max(s.velocity for s in all_scales), max(s.acceleration for s in all_scales))
     drawn = [(name, sheet.at(scales)) for name, sheet in sheets]
     shown: list[DiagramName] = ["velocity"]
-    if any(sheet.vectors("acceleration") for _, sheet in sheets):
+    if any(sheet.vectors["acceleration"] for _, sheet in sheets):
         shown.append("acceleration")
     pages = [_page(page, drawn[k : k + columns], shown, (wide, tall)) for k in range(0, len(drawn), columns)]
     further = (replace(one, title=f"{one.title} ({number})") for number, one in enumerate(pages[1:], 2))

@@ -200,7 +200,7 @@ def _mechanism(page: FigurePage, panel: Box) -> Piece:
 def _polygons(page: FigurePage, plan: SheetPlan) -> tuple[Piece, Piece | None, list[CoriolisTerm]]:
     """The polygons on a plan, of accelerations if it is drawn, and the Coriolis terms without room for their insets."""
     velocity, _ = _polygon(page, "velocity", plan.velocity)
-    if not page.sheet.vectors("acceleration"):
+    if not page.sheet.vectors["acceleration"]:
         return velocity, None, []
     return velocity, *_polygon(page, "acceleration", plan.acceleration)
 

@@ -316,10 +316,10 @@ GUTTER = 2.0  # mm between insets
 
 def coriolis_terms(sheet: Sheet) -> list[CoriolisTerm]:
     """Each Coriolis vector that is not zero, with its sliding velocity and the rule for its size."""
-    velocities = sheet.vectors("velocity")
+    velocities = sheet.vectors["velocity"]
     rules = {t.symbol: t.size for e in sheet.equations for side in e.sides for t in side}
     found = []
-    for vector in sheet.vectors("acceleration").values():
+    for vector in sheet.vectors["acceleration"].values():
         if vector.role != "coriolis" or abs(vector.span) < ZERO:
             continue
         of, to = vector.symbol.of, vector.symbol.to

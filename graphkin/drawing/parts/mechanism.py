@@ -465,7 +465,7 @@ def rate_arrows(here: MechanismOnPaper) -> Piece:
     drawn = [step for step in here.sheet.steps if step.finds_rate or step.reason == "given on plan"]
     found = {(step.kind, step.link): step.number for step in drawn}
     named = here.scene.whole.by_name  # not of bars that stand for cams
-    for kind, rates in (("omega", here.sheet.omega), ("alpha", here.sheet.alpha)):
+    for kind, rates in here.sheet.rates.items():
         for link, rate in rates.items():
             if rate.is_own and link in named and abs(rate.value) >= 1e-12:
                 arc("answers", f"{kind}-{link}", kind, link, here.ground, rate.value, found.get((kind, link)))

@@ -130,7 +130,7 @@ def same_place(z: complex) -> complex:
 def extent(sheet: Sheet, diagram: DiagramName, within: Box | None = None) -> Box:
     """The box (mm, y down, about the pole) around all vectors of a polygon and its trial polygons; construction lines
     count if they do not reach far."""
-    vectors = [*sheet.vectors(diagram).values(), *sheet.vectors_seen(diagram), *sheet.trials(diagram)]
+    vectors = [*sheet.vectors[diagram].values(), *sheet.vectors_seen(diagram), *sheet.trials(diagram)]
     ends = [0j, *(z for v in vectors for z in (v.tail, v.tip))]
     box = Box.around(on_page(z) for z in ends)
     for step in sheet.steps:
@@ -159,7 +159,7 @@ class Detail:
 
 def details(sheet: Sheet, diagram: DiagramName) -> list[Detail]:
     """The places of a polygon that need a larger drawing."""
-    small = [v for v in sheet.vectors(diagram).values() if LEAST_DRAWN <= abs(v.span) < SMALL]
+    small = [v for v in sheet.vectors[diagram].values() if LEAST_DRAWN <= abs(v.span) < SMALL]
     found = [detail for group in _near(small) for detail in _at_their_scales(group)]
     return sorted(found, key=lambda d: (d.factor, -len(d.vectors), d.centre.real, d.centre.imag))
 
