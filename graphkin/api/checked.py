@@ -98,7 +98,7 @@ class Checked(OfScene, Result):
     def data(self) -> dict[str, Json]:
         """The object that ``graphkin check --json`` prints: scene units, readings with sign."""
         scene, construction, rows = self.mechanism, self._construction, []
-        scales, others, ok = self.scales, self._by_other_ways, self.ok
+        ok, scales, others = self.ok, self.scales, self._by_other_ways
         for row in self.report.rows:
             unit = row.symbol.unit(scene.units, radians=True)
             ways = {way: float(unit.of(values[row.symbol])) for way, values in others.items() if row.symbol in values}
@@ -225,8 +225,8 @@ def checked(what: Plan, motion: Motion, hand: Instrument, at_contacts: bool = Tr
         predicted = predict(what, hand.name, tools)
         report = report_on(sheet, motion, hand, predicted)
         advice = advise(what, hand.name, tools, [row.reading for row in report.rows], predicted)
-    value = exact_values(motion)
-    over_turn = {s: float(value(s).real) for s in sheet.asked if s.scope == "cycle"}
+    of_cycle = exact_values(motion, [symbol for symbol in sheet.asked if symbol.scope == "cycle"])
+    over_turn = {symbol: float(value.real) for symbol, value in of_cycle.items()}
     there = None if other is None else checked(other, motion, other_hand, at_contacts=False)
     return Checked(sheet, report, advice, motion.passed, over_turn, there)
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from graphkin.checking.report import Report, compare
 from graphkin.construction.board.instruments import EXACT, Instrument
 from graphkin.construction.board.sheet import MOST_LOST, Reading, Sheet, either_way
-from graphkin.construction.board.steps import ORDERS, Order, Vector
+from graphkin.construction.board.steps import ORDERS
 from graphkin.construction.position.links_on_paper import travel
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.symbol import PointRef, Symbol, centre_links
@@ -46,10 +46,15 @@ def read_off(
     """
     readings: dict[Symbol, Reading] = {}
     twins = _one_vector(sheet) if instrument is not EXACT else {}
-    for order, (kind, rates) in zip(ORDERS, sheet.rates.items(), strict=True):
-        for symbol, vector in sheet.vectors[order].items():
+    scales = sheet.scales.velocity, sheet.scales.acceleration
+    for order, (kind, rates), per_mm in zip(ORDERS, sheet.rates.items(), scales, strict=True):
+        for symbol, span in sheet.spans[order].items():
             twin = readings.get(twins.get(symbol, symbol))
-            readings[symbol] = replace(twin, symbol=symbol) if twin else _vector(sheet, order, vector, instrument)
+            if twin is not None:
+                readings[symbol] = replace(twin, symbol=symbol)
+                continue
+            length, along = _vector(sheet, symbol, span, instrument)
+            readings[symbol] = Reading(symbol, length, along * per_mm, order)
         for link, r in rates.items():
             if link == sheet.scene.frame.name or "/" in link:
                 continue
@@ -97,9 +102,9 @@ def report_on(
         from graphkin.construction.forces import forces_on
 
         forces = forces_on(sheet, hand)
-    readings, exact = read_off(sheet, (), hand, forces), exact_values(motion, sheet.asked)
-    values = {reading.symbol: exact(reading.symbol) for reading in readings}
-    return compare(sheet, readings, values.__getitem__, sheet.asked, predicted, rounding, forces)
+    readings = read_off(sheet, (), hand, forces)
+    exact = exact_values(motion, [reading.symbol for reading in readings])
+    return compare(sheet, readings, exact, sheet.asked, predicted, rounding, forces)
 
 
 def _one_vector(sheet: Sheet) -> dict[Symbol, Symbol]:
@@ -149,17 +154,15 @@ def _centres(sheet: Sheet, instrument: Instrument) -> Callable[[str], complex | 
     return place
 
 
-def _vector(sheet: Sheet, order: Order, vector: Vector, instrument: Instrument) -> Reading:
-    span = vector.span
+def _vector(sheet: Sheet, symbol: Symbol, span: complex, instrument: Instrument) -> tuple[float, complex]:
+    """The length of a vector, and the vector, as they are read (mm)."""
     size = abs(span)
-    kept = sheet.readings.get(either_way(vector.symbol)) if size and sheet.readings else None
+    kept = sheet.readings.get(either_way(symbol)) if size and sheet.readings else None
     if size and instrument is not EXACT:
         length = abs(instrument.read(size) if kept is None else kept)
-        value = length * instrument.read_direction(span / size)
-    else:
-        length = size if kept is None else abs(kept)
-        value = span if kept is None else span * (length / size)
-    return Reading(vector.symbol, length, value * sheet.scales.of(order), order)
+        return length, length * instrument.read_direction(span / size)
+    length = size if kept is None else abs(kept)
+    return length, span if kept is None else span * (length / size)
 
 
 # -- positions, measured on the drawn mechanism ------------------------------------------------------------------------

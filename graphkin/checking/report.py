@@ -6,7 +6,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -40,7 +40,6 @@ COVERAGE = 3.0  # a stated bound is this many standard deviations
 RESIDUE = 1e-6  # of what a deviation may be: what is smaller, rounding leaves
 TURNED = 1e-12  # rad, likewise
 
-Exact = Callable[[Symbol], complex | float]
 
 
 @dataclass(frozen=True)
@@ -122,8 +121,12 @@ class Compared:
 
 @dataclass(frozen=True)
 class Report:
-    """All compared readings of a drawing.  ``missing`` are asked symbols that the drawing does not reach; ``forces``
-    are drawn by the same hands, None where there is neither mass nor load, or no force is asked for."""
+    """All compared readings of a drawing.
+
+    ``missing`` are asked symbols that the drawing does not reach; ``forces`` are drawn by the same hands, None where
+    there is neither mass nor load, or no force is asked for.  It is ``ok`` if no reading is out of tolerance, and at
+    least one found value is determined.
+    """
 
     instrument: str
     scales: Scales
@@ -131,11 +134,12 @@ class Report:
     missing: tuple[Symbol, ...] = ()
     forces: ForceSheet | None = None
 
-    @property
-    def ok(self) -> bool:
-        """Whether no reading is out of tolerance, and at least one found value is determined."""
+    ok: bool = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
         found = any(row.ok and not row.by_drivers for row in self.rows) or all(row.by_drivers for row in self.rows)
-        return not self.rows or (found and all(row.ok is not False for row in self.rows))
+        ok = not self.rows or (found and all(row.ok is not False for row in self.rows))
+        self.__dict__.update(ok=ok)
 
     def must_agree(self, scene: Mechanism) -> None:
         """Raises Disagreement, naming every reading out of tolerance with its drawn and its exact value."""
@@ -159,7 +163,7 @@ class Report:
 def compare(
     sheet: Sheet,
     readings: Sequence[Reading],
-    exact: Exact,
+    exact: Mapping[Symbol, Value],
     asked: Sequence[Symbol] = (),
     predicted: Mapping[Symbol, Uncertainty] | None = None,
     rounding: Rounding | None = None,
@@ -169,7 +173,7 @@ def compare(
 
     Parameters
     ----------
-    exact : function of a symbol to its exact value at the drawn position (SI; a complex number for a vector)
+    exact : the exact value of each reading at the drawn position (SI; a complex number for a vector)
     predicted : uncertainty of each reading, by which it is judged; without it (exact instrument) a reading may be off
         by 1e-9 of the largest vector that leads to it, a rate by 1e-9 of the largest rate or of that vector over the
         size; where the tolerance exceeds a thousandth of that (of a pencil: all of it) the reading is not determined
@@ -177,7 +181,7 @@ def compare(
         exceed 1e-9, and drawing and solver agree no better; smaller values are zero
     forces : the drawn forces, of which some of the readings are
     """
-    pairs = [(r, exact(r.symbol)) for r in readings]
+    pairs = [(reading, exact[reading.symbol]) for reading in readings]
     row, lost = partial(_row, sheet, predicted), rounding or (lambda symbol: Lost())
     scopes = [reading.symbol.scope for reading in readings]
     of_motion, of_forces = (
@@ -263,14 +267,13 @@ def _motion(
 def _largest(sheet: Sheet, pairs: Sequence[tuple[Reading, Value]]) -> dict[Symbol, float]:
     """For each reading of the motion the size by which it is judged: a vector by the largest that leads to it, a rate
     by the largest rate or by that vector over the size (SI)."""
-    spans = {order: {s: abs(v.span) for s, v in sheet.vectors[order].items()} for order in ORDERS}
     most: dict[Symbol, float] = {}
     for order, per_mm in zip(ORDERS, (sheet.scales.velocity, sheet.scales.acceleration), strict=True):
         sizes = {r.symbol: max(abs(value), abs(r.value)) for r, value in pairs if r.diagram == order}
         vectors = [(symbol, size) for symbol, size in sizes.items() if symbol.is_vector]
         rates = [(symbol, size) for symbol, size in sizes.items() if not symbol.is_vector]
         # vectors that only lead to the readings asked for belong to the diagram too
-        every = [*vectors, *((symbol, mm * per_mm) for symbol, mm in spans[order].items())]
+        every = [*vectors, *((symbol, abs(span) * per_mm) for symbol, span in sheet.spans[order].items())]
         # a rate that is zero comes from a vector divided by a length
         slow = [(symbol, size / sheet.scene.size) for symbol, size in every]
         most |= greatest_before(sheet.structure, every, [symbol for symbol, _ in vectors])
@@ -302,7 +305,7 @@ def _forces(
     inertia = {r.symbol.link: abs(v) for r, v in forces if r.symbol.kind == "Fi"}
     relative = rounding(forces[0][0].symbol).force / largest if forces and largest else 0.0
     # arms of what stands still are rounding beside the speeds of the links; at rest the driver has a unit rate
-    speeds = (abs(v.span) for v in sheet.vectors["velocity"].values())
+    speeds = map(abs, sheet.spans["velocity"].values())
     fastest = max(most("velocity"), max(speeds, default=0.0) * sheet.scales.velocity or size)
     wholes = {"force": largest, "moment": turning, "velocity": fastest}
 

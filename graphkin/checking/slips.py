@@ -78,14 +78,13 @@ class Evidence:
     motion: Motion | None = None
 
     @classmethod
-    def of(
-        cls, what: Plan, motion: Motion, predicted: Mapping[Symbol, Uncertainty], asked: Sequence[Symbol]
-    ) -> Evidence:
+    def of(cls, what: Plan, motion: Motion, predicted: Mapping[Symbol, Uncertainty]) -> Evidence:
         """The evidence at the position of a plan: all of it is drawn, so that slips on the path to the asked quantities
         and beside it are found."""
         whole = plan(what.structure, what.values, ())
         drawn = what if set(what.elements) == set(whole.elements) else whole
-        return cls(drawn, exact_values(as_drawn(motion, what.structure), asked), predicted)
+        here = as_drawn(motion, what.structure)
+        return cls(drawn, lambda symbol: exact_values(here, [symbol])[symbol], predicted)
 
     @cached_property
     def sheet(self) -> Sheet:

@@ -97,13 +97,22 @@ class Plan:
         return self.assembly.values
 
     @cached_property
+    def is_whole(self) -> bool:
+        """Whether the whole motion is drawn: no quantity is asked for, or a force, which every link may push."""
+        return not self.asked or any(s.scope in ("force", "cycle") for s in self.asked)
+
+    @cached_property
+    def has_forces(self) -> bool:
+        """Whether forces can be drawn: there are masses or loads, and all that they need is drawn."""
+        return bool(self.structure.scene.loading) and self.is_whole
+
+    @cached_property
     def drawn(self) -> Mapping[Order, tuple[Element, ...]]:
         """The elements of each polygon that the asked quantities need: in accelerations only those that lead to
         accelerations."""
         pushes = [s for s in self.asked if s.measure in ("acceleration", "angular acceleration")]
         wanted = needed(self.opened, pushes) if pushes else []
-        every = not self.asked or any(s.scope in ("force", "cycle") for s in self.asked)
-        pushed = self.elements if every else tuple(e for e in self.elements if e in wanted)
+        pushed = self.elements if self.is_whole else tuple(e for e in self.elements if e in wanted)
         return {"velocity": self.elements, "acceleration": pushed}
 
     @cached_property
@@ -241,6 +250,7 @@ def finished(what: Plan, polygons: Polygons) -> Sheet:
         trains=polygons.trains,
         limits=limits,
         readings=dict(board.readings),
+        has_forces=what.has_forces,
     )
     return without_residues(sheet) if board.instrument.faultless else sheet
 
@@ -385,7 +395,7 @@ def _planned(what: Plan, room: Room | None) -> Plan:
     polygons = carried_out(what, NATURAL)
     exact = finished(what, polygons)
     asked = what.asked
-    if exact.has_forces:
+    if what.has_forces:
         from graphkin.construction.forces.position import acting_loads, strokes_of_loads
 
         asked = (*asked, *strokes_of_loads(what.structure))
@@ -397,7 +407,7 @@ def _planned(what: Plan, room: Room | None) -> Plan:
         limits = limits_asked(what.structure, needed(what.structure, what.asked), asked, what.values, poses)
         what = replace(what, limits=limits)
         exact = finished(what, polygons)
-    if exact.has_forces:
+    if what.has_forces:
         growing = _growing(what, exact)
         moves = any(driver.values[1] for driver in what.structure.scene.drivers)
         what = replace(what, acting=acting_loads(exact, exact if moves else growing[0]), growing=growing)

@@ -81,7 +81,7 @@ class Question:
 
 def question_of(lesson: Lesson, what: Plan, motion: Motion, name: str) -> Question:
     """The question of a lesson, drawn by a plan; quantities without a bound of the drawing's error are left out."""
-    evidence = Evidence.of(what, motion, lesson.tolerance, what.asked)
+    evidence = Evidence.of(what, motion, lesson.tolerance)
     first = languages(lesson.language)[0]
     scene = lesson.sheet.scene
     built = in_each(

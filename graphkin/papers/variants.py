@@ -324,8 +324,7 @@ def _answers(
 ) -> Iterator[tuple[Symbol, float]]:
     """The exact answers; the drawing must agree with each of them."""
     drawn = {r.symbol: r.value for r in read_off(sheet, asked)}
-    exact = exact_values(motion, asked)
-    values = {symbol: complex(exact(symbol)) for symbol in asked}
+    values = {symbol: complex(value) for symbol, value in exact_values(motion, asked).items()}
     for symbol, value in values.items():
         least = NOTHING * max(abs(other) for s, other in values.items() if s.measure == symbol.measure)
         if symbol in drawn and abs(drawn[symbol] - value) > max(1e-6 * abs(value), least, 1e-15):

@@ -486,12 +486,11 @@ def check_starts(position: StatedPosition) -> None:
 
 def check_rolling(reading: Reading) -> None:
     """Note starts of rolling in a file in which nothing rolls."""
-    file = reading.file
-    rolls = file.gears or any(contact.rolling for contact in file.contacts.values())
-    if not rolls and not reading.lost_under("gears") and not reading.lost_under("contacts"):
-        for name, link in reading.links.items():
-            if link.start is not None:
-                reading.say(f"links.{name}.start", "nothing rolls here", "leave start out the driver")
+    started = [name for name, link in reading.links.items() if link.start is not None]
+    rolls = reading.file.gears or any(contact.rolling for contact in reading.file.contacts.values())
+    if started and not rolls and not reading.lost_under("gears") and not reading.lost_under("contacts"):
+        for name in started:
+            reading.say(f"links.{name}.start", "nothing rolls here", "leave start out the driver")
 
 
 def starts_of(position: StatedPosition, contacts: Iterable[PlacedContact]) -> dict[str, float]:

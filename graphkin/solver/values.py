@@ -10,7 +10,7 @@ Principles, ch. 7; Norton, Design of Machinery, ch. 11).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import islice, pairwise
 from typing import Any, NamedTuple
@@ -39,6 +39,7 @@ from graphkin.solver.motion import (
     pitch_point,
 )
 from graphkin.solver.path.driver_range import DriverRange, range_of
+from graphkin.solver.quantities import value_of_symbol
 from graphkin.structure import Dyad, LargerGroup, Structure, links_for, part_of
 from graphkin.words import Phrase, Wording, say
 
@@ -88,22 +89,27 @@ def senses_along(motion: Motion, symbol: Symbol) -> Array | None:
     return None
 
 
-def exact_values(motion: Motion, asked: Sequence[Symbol] = ()) -> Callable[[Symbol], Value]:
-    """The function to a symbol's exact value at the single position of a motion (SI), also for asked quantities of the
-    whole turn.  Raises Unsolvable without a whole turn."""
-    of_turn = {symbol: _of_turn(_range_here(motion), symbol) for symbol in asked if symbol.scope == "turn"}
+def exact_values(motion: Motion, symbols: Iterable[Symbol]) -> dict[Symbol, Value]:
+    """The exact values of quantities at the single position of a motion (SI), also of the whole turn.
 
-    def value(symbol: Symbol) -> Value:
-        if symbol in of_turn:
-            return of_turn[symbol]
-        if symbol.scope == "force" and no_force(motion.scene.whole, str(symbol), symbol) is None:
-            return _of_forces_here(motion, symbol)
-        exact = value_of(motion, symbol)[0]
-        if symbol.kind == "d" and math.isnan(exact):  # the centre of links at rest: that of any motion
-            exact = growing(motion).value(symbol)[0]
-        return complex(exact) if np.iscomplexobj(exact) else float(exact)
-
-    return value
+    Raises
+    ------
+    CallError : a symbol names nothing here
+    Unsolvable : a quantity of the whole turn without a whole turn, a force at a dead point
+    """
+    values: dict[Symbol, Value] = {}
+    for symbol, scope in {symbol: symbol.scope for symbol in symbols}.items():
+        if scope == "turn":
+            values[symbol] = _of_turn(_range_here(motion), symbol)
+        elif scope == "force" and no_force(motion.scene.whole, str(symbol), symbol) is None:
+            values[symbol] = _of_forces_here(motion, symbol)
+        else:
+            of_motion = scope not in ("force", "cycle") and not symbol.axis
+            exact = (value_of_symbol(motion.posed, symbol) if of_motion else value_of(motion, symbol))[0]
+            if symbol.kind == "d" and math.isnan(exact):  # the centre of links at rest: that of any motion
+                exact = growing(motion).value(symbol)[0]
+            values[symbol] = complex(exact) if np.iscomplexobj(exact) else float(exact)
+    return values
 
 
 def _of_turn(reach: DriverRange, symbol: Symbol) -> float:

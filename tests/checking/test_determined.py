@@ -50,7 +50,7 @@ def test_agreement_within_a_tolerance_that_accepts_anything_is_none() -> None:
     sheet = draft(mechanism_of("slider-crank-offset"))
     readings = read_off(sheet)
     exact = {r.symbol: r.value for r in readings}
-    report = compare(sheet, readings, exact.__getitem__, rounding=lambda symbol: Lost(velocity=1e3))
+    report = compare(sheet, readings, exact, rounding=lambda symbol: Lost(velocity=1e3))
     led = {"v_B", "omega_1", "omega_3"}  # by the crank and the guide alone
     assert {None} == {row.ok for row in report.rows if row.reading.diagram == "velocity" and str(row.symbol) not in led}
 
@@ -60,7 +60,7 @@ def test_a_report_of_readings_of_which_none_is_determined_is_not_ok() -> None:
     sheet = draft(mechanism_of("slider-crank-offset"))
     readings = [r for r in read_off(sheet) if str(r.symbol) in ("v_C", "v_C/B", "omega_2")]
     exact = {r.symbol: r.value for r in readings}
-    assert not compare(sheet, readings, exact.__getitem__, rounding=lambda symbol: Lost(velocity=1e3)).ok
+    assert not compare(sheet, readings, exact, rounding=lambda symbol: Lost(velocity=1e3)).ok
 
 
 @pytest.mark.quick
@@ -69,7 +69,7 @@ def test_a_reading_of_a_pencil_of_which_nothing_is_predicted_is_not_determined()
     readings = read_off(sheet)
     exact = {r.symbol: r.value for r in readings}
     known = {Symbol.parse("v_B"): Uncertainty(1e-6, Phrase("reading", symbol=Symbol.parse("v_B")), 1.0)}
-    rows = compare(sheet, readings, exact.__getitem__, predicted=known).rows
+    rows = compare(sheet, readings, exact, predicted=known).rows
     assert ["v_B"] == [str(row.symbol) for row in rows if row.ok]
 
 
@@ -234,7 +234,7 @@ def test_exact_hands_may_be_off_by_a_billionth_of_the_largest_and_by_no_more(off
     largest: dict[str, float] = {}
     for symbol, value in exact.items():
         largest[symbol.measure] = max(largest.get(symbol.measure, 0.0), abs(value))
-    report = compare(sheet, readings, lambda symbol: exact[symbol] + off * largest[symbol.measure])
+    report = compare(sheet, readings, {s: value + off * largest[s.measure] for s, value in exact.items()})
     judged = [row for row in report.rows if row.symbol.measure in ("velocity", "acceleration", "force", "angle")]
     assert {agrees} == {row.ok for row in judged if row.ok is not None}
 
@@ -245,7 +245,7 @@ def test_what_rounding_leaves_of_a_moment_is_what_it_leaves_of_a_force_times_the
     readings = read_off(sheet)
     exact = {r.symbol: r.value for r in readings}
     forces, moments = ([abs(v) for s, v in exact.items() if s.measure == measure] for measure in ("force", "moment"))
-    report = compare(sheet, readings, exact.__getitem__, rounding=lambda symbol: Lost(force=1e-9 * max(forces)))
+    report = compare(sheet, readings, exact, rounding=lambda symbol: Lost(force=1e-9 * max(forces)))
     expected = 1e-9 * max(*moments, max(forces) * sheet.scene.size)
     floors = {row.floor for row in report.rows if row.symbol.measure == "moment"}
     assert [pytest.approx(expected)] == list(floors)

@@ -38,7 +38,7 @@ def test_no_label_is_overlapped_crossed_or_cut(
         pytest.skip("the motion does not reach this position")
     readings = read_off(on_sheet)
     measured = {r.symbol: r.value for r in readings}
-    report = compare(on_sheet, readings, lambda symbol: measured[symbol])
+    report = compare(on_sheet, readings, measured)
     language = ("en", "zh", "both")[turn % 3]
     convention = CONVENTIONS[turn % 4]
     drawn = figures(own, on_sheet, report, language, convention)

@@ -311,7 +311,7 @@ def _others_values(problems: Mapping[str, Mechanism], own: str) -> ValuesElsewhe
     @cache
     def values(symbol: Symbol) -> tuple[tuple[str, Value], ...]:
         others = [(name, scene) for name, scene in problems.items() if name and scene is not problems[own]]
-        return tuple((name, exact_values(solver.solve(scene), [symbol])(symbol)) for name, scene in others)
+        return tuple((name, exact_values(solver.solve(scene), [symbol])[symbol]) for name, scene in others)
 
     return values
 
@@ -322,7 +322,7 @@ def judged_table(
     """Rows of a table: all positions solved at once, judged by their digits.  Raises Unsolvable for a position that is
     not reached."""
     turning = {p.symbol for who in table for p in who.values if p.symbol.scope in ("turn", "cycle")}
-    value = exact_values(solved_here(scene, None), tuple(turning))
+    values = exact_values(solved_here(scene, None), turning)
     reach, driver = driver_range(structure_of(scene)), scene.drivers[0]
     places = [(driver_values(scene, at if who.at is None else who.at) or {}).get(driver.key) for who in table]
     here = driver.values[0]
@@ -337,7 +337,7 @@ def judged_table(
         for who, stands in zip(table, shown, strict=True)
     ]
     return judge_table(
-        motion, [(who.values, who.by) for who in table], {s: float(value(s).real) for s in turning}, names,
+        motion, [(who.values, who.by) for who in table], {s: float(value.real) for s, value in values.items()}, names,
         lambda row: case(table[row].at),
     )  # fmt: skip
 
@@ -353,7 +353,7 @@ def evidence_at(
     motion = solved_here(scene, values)
     what = plan(motion.structure, values, [symbol for symbol in asked if symbol.scope != "cycle"])
     predicted = predict(what, "pencil", scene.question.sheet.tools)
-    evidence = Evidence.of(what, motion, predicted, asked)
+    evidence = Evidence.of(what, motion, predicted)
     return replace(evidence, elsewhere=_elsewhere(scene, values), variants=variants, motion=motion)
 
 

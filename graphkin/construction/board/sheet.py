@@ -188,6 +188,7 @@ what is seen from a link held still and that link's motion."""
 class Sheet:
     """The whole drawing, in order.
 
+    It ``has_forces`` if forces can be drawn from it: there are masses or loads, and all that they need is drawn.
     ``ends`` gives the end points in each polygon: ends["velocity"][PointRef("B", "3")] is b3.
     ``rates`` hold the measured rates by kind, "omega" and "alpha", and by link.
     ``noticed`` are possible remarks on the construction.  ``causes`` gives the source of the acts of the hand: (acts
@@ -224,12 +225,7 @@ class Sheet:
     growing: tuple[Sheet, ...] = ()
     trains: tuple[TrainPlan, ...] = ()
     readings: Mapping[Symbol | frozenset[str], float] = field(default_factory=dict)
-
-    @property
-    def has_forces(self) -> bool:
-        """Whether forces can be drawn from it: there are masses or loads, and all that they need is drawn."""
-        wanted = not self.asked or any(s.scope in ("force", "cycle") for s in self.asked)
-        return bool(self.scene.loading) and wanted
+    has_forces: bool = False
 
     def larger(self, times: float) -> Sheet:
         """The mechanism alone enlarged by a factor, drawn by any hands; without the points of its construction."""
@@ -310,6 +306,11 @@ class Sheet:
         for step in self.steps:
             drawn[step.diagram].update({s.symbol: s for s in step.vectors})
         return drawn
+
+    @cached_property
+    def spans(self) -> Mapping[DiagramName, Mapping[Symbol, complex]]:
+        """All vectors of each diagram by symbol, from their tails to their tips (mm)."""
+        return {diagram: {s: v.span for s, v in vectors.items()} for diagram, vectors in self.vectors.items()}
 
     def before(self, step: Step) -> tuple[Step, ...]:
         """The steps before one of them."""

@@ -448,8 +448,8 @@ def _rigid_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Ter
     if order == "velocity":
         mm = None if rate is None else rate.value * plot.length(arm, bar) / per
         return [_term(plot, edge, "v", square, mm, edge.direction, rule)]
-    omega, length = plot.rates["velocity"][edge.link].value, plot.length(arm, bar)
     squared = _by_rate(plot, (edge.link,), bar, square=True)
+    omega, length = plot.rates["velocity"][edge.link].value, plot.length(arm, bar)
     normal = _term(plot, edge, "an", -along, omega**2 * length / per, Direction("towards", bar[::-1]), squared)
     if rate is not None and rate.value == 0.0:
         return [normal]
