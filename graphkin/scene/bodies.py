@@ -390,6 +390,15 @@ def _pin_problem(
     return Problem(f"{where}.in", found, wanted)
 
 
+def check_rolling(reading: Reading) -> None:
+    """Note starts of rolling in a file in which nothing rolls."""
+    started = [name for name, link in reading.links.items() if link.start is not None]
+    rolls = reading.file.gears or any(contact.rolling for contact in reading.file.contacts.values())
+    if started and not rolls and not reading.lost_under("gears") and not reading.lost_under("contacts"):
+        for name in started:
+            reading.say(f"links.{name}.start", "nothing rolls here", "leave start out the driver")
+
+
 def check_held(reading: Reading) -> None:
     """Note the links that no joint connects with the frame, except where a joint may have been taken out, and links
     with a problem of their own."""

@@ -484,15 +484,6 @@ def check_starts(position: StatedPosition) -> None:
                              "one of the two is wrong leave start", start=f"{link.start:.10g}", value=seen)
 
 
-def check_rolling(reading: Reading) -> None:
-    """Note starts of rolling in a file in which nothing rolls."""
-    started = [name for name, link in reading.links.items() if link.start is not None]
-    rolls = reading.file.gears or any(contact.rolling for contact in reading.file.contacts.values())
-    if started and not rolls and not reading.lost_under("gears") and not reading.lost_under("contacts"):
-        for name in started:
-            reading.say(f"links.{name}.start", "nothing rolls here", "leave start out the driver")
-
-
 def starts_of(position: StatedPosition, contacts: Iterable[PlacedContact]) -> dict[str, float]:
     """The start of rolling motions: angles of links (rad), travels of sliding pairs and of contacts with a face (m),
     from the file or its drawn points."""

@@ -29,6 +29,7 @@ from graphkin.scene.bodies import (
     check_held,
     check_own_points,
     check_references,
+    check_rolling,
     check_size,
     check_texts,
     driver_tables,
@@ -271,7 +272,7 @@ def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[Sce
     for table in ("sketch", "drawn"):
         reading.wrong(*(reading.no_point(f"{table}.{point}", point) for point in getattr(file, table)))
     check_references(reading)
-    places.check_rolling(reading)
+    check_rolling(reading)
     find = asked(reading) if file.find else ()
     stated = stated_values(reading) if file.printed or file.printed_rows or file.printed_table else ()
     positions = positions_named(file.positions, reading) if file.positions else None

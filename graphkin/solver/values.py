@@ -97,7 +97,7 @@ def exact_values(motion: Motion, symbols: Iterable[Symbol]) -> dict[Symbol, Valu
     CallError : a symbol names nothing here
     Unsolvable : a quantity of the whole turn without a whole turn, a force at a dead point
     """
-    values: dict[Symbol, Value] = {}
+    posed, values = motion.posed, dict[Symbol, Value]()
     for symbol, scope in {symbol: symbol.scope for symbol in symbols}.items():
         if scope == "turn":
             values[symbol] = _of_turn(_range_here(motion), symbol)
@@ -105,7 +105,7 @@ def exact_values(motion: Motion, symbols: Iterable[Symbol]) -> dict[Symbol, Valu
             values[symbol] = _of_forces_here(motion, symbol)
         else:
             of_motion = scope not in ("force", "cycle") and not symbol.axis
-            exact = (value_of_symbol(motion.posed, symbol) if of_motion else value_of(motion, symbol))[0]
+            exact = (value_of_symbol(posed, symbol) if of_motion else value_of(motion, symbol))[0]
             if symbol.kind == "d" and math.isnan(exact):  # the centre of links at rest: that of any motion
                 exact = growing(motion).value(symbol)[0]
             values[symbol] = complex(exact) if np.iscomplexobj(exact) else float(exact)
