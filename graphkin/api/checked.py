@@ -225,8 +225,8 @@ def checked(what: Plan, motion: Motion, hand: Instrument, at_contacts: bool = Tr
         predicted = predict(what, hand.name, tools)
         report = report_on(sheet, motion, hand, predicted)
         advice = advise(what, hand.name, tools, [row.reading for row in report.rows], predicted)
-    of_cycle = exact_values(motion, [symbol for symbol in sheet.asked if symbol.scope == "cycle"])
-    over_turn = {symbol: float(value.real) for symbol, value in of_cycle.items()}
+    of_cycle = [symbol for symbol in sheet.asked if symbol.scope == "cycle"]
+    over_turn = {s: float(value.real) for s, value in exact_values(motion, of_cycle).items()} if of_cycle else {}
     there = None if other is None else checked(other, motion, other_hand, at_contacts=False)
     return Checked(sheet, report, advice, motion.passed, over_turn, there)
 

@@ -16,7 +16,7 @@ from graphkin.construction.board.steps import ORDERS
 from graphkin.construction.position.links_on_paper import travel
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.symbol import PointRef, Symbol, centre_links
-from graphkin.solver.values import as_drawn, exact_values, rounding_of
+from graphkin.solver.values import as_drawn, exact_values, forces_here, rounding_of
 from graphkin.structure.transmission import joint_between, joint_of_follower, sliding_pair
 from graphkin.words import Phrase, joined
 
@@ -97,13 +97,14 @@ def report_on(
     Unsolvable : "dead point": the balance does no work
     """
     forces, motion = None, as_drawn(motion, sheet.structure)
-    rounding = rounding_of(motion, sheet.has_forces)
     if sheet.has_forces:
         from graphkin.construction.forces import forces_on
 
+        forces_here(motion)  # it tells best why there are none
         forces = forces_on(sheet, hand)
     readings = read_off(sheet, (), hand, forces)
-    exact = exact_values(motion, [reading.symbol for reading in readings])
+    symbols = [reading.symbol for reading in readings]
+    rounding, exact = rounding_of(motion, symbols, sheet.has_forces), exact_values(motion, symbols)
     return compare(sheet, readings, exact, sheet.asked, predicted, rounding, forces)
 
 

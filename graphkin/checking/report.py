@@ -18,7 +18,7 @@ from graphkin.files import Json
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.scene.tables import Unit, Units
 from graphkin.solver.motion import SLIGHT
-from graphkin.solver.values import Lost, Rounding
+from graphkin.solver.values import Lost
 from graphkin.structure import by_drivers_alone, greatest_before
 from graphkin.words import Phrase, say
 from graphkin.words.written import MOST, ROUNDED, amount, computed, figures, on_paper, product
@@ -166,7 +166,7 @@ def compare(
     exact: Mapping[Symbol, Value],
     asked: Sequence[Symbol] = (),
     predicted: Mapping[Symbol, Uncertainty] | None = None,
-    rounding: Rounding | None = None,
+    rounding: Mapping[Symbol, Lost] | None = None,
     forces: ForceSheet | None = None,
 ) -> Report:
     """Compare readings with exact values.
@@ -177,12 +177,12 @@ def compare(
     predicted : uncertainty of each reading, by which it is judged; without it (exact instrument) a reading may be off
         by 1e-9 of the largest vector that leads to it, a rate by 1e-9 of the largest rate or of that vector over the
         size; where the tolerance exceeds a thousandth of that (of a pencil: all of it) the reading is not determined
-    rounding : rounding errors of the exact places (m) and vectors of a diagram (m/s, m/s2): very near a dead point they
-        exceed 1e-9, and drawing and solver agree no better; smaller values are zero
+    rounding : for each reading the rounding errors of the exact places (m) and vectors (m/s, m/s2) that lead to it:
+        very near a dead point they exceed 1e-9, and drawing and solver agree no better; smaller values are zero
     forces : the drawn forces, of which some of the readings are
     """
     pairs = [(reading, exact[reading.symbol]) for reading in readings]
-    row, lost = partial(_row, sheet, predicted), rounding or (lambda symbol: Lost())
+    row, lost = partial(_row, sheet, predicted), rounding or {reading.symbol: Lost() for reading in readings}
     scopes = [reading.symbol.scope for reading in readings]
     of_motion, of_forces = (
         [pair for pair, scope in zip(pairs, scopes, strict=True) if scope == kind] for kind in ("motion", "force")
@@ -195,7 +195,7 @@ def compare(
         """A length is judged by the size of the mechanism, an angle by a radian, a number by itself."""
         size, length = sheet.scene.size, reading.symbol.measure == "length"
         whole = max(size if length else 1.0, abs(value))
-        rounded = lost(reading.symbol).mechanism / (1.0 if length else size)
+        rounded = lost[reading.symbol].mechanism / (1.0 if length else size)
         return row(reading, float(value.real), whole, max(rounded, ROUNDING * whole), rounded)
 
     rows = tuple(by_scope.get(scope, place)(*pair) for scope, pair in zip(scopes, pairs, strict=True))
@@ -235,7 +235,8 @@ def _row(
 
 
 def _motion(
-    sheet: Sheet, pairs: Sequence[tuple[Reading, Value]], row: Callable[..., Compared], rounding: Rounding | None
+    sheet: Sheet, pairs: Sequence[tuple[Reading, Value]], row: Callable[..., Compared],
+    rounding: Mapping[Symbol, Lost] | None,
 ) -> Callable[[Reading, Value], Compared]:
     """The comparison of vectors and rates, by the largest vector that leads to them and its rounding error."""
     greatest = _largest(sheet, pairs)
@@ -248,7 +249,7 @@ def _motion(
     share = max(EXACT_TOLERANCE, _grain(sheet))
 
     def compared(reading: Reading, value: Value) -> Compared:
-        symbol, lost = reading.symbol, rounding(reading.symbol) if rounding else Lost()
+        symbol, lost = reading.symbol, rounding[reading.symbol] if rounding else Lost()
         most, by = greatest[symbol], 1.0 if symbol.is_vector else sheet.scene.size
         rounded = 0.0 if rounding is None else getattr(lost, reading.diagram) / by
         least = ON_PAPER.get(sheet.instrument, HAND) * getattr(sheet.scales, reading.diagram) / by
@@ -290,12 +291,11 @@ def _turned(reading: Reading, exact: complex | float, whole: float) -> float:
 
 
 def _forces(
-    sheet: Sheet, pairs: Sequence[tuple[Reading, Value]], row: Callable[..., Compared], rounding: Rounding
+    sheet: Sheet, forces: Sequence[tuple[Reading, Value]], row: Callable[..., Compared],
+    rounding: Mapping[Symbol, Lost],
 ) -> Callable[[Reading, Value], Compared]:
     """The comparison of forces, by the largest force (N), that force times the size of the mechanism (N m), and the
     rounding error of a force (N)."""
-    forces = [(r, v) for r, v in pairs if r.symbol.scope == "force"]
-
     def most(measure: str) -> float:
         sizes = (max(abs(r.value), abs(v)) for r, v in forces if r.symbol.measure == measure)
         return max((size for size in sizes if math.isfinite(size)), default=0.0)
@@ -303,7 +303,7 @@ def _forces(
     largest, size = most("force"), sheet.scene.size
     turning = max(most("moment"), largest * size)
     inertia = {r.symbol.link: abs(v) for r, v in forces if r.symbol.kind == "Fi"}
-    relative = rounding(forces[0][0].symbol).force / largest if forces and largest else 0.0
+    relative = rounding[forces[0][0].symbol].force / largest if largest else 0.0
     # arms of what stands still are rounding beside the speeds of the links; at rest the driver has a unit rate
     speeds = map(abs, sheet.spans["velocity"].values())
     fastest = max(most("velocity"), max(speeds, default=0.0) * sheet.scales.velocity or size)

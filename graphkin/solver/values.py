@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import islice, pairwise
 from typing import Any, NamedTuple
@@ -163,11 +164,8 @@ class Lost(NamedTuple):
     slight: bool = True
 
 
-Rounding = Callable[[Symbol], Lost]
-
-
-def rounding_of(motion: Motion, of_forces: bool = False) -> Rounding:
-    """The rounding errors of the exact values at the single position of a motion; those ``of_forces`` where these are
+def rounding_of(motion: Motion, symbols: Iterable[Symbol], of_forces: bool = False) -> dict[Symbol, Lost]:
+    """The rounding errors of exact values at the single position of a motion; those ``of_forces`` where these are
     compared too.
 
     Where they are more than slight beside the motion of the drivers they are given for the links of each quantity: near
@@ -187,15 +185,11 @@ def rounding_of(motion: Motion, of_forces: bool = False) -> Rounding:
 
     whole = lost(motion.bound.position, *motion.rough)
 
-    def of(symbol: Symbol) -> Lost:
-        if whole.slight or symbol.scope == "force":
-            return whole
-        try:
-            return lost(*motion.rough_of(links_for(motion.structure, symbol)))
-        except CallError:  # a special point of the drawing
-            return whole
-
-    return of
+    rounding = dict.fromkeys(symbols, whole)
+    for symbol in () if whole.slight else [symbol for symbol in rounding if symbol.scope != "force"]:
+        with suppress(CallError):  # a special point of the drawing
+            rounding[symbol] = lost(*motion.rough_of(links_for(motion.structure, symbol)))
+    return rounding
 
 
 def _of_forces_here(motion: Motion, symbol: Symbol) -> Value:

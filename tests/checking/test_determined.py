@@ -50,7 +50,7 @@ def test_agreement_within_a_tolerance_that_accepts_anything_is_none() -> None:
     sheet = draft(mechanism_of("slider-crank-offset"))
     readings = read_off(sheet)
     exact = {r.symbol: r.value for r in readings}
-    report = compare(sheet, readings, exact, rounding=lambda symbol: Lost(velocity=1e3))
+    report = compare(sheet, readings, exact, rounding=dict.fromkeys(exact, Lost(velocity=1e3)))
     led = {"v_B", "omega_1", "omega_3"}  # by the crank and the guide alone
     assert {None} == {row.ok for row in report.rows if row.reading.diagram == "velocity" and str(row.symbol) not in led}
 
@@ -60,7 +60,7 @@ def test_a_report_of_readings_of_which_none_is_determined_is_not_ok() -> None:
     sheet = draft(mechanism_of("slider-crank-offset"))
     readings = [r for r in read_off(sheet) if str(r.symbol) in ("v_C", "v_C/B", "omega_2")]
     exact = {r.symbol: r.value for r in readings}
-    assert not compare(sheet, readings, exact, rounding=lambda symbol: Lost(velocity=1e3)).ok
+    assert not compare(sheet, readings, exact, rounding=dict.fromkeys(exact, Lost(velocity=1e3))).ok
 
 
 @pytest.mark.quick
@@ -245,7 +245,7 @@ def test_what_rounding_leaves_of_a_moment_is_what_it_leaves_of_a_force_times_the
     readings = read_off(sheet)
     exact = {r.symbol: r.value for r in readings}
     forces, moments = ([abs(v) for s, v in exact.items() if s.measure == measure] for measure in ("force", "moment"))
-    report = compare(sheet, readings, exact, rounding=lambda symbol: Lost(force=1e-9 * max(forces)))
+    report = compare(sheet, readings, exact, rounding=dict.fromkeys(exact, Lost(force=1e-9 * max(forces))))
     expected = 1e-9 * max(*moments, max(forces) * sheet.scene.size)
     floors = {row.floor for row in report.rows if row.symbol.measure == "moment"}
     assert [pytest.approx(expected)] == list(floors)

@@ -94,8 +94,8 @@ def place(
     ----------
     mm : mm of paper for one m
     instrument : the hands that draw
-    board : record of the placing of each link, the words for each assembly by the group's links, and the acts of the
-        hand up to each link
+    board : record of the placing of each link, the words for each assembly by the group's links, and the acts of an
+        erring hand up to each link
 
     Raises
     ------
@@ -104,7 +104,8 @@ def place(
     """
     paper, so_far = (start_board(structure, mm, assembly.values, hand) for hand in (instrument, EXACT))
     frame, met = structure.scene.frame, dict[Element, tuple[Intersection, int]]()
-    placed = [(instrument.acts, Phrase("placing", links=links_named([frame.name])))]
+    erring = board is not None and instrument.errs is not None
+    placed = [(instrument.acts, Phrase("placing", links=links_named([frame.name])))] if erring else []
     named = set(frame.points)
     done = 0 if board is None else len(board.causes)
     if board is not None:
@@ -124,7 +125,8 @@ def place(
     for element in assemble(paper, elements, chosen):
         if board is None:
             continue
-        placed.append((instrument.acts, Phrase("placing", links=element.named)))
+        if erring:
+            placed.append((instrument.acts, Phrase("placing", links=element.named)))
         if isinstance(element, Driven):
             _, steps = drive(so_far, element)
         elif isinstance(element, LargerGroup):
@@ -133,7 +135,7 @@ def place(
             steps = _dyad_steps(board, paper, element, *met[element])
         _record(board, paper, element, steps, named)
         so_far.poses.update({name: paper.poses[name] for name in element.members})
-    if board is not None:
+    if board is not None and erring:
         board.causes[done:] = placed
     return paper
 
