@@ -12,10 +12,12 @@ from __future__ import annotations
 
 import math
 import random
+import tomllib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -29,10 +31,12 @@ from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.centres import find_centres
 from graphkin.errors import Unsolvable
 from graphkin.plane import added_up, cross_arcs
-from graphkin.scene import mechanism_of, mechanism_of_text
+from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
+from graphkin.scene.scene import resolved
 from graphkin.scene.scene_tables import Tools
 from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import put_at
 from graphkin.solver import Motion
 from graphkin.solver.algebra.pose import Array
 from graphkin.solver.drivers import working
@@ -45,6 +49,17 @@ from graphkin.words.written import true_minus
 
 if TYPE_CHECKING:
     from mpmath import MPContext, mpc, mpf
+
+
+SCENES = Path(__file__).with_name("singular_scenes.toml")
+
+
+def _scene(name: str, *values: tuple[str, object]) -> Mechanism:
+    """A mechanism of the file of scenes, with values at some keys (with dots)."""
+    tables = tomllib.loads(SCENES.read_text(encoding="utf-8"))[name]
+    for key, value in values:
+        put_at(tables, tuple(key.split(".")), value)
+    return resolved(tables, name)[1]
 
 
 def _turned(scene: Mechanism, angle: float) -> Mechanism:
@@ -86,40 +101,6 @@ NEARBY = (1e-12, 1e-2)  # rad; over which slopes are fitted
 STEP = 0.02  # rad; where Newton's method comes from
 PATIENCE = 60
 
-_CRANK = """
-[driver]
-link = "1"
-angle = {angle}
-omega = 10
-[frame]
-"""
-_DYADS = {
-    "RRR": _CRANK.format(angle=60) + """
-points = { A = [0, 0], D = [400, 0] }
-[links]
-1 = { points = ["A", "B"], length = 310 }
-2 = { points = ["B", "C"], length = 210 }
-3 = { points = ["D", "C"], length = 290 }
-[sketch]
-C = [300, 280]
-""",
-    "RRP": _CRANK.format(angle=30) + """
-points = { A = [0, 0] }
-guides = { h = { through = [0, 0], angle = 0 } }
-[links]
-1 = { points = ["A", "B"], length = 310 }
-2 = { points = ["B", "C"], length = 210 }
-3 = { points = ["C"], on = "0.h" }
-""",
-    "RPR": _CRANK.format(angle=120) + """
-points = { A = [0, 0], C = [310, 0] }
-[links]
-1 = { points = ["A", "B"], length = 110 }
-2 = { points = ["B"], on = "3.s" }
-3 = { points = ["C"], at = { E = [0, 250] }, guides = { s = { through = "E", angle = 0 } } }
-""",
-}  # fmt: skip
-"""Mechanisms with a dead point; the last link turns, where it does not slide."""
 FOLLOWERS = {"RRR": "3", "RRP": "2", "RPR": "3"}
 SIDES = {"RRR": -1, "RRP": -1, "RPR": 1}
 """+1 where the crank comes to the dead point from greater angles."""
@@ -148,7 +129,7 @@ def dead_point(kind: str, mp: MPContext, samples: int = 4) -> Singularity:
     mp : mpmath context of the reference
     samples : distances to each half of a decade
     """
-    scene, follower, side = mechanism_of_text(_DYADS[kind], kind), FOLLOWERS[kind], SIDES[kind]
+    scene, follower, side = _scene(kind), FOLLOWERS[kind], SIDES[kind]
     driver, dead = scene.drivers[0], _dead(kind, scene, mp)
     reach = max(abs(z) for z in scene.by_name[follower].points.values())
     given = next(p for p in dead_points(solver.structure_of(scene)) if side in p.sides and p.value > 0)
@@ -387,27 +368,12 @@ def _worst(values: Array, right: Array) -> float:
 
 SEEDS = 12  # drawings of a pencil
 
-_FOUR_BAR = """
-[frame]
-points = {{ A = [0, 0], D = [300, 0] }}
-[links]
-1 = {{ points = ["A", "B"] }}
-2 = {{ points = ["B", "C"] }}
-3 = {{ points = ["D", "C"] }}
-[driver]
-link = "1"
-omega = 10
-[drawn]
-B = [0, 100]
-C = [{x!r}, {y!r}]
-"""
-
 
 def _four_bar(phi: float, mp: MPContext) -> tuple[Mechanism, mpc, mpc]:
     """A four-bar with its crank AB upright and its rocker DC at an angle to it (rad), whose lines cross in the centre
     of the coupler; to 50 digits that centre (m; None where the coupler does not turn) and the velocity of C (m/s)."""
     c = complex(300, 0) + 120 * complex(math.sin(phi), math.cos(phi))
-    scene = mechanism_of_text(_FOUR_BAR.format(x=c.real, y=c.imag), "parallel")
+    scene = _scene("parallel", ("drawn.C", [c.real, c.imag]))
     motion = solver.solve(scene)
     equations, (value, rate, second) = reference(motion.structure, mp), scene.drivers[0].values
     start = list(Equations(motion.structure).start(motion)[:, 0])
@@ -462,24 +428,11 @@ FLOOR = 1e-17  # of the charts
 BESIDE_PIVOT = (1e-8, 0.03)  # over which slopes are fitted beside the pivot of a bar
 BAR_LAWS = "place bar", "acceleration Coriolis", "acceleration bar"
 
-_BAR = """
-[frame]
-points = {{ A = [0, {ground}], C = [0, 0] }}
-[links]
-1 = {{ points = ["A", "B"], length = {crank!r} }}
-2 = {{ points = ["B"], on = "3" }}
-3 = {{ points = ["C"] }}
-[driver]
-link = "1"
-angle = {angle}
-omega = 10
-"""
-
 
 def _bar(ground: float, crank: float, angle: float) -> tuple[Mechanism, float, float]:
     """A bar that swings about C on the pin B of the crank (lengths in mm, angle in degrees); with the crank's rate
     (rad/s) and length (m)."""
-    scene = mechanism_of_text(_BAR.format(ground=ground, crank=crank, angle=angle), "bar")
+    scene = _scene("bar", ("frame.points.A", [0, ground]), ("links.1.length", crank), ("driver.angle", angle))
     return scene, scene.drivers[0].values[1], abs(scene.by_name["1"].points["B"])
 
 

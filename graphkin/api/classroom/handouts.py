@@ -256,14 +256,11 @@ def papers_in(
     """
     worked = tuple(solution_blocks(lesson, beginning(lesson))) if "pdf" in formats or page is not None else ()
     sheets = {"problem": problem(lesson), "key": answer_key(lesson)}
-
-    def typeset() -> dict[str, bytes]:
-        return papers_as(("pdf",), {**sheets, "solution": solution(lesson, worked)})
-
     with ThreadPoolExecutor(1) as beside:  # typesetting runs beside Python
-        pdf = beside.submit(typeset) if "pdf" in formats else None
+        typeset = {**sheets, "solution": solution(lesson, worked)} if "pdf" in formats else {}
+        pdf = beside.submit(papers_as, ("pdf",), typeset)
         made = {"key.csv": key_table(lesson).csv().encode()}
         if "html" in formats:
             made |= papers_as(("html",), sheets)
             made |= {"handout.html": page(worked).encode()} if page is not None else {}
-        return made | (pdf.result() if pdf is not None else {})
+        return made | pdf.result()
