@@ -10,14 +10,15 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import DiagramName
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.files import Json
-from graphkin.scene.model import PlacedScan
+from graphkin.scene.model import PlacedPicture
+from graphkin.scene.scene_tables import ReadScan
 from graphkin.words import Phrase, say, word
 
 POLE = "pole"
@@ -84,13 +85,11 @@ class ReadLine:
 
 @dataclass(frozen=True)
 class JudgedScan:
-    """A scan laid on the exact figure: the pixel x - iy lies at ``corner + step (x - iy)`` (mm, y up)."""
+    """A scan laid on the exact figure (mm, y up), with its picture, if there is one."""
 
-    scan: PlacedScan
     diagram: DiagramName
     lines: tuple[ReadLine, ...]
-    corner: complex
-    step: complex
+    picture: PlacedPicture | None
 
     @property
     def ok(self) -> bool:
@@ -129,28 +128,29 @@ def judge_scans(sheet: Sheet, diagram: DiagramName | None = None) -> tuple[Judge
     ------
     CallError : an end that the figure does not have; two ends at the same place; no line between the read ends
     """
-    return tuple(_judged(sheet, scan) for scan in sheet.scene.question.scans if diagram in (None, scan.diagram))
+    scans = sheet.scene.question.scans.items()
+    return tuple(_judged(sheet, of, *scan) for of, scan in scans if diagram in (None, of))  # type: ignore[arg-type]
 
 
-def _judged(sheet: Sheet, scan: PlacedScan) -> JudgedScan:
-    diagram: DiagramName = scan.diagram  # type: ignore[assignment]
-    ends, where = _ends(sheet, diagram), f"scans.{scan.diagram}"
-    unknown = [n for n in (*scan.points, *scan.read) if n not in ends]
+def _judged(sheet: Sheet, diagram: DiagramName, scan: ReadScan, picture: PlacedPicture | None) -> JudgedScan:
+    ends, where = _ends(sheet, diagram), f"scans.{diagram}"
+    pixels = {name: complex(x, -y) for name, (x, y) in (*scan.points.items(), *scan.read.items())}
+    unknown = [n for n in pixels if n not in ends]
     if unknown:
         raise CallError(
             *(Problem(f"{where}.{n}", Phrase("is no end of this figure"), did_you_mean(n, ends)) for n in unknown)
         )
-    (p, q), (one, other) = scan.points, scan.points.values()
+    p, q = scan.points
     largest = max(abs(a - b) for a, b in combinations(ends.values(), 2))
     if abs(ends[p] - ends[q]) <= SAME * largest:
         raise CallError.of(f"{where}.points", "and lie at one place", "name two ends apart", point=p, other=q)
-    step = (ends[q] - ends[p]) / (other - one)
-    corner = ends[p] - step * one
-    places = {name: corner + step * at for name, at in {**scan.points, **scan.read}.items()}
+    step = (ends[q] - ends[p]) / (pixels[q] - pixels[p])
+    corner = ends[p] - step * pixels[p]
+    places = {name: corner + step * pixel for name, pixel in pixels.items()}
     lines = tuple(_lines(sheet, diagram, ends, places, scan.within))
     if not lines:
         raise CallError.of(where, "no line goes from one of these ends", "read both ends of a line")
-    return JudgedScan(scan, diagram, lines, corner, step)
+    return JudgedScan(diagram, lines, picture and replace(picture, corner=corner, step=step))
 
 
 def _ends(sheet: Sheet, diagram: DiagramName) -> dict[str, complex]:

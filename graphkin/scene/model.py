@@ -21,6 +21,7 @@ from graphkin.scene.scene_tables import (
     Flywheel,
     LoadPhase,
     Positions,
+    ReadScan,
     SceneTables,
     SheetWishes,
     Vary,
@@ -243,35 +244,17 @@ class Driver:
 
 
 @dataclass(frozen=True)
-class PlacedBackground:
-    """A picture under the mechanism: the pixel x to the right and y down from its left upper corner lies at
-    ``corner + step (x - iy)`` (m, world axes).  ``data`` is the file as it is, of the media type ``kind``."""
+class PlacedPicture:
+    """A picture: the pixel x to the right and y down from its left upper corner lies at ``corner + step (x - iy)`` (m,
+    world axes; of a scan mm on the figure).  ``data`` is the file as it is, of the media type ``kind``."""
 
     name: str
     kind: str
     width: int
     height: int
-    corner: complex
-    step: complex
     data: bytes = field(repr=False)
-
-
-@dataclass(frozen=True)
-class PlacedScan:
-    """Readings from the scan of a drawing, in pixels x - iy from its left upper corner, by the names of ends.
-
-    ``points`` are the two that set scale and direction; ``within`` the allowed error of a line over the longest line.
-    ``kind``, ``width``, ``height`` and ``data`` are those of the picture, "" and 0 where there is none.
-    """
-
-    diagram: str
-    points: Mapping[str, complex]
-    read: Mapping[str, complex]
-    within: float
-    kind: str = ""
-    width: int = 0
-    height: int = 0
-    data: bytes = field(default=b"", repr=False)
+    corner: complex = 0j
+    step: complex = 1 + 0j
 
 
 @dataclass(frozen=True)
@@ -296,8 +279,8 @@ class Question:
     places on a stroke, the first None for the driver's own value; ``stated`` holds all that somebody printed, digit by
     digit, first that of the scene's own position; ``loops`` are vector loops by name, each through its points;
     ``vary`` gives the rules by which a set of problems is drawn from the scene, ``grading`` the points.  ``background``
-    lies under the drawing; ``scans`` are drawings to be judged.  ``written`` is the file that was read, None where the
-    mechanism was made otherwise.
+    lies under the drawing; ``scans`` are drawings to be judged, by their figures.  ``written`` is the file that was
+    read, None where the mechanism was made otherwise.
     """
 
     title: str = ""
@@ -311,8 +294,8 @@ class Question:
     loops: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     vary: Vary | None = None
     grading: Mapping[str, float] = field(default_factory=dict)
-    background: PlacedBackground | None = None
-    scans: tuple[PlacedScan, ...] = ()
+    background: PlacedPicture | None = None
+    scans: Mapping[str, tuple[ReadScan, PlacedPicture | None]] = field(default_factory=dict)
     written: SceneTables | None = field(default=None, compare=False, repr=False)
 
     @property

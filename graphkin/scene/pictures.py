@@ -6,14 +6,15 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
+from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.files import opened
 from graphkin.scene.bodies import Reading
-from graphkin.scene.model import PlacedBackground, PlacedScan
-from graphkin.scene.scene_tables import Background
+from graphkin.scene.model import PlacedPicture
+from graphkin.scene.scene_tables import Background, ReadScan
 from graphkin.words import Phrase, from_others
 
 LARGEST, MOST_PIXELS = 10_000_000, 50_000_000
@@ -22,27 +23,27 @@ TURNED = 0x0112
 """The note in a picture that says how it is turned; 1 where it is upright."""
 
 
-def scans_of(reading: Reading) -> tuple[PlacedScan, ...]:
-    """The scans of a file; their problems are noted."""
-    made = []
+def scans_of(reading: Reading) -> dict[str, tuple[ReadScan, PlacedPicture | None]]:
+    """The scans of a file, each with its picture, if it has one; their problems are noted."""
+    scans: dict[str, tuple[ReadScan, PlacedPicture | None]] = {}
     for diagram, scan in reading.file.scans.items():
         where, before = f"scans.{diagram}", len(reading.problems)
-        points, read = ({n: complex(x, -y) for n, (x, y) in ends.items()} for ends in (scan.points, scan.read))
-        if len(points) != 2 or len(set(points.values())) < len(points):
-            reading.say(f"{where}.points", "found value", "two ends at two places set scale and", value=len(points))
-        for name in sorted(set(points) & set(read)):
+        if len(scan.points) != 2 or len({*map(tuple, scan.points.values())}) < 2:
+            reading.say(f"{where}.points", "found value", "two ends at two places set scale and",
+                        value=len(scan.points))
+        for name in sorted(set(scan.points) & set(scan.read)):
             reading.say(f"{where}.read.{name}", "stands in points too", "leave one of them out")
-        if not read:
+        if not scan.read:
             reading.say(f"{where}.read", "is empty", "write the ends that were read c 812")
-        picture = _picture(f"{where}.file", scan.file) if scan.file is not None else ("", 0, 0, b"")
+        picture = None if scan.file is None else _picture(f"{where}.file", scan.file)
         if isinstance(picture, Problem):
             reading.wrong(picture)
         elif len(reading.problems) == before:
-            made.append(PlacedScan(diagram, points, read, scan.within, *picture))
-    return tuple(made)
+            scans[diagram] = scan, picture
+    return scans
 
 
-def background_of(wish: Background, known: Mapping[str, complex], reading: Reading) -> PlacedBackground | None:
+def background_of(wish: Background, known: Mapping[str, complex], reading: Reading) -> PlacedPicture | None:
     """The picture that a file asks for, laid by two points whose places (m) are known; None where there is a problem,
     which is noted."""
     where, before = "sheet.background", len(reading.problems)
@@ -63,12 +64,11 @@ def background_of(wish: Background, known: Mapping[str, complex], reading: Readi
         reading.say(f"{where}.points", "and lie at the same place", "name two points apart", point=p, other=q)
         return None
     step = (known[q] - known[p]) / (other - pixel)
-    kind, width, height, data = picture
-    return PlacedBackground(Path(wish.file).name, kind, width, height, known[p] - step * pixel, step, data)
+    return replace(picture, corner=known[p] - step * pixel, step=step)
 
 
-def _picture(where: str, file: str) -> tuple[str, int, int, bytes] | Problem:
-    """Media type, width and height in pixels, and the bytes of a picture that can be read."""
+def _picture(where: str, file: str) -> PlacedPicture | Problem:
+    """A picture that can be read, in pixels."""
     from PIL import Image, UnidentifiedImageError
 
     shown = ascii(file)[1:-1][-80:] if not file.isprintable() else file[-80:]
@@ -91,7 +91,7 @@ def _picture(where: str, file: str) -> tuple[str, int, int, bytes] | Problem:
             if image.getexif().get(TURNED, 1) != 1:
                 return Problem(where, "is stored turned and only a note in", "save it upright", shown=shown)
             image.load()
-            return KINDS[str(image.format)], image.width, image.height, data
+            return PlacedPicture(Path(file).name, KINDS[str(image.format)], image.width, image.height, data)
     except Image.DecompressionBombError:
         return Problem(where, "has too many pixels", "million are possible", shown=shown, most=MOST_PIXELS // 1_000_000)
     except (OSError, SyntaxError, ValueError, EOFError) as error:

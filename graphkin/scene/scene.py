@@ -297,7 +297,7 @@ def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[Sce
     loading = loading_of(reading) if acting else Loading()
     wish = file.sheet.background
     under = background_of(wish, {**position.drawn, **reading.places[reading.frame.name]}, reading) if wish else None
-    scans = scans_of(reading) if file.scans else ()
+    scans = scans_of(reading) if file.scans else {}
     values = [position.value_of(driver) for driver in driven.values()]
     tables = () if problems else ((reading.frame.name, None), *reading.links.items())
     bodies = [position.placed(link_name, discs, link) for link_name, link in tables]

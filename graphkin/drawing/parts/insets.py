@@ -58,6 +58,7 @@ from graphkin.drawing.place.obstacles import Obstacles, free_boxes
 from graphkin.drawing.place.piece import Piece, cut_to, dated, joined, middle_of, moved_piece, obstacles_of
 from graphkin.drawing.text import fitted, plain, runs_width, symbol, text_box
 from graphkin.plane import cross, unit
+from graphkin.scene.model import PlacedPicture
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words.written import roman
 
@@ -396,10 +397,13 @@ def background_piece(sheet: Sheet, origin: complex, panel: Box) -> Piece:
     under = sheet.scene.question.background
     if under is None:
         return Piece()
-    mm = 1 / sheet.scales.length
-    corner, step = (on_page(z) * mm for z in (under.corner, under.step))
-    scan = Scan(origin + corner, step, under.width, under.height, under.kind, under.data, panel.corners)
-    return Piece({"background": (scan,)})
+    return Piece({"background": (_laid(under, 1 / sheet.scales.length, origin, panel),)})
+
+
+def _laid(picture: PlacedPicture, mm: float, origin: complex, panel: Box) -> Scan:
+    """A picture on a page where the origin of its places lies at ``origin``, with ``mm`` for one unit of them."""
+    corner, step = (on_page(z) * mm for z in (picture.corner, picture.step))
+    return Scan(origin + corner, step, picture.width, picture.height, picture.kind, picture.data, panel.corners)
 
 
 def scan_piece(sheet: Sheet, diagram: DiagramName, origin: complex, panel: Box) -> Piece:
@@ -408,10 +412,8 @@ def scan_piece(sheet: Sheet, diagram: DiagramName, origin: complex, panel: Box) 
     under: list[Primitive] = []
     lines: list[Primitive] = []
     for judged in judge_scans(sheet, diagram):
-        scan = judged.scan
-        if scan.data:
-            corner, step = (on_page(z) for z in (judged.corner, judged.step))
-            under.append(Scan(origin + corner, step, scan.width, scan.height, scan.kind, scan.data, panel.corners))
+        if judged.picture is not None:
+            under.append(_laid(judged.picture, 1.0, origin, panel))
         for line in judged.lines:
             ends = panel.clip(origin + on_page(line.tail), origin + on_page(line.tip))
             if ends is None:
