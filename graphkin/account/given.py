@@ -24,7 +24,7 @@ from graphkin.scene.model import Driver, LoadOn, Mechanism, PlacedLink, SpringOn
 from graphkin.scene.pairs import PlacedGuide, SlidingPair
 from graphkin.scene.scene_tables import LoadPhase
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Driven, Rolled
+from graphkin.structure import Driven, RollingRelation
 from graphkin.words import Neutral, Phrase, languages, say
 from graphkin.words.written import as_given
 
@@ -82,7 +82,7 @@ def rolled_starts(sheet: Sheet) -> list[str]:
         if not isinstance(element, Driven):
             continue
         driver = element.driver
-        if isinstance(driver, Rolled):
+        if isinstance(driver, RollingRelation):
             slide = "" if driver.turns else driver.key
             driver = Driver(element.link, scene.frame.name, driver.start, 0.0, 0.0, slide=slide)
         elif not isinstance(driver, Driver) or not driver.ratios:

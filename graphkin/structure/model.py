@@ -119,11 +119,37 @@ def _named(links: Sequence[str], members: Sequence[str]) -> Phrase:
 
 @dataclass(frozen=True)
 class RollingRelation:
-    """A sum of coordinates with factors that keeps its value; ``links`` are the links that it ties."""
+    """A sum of coordinates with factors that keeps its value; ``links`` are the links that it ties.
+
+    Where it moves a link that rolls on links of known motion it is solved for that link's ``coordinate``: from its
+    value ``start`` (rad, m) in the scene's own position that changes by ``factors`` times the changes of the others.
+    """
 
     name: str
     terms: Mapping[Coordinate, Fraction] = field(hash=False)
     links: tuple[str, ...]
+    coordinate: Coordinate = ("", "")
+    start: float = 0.0
+    # asked of whatever moves a link
+    rolls: ClassVar[bool] = True
+    given: ClassVar[bool] = False
+    through: ClassVar[tuple[str, ...]] = ()
+
+    @property
+    def turns(self) -> bool:
+        """Whether it is solved for an angle."""
+        return self.coordinate[0] == "angle"
+
+    @property
+    def key(self) -> str:
+        """The link that it turns, or the sliding pair."""
+        return self.coordinate[1]
+
+    @cached_property
+    def factors(self) -> tuple[tuple[Coordinate, float], ...]:
+        """The other coordinates, with what a change of each moves the one for which it is solved."""
+        factor = self.terms[self.coordinate]
+        return tuple((c, float(-f / factor)) for c, f in self.terms.items() if c != self.coordinate)
 
     @property
     def in_lengths(self) -> bool:
@@ -134,30 +160,6 @@ class RollingRelation:
         """The factors so that the sum has no unit, lengths counted in a ``size`` (m)."""
         whole = size if self.in_lengths else max(abs(float(f)) for f in self.terms.values())
         return {coordinate: float(factor) / whole for coordinate, factor in self.terms.items()}
-
-
-@dataclass(frozen=True)
-class Rolled:
-    """The motion of a link that rolls on links of known motion: its angle or travel follows from theirs.
-
-    ``start`` is its value (rad, m) in the scene's own position; it changes by ``factors`` times the changes of these
-    coordinates; ``links`` are the links of the relation.
-    """
-
-    name: str
-    coordinate: Coordinate
-    start: float
-    factors: tuple[tuple[Coordinate, float], ...]
-    links: tuple[str, ...]
-    rolls: ClassVar[bool] = True
-    given: ClassVar[bool] = False
-    through: ClassVar[tuple[str, ...]] = ()
-
-    turns: bool = field(init=False, repr=False, compare=False)
-    key: str = field(init=False, repr=False, compare=False)
-
-    def __post_init__(self) -> None:
-        self.__dict__.update(turns=self.coordinate[0] == "angle", key=self.coordinate[1])
 
 
 @dataclass(frozen=True)
@@ -173,7 +175,7 @@ class Driven:
 
     link: str
     pair: Pair
-    driver: Driver | LawCam | Rolled
+    driver: Driver | LawCam | RollingRelation
     order: ClassVar[int] = 1
     starts: ClassVar[tuple[Driver, ...]] = ()
     rolling: ClassVar[tuple[RollingRelation, ...]] = ()
@@ -182,7 +184,7 @@ class Driven:
     members: tuple[str] = field(init=False, repr=False, compare=False)
     pairs: tuple[Pair] = field(init=False, repr=False, compare=False)
     drivers: tuple[Driver, ...] = field(init=False, repr=False, compare=False)
-    rolled: Rolled | None = field(init=False, repr=False, compare=False)
+    rolled: RollingRelation | None = field(init=False, repr=False, compare=False)
     explicit: bool = field(init=False, repr=False, compare=False)
     outside: frozenset[str] = field(init=False, repr=False, compare=False)
     named: Phrase = field(init=False, repr=False, compare=False)
@@ -192,7 +194,7 @@ class Driven:
         self.__dict__.update(
             links=(self.link,), members=(self.link,), pairs=(self.pair,),
             drivers=(driver,) if isinstance(driver, Driver) else (),
-            rolled=driver if isinstance(driver, Rolled) else None, explicit=driver.given,
+            rolled=driver if isinstance(driver, RollingRelation) else None, explicit=driver.given,
             outside=frozenset((*self.pair.links, *driver.links, *driver.through)) - {self.link},
             named=_named((self.link,), (self.link,)),
         )  # fmt: skip

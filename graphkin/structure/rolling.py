@@ -22,7 +22,7 @@ from graphkin.plane import added_up
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
 from graphkin.scene.pairs import PlacedContact, PlacedGear
 from graphkin.scene.touching import rack_place
-from graphkin.structure.model import Coordinate, LargerGroup, Pair, Rolled, RollingRelation, Structure
+from graphkin.structure.model import Coordinate, LargerGroup, Pair, RollingRelation, Structure
 
 
 @dataclass(frozen=True)
@@ -188,15 +188,12 @@ def drawn_angle(scene: Mechanism, link: PlacedLink) -> float | None:
     return cmath.phase(ends[1] - ends[0]) if len(ends) == 2 and ends[0] != ends[1] else None
 
 
-def rolled_by(scene: Mechanism, relation: RollingRelation, member: str, pair: Pair) -> Rolled | None:
-    """The motion by a relation of a link that one pair joins to known links; None where the relation does not give
-    it."""
+def rolled_by(scene: Mechanism, relation: RollingRelation, member: str, pair: Pair) -> RollingRelation | None:
+    """The relation solved for a link that one pair joins to known links; None where it does not give its motion."""
     coordinate: Coordinate = ("angle", member) if pair.turns else ("travel", pair.key)
     if coordinate not in relation.terms or (coordinate[0] == "travel" and ("angle", member) in relation.terms):
         return None
-    factor = relation.terms[coordinate]
-    others = tuple((c, float(-f / factor)) for c, f in relation.terms.items() if c != coordinate)
-    return Rolled(relation.name, coordinate, scene.starts.get(coordinate[1], 0.0), others, relation.links)
+    return replace(relation, coordinate=coordinate, start=scene.starts.get(coordinate[1], 0.0))
 
 
 MOST = 200  # choices that are looked at

@@ -26,7 +26,7 @@ from graphkin.structure import (
     Element,
     LargerGroup,
     Pair,
-    Rolled,
+    RollingRelation,
     Structure,
     named_with_contact,
     pick,
@@ -211,7 +211,7 @@ TURNS = 3
 """Turns that what something rolls on may have made since the position from which it is followed."""
 
 
-def rolled_near(structure: Structure, paper: PlacedLinks, driver: Rolled, start: Poses, guess: Poses) -> float:
+def rolled_near(structure: Structure, paper: PlacedLinks, driver: RollingRelation, start: Poses, guess: Poses) -> float:
     """The value of a rolling link (rad, m) in a position under construction, by the motion of the links on which it
     rolls from a position ``start`` within some turns; the value nearest to its expected place."""
     before, near = (replace(paper, poses=dict(poses)) for poses in (start, guess))
@@ -475,12 +475,13 @@ def stuck(status: str, subject: Phrase, said: str) -> Unsolvable:
     return Unsolvable(status, Problem(subject, Phrase(said)))
 
 
+RolledValue = Callable[[RollingRelation], float]
 Choose = Callable[[int, Dyad | LargerGroup], Poses | None]
 """Where the links of a group lie, by its place among the elements; None where they cannot be placed."""
 
 
 def assemble(
-    paper: PlacedLinks, elements: Sequence[Element], choose: Choose, rolled: Callable[[Rolled], float] | None = None
+    paper: PlacedLinks, elements: Sequence[Element], choose: Choose, rolled: RolledValue | None = None
 ) -> Iterator[Element]:
     """Place links element by element, yielding each placed element; it ends where an element cannot be placed.
 
@@ -492,7 +493,7 @@ def assemble(
     for i, element in enumerate(elements):
         if isinstance(element, Driven):
             driver = element.driver
-            if rolled is not None and isinstance(driver, Rolled):
+            if rolled is not None and isinstance(driver, RollingRelation):
                 paper.values = {**paper.values, driver.key: rolled(driver)}
             elif isinstance(driver, LawCam):
                 lifted = driver.follower_at(cmath.phase(paper.poses[driver.link].axis))
@@ -508,7 +509,7 @@ def assemble(
 
 
 def assembled(
-    paper: PlacedLinks, elements: Sequence[Element], choose: Choose, rolled: Callable[[Rolled], float] | None = None
+    paper: PlacedLinks, elements: Sequence[Element], choose: Choose, rolled: RolledValue | None = None
 ) -> bool:
     """Place the links of all elements, as `assemble`; whether all could be placed."""
     return len(list(assemble(paper, elements, choose, rolled))) == len(elements)

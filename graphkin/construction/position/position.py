@@ -48,7 +48,7 @@ from graphkin.structure import (
     Dyad,
     Element,
     LargerGroup,
-    Rolled,
+    RollingRelation,
     Structure,
     analyse,
     cams_replaced,
@@ -227,7 +227,7 @@ def assembly_at(
                 raise stuck("dead point", element.named, "every trial drawing is at a dead point")
             reduced[element] = best.rolled_from(poses, paper.mm)
         paper.poses.update({name: poses[name] for name in element.members})
-    rolling = [e.driver for e in elements if isinstance(e, Driven) and isinstance(e.driver, Rolled)]
+    rolling = [e.driver for e in elements if isinstance(e, Driven) and isinstance(e.driver, RollingRelation)]
     rolled = {r.key: coordinate_on_paper(structure, paper, r.coordinate) for r in rolling}
     return Assembly({**values, **starts, **rolled}, poses, branches, reduced)
 
@@ -318,7 +318,7 @@ def found_near(
             return fitted(placed.last[element].rolled_from(start, paper.mm), paper, guess)
         return None if drawing is None else drawing.closed()
 
-    def rolled(driver: Rolled) -> float:
+    def rolled(driver: RollingRelation) -> float:
         return rolled_near(structure, paper, driver, start, guess)
 
     return dict(paper.poses) if assembled(paper, placed.elements, choose, rolled) else None

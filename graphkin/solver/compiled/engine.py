@@ -25,7 +25,7 @@ from graphkin.solver.algebra.pose import FIELDS, GIVEN, Array, Drive, ErrorBound
 from graphkin.solver.cams import follower_inputs
 from graphkin.solver.compiled.program import DimensionedProgram, program_of
 from graphkin.solver.drivers import cos_sin, law_doubts, meant, meant_angle, working
-from graphkin.structure import Driven, LargerGroup, Rolled, Structure
+from graphkin.structure import Driven, LargerGroup, RollingRelation, Structure
 
 ROUGH = 1e-10
 """Relative bound of a rate above which a position is computed in more digits."""
@@ -281,7 +281,7 @@ class _Run:
                 self._together(i, element)
             elif isinstance(element, Driven) and isinstance(element.driver, LawCam):
                 self._lift(i, element.driver)
-            elif isinstance(element, Driven) and isinstance(element.driver, Rolled):
+            elif isinstance(element, Driven) and isinstance(element.driver, RollingRelation):
                 self._roll(i, element.driver)
 
     def state(self, upto: int, whole: bool = True) -> State:
@@ -349,7 +349,7 @@ class _Run:
             self.given["lift", cam.link, part] = np.ascontiguousarray(column)
         self.slack.append(LOOKED_UP * np.abs(inputs.get("travel", np.ones(self.n)))[:, None])
 
-    def _roll(self, i: int, rolled: Rolled) -> None:
+    def _roll(self, i: int, rolled: RollingRelation) -> None:
         """How far what a link rolls on has turned or gone since the scene's own position, whole turns as the mode of
         the element says, and so where the link stands."""
         program, mode = self.dimensioned.program, np.broadcast_to(self.modes[i], (self.n, 2 * len(rolled.factors)))

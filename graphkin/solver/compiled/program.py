@@ -16,7 +16,7 @@ from graphkin.solver.algebra.dyads import DyadSolution, Joints, PoseFormula, sol
 from graphkin.solver.algebra.expressions import Code, ExpressionGraph, Name, Real, Vec, components
 from graphkin.solver.algebra.pose import GIVEN, Pose
 from graphkin.solver.drivers import meant, meant_direction
-from graphkin.structure import Body, Driven, Dyad, LargerGroup, Pair, Rolled, Structure
+from graphkin.structure import Body, Driven, Dyad, LargerGroup, Pair, RollingRelation, Structure
 from graphkin.structure.model import Coordinate
 
 SPECIAL = (0.0, 1.0, -1.0)
@@ -100,7 +100,7 @@ class Program:
         slope, bend, *stands = (self.graph.input(("lift", cam.link, part)) for part in parts)
         return (Vec(*stands) if len(stands) == 2 else stands[0]), slope, bend
 
-    def rolled(self, rolled: Rolled) -> tuple[Real | Vec, Real, Real]:
+    def rolled(self, rolled: RollingRelation) -> tuple[Real | Vec, Real, Real]:
         """The value of a rolling link, and its rates, from those of the links on which it rolls."""
         rate = second = self.graph.const(0)
         for coordinate, _ in rolled.factors:
@@ -113,7 +113,7 @@ class Program:
             stands = self.graph.input(("rolled", rolled.key, "travel"))
         return stands, rate, second
 
-    def ratio(self, rolled: Rolled, coordinate: Coordinate) -> Real:
+    def ratio(self, rolled: RollingRelation, coordinate: Coordinate) -> Real:
         """The ratio of a rolling link's motion to one of the angles and travels that it follows."""
         return self.number("ratio", rolled.key, *coordinate).real
 
@@ -297,7 +297,7 @@ def driven(program: Program, element: Driven, poses: Mapping[str, PoseFormula]) 
         if isinstance(stands, Vec):
             return at.pinned(mine, stands, rate, second)
         return at.along(stands, rate, second).of(mine.inverse())
-    if isinstance(element.driver, Rolled):
+    if isinstance(element.driver, RollingRelation):
         stands, rate, second = program.rolled(element.driver)
         if isinstance(stands, Vec):
             return at.pinned(mine, stands, rate, second)

@@ -18,7 +18,7 @@ from graphkin.solver.algebra.larger_groups import GroupSolved
 from graphkin.solver.algebra.pose import Array
 from graphkin.solver.compiled.engine import group_at, positions
 from graphkin.solver.path.driver_path import OFF_FLIP, START, Path, Stretch, stretches, turning
-from graphkin.structure import Driven, Dyad, LargerGroup, Rolled, Structure
+from graphkin.structure import Driven, Dyad, LargerGroup, RollingRelation, Structure
 
 CLOSE = 2e-13
 """A position is found where no constraint is open by more, with lengths in the size."""
@@ -292,7 +292,7 @@ def _follow_group(path: Path, i: int, place: Array) -> Path:
     return _passed_by(path, i, _interpolated(nodes, places), np.array(flips), end)
 
 
-def _follow_rolled(path: Path, i: int, rolled: Rolled, mode: Array, grid: Array) -> Path:
+def _follow_rolled(path: Path, i: int, rolled: RollingRelation, mode: Array, grid: Array) -> Path:
     """Count the turns of the links on which a link rolls."""
     t = path.off_flips(grid)
     poses = positions(path.structure, path.drive(t), path.mode(t), i, rates=False).poses
