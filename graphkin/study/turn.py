@@ -3,6 +3,7 @@ the ranges of the driver in which the mechanism can be assembled, with those tha
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -16,6 +17,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, Motion, own_slides
 from graphkin.solver.path.driver_path import FAR, Path, Stretch, assembled, not_tried
+from graphkin.solver.path.driver_range import EQUAL as EQUALLY_FAR
 from graphkin.solver.path.driver_range import Extremes
 from graphkin.solver.values import FlywheelStudy, flywheel_of
 from graphkin.structure import Driven, Dyad, DyadKind, Pair, Structure
@@ -49,11 +51,21 @@ class Output:
     @property
     def low(self) -> Extreme | None:
         """The limit position from which it moves the whole stroke to ``high``; None where it does not swing."""
-        return self.position.least if self.swings else None
+        return self._limit(-1.0)
 
     @property
     def high(self) -> Extreme | None:
-        return self.position.greatest if self.swings else None
+        return self._limit(1.0)
+
+    def _limit(self, sense: float) -> Extreme | None:
+        """The limit position at the greatest value, with -1 for ``sense`` at the least; of equal ones within the motion
+        that at the smaller angle of the crank, wherever the motion begins (as `extremes` takes it)."""
+        most, extremes = self.position.furthest(sense), self.position.extremes
+        if not self.swings or most is None or most.kind == "end" or not math.isfinite(most.value):
+            return most if self.swings else None
+        near = EQUALLY_FAR * max(abs(most.value - e.value) for e in extremes)
+        equal = [e for e in extremes if e.kind == most.kind and sense * (most.value - e.value) <= near]
+        return min(equal, key=lambda e: (e.driver + EQUALLY_FAR) % math.tau)
 
     @property
     def quantity(self) -> Quantity:

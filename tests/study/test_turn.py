@@ -701,3 +701,25 @@ def test_the_speed_of_a_follower_is_zero_where_its_rate_is_and_nowhere_less():
     curves = graphkin.sweep("cam-offset-roller", positions=3, find=["v_2/0", "v_B"]).data["curves"]
     assert curves["v_2/0"]["zeros"] == curves["v_B"]["zeros"]
     assert 0.0 == min(extreme["value"] for extreme in curves["v_B"]["extremes"])
+
+
+TOGGLE = {
+    "units": {"length": "in"},
+    "frame": {"points": {"A": [0, 0], "D": [11, 9]}, "guides": {"v": {"through": [11, 0], "angle": -90}}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 3}, "2": {"points": ["B", "C"], "length": 12},
+        "3": {"points": ["D", "C"], "length": 8}, "4": {"points": ["C", "E"], "length": 8},
+        "5": {"points": ["E"], "on": "0.v"},
+    },
+    "driver": {"link": "1", "angle": 35, "omega": -12},
+    "sketch": {"C": [11, 1], "E": [11, -7]},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("at", [35, 200])
+def test_of_two_limit_positions_equally_far_the_one_at_the_smaller_angle_of_the_crank_counts(at: float) -> None:
+    # both bars of the toggle stretch out twice a turn: K was that of the first one after the scene's own position
+    drawn = {row["symbol"]: row["exact"] for row in graphkin.check(TOGGLE, find=["K_5/0"]).data["readings"]}
+    outputs = graphkin.sweep(TOGGLE, at=at, positions=4).data["outputs"]
+    (output,) = [output for output in outputs if output.get("slide") == "5/0"]
+    assert output["K"] == pytest.approx(drawn["K_5/0"], rel=1e-9)
