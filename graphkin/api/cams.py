@@ -6,6 +6,7 @@ import math
 import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from decimal import ROUND_DOWN, ROUND_HALF_EVEN, ROUND_UP, Context
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -75,8 +76,10 @@ class CamMade:
             return 0.0
         return self.cam.sense * driver.rate
 
-    def _length(self, metres: float) -> str:
-        return f"{metres / self.mechanism.units.metres:.6g}"
+    def _length(self, metres: float, rounding: str = ROUND_HALF_EVEN) -> str:
+        """A length in the scene's unit; a limit rounded to the side on which it keeps what it is told to keep."""
+        length = Context(prec=6, rounding=rounding).create_decimal_from_float(metres / self.mechanism.units.metres)
+        return f"{float(length):.6g}"
 
     @cached_property
     def wanted_base(self) -> float | None:
@@ -109,7 +112,7 @@ class CamMade:
             made.append(Phrase("cam radius", size=size, place=_place(study.radius)))
         made += [self._undercut(start, end) for start, end in study.undercut]
         if self.wanted_base is not None:
-            made.append(Phrase("cam base wanted", radius=self._length(self.wanted_base), unit=unit))
+            made.append(Phrase("cam base wanted", radius=self._length(self.wanted_base, ROUND_UP), unit=unit))
         made += self._rates()
         edge = "cam impact" if cam.flat or cam.roller else "cam impact corner"
         made += [Phrase(edge, angle=_degrees(jump.degree)) for jump in study.impacts]
@@ -120,10 +123,11 @@ class CamMade:
         between = {"begin": _degrees(start), "end": _degrees(end)}
         least = self.study.radius.value if self.study.radius is not None else 0.0
         if self.cam.flat:
-            return Phrase("cam undercut flat", **between, radius=self._length(self.cam.base - least), unit=unit)
+            radius = self._length(self.cam.base - least, ROUND_UP)
+            return Phrase("cam undercut flat", **between, radius=radius, unit=unit)
         if not self.cam.roller:
             return Phrase("cam undercut edge", **between)
-        most = self._length(max(least + self.cam.roller, 0.0))
+        most = self._length(max(least + self.cam.roller, 0.0), ROUND_DOWN)
         return Phrase("cam undercut roller", **between, roller=self._length(self.cam.roller), unit=unit, most=most)
 
     def _rates(self) -> list[Phrase]:

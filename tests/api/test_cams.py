@@ -47,7 +47,7 @@ def test_a_roller_that_is_too_large_is_told_with_the_largest_that_would_do():
     assert len(one.study.undercut) == 1
     (said,) = [text for text in one.sentences("en") if "undercut" in text]
     most = float(re.search(r"at most ([\d.]+) mm", said)[1])
-    held = graphkin.cam(scene.replace("cams.1.roller", most - 1e-3))
+    held = graphkin.cam(scene.replace("cams.1.roller", most))
     assert () == held["1"].study.undercut
 
 
@@ -57,6 +57,14 @@ def test_the_nearest_base_circle_keeps_the_allowed_pressure_angle():
     assert (True, False) == one.study.judged
     better = scene.replace("cams.1.base.r", one.wanted_base * 1e3)
     assert 25 == pytest.approx(math.degrees(graphkin.cam(better)["1"].study.fall.value), abs=1e-4)
+
+
+def test_the_nearest_base_circle_as_it_is_told_keeps_the_allowed_pressure_angles():
+    # to six figures it was rounded to the nearest, with which the rise exceeded its 14 degrees
+    scene = graphkin.read("cam-offset-roller").replace("cams.1.allow", {"rise": 14, "fall": 60})
+    (said,) = [text for text in graphkin.cam(scene)["1"].sentences("en") if "nearest base" in text]
+    better = scene.replace("cams.1.base.r", float(re.search(r"r = ([\d.]+) mm", said)[1]))
+    assert graphkin.cam(better)["1"].study.ok
 
 
 def test_velocity_and_acceleration_that_jump_are_told():
