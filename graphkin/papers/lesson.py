@@ -27,6 +27,7 @@ from graphkin.drawing.parts.polygon import extent
 from graphkin.errors import Unsolvable
 from graphkin.jobs import Progress
 from graphkin.papers.blocks import Said, in_each
+from graphkin.scene.asked import known_symbol
 from graphkin.scene.drivers import moves_by_law
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
@@ -144,15 +145,17 @@ class Lesson:
 
     @cached_property
     def questions(self) -> tuple[Symbol, ...]:
-        """The questions for a student: the scene's own, or every absolute vector and every found rate."""
+        """The questions for a student: the scene's own, or every absolute vector and every found rate of its points and
+        links, not of those that stand in for a contact or a cam alone."""
         have = {row.symbol for row in self.report.rows}
         if self.sheet.asked:
             return tuple(s for s in self.sheet.asked if s in have)
+        found = (row.symbol for row in self.report.rows if self._is_result(row.symbol) and row.symbol.to is None)
+        whole = self.sheet.scene.whole
         return tuple(
-            row.symbol
-            for row in self.report.rows
-            if self._is_result(row.symbol) and row.symbol.to is None and row.symbol.kind in ("v", "a", "omega", "alpha")
-        )
+            symbol for symbol in found
+            if symbol.kind in ("v", "a", "omega", "alpha") and isinstance(known_symbol("", str(symbol), whole), Symbol)
+        )  # fmt: skip
 
     def _is_result(self, symbol: Symbol) -> bool:
         if symbol.kind == "arm":  # of the lever, beside which it stands

@@ -8,6 +8,7 @@ import re
 
 import pytest
 
+from graphkin import audit, read
 from graphkin.account.account import telling, why
 from graphkin.account.notation import notation_of
 from graphkin.account.voice import Account
@@ -58,3 +59,12 @@ def test_a_point_laid_off_by_rates_is_where_its_printed_lengths_and_angles_lead(
         laid = sum(cmath.rect(float(mm), math.radians(float(way.replace("−", "-")))) for mm, way in told)
         drawn = {s.of.point: v.span for s, v in lesson.sheet.vectors[step.diagram].items() if s.of and s.to is None}
         assert abs(laid - (drawn["C"] - drawn["B"])) < 0.1
+
+
+@pytest.mark.parametrize("name", ["cam-offset-roller", "cam-flat-face", "disc-on-disc", "wheel-on-rail"])
+def test_a_problem_asks_for_quantities_that_an_audit_reads(name):
+    # of points and bars that stand in for a cam or a contact no answer can be stated
+    scene = {key: table for key, table in read(name).to_dict().items() if key not in ("find", "printed")}
+    questions = handout(scene, language="en", formats=("html",), positions=1).lesson.questions
+    assert questions
+    assert audit(scene | {"printed": {str(symbol): 1.0 for symbol in questions}})
