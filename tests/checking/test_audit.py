@@ -276,3 +276,20 @@ def test_a_computed_acceleration_without_its_normal_term_is_wrong():
         size = printed or f"{abs(graphkin.solve('sixbar-420rpm', at=45)['a_C'][0]):.3f}"
         (found,) = graphkin.audit(source | {"printed": COMPUTED | {"a_C": size}}).data["values"]
         assert verdict == found["verdict"]
+
+
+def test_a_value_that_no_drawing_determines_is_not_said_to_lie_beside_a_dead_point():
+    # the rod stands nearly square to the planet's rim, far from any dead point: its rate hardly changes
+    train = {
+        "frame": {"points": {"O": [0, 0]}, "guides": {"x": {"through": [0, 10], "angle": 0}}},
+        "links": {
+            "s": {"points": ["O"]}, "h": {"points": ["O", "P"], "length": 60}, "r": {"points": ["O"]},
+            "p": {"points": ["P"], "at": {"T": [20, 0]}}, "q": {"points": ["T", "W"], "length": 150},
+            "w": {"points": ["W"], "on": "0.x"},
+        },
+        "gears": {"a": {"between": ["s", "p"], "teeth": [40, 20]}, "b": {"between": ["p", "r"], "teeth": [20, -80]}},
+        "driver": [{"link": "s", "angle": 0, "omega": 10, "alpha": 2}, {"link": "r", "angle": 0, "omega": -5}],
+        "sketch": {"W": [200, 0]}, "printed": {"alpha_q": "-0.4773"},
+    }  # fmt: skip
+    (value,) = graphkin.audit(train).data["values"]
+    assert (None, True) == (value["verdict"], value["why"].startswith("the error of a drawing may be larger here"))
