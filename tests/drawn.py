@@ -7,6 +7,7 @@ from functools import cache
 from graphkin.checking.report import Report
 from graphkin.construction import Sheet, draft
 from graphkin.drawing import Drawing
+from graphkin.drawing.boxes import FigurePage
 from graphkin.drawing.figures.diagrams import diagram_figures
 from graphkin.drawing.figures.sheet import sheet_page
 from graphkin.drawing.sheet_plan import sheet_room
@@ -34,6 +35,6 @@ def figures(
     convention: str | None = None,
 ) -> dict[str, Drawing]:  # fmt: skip
     """The single figures of a construction, and the pages of that for the sheet, with its check."""
-    whole = sheet_page(on_sheet, report, language=language, convention=convention)
+    whole = sheet_page(FigurePage.of(on_sheet, "sheet", language, convention), report)
     pages = {"sheet": whole, **{f"sheet-{number}": page for number, page in enumerate(whole.further, 2)}}
-    return diagram_figures(own, language, convention) | pages
+    return diagram_figures(FigurePage.of(own, "", language, convention)) | pages

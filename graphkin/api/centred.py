@@ -190,6 +190,7 @@ class Centred(OfScene, Result):
     def in_motion(self) -> Drawing:
         """The centres over the whole motion with their paths: an SVG that plays.  Of many links only the centres
         against the frame."""
+        from graphkin.drawing.boxes import FigurePage
         from graphkin.drawing.figures.centres_in_motion import centres_in_motion
         from graphkin.study.centrodes import played, pole_path
 
@@ -204,8 +205,8 @@ class Centred(OfScene, Result):
         origins = {name: np.asarray(motion.poses[name].z * mm, np.complex128) for name in turned}
         points = {p: np.asarray(motion.position(p) * mm, np.complex128) for p in moving}
         paths = {pair: pole_path(motion, pair) * mm for pair in pairs}
-        return centres_in_motion(self.centres, origins, turned, points, paths, language=self.language,
-                                 convention=self.convention)  # fmt: skip
+        page = FigurePage.of(self.centres.sheet, "centres", self.language, self.convention)
+        return centres_in_motion(page, self.centres, origins, turned, points, paths)
 
     def __getitem__(self, name: str) -> PlacedCentre | SpeedByCentres:
         """A centre by its links ("1-3"), or a velocity by its symbol ("v_D", "omega_3"), in the file's units.  Raises
@@ -241,10 +242,12 @@ class Centred(OfScene, Result):
     @cached_property
     def figure(self) -> Drawing:
         """The mechanism with all its centres, and the circle diagram."""
+        from graphkin.drawing.boxes import FigurePage
         from graphkin.drawing.figures.centres import centres_figure
 
         for_paper(self.mechanism)
-        return centres_figure(self.centres, language=self.language, convention=self.convention)
+        page = FigurePage.of(self.centres.sheet, "centres", self.language, self.convention)
+        return centres_figure(page, self.centres)
 
     @cached_property
     def figures(self) -> Mapping[str, Drawing]:
@@ -377,6 +380,7 @@ class Centroded(OfScene, Result):
 
     @cached_property
     def figure(self) -> Drawing:
+        from graphkin.drawing.boxes import FigurePage
         from graphkin.drawing.figures.centres_in_motion import centrodes_figure
         from graphkin.study.centrodes import branches
 
@@ -384,8 +388,8 @@ class Centroded(OfScene, Result):
         moving, path = pose.origin + pose.axis * self.curves.moving * mm, self.path * mm
         whole = np.isfinite(path[:-1]) & np.isfinite(path[1:]) if self.point else np.zeros(0, dtype=bool)
         curves = branches(self.curves.fixed * mm, joined), branches(moving, joined), branches(path, whole)
-        return centrodes_figure(self.centres, self.link, *curves, self.point, language=self.language,
-                                convention=self.convention)  # fmt: skip
+        page = FigurePage.of(self.centres.sheet, "centrodes", self.language, self.convention)
+        return centrodes_figure(page, self.centres, self.link, *curves, self.point)
 
     @property
     def figures(self) -> Mapping[str, Drawing]:

@@ -27,6 +27,7 @@ from graphkin.api.report_text import report_text
 from graphkin.api.results import OfScene, Result
 from graphkin.construction import EXACT, Instrument, Plan, execute, plan
 from graphkin.construction.board.sheet import Sheet
+from graphkin.drawing.boxes import FigurePage
 from graphkin.drawing.figures import figure_kinds
 from graphkin.drawing.figures.positions import shown_positions
 from graphkin.errors import CallError, Problem, Unsolvable, as_list, unfit
@@ -183,7 +184,8 @@ def _centres(drawn: Drawn) -> tuple[Any, ...]:
     exact = whole.sheet.instrument == EXACT.name
     values = {d.key: whole.sheet.drivers[d.key] for d in whole.part.drivers}
     centres = whole.centres
-    return (centres.at(centres.sheet.scales_for(ROOM)) if exact else found_centres(whole.part, values),)
+    centres = centres.at(centres.sheet.scales_for(ROOM)) if exact else found_centres(whole.part, values)
+    return centres.sheet, centres
 
 
 def _forces(drawn: Drawn) -> tuple[Any, ...] | None:
@@ -196,14 +198,20 @@ def _forces(drawn: Drawn) -> tuple[Any, ...] | None:
 def _positions(drawn: Drawn) -> tuple[Any, ...]:
     from graphkin.solver.path.named_positions import named_positions
 
-    return (shown_positions(drawn.whole, named_positions(drawn.mechanism)),)
+    shown = shown_positions(drawn.whole, named_positions(drawn.mechanism))
+    return shown.own, shown
+
+
+def _beside(drawn: Drawn) -> tuple[Any, ...]:
+    sheets = sheets_beside(drawn.plan.structure, drawn.checked.sheet.drivers, drawn.beside)
+    return sheets[0][1], sheets
 
 
 SUPPLIES: Mapping[str, Callable[[Drawn], tuple[Any, ...] | None]] = {
     "sheet": lambda drawn: (drawn.checked.sheet,),
     "small sheet": lambda drawn: (drawn.small.sheet, drawn.small.report),
     "sheet at contacts": lambda drawn: (drawn.checked.at_contacts.sheet,) if drawn.checked.at_contacts else None,
-    "sheets beside": lambda drawn: (sheets_beside(drawn.plan.structure, drawn.checked.sheet.drivers, drawn.beside),),
+    "sheets beside": _beside,
     "centres": _centres,
     "forces": _forces,
     "structures": lambda drawn: (
@@ -211,17 +219,21 @@ SUPPLIES: Mapping[str, Callable[[Drawn], tuple[Any, ...] | None]] = {
     ),
     "positions": _positions,
     "cams": lambda drawn: (
-        drawn.mechanism, [(made.sheet, made.phrases()) for made in cam_made(drawn.mechanism)]
+        drawn.checked.sheet, [(made.sheet, made.phrases()) for made in cam_made(drawn.mechanism)]
     ),
 }
-"""What figures are drawn of, by the name under which they ask for it; None where the scene has nothing of it."""
+"""The sheet and the further needs of figures, by the name under which they ask for them; None where the scene has
+nothing of it."""
 
 
 def drawn_figure(drawn: Drawn, name: str) -> Drawing | None:
     """A figure by its name; None where it has no content."""
     figure = figure_kinds()[name]
     given = SUPPLIES[figure.needs](drawn)
-    return None if given is None else figure.draw(*given, language=drawn.language, convention=drawn.convention)
+    if given is None:
+        return None
+    sheet, *needs = given
+    return figure.draw(FigurePage.of(sheet, name, drawn.language, drawn.convention), *needs)
 
 
 def known_figures(scene: Mechanism, names: Sequence[str] | None) -> tuple[str, ...]:

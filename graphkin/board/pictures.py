@@ -23,6 +23,7 @@ from graphkin.board.building import movable
 from graphkin.construction import Plan, execute, plan
 from graphkin.construction.board.scales import Scales
 from graphkin.construction.board.steps import DiagramName
+from graphkin.drawing.boxes import FigurePage
 from graphkin.drawing.figures.diagrams import figure_in_motion
 from graphkin.drawing.write.svg import svg_element
 from graphkin.errors import GraphkinError, SceneError, Unsolvable
@@ -211,11 +212,11 @@ def _in_motion(structure: Structure, at: Mapping[str, float] | None, options: Fi
         what = _plan(structure, driver_values(scene, _last(scene, at)))
     structure.kept["last drawing"] = what
     sheet = execute(replace(what, scales=options.scales or what.scales))
-    words = {"language": options.language, "convention": options.convention}
+    page = FigurePage.of(sheet, "", options.language, options.convention)
     there = [name for name in options.figures if name in _IN_MOTION]
     if not sheet.vectors["acceleration"]:
         there = [name for name in there if name != "acceleration"]
-    drawn = {name: figure_in_motion(sheet, _IN_MOTION[name], **words) for name in there}
+    drawn = {name: figure_in_motion(_IN_MOTION[name], page) for name in there}
     figures = {name: svg_element(figure, named=True) for name, figure in drawn.items()}
     if rest and not said:
         figures |= _figures(drawn_at(*others)[0])

@@ -460,7 +460,7 @@ def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterato
     layers: dict[str, pictures.Layers] = {}
     first: int | None = None  # of steps that the next figure of their diagram shows too
     # velocity plans of what rolls, and those of the tangential accelerations, each a figure
-    plans = train_pages(lesson.sheet, lesson.language, lesson.convention)
+    plans = train_pages(FigurePage(lesson.sheet, "plan", lesson.language, lesson.letters))
     count = 0  # of the figures
     for stage, after in zip(lesson.stages, (*lesson.stages[1:], None), strict=True):
         if stage.diagram not in layers:
@@ -517,7 +517,7 @@ def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
         return
     statement = Paragraph(spoken(scale_statement(lesson.scaled, lesson.letters.convention, "force"), language))
     lead: tuple[Heading | Paragraph, ...] = (Heading(said("forces", language)), statement)
-    lever = lever_figure(sheet, forces, language=language, convention=lesson.convention)
+    lever = lever_figure(FigurePage(sheet, "lever", language, lesson.letters), forces)
     for turn, (stage, load, steps) in enumerate(force_stages(lesson)):
         title = stage.heading(language)
         if load:

@@ -284,7 +284,7 @@ def _drawings(lesson: Lesson, piece: Piece, frames: Frames) -> Iterator[tuple[Fi
 def _plans(lesson: Lesson) -> Iterator[Figure]:
     """The velocity plans of rolling links, each shown from its last step on."""
     sheet, language = lesson.sheet, lesson.language
-    for plan, page in train_pages(sheet, language, lesson.convention).items():
+    for plan, page in train_pages(FigurePage(sheet, "plan", language, lesson.letters)).items():
         last, bare = max((step.number for step in sheet.steps if step.plan == plan), default=0), bare_picture(page)
         drawn = replace(bare, children=(Group(bare.children, classes=(f"step-{last}",)),)) if last else bare
         order = sheet.trains[plan - 1].order
@@ -325,7 +325,7 @@ def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
         title += f" <small>{said_html(load)}</small>" if load else ""
         found = (_force_found(lesson, stage, step) for step in stage.steps)
         yield {"title": title, "svg": svg}, name, [*zip(items, found, strict=True)]
-    lever = lever_figure(sheet, forces, language=language, convention=lesson.convention)
+    lever = lever_figure(FigurePage(sheet, "lever", language, lesson.letters), forces)
     if lever is not None:
         figures.append(_figure("lever", lever, said_html(said("lever", language))))
 

@@ -14,6 +14,7 @@ from graphkin.api.centred import centrodes, found_centres
 from graphkin.construction.board.scales import Room
 from graphkin.construction.centres import Centres
 from graphkin.drawing.box import Box
+from graphkin.drawing.boxes import FigurePage
 from graphkin.drawing.figures.centres import background, centre_marks, centres_figure, named_centres, untold
 from graphkin.drawing.ink.primitives import Group, Line, Polyline, Primitive, Text, walk
 from graphkin.drawing.parts.mechanism import bare_mechanism
@@ -30,7 +31,7 @@ CLASSROOM = ("fourbar-150-500-300-400", "slider-crank-offset", "shaper-scheme-2"
 
 def figure(name: str, convention: str | None = None) -> tuple[Centres, Drawing]:
     centres = found_centres(mechanism_of(name), None)
-    return centres, centres_figure(centres, convention=convention)
+    return centres, centres_figure(FigurePage.of(centres.sheet, "centres", None, convention), centres)
 
 
 def things(drawing: Drawing) -> Iterator[Primitive]:
@@ -158,7 +159,7 @@ def test_the_lines_of_every_centre_in_the_figure_are_named_there_or_in_a_picture
 def test_a_picture_of_one_centre_has_its_two_lines_through_the_centres_that_are_known() -> None:
     found = graphkin.centres("single-flier")
     crowded = found.centres.at(replace(found.centres.sheet.scales, length=5e-3))
-    pages = centres_figure(crowded).further
+    pages = centres_figure(FigurePage.of(crowded.sheet, "centres", None, None), crowded).further
     assert 2 <= len(pages)
     small: dict[int, list[Line]] = {}
     for page in pages:

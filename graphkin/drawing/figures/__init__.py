@@ -22,8 +22,8 @@ __all__ = ["Figure", "figure_kinds"]
 class Figure:
     """A figure that can be asked for by name.
 
-    draw : function of its needs, with keywords ``language`` and ``convention``; its result is None for an empty figure
-    needs : its sources ("sheet", "forces", ...), as `graphkin.draw` supplies them
+    draw : function of its page, a `FigurePage` with the sheet, and of its further needs; None for an empty figure
+    needs : the name of its sources ("sheet", "forces", ...), as `graphkin.draw` supplies them
     by_itself : whether it is drawn of a scene if no figure is asked for by name
     of_all : whether it shows all links, whatever the question
     place : its place among the figures

@@ -339,18 +339,10 @@ RADIUS = {3: 15.0, 4: 17.0, 5: 20.0, 6: 22.0}
 LEGEND = ("legend",)
 
 
-def centres_figure(centres: Centres, *, language: str | None = None, convention: str | None = None) -> Drawing:
+def centres_figure(page: FigurePage, centres: Centres) -> Drawing:
     """Draw all centres of a position on a page of its own; centres whose lines have no room for their names there again
-    on further pages, each in a picture of its own.
-
-    Parameters
-    ----------
-    language : "en", "zh" or "both"; the scene's own if None
-    convention : "chinese", "us", "british" or "russian"; the scene's own if None
-    """
-    sheet = centres.sheet
-    page = FigurePage.of(sheet, "centres", language, convention)
-    spoken, letters = page.language, page.letters
+    on further pages, each in a picture of its own."""
+    sheet, spoken, letters = page.sheet, page.language, page.letters
     back = background(bare_mechanism(sheet, letters), "touch")
     if sheet.scene.cams:  # the bars to centres of curvature, which have centres too
         back = joined((Piece({"construction": replacing_links(MechanismOnPaper(sheet, letters))}), back))

@@ -37,9 +37,8 @@ Places = NDArray[np.complex128]
 
 
 def centres_in_motion(
-    centres: Centres, origins: Mapping[str, Places], turned: Mapping[str, NDArray[np.float64]],
-    points: Mapping[str, Places], paths: Mapping[LinkPair, Places], *, language: str | None = None,
-    convention: str | None = None,
+    page: FigurePage, centres: Centres, origins: Mapping[str, Places], turned: Mapping[str, NDArray[np.float64]],
+    points: Mapping[str, Places], paths: Mapping[LinkPair, Places],
 ) -> Drawing:  # fmt: skip
     """Draw a mechanism with its centres, all moving together, and the paths of the centres.
 
@@ -48,9 +47,7 @@ def centres_in_motion(
     origins, turned, points, paths : places over the frames (mm on paper, y up), and angles of links from the first
         frame (rad); a centre at infinity is NaN.  The first frame is the position of ``centres``.
     """
-    sheet = centres.sheet
-    page = FigurePage.of(sheet, "centres", language, convention)
-    letters = page.letters
+    sheet, letters = page.sheet, page.letters
     back = background(bare_mechanism(sheet, letters))
     mechanism = ink_box(back.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     everywhere = np.concatenate([*points.values()]) if points else np.zeros(0, complex)
@@ -141,8 +138,8 @@ FIXED, MOVING, COUPLER = Stroke(0.5), Stroke(0.5, (3.0, 1.2)), Stroke(0.25, (0.8
 
 
 def centrodes_figure(
-    centres: Centres, link: str, fixed: Sequence[Branch], moving: Sequence[Branch], curve: Sequence[Branch] = (),
-    point: str = "", *, language: str | None = None, convention: str | None = None,
+    page: FigurePage, centres: Centres, link: str, fixed: Sequence[Branch], moving: Sequence[Branch],
+    curve: Sequence[Branch] = (), point: str = "",
 ) -> Drawing:  # fmt: skip
     """Draw the centrodes of a link about the mechanism, cut where they leave its surroundings.
 
@@ -150,11 +147,8 @@ def centrodes_figure(
     ----------
     fixed, moving : branches of the two curves, the moving one at this position
     curve : the path of ``point``, a point of the link
-    language, convention : as for `centres_figure`
     """
-    sheet = centres.sheet
-    page = FigurePage.of(sheet, "centrodes", language, convention)
-    letters = page.letters
+    sheet, letters = page.sheet, page.letters
     back = background(bare_mechanism(sheet, letters))
     mechanism = ink_box(back.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     around = mechanism.grown(CURVES_AROUND * max(mechanism.width, mechanism.height))

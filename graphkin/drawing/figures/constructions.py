@@ -22,7 +22,7 @@ from graphkin.construction.cam_sheet import CamSheet, cam_sheet
 from graphkin.construction.synthesis import DesignSheet, DesignStroke
 from graphkin.construction.touching import CamStation
 from graphkin.drawing.box import Box
-from graphkin.drawing.boxes import STEP, WORKED, Block, picture, row, spoken, table, worked_page
+from graphkin.drawing.boxes import STEP, WORKED, Block, FigurePage, picture, row, spoken, table, worked_page
 from graphkin.drawing.chart import ChartPage
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes, symbols
@@ -566,19 +566,14 @@ def _table(scene: Mechanism, sheet: CamSheet, language: str) -> Block:
     return row(*tables, gap=GUTTER)
 
 
-def cams_figure(
-    scene: Mechanism, cams: Sequence[tuple[CamSheet, Sequence[Phrase]]], *, language: str | None = None,
-    convention: str | None = None,
-) -> Drawing | None:  # fmt: skip
+def cams_figure(page: FigurePage, cams: Sequence[tuple[CamSheet, Sequence[Phrase]]]) -> Drawing | None:
     """A page for each cam; None without cams.
 
     Parameters
     ----------
     cams : the construction of each, and sentences on its values
-    language : "en", "zh" or "both"; the scene's own if None
-    convention : without effect here, since all books use the same letters for cams
     """
-    pages = [cam_figure(scene, sheet, notes, language or scene.question.sheet.language) for sheet, notes in cams]
+    pages = [cam_figure(page.sheet.scene, sheet, notes, page.language) for sheet, notes in cams]
     return replace(pages[0], further=tuple(pages[1:])) if pages else None
 
 

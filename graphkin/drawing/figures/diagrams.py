@@ -22,7 +22,6 @@ from graphkin.account.headings import (
     term,
     written,
 )
-from graphkin.account.notation import notation_of
 from graphkin.account.voice import Account
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import measured
@@ -52,21 +51,13 @@ from graphkin.words import languages
 ROOM = 12.0  # mm around the figure, for names
 
 
-def diagram_figure(
-    diagram: DiagramName, sheet: Sheet, *, language: str | None = None, convention: str | None = None
-) -> Drawing | None:
+def diagram_figure(diagram: DiagramName, page: FigurePage) -> Drawing | None:
     """The mechanism or one of its polygons at its true scale, on a page of its own; None for accelerations that were
-    not drawn.
-
-    Parameters
-    ----------
-    language : "en", "zh" or "both"; the scene's own if None
-    convention : "chinese", "us", "british" or "russian"; the scene's own if None
-    """
+    not drawn."""
+    page = replace(page, name=diagram)
+    sheet, spoken, letters = page.sheet, page.language, page.letters
     if diagram == "acceleration" and not sheet.vectors[diagram]:
         return None
-    page = FigurePage.of(sheet, diagram, language, convention)
-    spoken, letters = page.language, page.letters
     piece, content = mechanism_piece(sheet, letters) if diagram == "mechanism" else (Piece(), extent(sheet, diagram))
     page = page.wide_enough(content.width + 2 * ROOM)
     strip = 0.0 if diagram == "mechanism" else strip_height(sheet, diagram, page.width)
@@ -93,17 +84,15 @@ def diagram_figure(
     )  # fmt: skip
 
 
-def diagram_figures(
-    sheet: Sheet, language: str | None = None, convention: str | None = None, names: Sequence[DiagramName] = DIAGRAMS
-) -> dict[str, Drawing]:
+def diagram_figures(page: FigurePage, names: Sequence[DiagramName] = DIAGRAMS) -> dict[str, Drawing]:
     """The drawn figures of a sheet by name."""
-    made = ((name, diagram_figure(name, sheet, language=language, convention=convention)) for name in names)
-    return {name: page for name, page in made if page is not None}
+    figures = ((name, diagram_figure(name, page)) for name in names)
+    return {name: figure for name, figure in figures if figure is not None}
 
 
-def contacts_figure(sheet: Sheet, *, language: str | None = None, convention: str | None = None) -> Drawing:
+def contacts_figure(page: FigurePage) -> Drawing:
     """The polygons at the points of contact, a page each."""
-    velocity, *further = diagram_figures(sheet, language, convention, DIAGRAMS[1:]).values()
+    velocity, *further = diagram_figures(page, DIAGRAMS[1:]).values()
     return replace(velocity, further=tuple(further))
 
 
@@ -115,13 +104,9 @@ MOVING = 20.0  # mm around what is drawn while a hand moves it
 ASIDE = 1.6  # mm from a point, or from the middle of a segment, to the box of its name
 
 
-def figure_in_motion(
-    sheet: Sheet, diagram: DiagramName, *, language: str | None = None, convention: str | None = None
-) -> Drawing:
-    """The mechanism or one of its polygons, every name beside its mark, wherever that is; parameters as for
-    `graphkin.drawing.figures.diagrams.diagram_figure`."""
-    spoken = language or sheet.scene.question.sheet.language
-    letters = notation_of(sheet, convention or sheet.scene.question.sheet.convention)  # type: ignore[arg-type]
+def figure_in_motion(diagram: DiagramName, page: FigurePage) -> Drawing:
+    """The mechanism or one of its polygons, every name beside its mark, wherever that is."""
+    sheet, spoken, letters = page.sheet, page.language, page.letters
     if diagram == "mechanism":
         piece = bare_mechanism(sheet, letters)
         content = ink_box(piece.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
@@ -158,24 +143,20 @@ ROOM_BESIDE = 20.0  # of a panel, for names
 MOST = 3  # columns of a page
 
 
-def polygons_beside(
-    sheets: Sequence[tuple[str, Sheet]], *, language: str | None = None, convention: str | None = None
-) -> Drawing:
+def polygons_beside(page: FigurePage, sheets: Sequence[tuple[str, Sheet]]) -> Drawing:
     """The polygons of positions beside each other, continued on further pages.
 
     Parameters
     ----------
     sheets : the name of each position, and the exact drawing there
-    language : "en", "zh" or "both"; the scene's own if None
-    convention : "chinese", "us", "british" or "russian"; the scene's own if None
     """
-    first = sheets[0][1]
     columns = min(MOST, len(sheets))
     wide, tall = PANELS[columns]
-    page = FigurePage.of(first, "polygons", language, convention, columns * (wide + GUTTER) - GUTTER)
+    page = replace(page, width=columns * (wide + GUTTER) - GUTTER)
     room = Room((wide - ROOM_BESIDE, tall - ROOM_BESIDE), (wide - ROOM_BESIDE, tall - ROOM_BESIDE))
-    all_scales = [sheet.scales_for(room) for _, sheet in sheets]
-    scales = Scales(first.scales.length, max(s.velocity for s in all_scales), max(s.acceleration for s in all_scales))
+    of_each = [sheet.scales_for(room) for _, sheet in sheets]
+    velocity, acceleration = (max(scales.of(order) for scales in of_each) for order in DIAGRAMS[1:])
+    scales = Scales(page.sheet.scales.length, velocity, acceleration)
     drawn = [(name, sheet.at(scales)) for name, sheet in sheets]
     shown: list[DiagramName] = ["velocity"]
     if any(sheet.vectors["acceleration"] for _, sheet in sheets):

@@ -60,21 +60,15 @@ LEAST, SMALLEST, NARROW = 46.0, 26.0, 40.0  # mm, least heights of a sketch and 
 APART, CLOSE, INSIDE = 4.0, 2.0, 0.6  # mm between groups, between the parts of one, and inside a frame
 
 
-def forces_figure(
-    sheet: Sheet, forces: ForceSheet, report: Report | None = None, *, language: str | None = None,
-    convention: str | None = None,
-) -> Drawing:  # fmt: skip
+def forces_figure(page: FigurePage, forces: ForceSheet, report: Report | None = None) -> Drawing:
     """The forces of a drawn position on pages of the scene's paper.
 
     Parameters
     ----------
-    sheet, forces : the drawings of the motion and of the forces
     report : readings compared with the exact values; without it there is no table
-    language : "en", "zh" or "both"; the scene's own if None
-    convention : "chinese", "us", "british" or "russian"; the scene's own if None
     """
-    sheet = replace(sheet, scales=replace(sheet.scales, force=forces.per_mm))
-    page = FigurePage.of(sheet, "forces", language, convention)
+    sheet = replace(page.sheet, scales=replace(page.sheet.scales, force=forces.per_mm))
+    page = replace(page, sheet=sheet)
     width, height = sheet.scene.question.sheet.size
     boxes = [box for state in forces.states for group in state.groups for *_, box in _polygons(group)]
     page = replace(page, width=max(width - 2 * MARGIN, *(box.width for box in boxes), 0.0))
@@ -485,22 +479,18 @@ COLUMNS = 42.0, 34.0, 34.0, 64.0  # mm: force, its size, arm, moment
 DIGITS = 5
 
 
-def lever_figure(
-    sheet: Sheet, forces: ForceSheet, report: Report | None = None, *, language: str | None = None,
-    convention: str | None = None,
-) -> Drawing | None:
+def lever_figure(page: FigurePage, forces: ForceSheet, report: Report | None = None) -> Drawing | None:
     """A lever for each driver, at the scale of the velocities; None where no balancing load moves.
 
     Parameters
     ----------
-    sheet, forces, language, convention : as for `forces_figure`
     report : its check, if that has scales of its own
     """
     shown = [(k, state, lever) for k, state in enumerate(forces.states) for lever in state.levers]
     if not shown:
         return None
-    sheet = sheet if report is None else replace(sheet, scales=report.scales)
-    page = FigurePage.of(sheet, "lever", language, convention)
+    sheet = page.sheet if report is None else replace(page.sheet, scales=report.scales)
+    page = replace(page, sheet=sheet)
     why = [Phrase("lever reason", pole=f"${pole(page.convention, 'velocity')}$")]
     why += [Phrase("lever couple")] * any(row.pair for _, _, lever in shown for row in lever.rows)
     why += [Phrase("lever virtual")] * any(lever.virtual for _, _, lever in shown)

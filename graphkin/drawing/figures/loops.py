@@ -40,22 +40,17 @@ ARC = 5.0  # mm, of an angle from the x axis
 AXIS = 8.5  # mm of x axis at a tail
 
 
-def loops_figure(sheet: Sheet, *, language: str | None = None, convention: str | None = None) -> Drawing | None:
+def loops_figure(page: FigurePage) -> Drawing | None:
     """Every vector loop with its equations, measured on the drawing; None without loops.
-
-    Parameters
-    ----------
-    language : "en", "zh" or "both"; the scene's own if None
-    convention : letters of the driver's values; the scene's own if None
 
     Raises
     ------
     CallError : a chosen loop does not go from point to point
     """
+    sheet = page.sheet
     blocks = loops_in_numbers(sheet.structure, *places_of_loops(sheet))
     if not blocks:
         return None
-    page = FigurePage.of(sheet, "loops", language, convention)
     scale, loops = _scale(blocks), [(block, loop) for block in blocks for loop in block.loops]
     heads = (Phrase("loop heading", loop=loop.name, links=", ".join(loop.links), equation=", ".join(loop.points))
              for _, loop in loops)  # fmt: skip

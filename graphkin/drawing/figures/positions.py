@@ -206,17 +206,9 @@ def _least(
 # -- the figure --------------------------------------------------------------------------------------------------------
 
 
-def positions_figure(shown: Shown, *, language: str | None = None, convention: str | None = None) -> Drawing:
-    """The mechanism in several positions on one figure, at its true scale.
-
-    Parameters
-    ----------
-    language : "en", "zh" or "both"; the scene's own if None
-    convention : letters of points; the scene's own if None
-    """
-    sheet = shown.own
-    page = FigurePage.of(sheet, "positions", language, convention)
-    letters = page.letters
+def positions_figure(page: FigurePage, shown: Shown) -> Drawing:
+    """The mechanism in several positions on one figure, at its true scale."""
+    sheet, letters = page.sheet, page.letters
     numbered = [_position(position, letters, NUMBERED, f"position-{name}") for name, position in shown.numbered.items()]
     limits = [
         _position(position, letters, LIMIT, f"limit-{pair.replace('/', '-')}-{end}")

@@ -64,19 +64,15 @@ TABLE_WIDTH = 80.0  # mm: a narrower one has no room for its columns
 TWO_LINES = 3.4  # mm: letters of titles that stand below each other, where one line would have them smaller
 
 
-def sheet_page(
-    sheet: Sheet, report: Report | None = None, *, language: str | None = None, convention: str | None = None
-) -> Drawing:
+def sheet_page(page: FigurePage, report: Report | None = None) -> Drawing:
     """The page of the sheet; parts without room are on its ``further`` pages.
 
     Parameters
     ----------
-    sheet : drafted in ``sheet_room(scene)``, so that its polygons fill their panels
+    page : its sheet drafted in ``sheet_room(scene)``, so that its polygons fill their panels
     report : its readings compared with the exact values; without it the table shows the readings alone
-    language : "en", "zh" or "both"; the scene's own if None
-    convention : "chinese", "us", "british" or "russian"; the scene's own if None
     """
-    page = FigurePage.of(sheet, "sheet", language, convention)
+    sheet = page.sheet
     plan = sheet_plan(sheet)
     velocity, acceleration, homeless = _polygons(page, plan)
     written = written_lines(sheet, page.letters, page.language)
@@ -111,7 +107,7 @@ def sheet_page(
     ]  # fmt: skip
     further = continuation(page, rest, plan.page)
     for kind in ("plan", "loops") if sheet.scene.question.sheet.loops else ("plan",):
-        figure = figure_kinds()[kind].draw(sheet, language=page.language, convention=page.convention)
+        figure = figure_kinds()[kind].draw(replace(page, name=kind))
         for drawn_page in (figure, *figure.further) if figure is not None else ():
             further += (_as_page(sheet, drawn_page, plan, len(further) + 2),)
     if further:

@@ -39,25 +39,21 @@ FITS = 4  # times that the diagram is drawn smaller, to fit
 POINTS_SHARE = 0.8  # of the room of a group, for its points, where what reaches further is cut
 
 
-def structure_figure(
-    sheet: Sheet, others: Sequence[Structure] = (), *, language: str | None = None, convention: str | None = None
-) -> Drawing:
+def structure_figure(page: FigurePage, others: Sequence[Structure] = ()) -> Drawing:
     """The structure of a mechanism on a page.
 
     Parameters
     ----------
     others : the mechanism with other drivers, shown beside it
-    language : "en", "zh" or "both"; the scene's own if None
-    convention : letters of points; the scene's own if None
     """
-    page_ = FigurePage.of(sheet, "structure", language, convention)
-    counted = _counted(sheet.structure, page_.language)
-    diagram = panel(*DIAGRAM, lambda room: _diagram(sheet, page_.letters, page_.language, room))
-    told = [prose((text,), page_.width - DIAGRAM[0] - BESIDE, SIZE, bold=bold) for text, bold in counted]
-    groups = (_taken_apart(page_, structure) for structure in (sheet.structure, *others))
+    sheet = page.sheet
+    counted = _counted(sheet.structure, page.language)
+    diagram = panel(*DIAGRAM, lambda room: _diagram(sheet, page.letters, page.language, room))
+    told = [prose((text,), page.width - DIAGRAM[0] - BESIDE, SIZE, bold=bold) for text, bold in counted]
+    groups = (_taken_apart(page, structure) for structure in (sheet.structure, *others))
     body = column(row(diagram, column(*told), gap=BESIDE), *groups, gap=4.0)
-    return page_.drawing(
-        page_.term("structure"), body, None, title="structure",
+    return page.drawing(
+        page.term("structure"), body, None, title="structure",
         said=". ".join(text for text, _ in counted),
     )  # fmt: skip
 
@@ -142,25 +138,25 @@ def _class(structure: Structure) -> int | None:
     return max((g.order for g in structure.groups), default=None if led else 1)
 
 
-def _taken_apart(page_: FigurePage, structure: Structure) -> Block:
+def _taken_apart(page: FigurePage, structure: Structure) -> Block:
     """The groups in the reverse order of solution, the drivers last, each in a panel of its own."""
     names = ", ".join(d.key for d in structure.scene.drivers)
     order = _class(structure) if structure.groups else None
-    drivers = page_.said("structure ungrouped", links=names) if order is None else (
-        page_.said("structure driven by", links=names, order=class_of(order)))
+    drivers = page.said("structure ungrouped", links=names) if order is None else (
+        page.said("structure driven by", links=names, order=class_of(order)))
     shown: list[Sequence[Element]] = [(group,) for group in reversed(structure.groups)]
     if structure.driven:  # a driver inside a group has no part of its own
         shown.append(structure.driven)
     parts = []
     for number, elements in enumerate(shown, 1):
         tag = f"{names.replace('/', '-').replace(', ', '-')}-{number}"
-        part = panel(*PART, partial(_group, page_.sheet, elements, page_.letters, tag))
+        part = panel(*PART, partial(_group, page.sheet, elements, page.letters, tag))
         named = [element for element in elements if not isinstance(element, Driven)
-                 or element.link in page_.sheet.scene.by_name]  # without blocks that replace a pair  # fmt: skip
-        lines = (_told(page_.sheet, element, each) for each in languages(page_.language) for element in named)
+                 or element.link in page.sheet.scene.by_name]  # without blocks that replace a pair  # fmt: skip
+        lines = (_told(page.sheet, element, each) for each in languages(page.language) for element in named)
         about = prose(lines, PART[0] - 2.0, 2.6)
         parts.append(column(framed(part), about, gap=1.0))
-    return column(page_.prose(drivers, SIZE, bold=True), *rows(parts, page_.width, gap=3.0), gap=GAP)
+    return column(page.prose(drivers, SIZE, bold=True), *rows(parts, page.width, gap=3.0), gap=GAP)
 
 
 def _told(sheet: Sheet, element: Element, language: str) -> str:

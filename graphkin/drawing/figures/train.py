@@ -36,24 +36,16 @@ TABLE = 62.0  # mm
 SHORT = 0.3
 
 
-def train_figure(sheet: Sheet, *, language: str | None = None, convention: str | None = None) -> Drawing | None:
-    """A page for each plan; None without moving trains.
-
-    Parameters
-    ----------
-    sheet : the drawing
-    language : "en", "zh" or "both"; the scene's own if None
-    convention : "chinese", "us", "british" or "russian"; the scene's own if None
-    """
-    pages = [*train_pages(sheet, language, convention).values()]
+def train_figure(page: FigurePage) -> Drawing | None:
+    """A page for each plan; None without moving trains."""
+    pages = [*train_pages(page).values()]
     return replace(pages[0], further=tuple(pages[1:])) if pages else None
 
 
-def train_pages(sheet: Sheet, language: str | None, convention: str | None) -> dict[int, Drawing]:
-    """The pages of the plans with motion, by the numbers of these; parameters as for `train_figure`."""
-    page = FigurePage.of(sheet, "plan", language, convention)
+def train_pages(page: FigurePage) -> dict[int, Drawing]:
+    """The pages of the plans with motion, by the numbers of these."""
     return {
-        number: _page(page, plan) for number, plan in enumerate(sheet.trains, 1)
+        number: _page(page, plan) for number, plan in enumerate(page.sheet.trains, 1)
         if any((*plan.velocities.values(), *(line.value for line in plan.lines.values())))
     }  # fmt: skip
 
