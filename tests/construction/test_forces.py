@@ -232,7 +232,7 @@ def test_a_pencil_keeps_its_promise():
 def test_what_a_pencil_draws_of_forces_is_what_is_read_off():
     checked = graphkin.check("engine-gas-force", instrument="pencil", seed=3)
     drawn = checked.report.forces.states[0].vectors[Symbol.parse("F_2/3")]
-    exact = graphkin.check("engine-gas-force").forces.states[0].vectors[Symbol.parse("F_2/3")]
+    exact = graphkin.check("engine-gas-force").report.forces.states[0].vectors[Symbol.parse("F_2/3")]
     assert abs(drawn) == pytest.approx(checked["F_2/3"].on_paper, abs=0.8)  # what is read errs a little more
     assert abs(drawn - exact) > 1e-3
     assert checked["F_2/3"].uncertainty > 0

@@ -12,6 +12,7 @@ import graphkin
 from graphkin.account.given import given_shapes
 from graphkin.account.headings import structure_words
 from graphkin.account.notation import Notation
+from graphkin.drawing.ink.primitives import Arc, Group, walk
 from graphkin.errors import SceneError
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import joints
@@ -209,3 +210,12 @@ def test_what_a_circular_slot_guides_is_paired_with_the_link_of_the_slot_in_a_ce
     block = {"3": {"points": ["C"], "on": "4.s"}, **links}
     bare = {key: value for key, value in scene.items() if key != "pins"}
     assert [("4", "3"), ("0", "4")] == pairs_at({**bare, "links": block}, "M")
+
+
+@pytest.mark.parametrize("scene", [with_pin(), with_block()])
+def test_it_is_drawn_along_its_circle_to_both_sides_of_what_runs_in_it(scene: dict[str, Any]) -> None:
+    figure = graphkin.draw(scene, figures=["mechanism"]).figures["mechanism"]
+    (slot,) = (one for one in walk(figure.children) if isinstance(one, Group) and one.id.startswith("slot-"))
+    arc = next(one for one in walk((slot,)) if isinstance(one, Arc))
+    here = math.remainder(graphkin.solve(four_bar()).data["positions"][0]["links"]["3"]["angle"] - arc.start, math.tau)
+    assert 0.0 < here < arc.end - arc.start < math.pi
