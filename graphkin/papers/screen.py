@@ -31,7 +31,7 @@ from graphkin.drawing.figures.centres import background, centre_marks, near_box
 from graphkin.drawing.figures.constructions import cam_pictures, scaled_cam
 from graphkin.drawing.figures.forces import group_equation, group_picture, lever_figure
 from graphkin.drawing.figures.train import train_pages
-from graphkin.drawing.ink.primitives import Group, Primitive
+from graphkin.drawing.ink.primitives import Group, Primitive, on_page
 from graphkin.drawing.parts.insets import polygon_with_insets, strip_height
 from graphkin.drawing.parts.mechanism import mechanism_piece
 from graphkin.drawing.parts.polygon import extent
@@ -415,9 +415,9 @@ def motion_data(
 
     def place(z: Array) -> int:
         track: Track = []
-        for at in np.asarray(z)[rows].tolist():
+        for at in on_page(np.asarray(z))[rows].tolist():
             sound = math.isfinite(at.real) and math.isfinite(at.imag)
-            track += [round(at.real, 2) + 0.0, round(-at.imag, 2) + 0.0] if sound else [None, None]
+            track += [round(at.real, 2) + 0.0, round(at.imag, 2) + 0.0] if sound else [None, None]
         if track not in tracks:
             tracks.append(track)
         return tracks.index(track)

@@ -77,7 +77,8 @@ def centres_in_motion(
 
 def _inside(path: Places, box: Box) -> Places:
     """The part of a path inside a box; NaN elsewhere."""
-    x, y = path.real, -path.imag
+    spots = on_page(path)
+    x, y = spots.real, spots.imag
     with np.errstate(invalid="ignore"):
         inside = (x >= box.left) & (x <= box.right) & (y >= box.top) & (y <= box.bottom)
     return np.where(inside, path, complex(math.nan, math.nan))

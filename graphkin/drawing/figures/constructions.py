@@ -38,6 +38,7 @@ from graphkin.drawing.ink.primitives import (
     Stroke,
     Text,
     on_page,
+    page_direction,
 )
 from graphkin.drawing.place.piece import Piece, cut_to, ink_box
 from graphkin.drawing.plate import Plate, centred
@@ -245,7 +246,7 @@ def _arcs(centre: complex, radius: float, near: Sequence[complex], room: Box) ->
         cuts += [-math.asin(share), math.pi + math.asin(share)] if abs(share) < 1.0 else []
     ordered = sorted(angle % TURN for angle in cuts)
     ends = zip(ordered, [*ordered[1:], ordered[0] + TURN] if ordered else [], strict=True)
-    return [arc(a, b) for a, b in ends if room.distance(middle + radius * cmath.rect(1.0, -(a + b) / 2)) == 0.0]
+    return [arc(a, b) for a, b in ends if room.distance(middle + radius * page_direction((a + b) / 2)) == 0.0]
 
 
 def _tables(

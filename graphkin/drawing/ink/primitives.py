@@ -10,7 +10,12 @@ from __future__ import annotations
 import cmath
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, overload
+
+from graphkin.plane import Values
+
+if TYPE_CHECKING:
+    from graphkin.plane import Points
 
 PALE = 0.5  # how much of a scan is seen
 
@@ -20,11 +25,15 @@ Segment: TypeAlias = tuple[complex, complex]
 
 def page_direction(angle: float) -> complex:
     """Unit step on the page at an angle (rad) counter-clockwise from the x axis."""
-    return cmath.rect(1.0, -angle)
+    return on_page(cmath.rect(1.0, angle))
 
 
-def on_page(z: complex) -> complex:
-    """A place (mm) of a mechanism or polygon, whose y axis points up, on the page, whose points down."""
+@overload
+def on_page(z: complex) -> complex: ...
+@overload
+def on_page(z: Points) -> Points: ...
+def on_page(z: Values) -> Values:
+    """A place (mm) of a mechanism or polygon, whose y axis points up, on the page, whose points down; or places."""
     return z.conjugate()
 
 

@@ -7,11 +7,12 @@ counter-clockwise as seen on the page; points are page points (y down).
 
 from __future__ import annotations
 
+import cmath
 import math
 from dataclasses import dataclass
 
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Stroke, page_direction
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Stroke, on_page, page_direction
 from graphkin.plane import cross
 
 # A vector shorter than this (mm) has no length a ruler could tell from none; it is drawn as a dot.
@@ -152,7 +153,7 @@ def slot(start: complex, end: complex, colour: str = strokes.BLACK, width: float
     """Slot in a link between the centres of its round ends."""
     along = (end - start) / abs(end - start)
     side = along * 1j * width / 2
-    bearing = math.atan2(-along.imag, along.real)
+    bearing = cmath.phase(on_page(along))
     stroke = strokes.OUTLINE.coloured(colour)
     return (
         Polygon((start + side, end + side, end - side, start - side), fill=strokes.WHITE),
@@ -230,7 +231,7 @@ def cylinder(
         Line(pivot, near, strokes.LINK.coloured(colour)),
         Polygon((near + side, far + side, far - side, near - side), strokes.WHITE, stroke),
         Line(piston, rod_end, strokes.LINK.coloured(colour)),
-        Polygon(_rectangle(piston, math.atan2(-along.imag, along.real), 1.6, width - 2 * gap), fill=colour),
+        Polygon(_rectangle(piston, cmath.phase(on_page(along)), 1.6, width - 2 * gap), fill=colour),
     )
 
 

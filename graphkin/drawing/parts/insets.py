@@ -140,10 +140,8 @@ def _with_details(
     for number, (detail, box) in enumerate(zip(here.enlarged, boxes, strict=False), 1):
         middle, reach = here.at(detail.centre), detail.radius + 0.6
         points = [name for name in own.labels if isinstance(name.mark, complex) and abs(name.mark - middle) <= reach]
-        inset = _detail_inset(here, detail, box, number, points)
+        inset, letters = _detail_inset(here, detail, box, number, points)
         pieces.append(inset)
-        ids = (text.id for text in inset.layers["labels"] if isinstance(text, Text))
-        letters = {id.replace("label-detail-", "label-") for id in ids}
         repeated |= letters
         shown |= {id for id in letters if detail.crowd is not None or id.startswith("label-foot-")}
     own = replace(own, labels=tuple(label for label in own.labels if label.text.id not in shown))
@@ -162,9 +160,11 @@ def _coriolis(sheet: Sheet, diagram: DiagramName) -> list[CoriolisTerm]:
     return coriolis_terms(sheet) if diagram == "acceleration" else []
 
 
-def _detail_inset(here: PolygonOnPage, detail: Detail, box: Box, number: int, points: Sequence[Label]) -> Piece:
-    """The inset of an enlarged place in a box of the page, with its names; ``points`` are the letters of the points in
-    it."""
+def _detail_inset(
+    here: PolygonOnPage, detail: Detail, box: Box, number: int, points: Sequence[Label]
+) -> tuple[Piece, set[str]]:
+    """The inset of an enlarged place in a box of the page, with its names, and the ids of those that stand in it for
+    others on the polygon; ``points`` are the letters of the points in it."""
     inner = _inside(box, CAPTION)
     sheet, letters = here.sheet, here.letters
 
@@ -172,7 +172,7 @@ def _detail_inset(here: PolygonOnPage, detail: Detail, box: Box, number: int, po
         return inner.centre + detail.factor * on_page(z - detail.centre)
 
     parts: list[Primitive] = []
-    names = []
+    names: dict[str, Label] = {}  # by the id of the name on the polygon
     own = {v.symbol for v in detail.vectors}
     shifts = side_by_side(v.scaled(detail.factor) for v in detail.vectors)
     for _, vector in here.in_order():
@@ -183,8 +183,10 @@ def _detail_inset(here: PolygonOnPage, detail: Detail, box: Box, number: int, po
         clipped = inner.clip(tail, tip)
         if vector.symbol in own and clipped is not None:
             parts += arrow(clipped[0], tip, kind, colour)
-            names.append(Label.of(symbol(letters.arrow(vector.symbol), 2.8), clipped,
-                                  f"label-detail-{vector.symbol.id}", colour=colour, rank=1, step=detail.crowd))
+            names[f"label-{vector.symbol.id}"] = Label.of(
+                symbol(letters.arrow(vector.symbol), 2.8), clipped, f"label-detail-{vector.symbol.id}", colour=colour,
+                rank=1, step=detail.crowd,
+            )
             continue
         if clipped is None or abs(clipped[1] - clipped[0]) < 0.5:
             continue
@@ -199,13 +201,15 @@ def _detail_inset(here: PolygonOnPage, detail: Detail, box: Box, number: int, po
             parts.append(Circle(spot, END_RADIUS, fill=strokes.BLACK))
             id = f"label-detail-{point.text.id.removeprefix('label-')}"
             name = point.text._replace(id=id, step=detail.crowd, since=here.since(detail))
-            names.append(Label(name, spot, point.toward, rank=1))
+            names[point.text.id] = Label(name, spot, point.toward, rank=1)
     id, classes = f"detail-{here.diagram}-{number}", ("inset", "detail")
     runs = fitted(f"{roman(number)}: {_enlarged(detail.factor, here.language)}", NUMERAL, box.width - 1.6)
     if runs_width(runs) > box.width - 1.6:
         runs = fitted(f"{roman(number)} ({detail.factor:g} : 1)", NUMERAL, box.width - 1.6)
     drawn = _inset(box, here.diagram, parts, runs, 1.6, id, f"label-{id}", classes, detail.crowd)
-    return with_labels(dated(replace(drawn, labels=tuple(names)), here.since(detail)), inner)
+    named = with_labels(dated(replace(drawn, labels=tuple(names.values())), here.since(detail)), inner)
+    written = {text.id for text in named.layers["labels"] if isinstance(text, Text)}
+    return named, {id for id, name in names.items() if name.text.id in written}
 
 
 def _inside(box: Box, caption: float) -> Box:

@@ -53,7 +53,8 @@ LONGEST = 13.0  # mm of the largest part in the inset
 RING = 0.8  # mm from the place to the ring about it
 NUMERAL = 2.6  # mm: of the letters that a ring and its inset share
 # mm from a ring to its numeral, in the order of liking, and around it
-GAPS, WAYS = np.array((0.6, 1.2, 2.0, 3.0, 4.5, 6.5, 9.0, 12.0, 15.0)), np.exp(-2j * np.pi * (np.arange(24) + 3) / 24)
+GAPS = np.array((0.6, 1.2, 2.0, 3.0, 4.5, 6.5, 9.0, 12.0, 15.0))
+WAYS = on_page(np.exp(2j * np.pi * (np.arange(24) + 3) / 24))
 UNLED = 4  # so many of these places have no leader
 CROWD = 5.0  # how many times larger a crowd is drawn again at most
 

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.ink.primitives import Segment
+from graphkin.drawing.ink.primitives import Segment, on_page
 
 Points: TypeAlias = NDArray[np.complex128]
 Floats: TypeAlias = NDArray[np.float64]
@@ -243,9 +243,9 @@ def clearest_arc(
     reach = radius + ARC_RADII[-1] - ARC_RADII[0] + LABEL_AT + CLEAR_LABEL
     near = ends[(distances(np.array(centres, dtype=complex), ends) < reach).any(axis=0)]
     radii = np.array([radius + r - ARC_RADII[0] for r in ARC_RADII])
-    ways = np.exp(-1j * (_MIDDLES[:, None] + _SPREAD))  # middle x sample
+    ways = on_page(np.exp(1j * (_MIDDLES[:, None] + _SPREAD)))  # middle x sample
     arcs = np.array(centres)[:, None, None, None] + radii[:, None, None] * ways
-    names = np.array(centres)[:, None, None] + (radii[:, None] + LABEL_AT) * np.exp(-1j * _MIDDLES)
+    names = np.array(centres)[:, None, None] + (radii[:, None] + LABEL_AT) * on_page(np.exp(1j * _MIDDLES))
     prices = 0.35 * (radii - radius)[:, None] + 0.5 * np.arange(len(centres))[:, None, None]
     prices = prices + 0.05 * np.abs(np.angle(np.exp(1j * (_MIDDLES - math.radians(50)))))
     clear = (arcs.reshape(-1, len(_SPREAD)), CLEAR_ARC, 10.0), (names.reshape(-1, 1), CLEAR_LABEL, 2.0)
