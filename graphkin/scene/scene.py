@@ -11,7 +11,7 @@ import os
 import re
 import tomllib
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import Path
@@ -44,7 +44,7 @@ from graphkin.scene.model import Loading, Mechanism, PlacedLink, Question, no_fo
 from graphkin.scene.pairs import LawCam
 from graphkin.scene.pictures import background_of, scans_of
 from graphkin.scene.scene_tables import SCENE, Guide, Link, SceneTables
-from graphkin.scene.tables import path_name, path_of_key, plain, tidy, value_at
+from graphkin.scene.tables import file_table_by_name, path_name, path_of_key, plain, tidy, value_at
 from graphkin.scene.touching import cams_of, contacts_of, discs_of, gears_of, wrong_distances
 from graphkin.words import Phrase, Wording, from_others
 
@@ -410,7 +410,7 @@ def safe_name(name: str) -> str:
     return re.sub(r"-{2,}", "-", kept)[:60].strip("-_.") or "scene"
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@file_table_by_name
 class Scene(SceneTables):
     """A mechanism at one position, and its question: the keys of a scene file, in its names and units.
 

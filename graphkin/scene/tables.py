@@ -59,9 +59,34 @@ TABLE = "$table"
 
 
 class FileTable:
-    """A table of a scene file."""
+    """A table of a scene file; each key is set once, when it is made.
+
+    What a dataclass would write anew for each of the forty tables stands here once: a command loads them all.
+    """
 
     __pydantic_config__: ClassVar = {"extra": "forbid", "defer_build": True}
+
+    def __setattr__(self, name: str, value: object) -> None:
+        if name in vars(self):
+            raise dataclasses.FrozenInstanceError(f"cannot assign to field {name!r}")
+        super().__setattr__(name, value)
+
+    def __delattr__(self, name: str) -> None:
+        raise dataclasses.FrozenInstanceError(f"cannot delete field {name!r}")
+
+    def __eq__(self, other: object) -> bool:
+        alike = isinstance(other, FileTable) and type(other) is type(self)
+        return self._values() == other._values() if alike else NotImplemented  # type: ignore[attr-defined]
+
+    def __hash__(self) -> int:
+        return hash(self._values())
+
+    def __repr__(self) -> str:
+        keys = ", ".join(f"{each.name}={getattr(self, each.name)!r}" for each in fields(self))  # type: ignore[arg-type]
+        return f"{type(self).__qualname__}({keys})"
+
+    def _values(self) -> tuple[object, ...]:
+        return tuple(getattr(self, each.name) for each in fields(self) if each.compare)  # type: ignore[arg-type]
 
     @classmethod
     @cache
@@ -107,14 +132,14 @@ def key(
 
 @dataclass_transform(frozen_default=True, field_specifiers=(key, dataclasses.field))
 def file_table(kind: type[AnyTable]) -> type[AnyTable]:
-    """Make a class of keys a table: an unchangeable dataclass."""
-    return dataclass(frozen=True)(kind)
+    """Make a class of keys a table."""
+    return dataclass(eq=False, repr=False)(kind)
 
 
 @dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(key, dataclasses.field))
 def file_table_by_name(kind: type[AnyTable]) -> type[AnyTable]:
-    """Make a class of keys a table whose keys are given by name only: an unchangeable dataclass."""
-    return dataclass(frozen=True, kw_only=True)(kind)
+    """Make a class of keys a table whose keys are given by name only."""
+    return dataclass(eq=False, repr=False, kw_only=True)(kind)
 
 
 def keys_of(table: FileTable | type[FileTable]) -> Iterator[Field[object]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import math
 import pickle
-from dataclasses import replace
+from dataclasses import FrozenInstanceError, replace
 from pathlib import Path
 
 import numpy as np
@@ -153,6 +153,28 @@ def crank_with_pin() -> Scene:
 def test_a_scene_can_be_pickled_copied_and_compared() -> None:
     scene = crank()
     assert scene == pickle.loads(pickle.dumps(scene)) == copy.deepcopy(scene) != scene.replace("driver.omega", 5)
+
+
+@pytest.mark.quick
+def test_a_key_of_a_table_is_set_once() -> None:
+    link = Link(points=["A", "B"], length=120)
+    with pytest.raises(FrozenInstanceError, match="length"):
+        link.length = 130  # type: ignore[misc]
+    with pytest.raises(FrozenInstanceError, match="length"):
+        del link.length
+    assert 120 == link.length
+
+
+@pytest.mark.quick
+def test_tables_are_equal_by_kind_and_values() -> None:
+    assert {Units(length="cm"): 1} == {Units(length="cm"): 1}
+    assert Units(length="cm") != Units(length="cm", mass="g")
+    assert Driver(link="1", angle=60, omega=1) != DrivenSlide(slide="1", travel=60, velocity=1)
+
+
+@pytest.mark.quick
+def test_a_table_is_shown_with_its_keys() -> None:
+    assert "Units(length='cm', speed=None, force='N', mass='kg')" == repr(Units(length="cm"))
 
 
 def test_a_place_that_cannot_be_written_is_told(tmp_path: Path) -> None:
