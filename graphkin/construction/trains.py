@@ -26,8 +26,9 @@ from graphkin.construction.board.steps import Bar, Order, Step, Superposed
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.model import Mechanism, PlacedLink
+from graphkin.scene.pairs import PlacedGear
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Mesh, Structure, meshes_of
+from graphkin.structure import Structure, meshes_of
 from graphkin.structure.model import Coordinate
 from graphkin.words import Phrase
 
@@ -65,7 +66,7 @@ class CentreLine:
     axis.
     """
 
-    meshes: tuple[Mesh, ...]
+    meshes: tuple[PlacedGear, ...]
     spots: tuple[Spot, ...]
     still: str
     in_frame: bool
@@ -84,9 +85,9 @@ class CentreLine:
         return next(s for s in self.spots if s.name == name)
 
 
-def trains(meshes: Sequence[Mesh], ground: str) -> tuple[tuple[Mesh, ...], ...]:
+def trains(meshes: Sequence[PlacedGear], ground: str) -> tuple[tuple[PlacedGear, ...], ...]:
     """Rolling pairs connected by moving links."""
-    groups: list[tuple[set[str], list[Mesh]]] = []
+    groups: list[tuple[set[str], list[PlacedGear]]] = []
     for mesh in meshes:
         links, members = set(mesh.links) - {ground}, [mesh]
         for other in [g for g in groups if g[0] & links]:
@@ -97,7 +98,7 @@ def trains(meshes: Sequence[Mesh], ground: str) -> tuple[tuple[Mesh, ...], ...]:
     return tuple(tuple(members) for _, members in groups)
 
 
-def centre_lines(train: Iterable[Mesh], links: Mapping[str, PlacedLink], ground: str) -> tuple[CentreLine, ...]:
+def centre_lines(train: Iterable[PlacedGear], links: Mapping[str, PlacedLink], ground: str) -> tuple[CentreLine, ...]:
     """The lines on which the axes of a train are laid.
 
     Parameters
@@ -106,7 +107,7 @@ def centre_lines(train: Iterable[Mesh], links: Mapping[str, PlacedLink], ground:
     links : with the points of the carriers in their own axes (m)
     ground : the frame's name
     """
-    made: list[tuple[dict[str, float], list[Mesh]]] = []
+    made: list[tuple[dict[str, float], list[PlacedGear]]] = []
     left = list(train)
     while left:
         # the train is followed from pair to pair, so that a line reaches as far as it can
@@ -123,7 +124,7 @@ def centre_lines(train: Iterable[Mesh], links: Mapping[str, PlacedLink], ground:
     return tuple(_line(members, heights, links, ground) for heights, members in made)
 
 
-def _laid(mesh: Mesh, heights: dict[str, float], links: Mapping[str, PlacedLink]) -> bool:
+def _laid(mesh: PlacedGear, heights: dict[str, float], links: Mapping[str, PlacedLink]) -> bool:
     """Lay a pair's axes on a line if they fit; False if they are there at other distances."""
     first, second = mesh.axes
     if not second:
@@ -148,7 +149,7 @@ def _laid(mesh: Mesh, heights: dict[str, float], links: Mapping[str, PlacedLink]
 
 
 def _line(
-    members: Sequence[Mesh], heights: Mapping[str, float], links: Mapping[str, PlacedLink], ground: str
+    members: Sequence[PlacedGear], heights: Mapping[str, float], links: Mapping[str, PlacedLink], ground: str
 ) -> CentreLine:
     """A line of centres with its places: axes, and contacts of rolling."""
     at: dict[str, dict[str, None]] = {}
@@ -158,8 +159,8 @@ def _line(
         for axis, wheel in zip(mesh.axes, mesh.wheels, strict=True):
             if axis:
                 at.setdefault(axis, {}).update(dict.fromkeys((wheel, mesh.carrier)))
-        part, rest = mesh.parts
-        reach = float(part) if rest is None else (heights[second] - heights[first]) * float(part / (part + rest))
+        part, rest = mesh.teeth
+        reach = part if rest is None else (heights[second] - heights[first]) * (part / (part + rest))
         spots.append(Spot(mesh.name, heights[first] + reach, mesh.wheels, True))
     axes = [Spot(p, heights[p], tuple(names), False) for p, names in at.items()]
     fixed = [s for s in (*axes, *spots) if ground in s.links]
@@ -252,7 +253,7 @@ class TrainPlan:
                         grown = True
             for i, line in enumerate(self.on):
                 for mesh in line.meshes:
-                    grown |= mesh.parts[1] is None and self._slides(hand, i, mesh)
+                    grown |= mesh.is_rack and self._slides(hand, i, mesh)
                 for link in line.links:
                     grown |= (i, link) not in self.lines and self._line(hand, i, link)
 
@@ -291,7 +292,7 @@ class TrainPlan:
         )  # fmt: skip
         return True
 
-    def _slides(self, hand: Instrument, i: int, mesh: Mesh) -> bool:
+    def _slides(self, hand: Instrument, i: int, mesh: PlacedGear) -> bool:
         """Draw the lines of a rack and of its guide, whose distance is the rack's speed."""
         if mesh.carrier not in self.rates:
             return False

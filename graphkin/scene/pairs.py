@@ -150,11 +150,13 @@ class PlacedContact:
 
 @dataclass(frozen=True)
 class PlacedGear:
-    """Two wheels with teeth: pitch circles that roll on each other, their axes held by ``carrier``.
+    """Two wheels with teeth: pitch circles that roll on each other, their axes held by ``carrier``; or two outlines
+    that roll on each other without teeth.
 
-    ``teeth`` are numbers of teeth with signs (negative: internal), None for a rack; ``axes`` the points of the wheels'
-    axes on the carrier (and on the wheels), "" for a rack, whose pitch line is ``guide`` of the second link and whose
-    sliding pair with the carrier is ``slide``.
+    ``teeth`` are numbers of teeth with signs (negative: internal), None for a rack, or the radii of outlines (m): in
+    these parts the point of contact divides the line from the first axis to the second.  ``axes`` are the points of the
+    wheels' axes on the carrier (and on the wheels), "" for a rack, whose pitch line is ``guide`` of the second link and
+    whose sliding pair with the carrier is ``slide``, in which it is the sliding link (``sense`` 1) or the guide (-1).
     """
 
     name: str
@@ -164,10 +166,16 @@ class PlacedGear:
     axes: tuple[str, str]
     guide: str = ""
     slide: str = ""
+    sense: int = 1
 
     @property
     def is_rack(self) -> bool:
         return self.teeth[1] is None
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """All its links, the wheels first."""
+        return tuple(dict.fromkeys((*self.wheels, self.carrier)))
 
 
 # -- cams --------------------------------------------------------------------------------------------------------------

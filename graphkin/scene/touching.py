@@ -202,7 +202,8 @@ def _gear(where: str, name: str, gear: Gear, reading: Reading) -> PlacedGear | N
         if rack:
             pair = next((s for s in reading.slides if {s.link, s.on} == {second, carrier}), None)
             if axis and pair:
-                return PlacedGear(name, (first, second), (z1, None), carrier, (axis, ""), guide, pair.key)
+                sense = 1 if pair.link == second else -1
+                return PlacedGear(name, (first, second), (z1, None), carrier, (axis, ""), guide, pair.key, sense)
             continue
         other = _axis(reading, second, carrier)
         if axis and other and axis != other:

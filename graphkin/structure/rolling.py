@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from itertools import chain, islice, product
 
@@ -25,74 +25,44 @@ from graphkin.scene.touching import rack_place
 from graphkin.structure.model import Coordinate, LargerGroup, Pair, RollingRelation, Structure
 
 
-@dataclass(frozen=True)
-class Mesh:
-    """Two bodies that roll on each other: ``wheels`` about ``axes``, points of the ``carrier``, or a wheel on a rack or
-    a flat face.
-
-    ``parts`` are the parts in which the point of contact divides the line from the first axis to the second (numbers of
-    teeth, or radii, negative for a hollow outline).  A rack's second axis is "", its second part None, and its first
-    the signed distance (m) of its line from the axis, positive to the left of the guide of ``slide``; ``sense`` is +1
-    where the rack is the sliding link there, else -1.
-    """
-
-    name: str
-    wheels: tuple[str, str]
-    carrier: str
-    axes: tuple[str, str]
-    parts: tuple[Fraction, Fraction | None]
-    slide: str = ""
-    sense: int = 1
-
-    @property
-    def links(self) -> tuple[str, ...]:
-        """All links of the mesh."""
-        return tuple(dict.fromkeys((*self.wheels, self.carrier)))
-
-
 def meshes_of(
     scene: Mechanism, contacts: Iterable[PlacedContact], gears: Iterable[PlacedGear], links: Mapping[str, PlacedLink]
-) -> tuple[Mesh, ...]:
-    """All pairs of bodies that roll on each other."""
+) -> tuple[PlacedGear, ...]:
+    """All pairs of bodies that roll on each other; a rack or a flat face with the signed distance (m) of its line from
+    the wheel's axis as the first of the ``teeth``, positive to the left of the guide of ``slide``."""
     meshes = []
     for contact in contacts:
         if contact.rolling and contact.flat:
             (centre,), (radius,) = contact.centres, contact.radii
-            r = Fraction(-radius if contact.left else radius)
-            axes, wheels = (centre, ""), (contact.round_links[0], contact.face)
-            meshes.append(Mesh(contact.name, wheels, contact.block, axes, (r, None), contact.block, -1))
+            wheels, height = (contact.round_links[0], contact.face), -radius if contact.left else radius
+            meshes.append(PlacedGear(contact.name, wheels, (height, None), contact.block, (centre, ""),
+                                     slide=contact.block, sense=-1))  # fmt: skip
         elif contact.rolling:
-            first, second = contact.centres
-            parts = Fraction(contact.radii[0]), Fraction(contact.radii[1])
+            (first, second), (radius, other) = contact.centres, contact.radii
             carrier = contact.carrier or contact.block
-            meshes.append(Mesh(contact.name, contact.links, carrier, (first, second), parts))
+            meshes.append(PlacedGear(contact.name, contact.links, (radius, other), carrier, (first, second)))
+    points, guides = ({name: getattr(link, of) for name, link in links.items()} for of in ("points", "guides"))
     for gear in gears:
-        if gear.teeth[1] is not None:
-            teeth = Fraction(gear.teeth[0]), Fraction(gear.teeth[1])
-            meshes.append(Mesh(gear.name, gear.wheels, gear.carrier, gear.axes, teeth))
-            continue
-        height, _, _ = rack_place(
-            gear, scene.slidings, {n: k.points for n, k in links.items()}, {n: k.guides for n, k in links.items()}
-        )
-        sense = 1 if next(s for s in scene.slidings if s.key == gear.slide).link == gear.wheels[1] else -1
-        parts_ = Fraction(height), None
-        meshes.append(Mesh(gear.name, gear.wheels, gear.carrier, (gear.axes[0], ""), parts_, gear.slide, sense))
+        if gear.is_rack:
+            height, _, _ = rack_place(gear, scene.slidings, points, guides)
+            gear = replace(gear, teeth=(height, None))
+        meshes.append(gear)
     return tuple(meshes)
 
 
-def relations_of(scene: Mechanism, meshes: Iterable[Mesh]) -> tuple[RollingRelation, ...]:
+def relations_of(scene: Mechanism, meshes: Iterable[PlacedGear]) -> tuple[RollingRelation, ...]:
     """The relations of all rolling pairs."""
     relations = []
     for mesh in meshes:
-        part, other_part = mesh.parts
+        part, other_part = Fraction(mesh.teeth[0]), Fraction(mesh.teeth[1] or 0)
         # the block on a face turns as the face does; the bar between two centres has an angle of its own
         carrier = ("angle", mesh.wheels[1] if mesh.slide == mesh.carrier else mesh.carrier)
         wheel, other = ("angle", mesh.wheels[0]), ("angle", mesh.wheels[1])
-        rolled: tuple[tuple[Coordinate, Fraction], ...] = ((wheel, part), (other, other_part or Fraction(0)))
-        if other_part is None:
+        rolled: tuple[tuple[Coordinate, Fraction], ...] = ((wheel, part), (other, other_part))
+        if mesh.is_rack:
             rolled = (("travel", mesh.slide), Fraction(mesh.sense)), (wheel, part)
         terms: dict[Coordinate, Fraction] = {}
-        for coordinate, factor in (*rolled, (carrier, -part - (other_part or 0))):
+        for coordinate, factor in (*rolled, (carrier, -part - other_part)):
             terms[coordinate] = terms.get(coordinate, Fraction(0)) + factor
         terms = {c: f for c, f in terms.items() if f and c != ("angle", scene.frame.name)}
         relations.append(RollingRelation(mesh.name, terms, mesh.links))

@@ -23,7 +23,7 @@ from graphkin.drawing.plate import Plate
 from graphkin.drawing.text import plain, rich, symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.scene.model import Mechanism
-from graphkin.structure import Mesh
+from graphkin.scene.pairs import PlacedGear
 from graphkin.words import Phrase, languages, word
 from graphkin.words.written import amount, on_paper, product
 
@@ -208,14 +208,14 @@ def _planes(line: CentreLine) -> tuple[Mapping[str, int], Mapping[str, int], int
         rims.update(dict.fromkeys(rims_here, of[mesh.name]))
     first = len(set(of.values()))
     upright = [name for mesh in line.meshes for name in (
-        *(wheel for wheel, part in zip(mesh.wheels, mesh.parts, strict=True) if _ring(mesh, part)), mesh.carrier)]
+        *(wheel for wheel, part in zip(mesh.wheels, mesh.teeth, strict=True) if _ring(mesh, part)), mesh.carrier)]
     behind = {name: first + k for k, name in enumerate(dict.fromkeys(upright))}
     return of, behind, first + len(behind)
 
 
-def _ring(mesh: Mesh, part: object) -> bool:
+def _ring(mesh: PlacedGear, part: float | None) -> bool:
     """Whether a wheel has its teeth inside; a wheel on a rack has them outside."""
-    return part is not None and part < 0 and all(mesh.axes)  # type: ignore[operator]
+    return part is not None and part < 0 and all(mesh.axes)
 
 
 def scheme(scene: Mechanism, line: CentreLine, mm: float, width: float) -> Piece:
@@ -248,7 +248,7 @@ def scheme(scene: Mechanism, line: CentreLine, mm: float, width: float) -> Piece
 
     for mesh in line.meshes:
         plane, pitch = planes[mesh.name], heights[mesh.name]
-        for wheel, axis, part in zip(mesh.wheels, mesh.axes, mesh.parts, strict=True):
+        for wheel, axis, part in zip(mesh.wheels, mesh.axes, mesh.teeth, strict=True):
             centre = heights[axis or mesh.axes[0]]
             away = 1.0 if pitch > centre else -1.0
             inward = away * (APART if not _ring(mesh, part) else -APART) if axis else 0.0
