@@ -19,6 +19,7 @@ from graphkin.drawing.ink.symbols import vector_group
 from graphkin.drawing.text import plain, rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.drawing.write.svg import number, svg_bytes, svg_element
+from tests.drawing.svg_standard import check
 
 pytestmark = pytest.mark.quick
 
@@ -62,8 +63,13 @@ def test_one_user_unit_is_one_millimetre():
 
 @pytest.mark.parametrize("name", [None, "shaper-scheme-2"])
 def test_svgwrite_itself_finds_nothing_wrong_with_any_element(name):
-    pages = [drawing(*EVERYTHING)] if name is None else graphkin.draw(name).figures.values()
-    assert [svg_bytes(page) for page in pages] == [svg_bytes(page, debug=True) for page in pages]
+    for page in [drawing(*EVERYTHING)] if name is None else graphkin.draw(name).figures.values():
+        check(svg_bytes(page))
+
+
+def test_svgwrite_finds_an_attribute_that_an_element_does_not_have():
+    with pytest.raises(ValueError, match="r"):
+        check(svg_bytes(drawing(*EVERYTHING)).replace(b"<line ", b'<line r="1" '))
 
 
 @pytest.mark.parametrize("asked", [
