@@ -27,7 +27,7 @@ from graphkin.drawing.chart import (
     own_settings,
 )
 from graphkin.drawing.font import FALLBACK
-from graphkin.drawing.ink.primitives import Text
+from graphkin.drawing.ink.primitives import Line, Text
 from graphkin.drawing.text import rich, width
 from graphkin.drawing.write.pdf import MissingFont
 from graphkin.errors import CallError
@@ -260,6 +260,12 @@ def test_a_missing_chinese_font_is_a_warning_and_no_failure(monkeypatch) -> None
 def test_dollar_signs_of_words_are_words() -> None:
     page = ChartPage(140.0, 100.0, lambda figure: add_words(figure, Text(20 + 20j, rich("5 $$ and $$"))))
     assert "5 $ and $" in page.content("svg").decode()
+
+
+def test_a_stroke_beside_words_is_where_the_page_has_it() -> None:
+    page = ChartPage(140.0, 100.0, lambda figure: add_words(figure, Line(10 + 20j, 30 + 20j, SOLID_AND_DASHED[0])))
+    rows, columns = np.nonzero(pixels(page) < 128)
+    assert (100, 300, 200) == pytest.approx((columns.min(), columns.max() + 1, rows.mean() + 0.5), abs=1)
 
 
 def test_every_text_of_a_chart_states_the_length_that_its_glyphs_have():

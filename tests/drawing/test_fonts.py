@@ -94,3 +94,9 @@ def test_a_sign_that_no_face_has_is_left_to_the_reader():
 def test_a_text_is_as_wide_as_its_glyphs():
     letters = "Velocity polygon"
     assert pytest.approx(3.5 * sum(glyph(c).advance for c in letters) / 1000) == runs_width(rich(letters, 3.5))
+
+
+def test_a_sign_that_only_the_regular_face_has_is_that_sign_in_every_face():
+    regular = glyph("丁")
+    assert regular is not None
+    assert [regular, regular] == [glyph("丁", "italic"), glyph("丁", "bold")]
