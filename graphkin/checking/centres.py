@@ -76,7 +76,7 @@ def velocities_by_centres(centres: Centres, motion: Motion) -> tuple[SpeedByCent
             of = centres.turning_of(symbol.of or PointRef("", symbol.link))
             chain = () if of is None else of.chain
             most = max(most, 1e-300)
-            rounded = float(motion.rough[0][0]) / (1.0 if symbol.is_vector else size)
+            rounded = float(motion.rates_in_double[0][0]) / (1.0 if symbol.is_vector else size)
             tolerance = max(TOLERANCE * most, rounded, SAFETY * centres.velocity_error(symbol))
             ok = None if tolerance > FAIR * most else abs(value - wanted) <= tolerance
         speeds.append(SpeedByCentres(symbol, "", value, wanted, chain, tolerance, most, ok))
@@ -114,6 +114,6 @@ def _error(centres: Centres, motion: Motion, centre: Centre, largest: float) -> 
     _, sine = wedge(normal(place), normal(centre.place))
     # what rounding does to the exact one grows as the relative motion gets small beside the motions themselves
     unit = centres.chart.unit / centres.mm
-    places = float(motion.bound.position[0]) / unit + float(motion.rough[0][0]) / (unit * strength)
+    places = float(motion.bound.position[0]) / unit + float(motion.rates_in_double[0][0]) / (unit * strength)
     # as do the numbers of the file, where they lie far apart
     return sine, TOLERANCE + 1e-14 * largest / strength + (places if math.isfinite(places) else 0.0)

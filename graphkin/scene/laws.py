@@ -34,7 +34,7 @@ class Lift(NamedTuple):
 
     lift: Values
     slope: Values
-    bend: Values
+    second: Values
     jerk: Values
 
 

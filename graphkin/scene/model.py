@@ -240,7 +240,7 @@ class Driver:
     def moving(self, law: MotionLaw) -> Driver:
         """This driver with the value and rates of a law at the law's moment."""
         now = law.at(law.time)
-        return replace(self, rate=now.slope, second=now.bend, law=law)
+        return replace(self, rate=now.slope, second=now.second, law=law)
 
 
 @dataclass(frozen=True)

@@ -227,7 +227,7 @@ class Course(NamedTuple):
         return self.first - 1j * self.point
 
     @property
-    def bend(self) -> Values:
+    def tangent_rate(self) -> Values:
         """Its second derivative."""
         return self.second - 2j * self.first - self.point
 
@@ -308,7 +308,7 @@ class LawCam:
         exp : the exponential function, of NumPy for arrays
         """
         motion, start = self.motion, self.beginning()
-        s1, s2, s3 = self.sense * lift.slope, lift.bend, self.sense * lift.jerk
+        s1, s2, s3 = self.sense * lift.slope, lift.second, self.sense * lift.jerk
         if isinstance(motion, SlidingFollower):
             point = motion.foot - self.axis + motion.along * (start + lift.lift)
             e = motion.along

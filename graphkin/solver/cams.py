@@ -83,9 +83,9 @@ def cam_with(cam: LawCam, degree: Array, lift: Lift) -> CamAt:
     """The cam at angles of its law, with the lift there: at seams the lift of either side."""
     sense, motion = cam.sense, cam.motion
     u = np.exp(1j * sense * np.asarray(degree, dtype=float))
-    s0, s1, s2 = np.asarray(lift.lift), sense * np.asarray(lift.slope), np.asarray(lift.bend)
+    s0, s1, s2 = np.asarray(lift.lift), sense * np.asarray(lift.slope), np.asarray(lift.second)
     course = cam.course(lift, np.exp)
-    point, way, tangent, bend = course.point, course.way, course.tangent, course.bend
+    point, way, tangent, tangent_rate = course.point, course.way, course.tangent, course.tangent_rate
     with np.errstate(all="ignore"):
         if cam.flat:
             assert isinstance(motion, SlidingFollower)
@@ -95,13 +95,14 @@ def cam_with(cam: LawCam, degree: Array, lift: Lift) -> CamAt:
         else:
             normal = 1j * tangent / np.abs(tangent)
             contact = point - cam.roller * normal
-            radius = -(np.abs(tangent) ** 3) / cross(tangent, bend) - cam.roller
+            radius = -(np.abs(tangent) ** 3) / cross(tangent, tangent_rate) - cam.roller
         if cam.flat:
             leaning_rate, radius_rate = 0.0 * s1, s1 + sense * np.asarray(lift.jerk)
         else:
-            size, turn = np.abs(tangent), cross(tangent, bend)
+            size, turn = np.abs(tangent), cross(tangent, tangent_rate)
             leaning_rate = turn / size**2 + 1.0 - course.turning
-            radius_rate = (size**3 * cross(tangent, course.jerk) - 3.0 * size * dot(tangent, bend) * turn) / turn**2
+            along = 3.0 * size * dot(tangent, tangent_rate)
+            radius_rate = (size**3 * cross(tangent, course.jerk) - along * turn) / turn**2
     leaning = np.angle(normal * np.conj(way))
     columns = (s0, lift.slope, u, point, normal, contact, way, radius, leaning, leaning_rate, radius_rate)
     return CamAt(*map(np.asarray, columns))
@@ -166,17 +167,17 @@ def follower_inputs(cam: LawCam, turn: Array) -> Mapping[str, Array]:
     """The inputs of a follower's formulas at each position, by the direction of the cam's own axis.
 
     travel (m), or cos and sin of the angle of the follower's own axis, and the two derivatives of either by the angle
-    of the cam's own axis, slope and bend
+    of the cam's own axis, slope and second derivative
     """
     lift, start = lifts(cam.law, cam_angle(cam, turn)), cam.beginning()
     motion = cam.motion
     if isinstance(motion, SlidingFollower):
-        return {"travel": motion.travel + start + lift.lift, "slope": cam.sense * lift.slope, "bend": lift.bend}
+        return {"travel": motion.travel + start + lift.lift, "slope": cam.sense * lift.slope, "second": lift.second}
     line = cam.axis - motion.centre
     line = line / abs(line) * (-1 if motion.back else 1)
     axis = line * turned(motion.side * (start + lift.lift))
     return {"cos": axis.real, "sin": axis.imag, "slope": motion.side * cam.sense * lift.slope,
-            "bend": motion.side * lift.bend}  # fmt: skip
+            "second": motion.side * lift.second}  # fmt: skip
 
 
 # -- what is to be said of a cam: pressure angles and their extremes, curvature and undercutting, rates,  --------------

@@ -264,12 +264,12 @@ class Motion:
         return self.accuracy.of(())
 
     @cached_property
-    def rough(self) -> tuple[Array, Array]:
+    def rates_in_double(self) -> tuple[Array, Array]:
         """The bounds of velocity and acceleration of a computation in 16 digits, as of a drawing, for points as far off
         as the mechanism is large."""
-        return self.rough_of(())[1:]
+        return self.bounds_in_double(())[1:]
 
-    def rough_of(self, links: Iterable[str]) -> tuple[Array, Array, Array]:
+    def bounds_in_double(self, links: Iterable[str]) -> tuple[Array, Array, Array]:
         """The bounds of some links in 16 digits: of place, velocity and acceleration."""
         size, error = self.accuracy.structure.scene.size, self.accuracy.of(links, drawn=True)
         return (

@@ -183,12 +183,12 @@ def rounding_of(motion: Motion, symbols: Iterable[Symbol], of_forces: bool = Fal
         place, v, a = float(np.nan_to_num(position[0], posinf=0.0)), float(velocity[0]), float(acceleration[0])
         return Lost(place, v, a, force, v <= SLIGHT * rate * size and a <= SLIGHT * second * size)
 
-    whole = lost(motion.bound.position, *motion.rough)
+    whole = lost(motion.bound.position, *motion.rates_in_double)
 
     rounding = dict.fromkeys(symbols, whole)
     for symbol in () if whole.slight else [symbol for symbol in rounding if symbol.scope != "force"]:
         with suppress(CallError):  # a special point of the drawing
-            rounding[symbol] = lost(*motion.rough_of(links_for(motion.structure, symbol)))
+            rounding[symbol] = lost(*motion.bounds_in_double(links_for(motion.structure, symbol)))
     return rounding
 
 

@@ -135,8 +135,8 @@ def cams_replaced(scene: Mechanism, poses: Poses, values: Mapping[str, float], b
         link, follower = links[cam.link], links[cam.follower]
         if cam.flat:
             # the normal passes the centre of curvature, base radius + lift + second derivative before the face
-            centre = -course.way * (lift.bend + 1j * cam.sense * lift.slope)
-            point, radius = next(names), cam.base + lift.lift + lift.bend
+            centre = -course.way * (lift.second + 1j * cam.sense * lift.slope)
+            point, radius = next(names), cam.base + lift.lift + lift.second
             links[cam.link] = replace(link, points={**link.points, point: centre / turn})
             touches = not bars and abs(radius) >= SHARP * cam.base
             # the turn from the guide of a sliding follower to its own axis
@@ -157,20 +157,20 @@ def cams_replaced(scene: Mechanism, poses: Poses, values: Mapping[str, float], b
         if not point:
             point = next(names)
             links[cam.follower] = replace(follower, points={point: 0j})
-        bends = cross(tangent, course.bend) / abs(tangent) ** 3
+        curvature = cross(tangent, course.tangent_rate) / abs(tangent) ** 3
         places[point] = cam.axis + course.point
-        if bars and abs(bends) * cam.base >= STRAIGHT:
+        if bars and abs(curvature) * cam.base >= STRAIGHT:
             # about the centre of curvature, as in a slot along a circle
-            centre, middle = next(names), course.point + 1j * unit(tangent) / bends
-            if abs(middle) * abs(bends) < ROUNDED:  # in a dwell
+            centre, middle = next(names), course.point + 1j * unit(tangent) / curvature
+            if abs(middle) * abs(curvature) < ROUNDED:  # in a dwell
                 middle = 0j
             links[cam.link] = replace(link, points={**link.points, centre: middle / turn})
-            bar = PlacedLink(f"{centre}{point}", {centre: 0j, point: complex(1.0 / abs(bends))}, (centre, point),
+            bar = PlacedLink(f"{centre}{point}", {centre: 0j, point: complex(1.0 / abs(curvature))}, (centre, point),
                              OWN_AXIS)  # fmt: skip
             made[bar.name] = bar
-            slots.append(CircularSlot(bar.name, cam.link, centre, 1.0 / abs(bends), bar.name, point))
+            slots.append(CircularSlot(bar.name, cam.link, centre, 1.0 / abs(curvature), bar.name, point))
             continue
-        slot = _guide(link, "t", course.point / turn, unit(tangent) / turn, bends)
+        slot = _guide(link, "t", course.point / turn, unit(tangent) / turn, curvature)
         links[cam.link] = replace(link, guides={**link.guides, slot.name: slot})
         pins.append(SlidingPair.of_pin(point, cam.follower, cam.link, slot.name))
     here = _standing(scene, poses, values)
@@ -181,11 +181,11 @@ def cams_replaced(scene: Mechanism, poses: Poses, values: Mapping[str, float], b
     )  # fmt: skip
 
 
-def _guide(link: PlacedLink, name: str, through: complex, direction: complex, bends: float) -> PlacedGuide:
+def _guide(link: PlacedLink, name: str, through: complex, direction: complex, curvature: float) -> PlacedGuide:
     """A guide for a link, by this name if the link has no guide of that name."""
     while name in link.guides:
         name += "1"
-    return PlacedGuide(name, through, direction, bends)
+    return PlacedGuide(name, through, direction, curvature)
 
 
 def _free_names(scene: Mechanism, *first: str) -> Iterator[str]:

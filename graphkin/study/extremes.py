@@ -355,10 +355,10 @@ def _polished(way: CurveParameter, curves: Sequence[Curve], turns: Sequence[Sequ
     which = [k for k, c in enumerate(curves) if c.quantity.order == 0 and len(found[k])]
     both = [q for k in which for q in rates_of(curves[k].quantity)[1:]]
     rates = _values(reach, both, [found[k] for k in which for _ in range(2)], unit=True) if which else []
-    for k, rate, bend in zip(which, rates[::2], rates[1::2], strict=True):
+    for k, rate, second in zip(which, rates[::2], rates[1::2], strict=True):
         inner = ~np.array([turn.at_seam for turn in turns[k]])
         with np.errstate(all="ignore"):
-            step = rate / bend
+            step = rate / second
         step = np.where(inner & (np.abs(step) < 1e-5 * (high - low)), step, 0.0)
         found[k] = np.clip(found[k] - step, low, high)
     return found

@@ -200,7 +200,7 @@ def test_what_a_law_is_off_moves_the_follower_within_the_bound_of_it(name: str, 
 
     def off(cam: LawCam, turn: Array) -> Mapping[str, Array]:
         given = follower_inputs(cam, turn)
-        rates = {"slope": given["slope"] * (1 + STEP), "bend": given["bend"] * (1 - STEP)}
+        rates = {"slope": given["slope"] * (1 + STEP), "second": given["second"] * (1 - STEP)}
         if "travel" in given:
             return {**given, **rates, "travel": given["travel"] * (1 + STEP)}
         turned = (given["cos"] + 1j * given["sin"]) * np.exp(1j * STEP)

@@ -374,7 +374,7 @@ def parts_of(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Term]:
         return _contact_parts(plot, order, edge)
     if edge.rolling:
         return _rolling_parts(plot, order, edge)
-    if edge.tied:
+    if edge.special:
         # as a polygon of its own gave it: nothing where both special points move alike
         span = plot.ties[order, edge.end.point] * (1 if edge.forward else -1)
         return [_term(plot, edge, letter(order), unit(span), abs(span), edge.direction)] if span else []

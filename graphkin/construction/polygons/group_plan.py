@@ -252,7 +252,7 @@ class _Search:
 
     # -- the special point of two links that both move -----------------------------------------------------------------
 
-    def tie(self, left_out: Collection[tuple[str, str]]) -> bool:
+    def take_special_point(self, left_out: Collection[tuple[str, str]]) -> bool:
         """Take the special point of two moving links with the best crossing: they are drawn as if hinged there."""
         best: tuple[float, tuple[str, str], tuple[Path, Path], complex] | None = None
         for links, legs in self._legs_between({*left_out, *self.points}).items():
@@ -269,7 +269,7 @@ class _Search:
             return False
         _, links, sides, at = best
         letter = next(self.letters)
-        self.graph.tie(links, letter, at)
+        self.graph.add_special_point(links, letter, at)
         base, ref = (PointRef(letter, name) for name in links)
         # what both links turn by lies along the line that the leg leaves free: its size is not asked
         paths = tuple((*(e.reversed() for e in self.on_line(leg, leg[0].start, base, links[0])), *leg,
@@ -329,7 +329,7 @@ class _Search:
         self.settle()
         while not self.done():
             if not (self.close() or self.cross() or self.reach() or self.special(left_out)) and not (
-                relative and self.tie(left_out)
+                relative and self.take_special_point(left_out)
             ):
                 return False
         return True

@@ -40,7 +40,7 @@ class RelativeMotion:
 
     ``link`` is the rigid link between them, or ``slide`` their sliding pair, or ``joint`` the driven turning pair, or
     ``contact`` the sliding contact, or ``rolling`` the rolling pair; or they lie at the special point of two links
-    joined by legs (``tied``); or on two links of one contour, of which one is ``held`` still.  ``unknown`` is its
+    joined by legs (``special``); or on two links of one contour, of which one is ``held`` still.  ``unknown`` is its
     unknown, if it has one.  ``labels`` are the names of the nodes, coincident points with their links.
     """
 
@@ -53,7 +53,7 @@ class RelativeMotion:
     joint: DrivenJoint | None = None
     contact: str = ""
     rolling: str = ""
-    tied: bool = False
+    special: bool = False
     held: str = ""
     forward: bool = True
     unknown: Unknown | None = None
@@ -295,10 +295,10 @@ class VectorGraph:
         self._carry_over({name: ref}, at)
         return ref
 
-    def tie(self, names: tuple[str, str], letter: str, at: complex) -> None:
+    def add_special_point(self, names: tuple[str, str], letter: str, at: complex) -> None:
         """Add the special point of two links: a point of each, whose relative motion is found first."""
         first, second = (self._added(PointRef(letter, name), name, at) for name in names)
-        self._add(RelativeMotion(first, second, (first, second), Direction("found", ()), tied=True))
+        self._add(RelativeMotion(first, second, (first, second), Direction("found", ()), special=True))
         self._carry_over({names[0]: first, names[1]: second}, at)
 
     def _carry_over(self, refs: dict[str, PointRef], at: complex) -> None:

@@ -192,14 +192,15 @@ def _follow(
             continue
         cam = layout.link[element.driver.link]
         inputs = follower_inputs(element.driver, all_.u[:, cam])
-        slope, bend, jerk = scale * inputs["slope"], scale * inputs["bend"], scale * greatest_jerk(element.driver.law)
+        slope, second = scale * inputs["slope"], scale * inputs["second"]
+        jerk = scale * greatest_jerk(element.driver.law)
         omega, alpha = all_.omega[:, cam], all_.alpha[:, cam]
-        changes = slope, bend * omega, abs(jerk) * omega**2 + np.abs(bend * alpha)
+        changes = slope, second * omega, abs(jerk) * omega**2 + np.abs(second * alpha)
         for matrix, change in zip(matrices, changes, strict=True):
             matrix[:, row, 3 * cam + 2] -= change
-        for order, terms in enumerate(((slope * omega,), (bend * omega**2, slope * alpha)), start=1):
+        for order, terms in enumerate(((slope * omega,), (second * omega**2, slope * alpha)), start=1):
             residuals[order][:, row] -= sum(terms)
-            errors[order][:, row] += LOOKED_UP * sum(map(np.abs, terms))  # slope and bend are each off
+            errors[order][:, row] += LOOKED_UP * sum(map(np.abs, terms))  # both are off, each by itself
     errors[0][:, layout.rolling_rows] += slack * scales
 
 

@@ -523,7 +523,7 @@ class Code:
             names[at], depth[at] = text, deep
         return body, names
 
-    def straight_same(self) -> tuple[list[str], dict[int, str]]:
+    def straight_invariants(self) -> tuple[list[str], dict[int, str]]:
         """Assignments for numbers that are the same at all positions, and the text of each of their lines."""
         order = [at for at in self.order if at not in self.varying]
         return self._straight(order, {}, set(self._invariants[1]))
@@ -532,7 +532,7 @@ class Code:
         self, asked: Sequence[int], inputs: Mapping[Name, str], before: Mapping[int, str]
     ) -> tuple[list[str], dict[int, str]]:
         """Assignments for changing numbers that some of the asked lines need, and their texts, after
-        ``straight_same``."""
+        ``straight_invariants``."""
         order = [at for at in self.graph.needed(asked) if at in self.varying]
         return self._straight(order, inputs, set(), before)
 

@@ -156,10 +156,10 @@ def known_where(ok: Array, values: Array) -> Array:
 
 def aimed(one: Pose, two: Pose) -> Pose:
     """Axes at the origin of a frame that point to the origin of another."""
-    line, slip, bend = two.z - one.z, two.v - one.v, two.a - one.a
+    line, slip, push = two.z - one.z, two.v - one.v, two.a - one.a
     square = np.abs(line) ** 2
     omega = cross(line, slip) / square
-    alpha = cross(line, bend) / square - 2 * omega * dot(line, slip) / square
+    alpha = cross(line, push) / square - 2 * omega * dot(line, slip) / square
     return Pose(one.z, line / np.abs(line), one.v, omega, one.a, alpha)
 
 
@@ -232,14 +232,14 @@ class ErrorBound(Generic[R]):
         """The bounds of the angle and its first and second rate."""
         return self.angle, self.omega, self.alpha
 
-    def within(self, r: R, origin: tuple[R, R, R], spin: R, bend: R, rounding: R | float) -> ErrorBound[R]:
+    def within(self, r: R, origin: tuple[R, R, R], spin: R, turning: R, rounding: R | float) -> ErrorBound[R]:
         """The largest bounds of any point within a radius of the origin.
 
         Parameters
         ----------
         r : the radius (m)
         origin : sizes of the origin's place, velocity and acceleration
-        spin, bend : sizes of the angular velocity, and of the angular acceleration with the square of that
+        spin, turning : sizes of the angular velocity, and of the angular acceleration with the square of that
         rounding : relative error of adding a point to the origin
         """
         place, speed, push = origin
@@ -249,8 +249,8 @@ class ErrorBound(Generic[R]):
             position=self.position + r * self.angle + few * (place + r),
             velocity=self.velocity + r * (self.omega + spin * self.angle) + few * (speed + spin * r),
             acceleration=self.acceleration
-            + r * (self.alpha + bend * self.angle + (2.0 * spin + self.omega) * self.omega)
-            + few * (push + bend * r),
+            + r * (self.alpha + turning * self.angle + (2.0 * spin + self.omega) * self.omega)
+            + few * (push + turning * r),
         )
 
 

@@ -229,7 +229,7 @@ def group_at(structure: Structure, drive: Drive, modes: Mapping[int, Array], whi
     with np.errstate(all="ignore"):
         run = _Run(structure, drive, modes, True)
         run.follow(which + 1)
-        return run.clusters[which]
+        return run.larger_groups[which]
 
 
 class _Run:
@@ -249,7 +249,7 @@ class _Run:
         self.rates, self.extended = rates, extended
         self.known: dict[int, float] | None = {} if known is None else known
         self.n = len(drive)
-        self.clusters: dict[int, GroupSolved] = {}
+        self.larger_groups: dict[int, GroupSolved] = {}
         self.slack: list[Array] = []
         self.frame = rest()
         self.given: dict[Name, Array] = {}
@@ -300,7 +300,7 @@ class _Run:
         values = iter(columns)
         poses = {self.structure.scene.frame.name: self.frame}
         poses |= {n: _pose(dict(zip(fields, values, strict=False))) for n in names}
-        groups: dict[int, DyadSolution | GroupSolved] = dict(self.clusters)
+        groups: dict[int, DyadSolution | GroupSolved] = dict(self.larger_groups)
         for i in dyads:
             given = dict(zip(parts, values, strict=False))
             groups[i] = DyadSolution(
@@ -311,7 +311,7 @@ class _Run:
         explicit = all(element.explicit for element in elements)
         if names and explicit:
             exact = known_exactly(drivers, self.drive.value)
-        sharp = np.full(self.n, 0.0 if self.clusters else 1.0)
+        sharp = np.full(self.n, 0.0 if self.larger_groups else 1.0)
         for i in dyads:
             sharp = sharp * np.abs(groups[i].sine)  # type: ignore[union-attr]
         slack = np.concatenate(self.slack, axis=1) if self.slack else np.zeros((self.n, 0))
@@ -319,7 +319,7 @@ class _Run:
                       slack, np.where(exact, TINY, SINGULAR), self._found())  # fmt: skip
         repeated = exact
         if names and explicit and self.extended and self.rates and upto == len(self.structure.elements):
-            repeated = exact | self._rough(state)
+            repeated = exact | self._in_doubt(state)
         if not repeated.any():
             return state
         extended = self._extended(program.code((first, upto, self.rates), asked, self.varying))
@@ -332,14 +332,14 @@ class _Run:
         names = [*rolled, *(name for name in self.given if name[0] in ("lift", "rolled", "pose"))]
         return {name: self.given[name] for name in names if name in self.given}
 
-    def _rough(self, state: State) -> Array:
+    def _in_doubt(self, state: State) -> Array:
         """Positions for whose rates sixteen digits are too few."""
-        rough = ~state.clear
-        if rough.any():
-            bound = most_of(state.bounds(self.structure, rough).values())
-            poses = {name: pose.spread(self.n).rows(rough) for name, pose in state.poses.items()}
-            rough[rough] = ~(roughness(self.structure, poses, bound) < ROUGH)
-        return np.asarray(rough)
+        doubtful = ~state.clear
+        if doubtful.any():
+            bound = most_of(state.bounds(self.structure, doubtful).values())
+            poses = {name: pose.spread(self.n).rows(doubtful) for name, pose in state.poses.items()}
+            doubtful[doubtful] = ~(roughness(self.structure, poses, bound) < ROUGH)
+        return np.asarray(doubtful)
 
     def _lift(self, i: int, cam: LawCam) -> None:
         """Find the place of a cam's follower, by the cam's own turning."""
@@ -383,7 +383,7 @@ class _Run:
         poses = {n: _pose(dict(zip(FIELDS, values, strict=False))) for n in known}
         poses[self.structure.scene.frame.name] = self.frame
         solved = solve_group(self.structure, group, poses, self.drive, np.asarray(self.modes[i]), self.rates)
-        self.clusters[i] = solved
+        self.larger_groups[i] = solved
         self.slack.append(solved.rolling_residuals)
         for name in group.members:
             pose = solved.poses[name]

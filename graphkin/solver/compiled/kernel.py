@@ -92,7 +92,7 @@ def kernel_text(code: Code, turning: bool, even: bool, columns: int, singular: f
     names: dict[Name, str] = {("cos", 0): "cosine[k]", ("sin", 0): "sine[k]"}
     names["travel", 0] = "start + step * (ahead + k)" if even else "travel[k]"
     names |= {name: f"g{k}[k]" for k, name in enumerate(signs)}
-    head, before = code.straight_same()
+    head, before = code.straight_invariants()
     count = len(code.params)
     given = ["low", "high", "p", *(["n", "first"] if even else ["v"]), *(["g"] if signs else []), "o"]
     lines = [f"def made({', '.join([*given, *(['ok'] if checked else [])])}):", *head]

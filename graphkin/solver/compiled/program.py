@@ -96,9 +96,9 @@ class Program:
 
     def lift(self, cam: LawCam) -> tuple[Real | Vec, Real, Real]:
         """The place of a follower, and its derivatives by the angle of the cam."""
-        parts = ("slope", "bend", *(("cos", "sin") if cam.turns else ("travel",)))
-        slope, bend, *stands = (self.graph.input(("lift", cam.link, part)) for part in parts)
-        return (Vec(*stands) if len(stands) == 2 else stands[0]), slope, bend
+        parts = ("slope", "second", *(("cos", "sin") if cam.turns else ("travel",)))
+        slope, second, *stands = (self.graph.input(("lift", cam.link, part)) for part in parts)
+        return (Vec(*stands) if len(stands) == 2 else stands[0]), slope, second
 
     def rolled(self, rolled: RollingRelation) -> tuple[Real | Vec, Real, Real]:
         """The value of a rolling link, and its rates, from those of the links on which it rolls."""
@@ -291,9 +291,9 @@ def driven(program: Program, element: Driven, poses: Mapping[str, PoseFormula]) 
     mine, theirs = program.rest(pair, link), program.rest(pair, base)
     at = poses[base].fixed(theirs.z, theirs.u)
     if isinstance(element.driver, LawCam):
-        stands, slope, bend = program.lift(element.driver)
+        stands, slope, by_angle = program.lift(element.driver)
         cam = poses[element.driver.link]
-        rate, second = slope * cam.omega, bend * (cam.omega * cam.omega) + slope * cam.alpha
+        rate, second = slope * cam.omega, by_angle * (cam.omega * cam.omega) + slope * cam.alpha
         if isinstance(stands, Vec):
             return at.pinned(mine, stands, rate, second)
         return at.along(stands, rate, second).of(mine.inverse())

@@ -208,7 +208,7 @@ def _passed(
 
 TURN_STEP = np.radians(1.0)
 TRAVEL_STEP = 1 / 200
-CLUSTER_STEP = np.radians(4.0)
+GROUP_STEP = np.radians(4.0)
 SWING = 0.09
 """Between two nodes no link turns by more than this (about 5 degrees)."""
 
@@ -287,7 +287,7 @@ def _follow_group(path: Path, i: int, place: Array) -> Path:
         return found, found.slope
 
     steps = _steps(path.structure, np.abs(path.end - path.start))
-    most = min(0.125, CLUSTER_STEP / TURN_STEP / steps)
+    most = min(0.125, GROUP_STEP / TURN_STEP / steps)
     nodes, places, end, flips = _walk_group(solved, place, path.structure.scene.size, path.reach, most)
     return _passed_by(path, i, _interpolated(nodes, places), np.array(flips), end)
 
