@@ -16,7 +16,7 @@ from functools import lru_cache
 from typing import Literal
 
 from graphkin.construction.board.sheet import Sheet
-from graphkin.construction.board.steps import DiagramName, Direction, Size, Term
+from graphkin.construction.board.steps import PARTS, DiagramName, Direction, Size, Term
 from graphkin.scene.scene_tables import Convention
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Unit
@@ -38,10 +38,8 @@ _PARTS: Mapping[str, tuple[str, str, str, str]] = {
     "russian": ("n", "τ", "k", "r"),
 }
 _ROWS: Mapping[str, Rows] = {"chinese": "rows", "us": "over", "british": "table", "russian": "underlines"}
-_ORDER = ("an", "at", "ak", "ar")
-PART_MARKS = {mark: kind for marks in _PARTS.values() for mark, kind in zip(marks, _ORDER, strict=True)}
+PART_MARKS = {mark: kind for marks in _PARTS.values() for mark, kind in zip(marks, PARTS, strict=True)}
 """The part of an acceleration by the mark that it bears in some convention."""
-_ROLES = {"normal": 0, "tangential": 1, "coriolis": 2, "sliding": 3}
 # letters of positions, and what stands above them to tell them from others
 _PLACES: Mapping[str, tuple[str, str]] = {
     "x": ("x", ""), "y": ("y", ""), "theta": ("θ", ""), "d": ("l", ""), "s": ("s", ""), "gamma": ("γ", ""),
@@ -119,7 +117,7 @@ class Notation:
             index += ("/" if us else "") + self.ref(symbol.to)
         index += symbol.axis
         letter = symbol.kind[0].upper() if us else symbol.kind[0]
-        marks = _PARTS[self.convention][_ORDER.index(symbol.kind)] if symbol.kind in _ORDER else ""
+        marks = dict(zip(PARTS, _PARTS[self.convention], strict=True)).get(symbol.kind, "")
         marks += f"({symbol.seen})" if symbol.seen else ""
         return f"{letter}^{{{marks}}}_{{{index}}}" if marks else f"{letter}_{{{index}}}"
 
@@ -149,15 +147,15 @@ class Notation:
         ``number`` counts the feet on the path to an end point, ``link`` is the link of the component, ``alone`` marks
         the only foot of its kind: it needs no index, but n' always has one in Chinese books.
         """
-        if self.convention == "us" or role not in _ROLES:
+        marks: dict[str, str] = dict(zip(PARTS.values(), _PARTS[self.convention], strict=True))
+        if self.convention == "us" or role not in marks:
             return ""
         if self.convention == "british":
             letter, rest = _parted(end.point)
             index = ",".join(filter(None, (rest, end.link or self.blocks.get(end.point, ""), str(number))))
             return f"{letter.lower()}_{{{index}}}'"
-        mark = _PARTS[self.convention][_ROLES[role]]
         indexed = link and (not alone or (self.convention == "chinese" and role == "normal"))
-        return mark + (f"_{{{link}}}" if indexed else "") + "'"
+        return marks[role] + (f"_{{{link}}}" if indexed else "") + "'"
 
     def direction(self, direction: Direction | None, frame: str) -> str:
         """A direction in an equation row or at its line: ``⊥BC``, ``∥CB``, ``B→A``; "" if none is written."""

@@ -22,7 +22,7 @@ from graphkin.checking.readings import read_off
 from graphkin.checking.report import Uncertainty
 from graphkin.checking.slip_likelihood import Suspect, Suspects
 from graphkin.construction import AS_DRAWN, OwnValues, Plan, Sheet, Stages, execute, plan
-from graphkin.construction.board.steps import Order, Term
+from graphkin.construction.board.steps import PARTS, Order, Term
 from graphkin.errors import GraphkinError
 from graphkin.plane import added_up, unit
 from graphkin.scene.model import LinkMass, Loading, LoadOn, Mechanism, PlacedLink
@@ -338,9 +338,6 @@ def _beside(scene: Mechanism, link: str) -> tuple[str, ...]:
     return tuple(k.name for k in scene.links if k.name != link and (k.name in carriers or set(k.points) & set(points)))
 
 
-COMPONENTS = {"an": "normal", "at": "tangential", "ak": "coriolis", "ar": "sliding"}
-
-
 def _own_parts(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
     """A component of an acceleration in place of the whole: a drawn component, or the component about a fixed pivot
     where the point was found by the image."""
@@ -353,8 +350,8 @@ def _own_parts(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
             for pivot in sorted(set(link.points) & set(scene.frame.points) - {symbol.of.point}):
                 parts += [Symbol(kind, symbol.of, PointRef(pivot)) for kind in ("an", "at")]
     for other in dict.fromkeys(parts):
-        if other.kind in COMPONENTS:
-            yield Suspect(Phrase(f"slip {COMPONENTS[other.kind]} only", name=str(other)), case.exact(other), 0.05)
+        if other.kind in PARTS:
+            yield Suspect(Phrase(f"slip {PARTS[other.kind]} only", name=str(other)), case.exact(other), 0.05)
 
 
 def _others(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:

@@ -18,6 +18,8 @@ from graphkin.scene.tables import in_si
 from graphkin.words import Phrase, alternatives
 
 TURN = math.tau * (1 + 1e-12)
+ACTING = ("masses", "loads", "springs")
+"""The tables of what makes forces."""
 
 # -- reading -----------------------------------------------------------------------------------------------------------
 
@@ -25,6 +27,8 @@ TURN = math.tau * (1 + 1e-12)
 def loading_of(reading: Reading) -> Loading:
     """The causes of forces in the tables of a file; their problems are noted."""
     file = reading.file
+    if not any(getattr(file, table) for table in (*ACTING, "balance", "flywheel")):
+        return Loading()
     g = file.gravity.g if file.gravity else STANDARD_GRAVITY
     down = g * direction(file.gravity.angle) if file.gravity else 0j
     weighing = [_mass(reading, link, mass, g) for link, mass in file.masses.items()]
@@ -35,7 +39,7 @@ def loading_of(reading: Reading) -> Loading:
         evening = file.flywheel
         if evening.delta >= 2.0:
             reading.say("flywheel.delta", "found value", "a part of the mean speed below 2", value=f"{evening.delta:g}")
-    acting = any(getattr(file, table) or reading.lost_under(table) for table in ("masses", "loads", "springs"))
+    acting = any(getattr(file, table) or reading.lost_under(table) for table in ACTING)
     if (balancing or evening) and not acting:
         where = "balance" if balancing else "flywheel"
         reading.say(where, "there is nothing to balance", "give masses.link loads.name or springs.name")

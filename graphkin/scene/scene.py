@@ -40,7 +40,7 @@ from graphkin.scene.bodies import (
 )
 from graphkin.scene.drivers import drives, placed_driver, stated_driver
 from graphkin.scene.loads import loading_of
-from graphkin.scene.model import Loading, Mechanism, PlacedLink, Question, no_force
+from graphkin.scene.model import Mechanism, PlacedLink, Question, no_force
 from graphkin.scene.pairs import LawCam
 from graphkin.scene.pictures import background_of, scans_of
 from graphkin.scene.scene_tables import SCENE, Guide, Link, SceneTables
@@ -293,8 +293,7 @@ def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[Sce
     cams = _cams(reading, position) if file.cams else ()
     if (contacts or gears) and not problems:
         wrong_distances(contacts, gears, {n: b.guides for n, b in position.bodies.items()}, reading)
-    acting = file.masses or file.loads or file.springs or file.balance or file.flywheel
-    loading = loading_of(reading) if acting else Loading()
+    loading = loading_of(reading)
     wish = file.sheet.background
     under = background_of(wish, {**position.drawn, **reading.places[reading.frame.name]}, reading) if wish else None
     scans = scans_of(reading) if file.scans else {}

@@ -21,6 +21,8 @@ from graphkin.words.written import MOST, amount, computed, figures, increase, on
 
 Order = Literal["velocity", "acceleration"]
 Role = Literal["resultant", "relative", "normal", "tangential", "coriolis", "sliding"]
+PARTS: Mapping[str, Role] = {"an": "normal", "at": "tangential", "ak": "coriolis", "ar": "sliding"}
+"""The role of each part of a relative acceleration, by its kind."""
 ORDERS: tuple[Order, ...] = ("velocity", "acceleration")
 
 

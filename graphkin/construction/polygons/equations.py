@@ -20,6 +20,7 @@ from graphkin.construction.board.sheet import Equation, Rate
 from graphkin.construction.board.steps import (
     GIVEN,
     ORDERS,
+    PARTS,
     Bar,
     Direction,
     Mark,
@@ -30,7 +31,7 @@ from graphkin.construction.board.steps import (
     Term,
     Vector,
 )
-from graphkin.construction.polygons.polygons import PARTS, RATE, Polygons, letter
+from graphkin.construction.polygons.polygons import RATE, Polygons, letter
 from graphkin.construction.polygons.vector_graph import (
     RelativeMotion,
     VectorChain,

@@ -19,13 +19,13 @@ from graphkin.construction.board.scales import Scales
 from graphkin.construction.board.sheet import Board, Rate
 from graphkin.construction.board.steps import (
     ORDERS,
+    PARTS,
     Bar,
     Direction,
     Image,
     Mark,
     Order,
     Ray,
-    Role,
     Size,
     Step,
     Term,
@@ -43,8 +43,6 @@ from graphkin.structure import Dyad, LargerGroup, Pair, Structure
 from graphkin.words import Phrase
 
 RATE: Mapping[Order, Literal["omega", "alpha"]] = {"velocity": "omega", "acceleration": "alpha"}
-PARTS: Mapping[str, Role] = {"an": "normal", "at": "tangential", "ak": "coriolis", "ar": "sliding"}
-"""Of a relative acceleration."""
 SHARED = {"chains", "plans", "contours"}  # by all drawings of a task
 
 
