@@ -26,7 +26,7 @@ from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin.solver.prepared import PreparedMechanism
-    from graphkin.study.designs import DesignKeys
+    from graphkin.study.designs import Numbers
     from graphkin.study.prepared_designs import PreparedMechanisms
 
 Reals = NDArray[np.float64]
@@ -197,11 +197,10 @@ class Prepared(Tabled, OfScene):
         if keys not in self._keys:
             self._keys[keys] = design_keys(written(self.source)[0], self.mechanism, keys)
         given = {key: np.atleast_1d(own) for key, own in zip(keys, values, strict=True)}
-        numbers = self._keys[keys].numbers(given)
-        return PreparedDesigns(self, given, not values[0].ndim, PreparedMechanisms(self.ready, numbers))
+        return PreparedDesigns(self, given, not values[0].ndim, PreparedMechanisms(self.ready, self._keys[keys](given)))
 
     @cached_property
-    def _keys(self) -> dict[tuple[str, ...], DesignKeys]:
+    def _keys(self) -> dict[tuple[str, ...], Numbers]:
         """The numbers of the formulas that each key changes, found once."""
         return {}
 

@@ -237,37 +237,13 @@ def _law(first: complex, change: complex, begin: float, step: float, turning: bo
     return lambda values: np.asarray(first + change * ((along(values) - start) / (end - start)))
 
 
-@dataclass(frozen=True)
-class DesignKeys:
-    """Keys of a scene file, and the effect of each on the numbers of the mechanism (SI)."""
-
-    scene: Mechanism
-    own: Mapping[Dimension, complex]
-    laws: Mapping[str, Mapping[Dimension, _Law]]
-
-    def numbers(self, values: Mapping[str, Reals]) -> dict[Dimension, Complexes]:
-        """The numbers that change, from values of the keys in their units, shape (designs,) each.
-
-        Raises
-        ------
-        CallError : a value that is no finite number, a length that is not positive
-        """
-        changed: dict[Dimension, Complexes] = {}
-        for key, of_key in values.items():
-            low = 0.0 if key.endswith(".length") else -math.inf
-            bad = ~(np.isfinite(of_key) & (of_key > low))
-            if bad.any():
-                found_one = float(of_key[int(np.argmax(bad))])
-                wanted = Phrase("give lengths above 0") if low == 0 else Phrase("give finite numbers")
-                raise CallError.of(f"designs {key}", "found value", wanted, value=f'{found_one:g}')
-            for name, law in self.laws[key].items():
-                new = law(of_key)
-                changed[name] = changed[name] + (new - self.own[name]) if name in changed else new
-        return changed
+Numbers = Callable[[Mapping[str, Reals]], dict[Dimension, Complexes]]
+"""The numbers of a mechanism that change, by values of keys in their units, shape (designs,) each.  Raises CallError
+for a value that is no finite number, and for a length that is not positive."""
 
 
-def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> DesignKeys:
-    """Find the effect of keys.
+def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> Numbers:
+    """Find the effect of keys on the numbers of the mechanism (SI).
 
     Parameters
     ----------
@@ -299,10 +275,29 @@ def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> Design
         if beside:
             hint = "sweep over it: graphkin.sweep(..., designs=...)"
             raise CallError.of(f"designs {key}", "changes more than dimensions", hint, beside=", ".join(beside))
-    made = DesignKeys(scene, dimensions(scene), laws)
+    own = dimensions(scene)
+
+    def numbers(values: Mapping[str, Reals]) -> dict[Dimension, Complexes]:
+        result: dict[Dimension, Complexes] = {}
+        for key, of_key in values.items():
+            low = 0.0 if key.endswith(".length") else -math.inf
+            bad = ~(np.isfinite(of_key) & (of_key > low))
+            if bad.any():
+                wanted = Phrase("give lengths above 0") if low == 0 else Phrase("give finite numbers")
+                raise CallError.of(f"designs {key}", "found value", wanted, value=f"{of_key[int(np.argmax(bad))]:g}")
+            for name, law in laws[key].items():
+                new = law(of_key)
+                result[name] = result[name] + (new - own[name]) if name in result else new
+        return result
+
     if len(keys) > 1:
-        _side_by_side(made, changed, dimensions(_read(source, changed)))
-    return made
+        together = numbers({key: np.array([value]) for key, value in changed.items()})
+        for name, expected in dimensions(_read(source, changed)).items():
+            mine = complex(together[name][0]) if name in together else own[name]
+            if abs(mine - expected) > 10 * SAME * max(abs(own[name]), abs(expected), scene.size):
+                raise CallError.of(f"designs {', '.join(keys)}", "act on together not side by side",
+                                   "sweep over them graphkin.sweep designs", name=name[1])
+    return numbers
 
 
 def _begin(source: Tables, key: str) -> tuple[float, float]:
@@ -343,15 +338,3 @@ def _laws(
     if not laws:
         raise CallError.of(f"designs {key}", "changes no dimension of the mechanism and no")
     return laws
-
-
-def _side_by_side(keys: DesignKeys, values: Mapping[str, float], read_so: Mapping[Dimension, complex]) -> None:
-    """Compare the laws of several keys with a reading with all of them changed.  Raises CallError."""
-    numbers = keys.own
-    together = keys.numbers({key: np.array([value]) for key, value in values.items()})
-    for name, read_one in read_so.items():
-        mine = complex(together[name][0]) if name in together else numbers[name]
-        if abs(mine - read_one) > 10 * SAME * max(abs(numbers[name]), abs(read_one), keys.scene.size):
-            what = f"designs {', '.join(values)}"
-            raise CallError.of(what, "act on together not side by side", "sweep over them graphkin.sweep designs",
-                               name=name[1])
