@@ -11,7 +11,7 @@ import shapely
 from graphkin import draw
 from graphkin.drawing import Box, Text
 from graphkin.drawing.ink.primitives import Circle, Group, Line, walk
-from graphkin.drawing.parts.polygon import step_numbers
+from graphkin.drawing.place.numbers import beside_ring, step_numbers
 from graphkin.drawing.place.obstacles import Obstacles
 from graphkin.drawing.text import text_box
 
@@ -222,3 +222,15 @@ def test_the_number_of_a_step_stands_where_no_other_vector_is_nearer(other: floa
     arrows = [(step, each, None) for step, each in zip((7, 8), ends, strict=True)]
     (number,) = step_numbers(arrows, {8}, Box(0.0, 0.0, 100.0, 100.0), Obstacles(solid=ends))
     assert above == (text_box(number).centre.imag < 50.0)
+
+
+@pytest.mark.parametrize(("taken", "led"), [(2.0, False), (9.0, True)])
+def test_a_numeral_far_from_its_ring_has_a_leader_from_its_edge(taken: float, led: bool) -> None:
+    centre, panel = 50 + 50j, Box(0.0, 0.0, 100.0, 100.0)
+    around = Obstacles(areas=(Box(50 - taken, 50 - taken, 50 + taken, 50 + taken),))
+    place = beside_ring(Box(0.0, 0.0, 2.0, 2.0), centre, 3.0, around, panel)
+    assert place is not None
+    middle, leader = place
+    assert led == (leader is not None)
+    assert leader is None or 3.0 == pytest.approx(abs(leader[0] - centre))
+    assert not around.areas[0].holds(Box.around((middle,)))

@@ -50,10 +50,10 @@ from graphkin.drawing.parts.polygon import (
     polygon_piece,
     ring_numerals,
     side_by_side,
-    step_numbers,
 )
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_crowd, with_labels, without
+from graphkin.drawing.place.numbers import step_numbers
 from graphkin.drawing.place.obstacles import Obstacles, free_boxes
 from graphkin.drawing.place.piece import Piece, cut_to, dated, joined, middle_of, moved_piece, obstacles_of
 from graphkin.drawing.text import fitted, plain, runs_width, symbol, text_box

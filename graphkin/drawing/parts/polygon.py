@@ -10,11 +10,9 @@ from __future__ import annotations
 import math
 from cmath import phase
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-
-import numpy as np
 
 from graphkin.account.headings import number
 from graphkin.account.notation import Notation, pole, unit_of
@@ -37,9 +35,10 @@ from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primit
 from graphkin.drawing.ink.strokes import colour_of_link, colour_of_vector
 from graphkin.drawing.ink.symbols import COMPONENT, POINTER, RESULTANT, arrowhead, vector_group
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.obstacles import Obstacles, distances, first_free, meets
+from graphkin.drawing.place.numbers import BESIDE, LEAST_NUMBERED, beside_ring, step_number
+from graphkin.drawing.place.obstacles import Obstacles
 from graphkin.drawing.place.piece import Piece, dated, joined, obstacles_of
-from graphkin.drawing.text import LETTER, SMALLEST, plain, rich, runs_width, symbol, text_box
+from graphkin.drawing.text import LETTER, plain, rich, runs_width, symbol, text_box
 from graphkin.plane import added_up, cross, dot
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words.written import roman
@@ -52,10 +51,6 @@ SEEN = 0.5  # mm: a vector shorter than this is no vector in an inset either
 LONGEST = 13.0  # mm of the largest part in the inset
 RING = 0.8  # mm from the place to the ring about it
 NUMERAL = 2.6  # mm: of the letters that a ring and its inset share
-# mm from a ring to its numeral, in the order of liking, and around it
-GAPS = np.array((0.6, 1.2, 2.0, 3.0, 4.5, 6.5, 9.0, 12.0, 15.0))
-WAYS = on_page(np.exp(2j * np.pi * (np.arange(24) + 3) / 24))
-UNLED = 4  # so many of these places have no leader
 CROWD = 5.0  # how many times larger a crowd is drawn again at most
 
 
@@ -330,11 +325,6 @@ def _named(here: PolygonOnPage, markup: str, at: complex, id: str, rank: int, aw
     return (Label.of(symbol(markup), here.at(at), id.replace("@", ""), toward=toward, rank=rank),) if markup else ()
 
 
-def step_number(step: int, colour: str = strokes.GREY) -> Text:
-    """The number of a step in brackets."""
-    return Text(0j, plain(f"({step})", SMALLEST), "start", colour, "", ("step-number",), step)
-
-
 SHADE, SHADED = 0.09, 12.0  # how much of its colour an image has within, from which size (mm) on
 BEYOND = 9.0  # mm: how far a direction line runs past the crossing
 
@@ -361,24 +351,11 @@ def ring_numerals(here: PolygonOnPage, around: Obstacles) -> Piece:
         id = f"label-ring-{here.diagram}-{order}"
         text = Text(0j, plain(roman(order), NUMERAL), id=id, classes=("label", "ring"))
         box = text_box(text)
-        half = complex(box.width, box.height) / 2
-        edges = here.at(d.centre) + (d.radius + RING) * WAYS
-        ends = edges + (GAPS[:, None] - CLEAR) * WAYS
-        # the corner or the edge of the box that looks at the ring slides with the way
-        across, down = 1.6 * half.real * WAYS.real, 1.6 * half.imag * WAYS.imag
-        hold = np.clip(across, -half.real, half.real) + 1j * np.clip(down, -half.imag, half.imag)
-        middles = ends + CLEAR * WAYS + hold
-        leaders = np.stack(np.broadcast_arrays(edges, ends), axis=-1)[UNLED:].reshape(-1, 2)
-        others = [area for area in around.areas if area.distance(here.at(d.centre)) > 0.0]
-        areas = np.array([(area.centre, complex(area.width, area.height) / 2) for area in others]).reshape(-1, 2)
-        middles[UNLED:].reshape(-1)[meets(leaders, areas[:, 0], areas[:, 1])[0]] = np.nan
-        (place,) = first_free([middles.ravel()], [half], around, CLEAR, here.panel)
-        if place is not None:
-            gap, way = divmod(place, len(WAYS))
-            written = text._replace(at=complex(middles[gap, way]) - box.centre)
-            leader = Line(complex(edges[way]), complex(ends[gap, way]), strokes.LEADER)
-            led = (Group((leader,)),) if gap >= UNLED else ()
-            pieces.append(dated(Piece({"labels": (*led, written)}), here.since(d)))
+        found = beside_ring(box, here.at(d.centre), d.radius + RING, around, here.panel)
+        if found is not None:
+            middle, leader = found
+            led = (Group((Line(*leader, strokes.LEADER),)),) if leader else ()
+            pieces.append(dated(Piece({"labels": (*led, text._replace(at=middle - box.centre))}), here.since(d)))
             around += obstacles_of(pieces[-1].drawn)
     return joined(pieces)
 
@@ -488,6 +465,10 @@ def _vector_names(here: PolygonOnPage) -> Iterator[Label]:
             yield name
 
 
+SHORT = 7.0  # mm: beside a shorter vector its name leaves no room for a number, which stands before the name
+MANY = 16  # in a polygon of more vectors names have no room for that
+
+
 def _name(
     here: PolygonOnPage, length: float, vectors: Sequence[Vector], letters: Mapping[complex, str]
 ) -> Label | None:
@@ -508,67 +489,12 @@ def _name(
     resultants = all(v.role == "resultant" for v in vectors)
     text = Text(0j, symbol(markup), "start", colour_of_vector(here.sheet, first.symbol), id, ("label",), since=step)
     key = step_number(step, text.colour)
-    if LEAST <= length < SHORT and len(here.vectors) <= MANY:
+    if LEAST_NUMBERED <= length < SHORT and len(here.vectors) <= MANY:
         by = runs_width(key.runs) + BESIDE
         text = text._replace(runs=(*key.runs, *(run._replace(x=run.x + by) for run in text.runs)), step=step)
     ends = [letters.get(same_place(end), "") for end in (first.tail, first.tip)]
     between = "→".join(ends) if all(ends) else ""
     return Label(text, here.drawn(first), rank=2 if resultants and not us else 1, key=key, between=between)
-
-
-LEAST = 5.0  # mm: a shorter vector has no room for a number
-SHORT = 7.0  # mm: beside a shorter one its name leaves no room for a number, which stands before the name
-MANY = 16  # in a polygon of more vectors names have no room for that
-OFF = 0.9  # mm from the vector to its number
-CLEAR = 0.35  # mm around a number
-BESIDE = 0.5  # mm from a name to the number beside it
-# Along the vector, in the order of liking.
-SHARES = np.array((0.5, 0.38, 0.62, 0.26, 0.74, 0.16, 0.84, 0.44, 0.56, 0.32, 0.68, 0.2, 0.8, 0.1, 0.9))
-
-
-def step_numbers(
-    arrows: Sequence[tuple[int, Segment, Box | None]], keyed: Collection[int], panel: Box, around: Obstacles
-) -> tuple[Text, ...]:
-    """A number in brackets beside each arrow, or beside its name, if there is room; where another arrow is nearer only
-    if there is no other place.
-
-    Parameters
-    ----------
-    arrows : number of the step, tail and tip (page points, mm), and the box of the name
-    keyed : steps whose number stands there already
-    around : all strokes and texts
-    """
-    long = [k for k, (step, (tail, tip), _) in enumerate(arrows) if abs(tip - tail) >= LEAST and step not in keyed]
-    if not long:
-        return ()
-    shown = [arrows[k] for k in long]
-    texts = [step_number(step) for step, _, _ in shown]
-    boxes = [text_box(text) for text in texts]
-    half = np.array([complex(box.width, box.height) / 2 for box in boxes])
-    tails, tips = (np.array([ends[k] for _, ends, _ in shown]) for k in (0, 1))
-    way = (tips - tails) / np.abs(tips - tails)
-    distance = OFF + np.abs(way.imag) * half.real + np.abs(way.real) * half.imag
-    sides = np.array((1.0, -1.0))
-    along = tails[:, None] + (tips - tails)[:, None] * SHARES
-    by_vectors = (along[:, :, None] + (1j * way * distance)[:, None, None] * sides).reshape(len(shown), -1)
-    by_names = [_by_name(name, size) for (_, _, name), size in zip(shown, half.tolist(), strict=True)]
-    gaps = distances(by_vectors, np.array([ends for _, ends, _ in arrows]))  # of the middles of numbers
-    last = gaps.min(axis=-1) < gaps[np.arange(len(long)), :, long] - 1e-6
-    order = np.argsort(np.hstack((last, np.zeros((len(long), 4), dtype=bool))), axis=1, kind="stable")
-    places = np.take_along_axis(np.hstack((by_vectors, np.array(by_names))), order, axis=1)
-    found = first_free([*places], half.tolist(), around, CLEAR, panel)
-    return tuple(
-        text._replace(at=complex(row[i]) - box.centre)
-        for text, box, row, i in zip(texts, boxes, places, found, strict=True) if i is not None
-    )  # fmt: skip
-
-
-def _by_name(name: Box | None, half: complex) -> tuple[complex, ...]:
-    """Places for the middle of a number beside a name, nan without a name."""
-    if name is None:
-        return (complex(np.nan, np.nan),) * 4
-    middle, x, y = name.centre, name.width / 2 + BESIDE + half.real, name.height / 2 + BESIDE + half.imag
-    return middle - x, middle + x, middle + 1j * y, middle - 1j * y
 
 
 def trial_marks_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:

@@ -149,7 +149,7 @@ def outlined(forms: Floats, space: tuple[float, float]) -> Floats:
     return np.stack((*forms.swapaxes(0, 1), *(side for kind in kinds for sides in kind for side in sides)), axis=1)
 
 
-def meeting(ones: Floats, others: Floats) -> Flags:
+def intersections(ones: Floats, others: Floats) -> Flags:
     """Whether labels, in rows, meet others, in columns, both as `outlined`: they come nearer than the space, or the
     leader of one runs over the box of the other, or nearly, or crosses its leader.  Nowhere (nan) is met by none."""
     near = ones[:, 4:8, :, None] <= others[:, 16:20, None]

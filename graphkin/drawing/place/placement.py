@@ -19,7 +19,7 @@ import numpy as np
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Line, Text
-from graphkin.drawing.place.labels import FORBIDDEN, NOWHERE, TOLD, Label, LabelPanel, Mark, meeting, outlined
+from graphkin.drawing.place.labels import FORBIDDEN, NOWHERE, TOLD, Label, LabelPanel, Mark, intersections, outlined
 from graphkin.drawing.place.obstacles import Flags, Indices, Obstacles
 from graphkin.plane import added_up
 
@@ -175,7 +175,7 @@ class Placement:
         """Whether labels (rows), except one, stand in some places (columns)."""
         if self.moved:
             moved = sorted(self.moved)
-            self.met[moved] = meeting(self.outlines.take([self.stands[j] for j in moved], axis=2), self.outlines)
+            self.met[moved] = intersections(self.outlines.take([self.stands[j] for j in moved], axis=2), self.outlines)
             self.moved.clear()
         others = self.met.take(some, axis=1)
         others[i] = False
@@ -185,7 +185,7 @@ class Placement:
         """Let labels take, in order, the cheapest free place."""
         lots = [self.numbers[i][:LOT] for i in order]
         outlines = self.outlines.take(np.concatenate(lots), axis=2)  # in which mostly there is a free one for each
-        met, shut = meeting(outlines, outlines), np.zeros(outlines.shape[2], dtype=bool)
+        met, shut = intersections(outlines, outlines), np.zeros(outlines.shape[2], dtype=bool)
         first = 0
         for i, lot in zip(order, lots, strict=True):
             last = first + len(lot)
@@ -195,7 +195,7 @@ class Placement:
             else:
                 free = np.flatnonzero(~self._others_in(i, self.numbers[i]).any(axis=0))[:1]
                 k = int(self.numbers[i][free[0]]) if free.size else NOWHERE
-                barred = meeting(self.outlines[:, :, k : k + 1], outlines)[0]
+                barred = intersections(self.outlines[:, :, k : k + 1], outlines)[0]
             if k != NOWHERE:
                 self._take(i, k, float(self.costs[k]))
             shut |= barred
@@ -225,7 +225,7 @@ class Placement:
                     break
                 if k >= 0 and j != others[-1]:
                     if k not in shut:
-                        shut[k] = ~meeting(outlines[:, :, k : k + 1], outlines)[0]
+                        shut[k] = ~intersections(outlines[:, :, k : k + 1], outlines)[0]
                     left = left & shut[k]
             else:
                 if cost < least:
@@ -295,14 +295,14 @@ class Placement:
         bounds = np.searchsorted(labels[free], [*some, len(self.labels)]).tolist()
         spans = {j: slice(*span) for j, span in zip(some, pairwise(bounds), strict=True)}
         room = places[free]
-        return room, spans, ~meeting(self.outlines.take(offers, axis=2), self.outlines.take(room, axis=2))
+        return room, spans, ~intersections(self.outlines.take(offers, axis=2), self.outlines.take(room, axis=2))
 
     def _insist(self, i: int) -> None:
         """Put a label in its least harmful place, and give up labels in its way that may be given up."""
         places, table = self.panel.everywhere(i), self.panel.places
         standing, everywhere = (outlined(forms, (0.0, 0.0)) for forms in (
             table.forms.take(self.stands, axis=2), places.forms))  # fmt: skip
-        met = meeting(standing, everywhere)
+        met = intersections(standing, everywhere)
         worth = np.array([min(FORBIDDEN, lacking) for lacking in self.lacking])
         k = int(np.argmin(places.costs + worth @ met))
         for j in np.flatnonzero(met[:, k]).tolist():
