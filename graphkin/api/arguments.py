@@ -126,14 +126,10 @@ def as_scene(scene: SceneLike) -> Mechanism:
     """The mechanism of a file, of a bundled scene's name, of a mapping, or of a scene; a driver's value given from a
     dead point is found, and its rate from the speed of a point."""
     given = mechanism_of(scene)
-    if any(d.position for d in given.drivers):
+    if any(d.position or (d.distance is not None and not d.exact) or d.given_speed for d in given.drivers):
         from graphkin.solver.path.named_positions import standing
 
-        given = standing(given)
-    if any((d.distance is not None and not d.exact) or d.given_speed for d in given.drivers):
-        from graphkin.solver import structure_of
-
-        return structure_of(given).scene
+        return standing(given)
     return given
 
 

@@ -33,6 +33,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import put_at, value_at
 from graphkin.solver import Motion, solve
+from graphkin.solver.path.named_positions import standing
 from graphkin.solver.values import exact_values
 from graphkin.structure import Dyad, LargerGroup, Pair, analyse
 from graphkin.words import Phrase, Wording, as_data, from_data
@@ -76,7 +77,7 @@ class Variant:
     @property
     def scene(self) -> Mechanism:
         """The variant as a scene."""
-        return mechanism_of(self.source)
+        return standing(mechanism_of(self.source))
 
     def failed(self, error: Exception) -> Variant:
         """The variant as failed: its papers could not be made."""
@@ -173,7 +174,7 @@ def examined(
     try:
         made = _moved(source, base) if base is not None else dict(source)
         made["find"] = [str(s) for s in asked_of(mechanism_of(made))]
-        scene = mechanism_of(made)
+        scene = standing(mechanism_of(made))
         motion = solve(scene)
         if motion.status[0] != "ok":
             raise Unfit(motion.said(0))
@@ -249,7 +250,7 @@ def _within_reach(
 
 def _moved(source: Tables, base: Tables) -> OwnTables:
     """The file with its driver's value reached from that of ``base``, and a sketch that gives this assembly."""
-    start, goal = mechanism_of(base), mechanism_of(source)
+    start, goal = standing(mechanism_of(base)), standing(mechanism_of(source))
     motion = solve(start, {d.key: d.values[0] for d in goal.drivers})
     if motion.status[0] != "ok":
         raise Unfit(motion.said(0))

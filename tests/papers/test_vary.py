@@ -221,3 +221,19 @@ def test_a_law_over_the_time_varies_with_the_moment_within_it():
     made = [candidate({**scene, "driver": driver}, Spread(), 1, n, 0)["driver"] for n in range(12)]
     assert len({one["law"]["duration"] for one in made}) > 2
     assert all(0.149 < one["time"] / one["law"]["duration"] < 0.851 for one in made)
+
+
+def test_a_variant_whose_driver_follows_from_the_speed_of_a_point_agrees_with_its_drawing():
+    # the drawing had no rate: no problem of such a scene could be made
+    crank = {
+        "frame": {"points": {"O": [0, 0]}, "guides": {"h": {"through": [0, -10], "angle": 0}}},
+        "links": {
+            "1": {"points": ["O", "A"], "length": 40}, "2": {"points": ["A", "B"], "length": 140},
+            "3": {"points": ["B"], "on": "0.h"},
+        },
+        "driver": {"link": "1", "angle": 70, "speed": 200, "of": "A", "sense": "clockwise"},
+        "find": ["v_B"],
+    }  # fmt: skip
+    (answer,) = examined(crank, None, "01").answers
+    (exact,) = [row.exact for row in graphkin.check(crank).report.rows if str(row.symbol) == "v_B"]
+    assert ("v_B", pytest.approx(1e3 * abs(exact))) == (answer.symbol, answer.value)

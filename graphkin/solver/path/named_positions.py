@@ -80,6 +80,20 @@ def name_at(scene: Mechanism, positions: Mapping[str, float], value: float) -> s
 
 
 def standing(scene: Mechanism) -> Mechanism:
+    """A scene with the values and rates of its drivers computed: at a named position, at a distance from a dead point,
+    and from the speed of a point.
+
+    Raises
+    ------
+    Unsolvable : no position of the driver leads to the stroke that is named, or the point rests there
+    """
+    there = _at_its_position(scene)
+    if any((d.distance is not None and not d.exact) or d.given_speed for d in there.drivers):
+        return structure_of(there).scene
+    return there
+
+
+def _at_its_position(scene: Mechanism) -> Mechanism:
     """A scene with its driver at a named position, its value computed.
 
     The assembly is that of the position itself: the value is searched from positions around the turn, and taken where
