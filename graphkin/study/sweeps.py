@@ -25,7 +25,7 @@ from graphkin.solver import DriverRange, driver_range, over_time, structure_of
 from graphkin.solver.algebra.pose import Array
 from graphkin.solver.compiled.kernel import pays
 from graphkin.solver.forces import forces_of
-from graphkin.solver.path.named_positions import first_position
+from graphkin.solver.path.named_positions import first_position, standing
 from graphkin.solver.prepared import PreparedMechanism, prepare
 from graphkin.structure import Structure
 from graphkin.study.designs import Designs, Value, applied
@@ -209,7 +209,7 @@ class Sweep:
     @cached_property
     def base(self) -> FollowedDesign:
         """The scene itself as a design."""
-        scene = self.source if isinstance(self.source, Mechanism) else mechanism_of(self.source)
+        scene = self.source if isinstance(self.source, Mechanism) else standing(mechanism_of(self.source))
         return _same(FollowedDesign(scene, self.asked, self.at))
 
     @cached_property
@@ -344,7 +344,7 @@ def _followed(sweep: Sweep, values: tuple[Value, ...]) -> FollowedDesign | tuple
         if isinstance(sweep.source, Mechanism):
             design = sweep.base
         else:
-            scene = mechanism_of(applied(sweep.source, sweep.designs.keys, values))
+            scene = standing(mechanism_of(applied(sweep.source, sweep.designs.keys, values)))
             design = FollowedDesign(scene, sweep.asked, sweep.at)
         _ = design.reach
         return design

@@ -17,8 +17,10 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
+import graphkin
 from graphkin.jobs import Progress, Workers, cluster
 from graphkin.scene import library_text, mechanism_of
 from graphkin.scene.symbol import Symbol
@@ -251,3 +253,19 @@ def test_a_killed_or_interrupted_command_goes_on(tmp_path: Path, sent: str, unin
     assert 2 <= left < 7
     subprocess.run([*call, str(tmp_path / "b")], check=True)
     assert uninterrupted.items() <= prints(tmp_path / "b").items()
+
+
+def test_designs_whose_driver_follows_from_the_speed_of_a_point_have_its_rate() -> None:
+    # they were all at rest
+    crank = {
+        "frame": {"points": {"O": [0, 0]}, "guides": {"h": {"through": [0, -10], "angle": 0}}},
+        "links": {
+            "1": {"points": ["O", "A"], "length": 40}, "2": {"points": ["A", "B"], "length": 140},
+            "3": {"points": ["B"], "on": "0.h"},
+        },
+        "driver": {"link": "1", "angle": 70, "speed": 200, "of": "A", "sense": "clockwise"},
+    }  # fmt: skip
+    swept = graphkin.sweep(crank, designs={"links.1.length": [40, 50]}, positions=1, find=["v_B"])
+    longer = graphkin.read(crank).replace("links.1.length", 50)
+    wanted = [abs(graphkin.solve(scene)["v_B"][0]) for scene in (crank, longer)]
+    assert wanted == pytest.approx(np.abs(np.ravel(swept["v_B"])).tolist())
