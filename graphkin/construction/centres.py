@@ -229,6 +229,8 @@ class Centres:
         return None if of is None or to is None else of - to
 
     def _velocity(self, ref: PointRef) -> complex | None:
+        """The velocity of a point about the centre of its link and the frame, v = omega r square to the arm (m/s); None
+        where the motion of its link is not known."""
         turning, frame = self.turning_of(ref), self.scene.frame.name
         if turning is None:
             return None

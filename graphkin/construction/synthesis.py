@@ -212,6 +212,8 @@ def draw(task: DesignTask, paper: DesignSheet) -> None:
 
 @draw.register
 def _(task: SliderCrankTask, paper: DesignSheet) -> None:
+    """The stroke on its line, the crank's pivot on the circle from which the stroke is seen under theta, at the offset:
+    crank = (AC1 - AC2) / 2, rod = (AC1 + AC2) / 2 (Sun Huan, ch. 8)."""
     stroke, offset = paper.mm(task.stroke), paper.mm(task.offset)
     near = paper.hand.point(0j)
     far = paper.lay_off(near, 1 + 0j, stroke)
@@ -226,6 +228,8 @@ def _(task: SliderCrankTask, paper: DesignSheet) -> None:
 
 @draw.register
 def _(task: CrankRockerTask, paper: DesignSheet) -> None:
+    """Both limit places of the rocker, the crank's pivot on the circle from which their ends are seen under theta, or on
+    their line where K is 1 (Sun Huan, ch. 8)."""
     half, arm = task.swing / 2, paper.mm(task.rocker)
     D = paper.hand.point(0j)
     first, second = (paper.lay_off_angle(D, direction(90.0 + side * half), arm) for side in (1, -1))
@@ -240,6 +244,7 @@ def _(task: CrankRockerTask, paper: DesignSheet) -> None:
 
 @draw.register
 def _(task: LimitsTask, paper: DesignSheet) -> None:
+    """Both limit places of the rocker about given pivots: crank = (AC1 - AC2) / 2, coupler = (AC1 + AC2) / 2."""
     A, D, arm = paper.plot(task.A), paper.plot(task.D), paper.mm(task.rocker)
     first, second = (paper.lay_off_angle(D, direction(angle), arm) for angle in task.angles)
     low, high = (f"{angle:.6g}" for angle in task.angles)
@@ -318,6 +323,8 @@ def _crank_from_limits(paper: DesignSheet, A: complex, far: complex, near: compl
 
 @draw.register
 def _(task: GuideBarTask, paper: DesignSheet) -> None:
+    """The swing of the guide bar is theta: crank = AC sin(theta / 2), square to the bar in its limit places (Sun Huan,
+    ch. 8)."""
     hand, theta, centres, reach = paper.hand, _theta(task.K), paper.mm(task.centres), paper.mm(task.stroke) / 2
     half = theta / 2
     C = hand.point(0j)
@@ -353,6 +360,8 @@ def _(task: GuideBarTask, paper: DesignSheet) -> None:
 
 @draw.register
 def _(task: BarPositionsTask, paper: DesignSheet) -> None:
+    """Each pivot is the centre of the circle through three places of its point, where two bisectors cross; of given
+    pivots, turned back with the bar, each joint is that of three pivots (Hartenberg and Denavit, ch. 9)."""
     bars = [(paper.plot(bar.B), paper.plot(bar.C)) for bar in task.positions]
     ends = {f"{name}{i}": at for i, bar in enumerate(bars, 1) for name, at in zip("BC", bar, strict=True)}
     lines = [line("limit" if i else "given", *bar) for i, bar in enumerate(bars)]

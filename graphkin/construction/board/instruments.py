@@ -47,6 +47,7 @@ class Instrument:
     notes: bool = False
 
     def _error(self, deviation: float) -> float:
+        """The error of one act: the deviation of the tool (mm, deg) times a random number; 0 of exact hands."""
         if self.errs is None:
             return 0.0
         self.acts += 1
@@ -143,4 +144,5 @@ def erring(name: str, tools: Tools, seed: int) -> Instrument:
 
 
 def _turned(along: complex, deg: float) -> complex:
+    """A direction turned by an angle (deg)."""
     return along * cmath.rect(1.0, math.radians(deg))

@@ -62,6 +62,7 @@ class Scales:
     force: float = 0.0
 
     def of(self, diagram: Diagram | Literal["force"]) -> float:
+        """The scale of a diagram (m, m/s, m/s2 or N for one mm)."""
         return self.length if diagram == "mechanism" else getattr(self, diagram)
 
     def shown(self, metres: float, newtons: float) -> dict[str, float]:

@@ -89,6 +89,7 @@ class Remark:
 
     @property
     def holds(self) -> bool:
+        """Whether it is to be said at this scale; a length that is zero is one at every scale."""
         match self.key:
             case "sharp crossing":
                 return self.size < SHARP
@@ -102,6 +103,7 @@ class Remark:
 
     @property
     def phrase(self) -> Phrase:
+        """The remark as a phrase; of a crossing with its angle, arcsin of the size (deg), of others with their size."""
         gaps: dict[str, object] = dict(zip(_GAPS[self.key], self.of, strict=True))
         if "size" in gaps_of(self.key):
             degrees = self.key == "sharp crossing"

@@ -158,6 +158,7 @@ def _changed(value: Value, **fields: object) -> Value:
 
 
 def _times(value: Any, times: float) -> Any:
+    """Data of a step with every length on paper multiplied by ``times``."""
     if isinstance(value, tuple):
         return tuple(_times(part, times) for part in value)
     if isinstance(value, dict):
@@ -441,6 +442,7 @@ class Vector(OnPaper):
 
     @property
     def span(self) -> complex:
+        """The vector on paper (mm), from tail to tip."""
         return self.tip - self.tail
 
 

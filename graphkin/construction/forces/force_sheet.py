@@ -56,6 +56,7 @@ class ForceVector:
 
     @property
     def span(self) -> complex:
+        """The force as it is drawn (mm), from tail to tip."""
         return self.tip - self.tail
 
     @property
@@ -123,6 +124,7 @@ class MomentTerm:
 
     @property
     def symbol(self) -> Symbol:
+        """The symbol of the force or couple whose moment it is."""
         return self.acting.symbol
 
     @property

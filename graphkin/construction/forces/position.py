@@ -161,6 +161,7 @@ class DrawnPosition:
 
     @cached_property
     def _tiny(self) -> float:
+        """Places nearer to each other are one (mm): 1e-9 of the size of the mechanism."""
         return 1e-9 * self.sheet.scene.size * self.mm
 
     def _known(self, order: str, link: str) -> list[tuple[complex, complex]]:

@@ -89,6 +89,14 @@ def known_turns(plot: Polygons, order: Order, group: Dyad | LargerGroup) -> None
 
 
 def share_rate(plot: Polygons, order: Order, known: str, name: str, add: float = 0.0) -> None:
+    """The rate of a link that turns as a known one does, or faster by ``add``.
+
+    Parameters
+    ----------
+    order : "velocity" or "acceleration"
+    known, name : the link whose rate is known, and the link that turns with it
+    add : the rate of the second relative to the first (rad/s, rad/s2)
+    """
     rate = plot.rates[order][known]
     plot.rates[order][name] = Rate(name, rate.value + add, rate.vector, rate.mm, rate.arm_mm, rate.same_as or known)
 

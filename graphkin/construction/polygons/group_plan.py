@@ -75,6 +75,7 @@ class _Search:
         return replace(edge, unknown=None) if edge.unknown in self.known else edge
 
     def of(self, link: str) -> list[PointRef]:
+        """The points of a link in the graph."""
         return [n for n in self.graph.nodes if link in self.graph.owners[n]]
 
     def turns(self, link: str) -> bool:
@@ -247,6 +248,7 @@ class _Search:
         return at, abs(cross(d, e)), 0.0 if at is None else abs(at - (p + q) / 2)
 
     def _third(self, leg: Path, at: complex) -> float:
+        """The sine of the angle between a third leg's line and the line from that to a place; 0 where it leads there."""
         p, d = self.line(leg)
         return abs(cross(unit(p - at), d)) if abs(p - at) > self.graph.tiny else 0.0
 
@@ -340,6 +342,7 @@ class _Search:
         return [(m.base, m.link) for m in self.moves if m.is_special]
 
     def done(self) -> bool:
+        """Whether the rate of each link is known, and a point of it."""
         return all(self.turns(link) and self.nodes.intersection(self.of(link)) for link in self.graph.inside)
 
     def unknowns(self) -> list[Unknown]:

@@ -75,6 +75,7 @@ class RelativeMotion:
         return self.labels[0].link, self.labels[1].link
 
     def reversed(self) -> RelativeMotion:
+        """The motion of its start relative to its end."""
         return replace(self, start=self.end, end=self.start, labels=self.labels[::-1], forward=not self.forward)
 
 
@@ -321,6 +322,7 @@ class VectorGraph:
                 grown = True
 
     def _added(self, ref: PointRef, name: str, at: complex) -> PointRef:
+        """A new point of a link, at a place on paper (mm), with bars to all points of the link."""
         others = [n for n in self.nodes if name in self.owners[n]]
         self.owners[ref], self.edges[ref] = [name], []
         self.nodes.append(ref)

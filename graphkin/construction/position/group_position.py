@@ -154,6 +154,7 @@ def _refused(reduced: ReducedMechanism, said: Phrase) -> Unsolvable:
 
 
 def _between(start: Pose, end: Pose, part: float) -> Pose:
+    """A pose between two: place and axis divided in one proportion, ``part`` of the way from the first."""
     axis = start.axis + part * (end.axis - start.axis)
     return Pose(start.origin + part * (end.origin - start.origin), axis / abs(axis))
 

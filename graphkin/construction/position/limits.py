@@ -228,6 +228,7 @@ def limits_on_paper(
 
 
 def _short(why: str, link: str, value: float) -> Problem:
+    """The problem of a quantity of the whole turn whose crank stops near a value (rad)."""
     end = Phrase("it stops near deg", degrees=f'{math.degrees(value):.2f}')
     return Problem(why, "belongs to a whole turn but driver does", "ask for s_ theta_ or d_ at single", link=link,
                    end=end)

@@ -60,6 +60,7 @@ class PlacedLinks:
         return self.poses[link].place(local * self.mm)
 
     def point(self, link: str, point: str) -> complex:
+        """The place of a point of a link (mm), where it was pricked."""
         if point in self.pricked:
             return self.pricked[point]
         return self.place(link, self.links[link].points[point])
