@@ -228,8 +228,8 @@ def _(task: SliderCrankTask, paper: DesignSheet) -> None:
 
 @draw.register
 def _(task: CrankRockerTask, paper: DesignSheet) -> None:
-    """Both limit places of the rocker, the crank's pivot on the circle from which their ends are seen under theta, or on
-    their line where K is 1 (Sun Huan, ch. 8)."""
+    """Both limit places of the rocker, the crank's pivot on the circle from which their ends are seen under theta, on
+    their line if K is 1 (Sun Huan, ch. 8)."""
     half, arm = task.swing / 2, paper.mm(task.rocker)
     D = paper.hand.point(0j)
     first, second = (paper.lay_off_angle(D, direction(90.0 + side * half), arm) for side in (1, -1))

@@ -248,7 +248,7 @@ class _Search:
         return at, abs(cross(d, e)), 0.0 if at is None else abs(at - (p + q) / 2)
 
     def _third(self, leg: Path, at: complex) -> float:
-        """The sine of the angle between a third leg's line and the line from that to a place; 0 where it leads there."""
+        """The sine of the angle between a third leg's line and a line from it to a place; 0 if it leads there."""
         p, d = self.line(leg)
         return abs(cross(unit(p - at), d)) if abs(p - at) > self.graph.tiny else 0.0
 
