@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -283,3 +284,11 @@ def test_an_equation_may_come_back_to_the_pin_at_which_it_begins() -> None:
     assert result.ok
     terms = [term for equation in result.sheet.equations for side in equation.sides for term in side]
     assert {"ar_A@2/A@1", "ar_A@2/A@3"} <= {str(term.symbol) for term in terms}
+
+
+@pytest.mark.parametrize("height", [40, -40])
+def test_the_limit_positions_of_a_follower_stand_its_lift_apart_on_either_side_of_its_pivot(height: int) -> None:
+    scene = graphkin.read("cam-swinging-roller").replace("sketch.B", [30, height]).mechanism
+    low, high = draft(scene, find=[Symbol.parse("swing_2")]).limits["2"]
+    assert math.radians(24) == pytest.approx(high.angle - low.angle)
+    assert math.radians(24) == pytest.approx(cmath.phase(high.poses["2"].axis / low.poses["2"].axis))
