@@ -8,7 +8,7 @@ import os
 import re
 import stat
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from pathlib import Path
 from typing import IO, Any
 
@@ -96,60 +96,28 @@ def folder_alone(folder: Path) -> Iterator[None]:
     CallError : another program is writing into the folder
     OSError : the folder cannot be written
     """
+    import platform
+
+    from filelock import FileLock, Timeout
+
     path = folder / _LOCK
-    handle = _locked(path)
-    if handle is None:
+    try:
+        held: AbstractContextManager[object] = FileLock(path, blocking=False).acquire()
+    except Timeout:
         who = ""
         with suppress(OSError):
             who = path.read_text(encoding="utf-8").strip()
         raise CallError.of(str(folder), "another graphkin is writing into it", "wait until it has done or give another",
-                           by=f' ({who})' if who else '')
-    try:
-        import platform
-
+                           by=f' ({who})' if who else '') from None
+    except OSError as error:
+        if error.errno not in (errno.ENOLCK, errno.ENOTSUP):
+            raise
+        held = nullcontext()  # a file system that knows no locks: as if nobody were there
+    with held:
         with suppress(OSError):  # a full disk: then nobody is named
-            os.write(handle, f"process {os.getpid()} on {platform.node()}\n".encode())
-        yield
-    finally:
-        with suppress(OSError):
-            os.unlink(path)
-        os.close(handle)
-
-
-def _locked(path: Path) -> int | None:
-    """A locked handle of the file; None where another program has the lock."""
-    while True:
-        handle = os.open(path, os.O_CREAT | os.O_RDWR, 0o666)
-        if not _lock(handle):
-            os.close(handle)
-            return None
-        with suppress(OSError):  # who had it before may have taken it away meanwhile
-            if os.path.samestat(os.fstat(handle), os.stat(path)):
-                os.ftruncate(handle, 0)
-                return handle
-        os.close(handle)
-
-
-def _lock(handle: int) -> bool:
-    try:
-        import fcntl
-    except ImportError:  # Windows
-        return _lock_on_windows(handle)
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    except OSError:  # a file system that knows no locks: as if nobody were there
-        pass
-    return True
-
-
-def _lock_on_windows(handle: int) -> bool:
-    from importlib import import_module
-
-    msvcrt = import_module("msvcrt")
-    try:
-        msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
-    except OSError:
-        return False
-    return True
+            path.write_text(f"process {os.getpid()} on {platform.node()}\n", encoding="utf-8")
+        try:
+            yield
+        finally:
+            with suppress(OSError):
+                path.unlink()

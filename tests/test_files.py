@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import subprocess
 import sys
@@ -98,3 +99,16 @@ def test_a_second_program_is_told_who_writes_into_the_folder(tmp_path: Path) -> 
     with folder_alone(tmp_path):
         pass
     assert [] == list(tmp_path.iterdir())
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="locks of POSIX")
+def test_a_file_system_that_knows_no_locks_takes_results_all_the_same(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(handle: int, operation: int) -> None:
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr("fcntl.flock", refuse)
+    with folder_alone(tmp_path):
+        (tmp_path / "a").touch()
+    assert [tmp_path / "a"] == list(tmp_path.iterdir())
