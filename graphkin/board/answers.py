@@ -34,7 +34,7 @@ from graphkin.scene.scene import LARGEST_FILE, NEW, new_scene, parsed, put, reso
 from graphkin.scene.tables import as_sentence
 from graphkin.solver import solved_here
 from graphkin.structure import mobility_of
-from graphkin.words import LANGUAGES, Phrase, area, say
+from graphkin.words import LANGUAGES, Phrase, area, say, word
 
 LINK = "graphkin:"
 """How a link begins that carries a scene in itself."""
@@ -380,7 +380,8 @@ def _names(shelf: Shelf, asked: Message) -> Answer:
     """The words of the page in a language."""
     spoken = asked.spoken
     names = {key.removeprefix("page "): text for key, text in area("page", spoken).items()}
-    return {"words": names, "language": spoken, "languages": LANGUAGES, "figures": list(figure_kinds())}
+    own_names: Answer = {each: word("name of the language", each) for each in LANGUAGES}
+    return {"words": names, "language": spoken, "languages": own_names, "figures": list(figure_kinds())}
 
 
 QUESTIONS: Mapping[str, tuple[tuple[str, ...], Callable[[Shelf, Message], Answer]]] = {

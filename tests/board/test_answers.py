@@ -375,3 +375,12 @@ def test_beside_a_limit_the_page_says_the_same_while_a_hand_moves_as_when_it_res
 def test_the_steps_on_the_page_are_read_aloud_in_its_language() -> None:
     found = told("show", language="zh")
     assert 'aria-label="B 的速度"' in "".join(step["html"] for step in found["steps"])
+
+
+def test_the_page_offers_each_language_by_its_own_name() -> None:
+    assert {"en": "English", "zh": "中文"} == told("names", language="zh")["languages"]
+
+
+def test_the_languages_of_a_sheet_are_completed() -> None:
+    options = told("complete", text='[sheet]\nlanguage = ', line=2, column=11)["options"]
+    assert ['"en"', '"zh"'] == [option["label"] for option in options]

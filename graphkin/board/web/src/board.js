@@ -128,7 +128,7 @@ export async function mount(root, send, { kept = null, nonce = "", wrote = () =>
   const header = h("header", {}, title, fileName,
     button(word("scenes"), () => wall.open()), button(word("undo"), () => editor.undo(), { title: "Ctrl+Z" }), button(word("redo"), () => editor.redo(), { title: "Ctrl+Y" }),
     saveButton, button(word("out"), () => out.open()), h("span.room"), gone,
-    choice(word("language"), names.languages, state.language, (value) => speak(value), { en: "English", zh: "中文" }),
+    choice(word("language"), Object.keys(names.languages), state.language, (value) => speak(value), names.languages),
     choice(word("convention"), ["", "chinese", "us", "british", "russian"], state.convention, (value) => { state.convention = value; keep(); show(); }, { "": word("of scene"), chinese: word("chinese"), us: word("us"), british: word("british"), russian: word("russian") }),
     choice(word("instrument"), ["exact", "cad", "pencil"], state.instrument, (value) => { state.instrument = value; show(); }, { exact: word("exact"), cad: word("cad"), pencil: word("pencil") }));
 
