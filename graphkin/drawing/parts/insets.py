@@ -47,6 +47,7 @@ from graphkin.drawing.parts.polygon import (
     PolygonOnPage,
     crowds,
     details,
+    polygon_lines,
     polygon_piece,
     ring_numerals,
     side_by_side,
@@ -86,19 +87,21 @@ def polygon_with_insets(
     terms, small = _coriolis(sheet, diagram), details(sheet, diagram)[:MOST_DETAILS]
     count = len(terms) + len(small)
     bare = PolygonOnPage(sheet, diagram, letters, language, panel, origin, ())
-    plain = polygon_piece(bare)
+    lines = polygon_lines(bare)
+    plain = polygon_piece(bare, lines)
     boxes = _boxes(panel, plain, strip, count, INSET)
     shown = terms[: len(boxes)]
     boxes += _boxes(panel, plain, None, len(shown) + len(small) - len(boxes), SMALL_INSET, boxes)
     enlarged = small[: len(boxes) - len(shown)]
     here = replace(bare, enlarged=tuple(enlarged))
-    figure, pieces, crowd = _with_details(here, polygon_piece(here) if enlarged else plain, boxes[len(shown) :], boxes)
+    own = polygon_piece(here, lines) if enlarged else plain
+    figure, pieces, crowd = _with_details(here, own, boxes[len(shown) :], boxes)
     crowded = crowds(here, crowd)[:MOST_CROWDS] if len(enlarged) == len(small) else []
     for size in (INSET, SMALL_INSET) if crowded else ():
         more = boxes + _boxes(panel, plain, strip, len(crowded), size, boxes)
         if len(more) > len(boxes):
             there = replace(here, enlarged=(*enlarged, *crowded)[: len(more) - len(shown)])
-            clearer = _with_details(there, polygon_piece(there), more[len(shown) :], more)
+            clearer = _with_details(there, polygon_piece(there, lines), more[len(shown) :], more)
             if len(clearer[2]) < len(crowd):
                 here, boxes, (figure, pieces, _) = there, more, clearer
             break

@@ -329,11 +329,18 @@ SHADE, SHADED = 0.09, 12.0  # how much of its colour an image has within, from w
 BEYOND = 9.0  # mm: how far a direction line runs past the crossing
 
 
-def polygon_piece(here: PolygonOnPage) -> Piece:
-    """Draw a polygon at its place; an enlarged place gets a ring, and its vectors have no names here."""
-    areas, vectors = Piece({"construction": (*rings(here), *_images(here))}), Piece({here.diagram: (*_vectors(here),)})
+def polygon_piece(here: PolygonOnPage, lines: Piece | None = None) -> Piece:
+    """Draw a polygon at its place, of which the ``lines`` may be drawn already; an enlarged place gets a ring, and its
+    vectors have no names here."""
+    areas, names = Piece({"construction": tuple(rings(here))}), Piece(labels=tuple(_vector_names(here)))
+    return joined((areas, lines or polygon_lines(here), names))
+
+
+def polygon_lines(here: PolygonOnPage) -> Piece:
+    """A polygon without what its enlarged places change: rings, and names of vectors."""
+    areas, vectors = Piece({"construction": tuple(_images(here))}), Piece({here.diagram: (*_vectors(here),)})
     construction = areas, *trial_marks_in_polygon(here), *_bars(here), *_rays(here)
-    return joined((*construction, vectors, points(here), Piece(labels=tuple(_vector_names(here)))))
+    return joined((*construction, vectors, points(here)))
 
 
 def rings(here: PolygonOnPage) -> Iterator[Group]:

@@ -167,6 +167,8 @@ class DimensionClearance:
         left = [choice for choice in (_Choice.of(parts, extensions) for parts in choices) if self._inside(choice)]
         bad = self._covered(left, ends_on_line or over_lines, crossing, over_lines)
         left = [choice for choice, no in zip(left, bad.tolist(), strict=True) if not no]
+        if not left:
+            return None
         left, bad, runs_over = self._extended(left, crossing, over_lines)
         fits = np.flatnonzero(~bad)
         if not fits.size:

@@ -36,9 +36,10 @@ def with_labels(piece: Piece, panel: Box, fences: Sequence[Box] = ()) -> Piece:
 def with_crowd(piece: Piece, panel: Box, fences: Sequence[Box] = ()) -> tuple[Piece, tuple[Label, ...]]:
     """The piece as of `with_labels`, and the labels with faults."""
     labels = [label for label in piece.labels if label.rank < _most(len(piece.labels))]
-    vectors = obstacles_of(tuple(thing for layer in POLYGONS for thing in piece.layers.get(layer, ()))).thick
-    fenced = Obstacles(areas=tuple(fences), writing=tuple(fences), vectors=vectors)
-    obstacles = obstacles_of(piece.drawn) + fenced
+    obstacles = Obstacles(areas=tuple(fences), writing=tuple(fences))
+    for layer, drawn in piece.layers.items():
+        found = obstacles_of(drawn)
+        obstacles += replace(found, vectors=found.thick) if layer in POLYGONS else found
     written, crowded = named(labels, panel, obstacles, piece.marks)
     layers = {**piece.layers, "labels": (*piece.layers.get("labels", ()), *written)}
     return Piece(layers, (), piece.marks), crowded

@@ -178,9 +178,9 @@ def obstacles_of(children: tuple[Primitive, ...]) -> Obstacles:
             reach = thing.radius + (thing.stroke.width / 2 if thing.stroke else 0.0)
             x, y = thing.centre.real, thing.centre.imag
             areas.append(Box(x - reach, y - reach, x + reach, y + reach))
-        elif isinstance(thing, Polygon) and thing.fill and _size(thing) <= SMALL:
-            if _size(thing) <= TINY:
-                areas.append(Box.around(thing.points))
+        elif isinstance(thing, Polygon) and thing.fill and _longer_side(box := Box.around(thing.points)) <= SMALL:
+            if _longer_side(box) <= TINY:
+                areas.append(box)
             else:  # its outline, and lines across that leave no label room inside
                 count = len(thing.points)
                 solid.extend(pairwise(_corners(thing)))
@@ -209,6 +209,5 @@ def _round(circle: Circle) -> tuple[complex, ...]:
     return tuple(circle.centre + circle.radius * page_direction(2 * math.pi * k / steps) for k in range(steps + 1))
 
 
-def _size(polygon: Polygon) -> float:
-    box = Box.around(polygon.points)
+def _longer_side(box: Box) -> float:
     return max(box.width, box.height)

@@ -211,8 +211,6 @@ class Placement:
         crowd = sorted({j for others in met for j in others})
         room, lots, clear = self._room(i, crowd, offers, least)
         costs, room_costs = self.costs[offers].tolist(), self.costs[room].tolist()
-        outlines = self.outlines.take(room, axis=2)
-        shut: dict[int, Flags] = {}  # what each place of those in the way leaves clear
         best, moved = (gone, without) if without < paid else None, dict[int, int]()
         for n, others in enumerate(met):
             left, cost, goes = clear[n], costs[n], dict[int, int]()
@@ -224,9 +222,7 @@ class Placement:
                 if cost >= least:
                     break
                 if k >= 0 and j != others[-1]:
-                    if k not in shut:
-                        shut[k] = ~intersections(outlines[:, :, k : k + 1], outlines)[0]
-                    left = left & shut[k]
+                    left = left & clear[len(offers) + k]
             else:
                 if cost < least:
                     least, best, moved = cost, (int(offers[n]), costs[n]), goes
@@ -274,7 +270,7 @@ class Placement:
         self, i: int, some: Sequence[int], offers: Indices, least: float
     ) -> tuple[Indices, dict[int, slice], Flags]:
         """Places of some labels that only labels to be moved obstruct, the cheapest first; those of each label; and
-        whether each offered place (rows) leaves them (columns) clear.
+        whether each offered place, and then each of themselves (rows), leaves them (columns) clear.
 
         Places too costly for the labels' savings are left out, if all are to cost less than ``least``.
         """
@@ -295,7 +291,8 @@ class Placement:
         bounds = np.searchsorted(labels[free], [*some, len(self.labels)]).tolist()
         spans = {j: slice(*span) for j, span in zip(some, pairwise(bounds), strict=True)}
         room = places[free]
-        return room, spans, ~intersections(self.outlines.take(offers, axis=2), self.outlines.take(room, axis=2))
+        taken = self.outlines.take(np.concatenate((offers, room)), axis=2)
+        return room, spans, ~intersections(taken, taken[:, :, len(offers) :])
 
     def _insist(self, i: int) -> None:
         """Put a label in its least harmful place, and give up labels in its way that may be given up."""

@@ -6,10 +6,11 @@ import json
 import math
 import re
 from base64 import b64encode
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cache, lru_cache
 from html import escape
 from itertools import count
+from operator import itemgetter
 from zlib import crc32
 
 from graphkin.drawing.font import Style, face_rules, families, outline, style_of
@@ -80,7 +81,7 @@ def svg_bytes(drawing: Page, outlines: bool = False) -> bytes:
     told = {"title": drawing.title, "desc": drawing.desc, "metadata": facts}
     parts = [ink.element(tag, {}, _escaped(_clean(words))) for tag, words in told.items() if words]
     drawn = ink.page(drawing)
-    head = {**_head(drawing), **NAMESPACES, "baseProfile": "full", "version": "1.1", "xml:lang": drawing.lang}
+    head = {**_head(drawing), **NAMESPACES, "baseProfile": "full", "version": "1.1", "xml:lang": _quoted(drawing.lang)}
     name, rules = face_rules({} if outlines else ink.used)
     head["font-family"] = families(name)
     parts += [ink.element("style", {}, _escaped(rules))] if rules else []
@@ -107,7 +108,7 @@ def svg_element(drawing: Page, named: bool = False, alone: bool = False) -> str:
     """
     ink = _InPage(drawing.lang, named)
     words = _clean(_HIDING.sub("", _SPACES.sub(" ", f"{drawing.title}. {drawing.desc}".strip(". "))))
-    head = {**_head(drawing), "aria-label": words, "focusable": "false"}
+    head = {**_head(drawing), "aria-label": _quoted(words), "focusable": "false"}
     if alone:
         spaces = {name: NAMESPACES[name] for name in ("xmlns", "xmlns:xlink")}
         return ink.element("svg", {**head, **spaces}, "".join(map(ink.draw, drawing.children)))
@@ -119,7 +120,7 @@ def _head(drawing: Page) -> dict[str, str]:
     width, height = number(drawing.width), number(drawing.height)
     return {
         "width": f"{width}mm", "height": f"{height}mm", "viewBox": f"0 0 {width} {height}", "role": "img",
-        "lang": drawing.lang, "stroke-linejoin": "round", "text-rendering": "geometricPrecision",
+        "lang": _quoted(drawing.lang), "stroke-linejoin": "round", "text-rendering": "geometricPrecision",
     }  # fmt: skip
 
 
@@ -202,7 +203,7 @@ class _Ink:
 
     def _called(self, group: Group) -> dict[str, str]:
         """Id, classes and layer of a group."""
-        layer = {"inkscape:groupmode": "layer", "inkscape:label": _clean(group.layer)} if group.layer else {}
+        layer = {"inkscape:groupmode": "layer", "inkscape:label": _quoted(_clean(group.layer))} if group.layer else {}
         return {**self._named(group.id, class_names(group)), **layer}
 
     def _last_of(self, group: Group) -> str:
@@ -288,11 +289,11 @@ class _Ink:
 
     def _named(self, id: str, classes: tuple[str, ...]) -> dict[str, str]:
         """Id and classes; an id that is taken (B1 of link 2 and B12 are written alike) gets a number."""
-        named = {"class": " ".join(classes)} if classes else {}
+        named = {"class": _quoted(" ".join(classes))} if classes else {}
         if id:
             free = id if id not in self.ids else next(n for k in count(2) if (n := f"{id}-{k}") not in self.ids)
             self.ids.add(free)
-            named["id"] = free
+            named["id"] = _quoted(free)
         return named
 
 
@@ -367,18 +368,24 @@ def _shaft(line: Line) -> str:
 
 
 def _opening(tag: str, attributes: dict[str, str]) -> str:
-    """The beginning of an element, up to its bracket."""
+    """The beginning of an element, up to its bracket; those who give an attribute words give them `_quoted`."""
     if "" in attributes.values():
         attributes = {key: value for key, value in attributes.items() if value}
-    if _MARKUP.search("".join(attributes.values())):
-        attributes = {key: _escaped(value).translate(_IN_QUOTES) for key, value in attributes.items()}
-    return _form(tag, tuple(attributes)) % attributes
+    form, values = _form(tag, tuple(attributes))
+    return form % values(attributes)
 
 
 @cache
-def _form(tag: str, names: tuple[str, ...]) -> str:
-    """The beginning of an element with these attributes, in the order of their names, a gap for each value."""
-    return f"<{tag}" + "".join(f' {name}="%({name})s"' for name in sorted(names))
+def _form(tag: str, names: tuple[str, ...]) -> tuple[str, Callable[[dict[str, str]], object]]:
+    """The beginning of an element with these attributes, in the order of their names, a gap for each value; and the
+    values for the gaps."""
+    names = tuple(sorted(names))
+    return f"<{tag}" + "".join(f' {name}="%s"' for name in names), itemgetter(*names) if names else lambda _: ()
+
+
+def _quoted(text: str) -> str:
+    """A text as it stands between quotation marks."""
+    return _escaped(text).translate(_IN_QUOTES) if _MARKUP.search(text) else text
 
 
 def _escaped(text: str) -> str:
