@@ -157,6 +157,13 @@ def test_control_characters_are_dropped_and_signs_of_xml_escaped():
     assert page.find(f".//{SVG}tspan").text == 'a<b>&"c'
 
 
+@pytest.mark.parametrize(("name", "key"), [("id", "id"), ("classes", "class"), ("layer", f"{INKSCAPE}label")])
+def test_a_name_with_signs_of_xml_is_read_again_as_it_is(name, key):
+    words = 'a"b\'<c>&d'
+    page = root(Group((), **{name: (words,) if name == "classes" else words}))
+    assert words == page.find(f"{SVG}g").get(key)
+
+
 @settings(deadline=None)  # a rare sign has the machine's fonts looked through
 @given(st.text())
 def test_any_title_makes_a_file_that_can_be_read(words):
