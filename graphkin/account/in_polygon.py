@@ -252,9 +252,17 @@ class InPolygon(Telling):
         found = written(part), written(whole), written(quotient(part, whole, 4)), *sides
         return dict(zip(RATIOS, found, strict=True))
 
+    @property
+    def _one_place(self) -> bool:
+        """Whether the image of a bar is one point, as of a link that does not turn."""
+        a, b = (self.sheet.ends[self.step.diagram].get(ref) for ref in self.step.refs)
+        return a is not None and b is not None and on_paper(abs(b - a)) == on_paper(0.0)
+
     def _image(self) -> Phrase | None:
         if self.step.held:
             return None
+        if self._one_place:
+            return self.first("image in one place lettered", "image in one place")
         if self.step.reason == "division":
             return self.first("division lettered {where}", "division {where}")
         return self.first("image with sides", "image lettered")
@@ -265,6 +273,8 @@ class InPolygon(Telling):
         step, on_line = self.step, self.step.reason == "division"
         if step.held:
             yield Phrase("written image seen", vector=step.symbol, link=step.link)
+        elif self._one_place and self.gap("a") is not None:
+            yield bound(f"${self.gap('a')}$ = ${self.gap('b')}$ = ${self.gap('c')}$")
         elif self.gap("abc") is None:
             vector = Symbol("v" if step.diagram == "velocity" else "a", step.ref)
             if self.account.letters.convention == "us" and vector in self.sheet.vectors[step.diagram]:

@@ -68,3 +68,19 @@ def test_a_problem_asks_for_quantities_that_an_audit_reads(name):
     questions = handout(scene, language="en", formats=("html",), positions=1).lesson.questions
     assert questions
     assert audit(scene | {"printed": {str(symbol): 1.0 for symbol in questions}})
+
+
+def test_the_image_of_a_link_that_does_not_turn_is_one_point():
+    # of a bar whose ends fall together no similar triangle can be drawn
+    cranks = {
+        "frame": {"points": {"A": [0, 0], "D": [80, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 50}, "3": {"points": ["D", "C"], "length": 50},
+            "2": {"points": ["B", "C"], "length": 80, "at": {"M": [40, 30]}},
+        },
+        "driver": {"link": "1", "angle": 70, "omega": 4, "alpha": 3}, "sketch": {"C": [97, 47]},
+    }  # fmt: skip
+    page = handout(cranks, language="en", formats=("html",), positions=1).files["handout.html"].decode()
+    said = re.sub("<[^>]*>", "", page)
+    assert "Image of link 2: b and c fall together, so the image is one point: m lies there too" in said
+    assert "triangle bcm similar" not in said
