@@ -293,13 +293,13 @@ def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[Sce
     cams = _cams(reading, position) if file.cams else ()
     if (contacts or gears) and not problems:
         wrong_distances(contacts, gears, {n: b.guides for n, b in position.bodies.items()}, reading)
+    values = [position.value_of(driver) for driver in driven.values()]
+    tables = () if problems else ((reading.frame.name, None), *reading.links.items())
+    bodies = [position.placed(link_name, discs, link) for link_name, link in tables]
     loading = loading_of(reading)
     wish = file.sheet.background
     under = background_of(wish, {**position.drawn, **reading.places[reading.frame.name]}, reading) if wish else None
     scans = scans_of(reading) if file.scans else {}
-    values = [position.value_of(driver) for driver in driven.values()]
-    tables = () if problems else ((reading.frame.name, None), *reading.links.items())
-    bodies = [position.placed(link_name, discs, link) for link_name, link in tables]
     drivers = [placed_driver(*at, value, reading) for at, value in zip(driven.items(), values, strict=True)]
     if positions is not None and drivers and drivers[0].turns and drivers[0].position:
         drivers[0] = at_its_position(drivers[0], positions)
