@@ -57,6 +57,7 @@ def test_the_place_that_wants_room_which_a_stroke_takes_pays_for_what_is_lacking
     middles = np.array([[5 + 1j], [5 + 3j]])  # the nearer place lacks 2 mm, the further one none
     assert 1 == clearest(np.array([0.0, 1.5]), ((middles, 3.0, 1.0),), WALL)
     assert 0 == clearest(np.array([0.0, 2.5]), ((middles, 3.0, 1.0),), WALL)
+    assert 1 == clearest(np.array([0.0, 2.5]), ((middles, 3.0, 1.5),), WALL)
 
 
 def test_of_places_that_cost_alike_but_for_rounding_the_first_is_taken():
@@ -64,7 +65,8 @@ def test_of_places_that_cost_alike_but_for_rounding_the_first_is_taken():
     assert 1 == clearest(np.array([2.0, 1.0 + 1e-12, 1.0]), ((middles, 3.0, 1.0),), WALL)
 
 
-def test_the_cheapest_of_many_places_is_found_though_the_dearest_are_not_looked_at():
+@pytest.mark.parametrize("room", [7.0, 100.0])
+def test_the_cheapest_of_many_places_is_found_though_the_dearest_are_not_looked_at(room: float) -> None:
     middles = np.array([[complex(5, k)] for k in range(200)])
     prices = np.array([0.001 * k for k in range(200)])
-    assert 7 == clearest(prices, ((middles, 7.0, 1.0),), WALL)
+    assert room == clearest(prices, ((middles, room, 1.0),), WALL)
