@@ -183,14 +183,14 @@ def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str
     swings = cam.turns
     results = []
     spread = predict_cam(sheet, "pencil", scene.question.sheet.tools)
-    for k, (d, off) in enumerate(zip(sheet.divisions, spread, strict=True)) if not cam.flat else ():
+    for k, (d, tolerance) in enumerate(zip(sheet.divisions, spread, strict=True)) if not cam.flat else ():
         angle = math.degrees(d.pressure)
-        deviation = math.degrees(off["pressure"])
+        deviation = math.degrees(tolerance["pressure"])
         results.append(_result(f"$α_{{{k}}}$", "°", f"{angle:.1f}", f"{angle:.3f}", angle, deviation))
     metres = scene.units.metres
-    for k, (d, off) in enumerate(zip(sheet.divisions, spread, strict=True)):
+    for k, (d, tolerance) in enumerate(zip(sheet.divisions, spread, strict=True)):
         lift = cam.law.at(d.degree).lift
-        drawn, value, deviation = (math.degrees(x) if swings else x / metres for x in (d.lift, lift, off["lift"]))
+        drawn, value, deviation = (math.degrees(x) if swings else x / metres for x in (d.lift, lift, tolerance["lift"]))
         letter, unit = ("ψ", "°") if swings else ("s", scene.units.length)
         per = 1.0 if swings else sheet.scale / metres
         read = number(round(drawn / per, 2) * per)  # to 0.01 mm, as lengths on paper are told

@@ -224,12 +224,12 @@ def rolled_near(structure: Structure, paper: PlacedLinks, driver: RollingRelatio
             turns = [more + k * math.tau * factor for more in turns for k in range(-TURNS, TURNS + 1)]
     wanted = coordinate_on_paper(structure, near, driver.coordinate)
 
-    def off(whole: float) -> float:
+    def misfit(whole: float) -> float:
         far = value + whole - wanted
         return abs(math.remainder(far, math.tau) if driver.turns else far)
 
     # of several that fit as well the one with the fewest turns
-    return value + min(turns, key=lambda whole: (round(off(whole), 9), abs(whole)))
+    return value + min(turns, key=lambda whole: (round(misfit(whole), 9), abs(whole)))
 
 
 def coordinate_on_paper(structure: Structure, paper: PlacedLinks, coordinate: Coordinate) -> float:

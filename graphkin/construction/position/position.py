@@ -377,7 +377,7 @@ def _fits_by_sketch(placed: PlacedElements, paper: PlacedLinks, group: LargerGro
     structure = placed.structure
     places, rough = {**structure.scene.sketch, **structure.scene.drawn}, sketched_poses(structure, group, paper)
 
-    def off(drawn: PlacedLinks) -> float:
+    def misfit(drawn: PlacedLinks) -> float:
         return added_up(abs(z - places[p]) for p, z in paper.fresh(drawn.poses).items() if p in places)
 
     for reduced in placed.of[group]:
@@ -385,7 +385,7 @@ def _fits_by_sketch(placed: PlacedElements, paper: PlacedLinks, group: LargerGro
             continue
         values = reduced.values(rough, paper.mm)
         drawings = (drawn for _, drawn in each_assembly(reduced.opened(paper, values), reduced.elements))
-        offs = ((off(drawn), dict(drawn.poses)) for drawn in drawings)
+        offs = ((misfit(drawn), dict(drawn.poses)) for drawn in drawings)
         near = min(offs, key=lambda drawing: drawing[0], default=None)
         fit = None if near is None else fitted(reduced, paper, near[1], values)
         if fit is not None:

@@ -340,9 +340,9 @@ class LabelPanel:
 
     def _outside(self, places: Places) -> Flags:
         left, top, right, bottom = sides(places.forms[:, 0], places.forms[:, 1])
-        beyond: Flags = (left < self.panel.left) | (right > self.panel.right)
-        beyond |= (top < self.panel.top) | (bottom > self.panel.bottom)
-        return beyond
+        outside: Flags = (left < self.panel.left) | (right > self.panel.right)
+        outside |= (top < self.panel.top) | (bottom > self.panel.bottom)
+        return outside
 
     def _touched(self, middles: Floats, halves: Floats, keep: bool) -> tuple[Indices, Indices]:
         """Pairs of a box and a touched obstacle; obstacles count areas, solid, dashed in turn."""
@@ -354,8 +354,8 @@ class LabelPanel:
             boxes = [side.take(others) for side in boxes]
         for box, line in near(boxes, [side[self.areas :] for side in self.reach]):
             box, line = others.take(box), line + self.areas
-            off = middles.take(box, axis=1) - self.start.take(line, axis=1)
-            hit = ~separated(off, halves.take(box, axis=1), along.take(line, axis=1))
+            offset = middles.take(box, axis=1) - self.start.take(line, axis=1)
+            hit = ~separated(offset, halves.take(box, axis=1), along.take(line, axis=1))
             found.append((box[hit], line[hit]))
         return joined(found)
 
@@ -427,10 +427,10 @@ def _disliked(toward: Sequence[tuple[float, ...]], ways: Points) -> Floats:
 def _apart(liked: Sequence[float], ways: Points) -> Floats:
     """Angles (rad) between directions in columns and in rows."""
     directions = np.array([page_direction(angle) for angle in liked])
-    apart: Floats = np.abs(np.angle(ways * directions.conj()[:, None]))
-    return apart
+    angles: Floats = np.abs(np.angle(ways * directions.conj()[:, None]))
+    return angles
 
 
-def _gap(off: Floats, half: Floats) -> Floats:
+def _gap(offset: Floats, half: Floats) -> Floats:
     """The vectors from points to the nearest places of boxes at these offsets."""
-    return off - np.clip(off, -half, half)
+    return offset - np.clip(offset, -half, half)
