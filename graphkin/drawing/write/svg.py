@@ -1,4 +1,7 @@
-"""Drawings as SVG: one user unit is one millimetre, the same bytes every time."""
+"""Drawings as SVG: one user unit is one millimetre, the same bytes every time.
+
+Elements are written as they are drawn; svgwrite, which stays behind this module, checks them against the standard.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +14,7 @@ from functools import cache, lru_cache
 from html import escape
 from itertools import count
 from operator import itemgetter
+from xml.etree import ElementTree
 from zlib import crc32
 
 from graphkin.drawing.font import Style, face_rules, families, outline, style_of
@@ -42,7 +46,7 @@ _DOUBLED = re.compile(r"#(\w)\1(\w)\2(\w)\3")
 _SPACES = re.compile(r"\s+")
 BLACK = "#000000"  # what is filled unless something else is said
 HIT = Stroke(3.0)  # mm: the breadth of a finger
-NAMESPACES = {
+_NAMESPACES = {
     "xmlns": "http://www.w3.org/2000/svg", "xmlns:ev": "http://www.w3.org/2001/xml-events",
     "xmlns:inkscape": "http://www.inkscape.org/namespaces/inkscape", "xmlns:xlink": "http://www.w3.org/1999/xlink",
 }  # fmt: skip
@@ -63,12 +67,13 @@ def number(value: float) -> str:
     return "0" if text == "-0" else text
 
 
-def svg_bytes(drawing: Page, outlines: bool = False) -> bytes:
+def svg_bytes(drawing: Page, debug: bool = False, outlines: bool = False) -> bytes:
     """The drawing as an SVG file, UTF-8.
 
     Parameters
     ----------
     drawing : sizes and places in mm
+    debug : have svgwrite check every element and attribute against the SVG standard (slow; for tests)
     outlines : letters as paths, for programs without fonts; the text lies over them without colour, for search and
         screen readers
 
@@ -81,11 +86,13 @@ def svg_bytes(drawing: Page, outlines: bool = False) -> bytes:
     told = {"title": drawing.title, "desc": drawing.desc, "metadata": facts}
     parts = [ink.element(tag, {}, _escaped(_clean(words))) for tag, words in told.items() if words]
     drawn = ink.page(drawing)
-    head = {**_head(drawing), **NAMESPACES, "baseProfile": "full", "version": "1.1", "xml:lang": _quoted(drawing.lang)}
+    head = {**_head(drawing), **_NAMESPACES, "baseProfile": "full", "version": "1.1", "xml:lang": _quoted(drawing.lang)}
     name, rules = face_rules({} if outlines else ink.used)
     head["font-family"] = families(name)
     parts += [ink.element("style", {}, _escaped(rules))] if rules else []
     text = ink.element("svg", head, "".join((*parts, drawn)))
+    if debug:
+        check_standard(text)
     return f'<?xml version="1.0" encoding="utf-8"?>\n{text}\n'.encode()
 
 
@@ -110,7 +117,7 @@ def svg_element(drawing: Page, named: bool = False, alone: bool = False) -> str:
     words = _clean(_HIDING.sub("", _SPACES.sub(" ", f"{drawing.title}. {drawing.desc}".strip(". "))))
     head = {**_head(drawing), "aria-label": _quoted(words), "focusable": "false"}
     if alone:
-        spaces = {name: NAMESPACES[name] for name in ("xmlns", "xmlns:xlink")}
+        spaces = {name: _NAMESPACES[name] for name in ("xmlns", "xmlns:xlink")}
         return ink.element("svg", {**head, **spaces}, "".join(map(ink.draw, drawing.children)))
     return ink.element("svg", head, ink.page(drawing))
 
@@ -390,3 +397,30 @@ def _quoted(text: str) -> str:
 
 def _escaped(text: str) -> str:
     return escape(text, quote=False) if _MARKUP.search(text) else text
+
+
+def check_standard(text: str) -> None:
+    """Check all elements of a page against SVG 1.1 by svgwrite, with the attributes of later standards for readers and
+    editors added.  Raises ValueError or TypeError for a wrong element."""
+    import svgwrite
+    from svgwrite.data.types import SVGAttribute
+    from svgwrite.extensions import Inkscape
+
+    page = svgwrite.Drawing(debug=True)
+    Inkscape(page)
+    standard = page.validator
+    for name in ("role", "lang"):
+        standard.attributes[name] = SVGAttribute(name, anim=False, types=frozenset(["string"]), const=frozenset())
+        standard.elements["svg"].valid_attributes = {name} | standard.elements["svg"].valid_attributes
+    prefixes = {uri: f"{name.removeprefix('xmlns:')}:" for name, uri in _NAMESPACES.items() if ":" in name}
+    prefixes |= {_NAMESPACES["xmlns"]: "", "http://www.w3.org/XML/1998/namespace": "xml:"}
+
+    def plain(name: str) -> str:
+        uri, _, local = name.rpartition("}")
+        return prefixes.get(uri.removeprefix("{"), "") + local
+
+    for element in ElementTree.fromstring(text).iter():
+        for name, value in element.attrib.items():
+            standard.check_svg_attribute_value(plain(element.tag), plain(name), value)
+        for child in element:
+            standard.check_valid_children(plain(element.tag), plain(child.tag))
