@@ -8,7 +8,6 @@
 
 # %%
 import math
-from dataclasses import replace
 
 from graphkin.account.notation import notation_of
 from graphkin.construction import Room, draft
@@ -103,7 +102,7 @@ def around(content: Box) -> Box:
 def plainly(things):
     """Without the bands around what is new."""
     kept = [t for t in things if not (isinstance(t, Group) and "new" in t.classes)]
-    return tuple(replace(t, children=plainly(t.children)) if isinstance(t, Group) else t for t in kept)
+    return tuple(t._replace(children=plainly(t.children)) if isinstance(t, Group) else t for t in kept)
 
 
 def row(sheet, title, y, language):
