@@ -19,7 +19,7 @@ from graphkin.account.notation import Notation, force_letters
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.forces.position import DrawnPosition
 from graphkin.plane import degrees
-from graphkin.scene.drivers import asked_time, moves_by_law
+from graphkin.scene.drivers import moment_of
 from graphkin.scene.model import Driver, LoadOn, Mechanism, PlacedLink, SpringOn
 from graphkin.scene.pairs import PlacedGuide, SlidingPair
 from graphkin.scene.scene_tables import LoadPhase
@@ -38,7 +38,8 @@ NO_LENGTH = 1e-12  # of the mechanism's size: what is shorter are two points tha
 def given_drivers(sheet: Sheet, letters: Notation) -> list[str]:
     """The moment, and values of drivers with their rates: words with symbols between dollar signs."""
     scene = sheet.scene
-    told = [f"$t$ = {number(asked_time(scene))} s"] if moves_by_law(scene) else []
+    moment = moment_of(scene)
+    told = [] if moment is None else [f"$t$ = {number(moment)} s"]
     for driver in scene.drivers:
         told.append(_stands(sheet, driver, sheet.drivers[driver.key]))
         if driver.turns and driver.rpm is not None and math.isclose(driver.rpm * math.pi / 30, driver.rate):

@@ -24,7 +24,7 @@ from graphkin.api.arguments import (
 from graphkin.api.results import OfScene, Result
 from graphkin.errors import CallError, Problem, Unsolvable, as_list, as_text
 from graphkin.files import Json
-from graphkin.scene.drivers import asked_time, moments, moves_by_law
+from graphkin.scene.drivers import moment_of, moments, moves_by_law
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Symbol
@@ -46,7 +46,8 @@ class Solved(OfScene, Result):
 
     ``solved["v_C"]`` is a quantity by its name as an array with its unit, shape (positions,): complex for vectors, in
     the file's units and degrees, NaN where it is missing, 0 where it is rounding alone.  ``table`` has all of them,
-    ``motion`` and ``forces`` more, in SI. ``times`` are the moments (s), if drivers move by a law.
+    ``motion`` and ``forces`` more, in SI.  ``times`` are the moments (s), if drivers move by laws that
+    stand at one moment.
 
     A long sweep is computed when it is read; ``blocks`` yields it with only some positions in memory.
 
@@ -73,9 +74,10 @@ class Solved(OfScene, Result):
     @cached_property
     def times(self) -> tuple[float, ...]:
         scene = self.mechanism
-        if not moves_by_law(scene):
-            return ()
-        return (asked_time(scene),) if self.count is None else tuple(moments(scene, self.count))
+        if self.count is not None and moves_by_law(scene):
+            return tuple(moments(scene, self.count))
+        moment = moment_of(scene)
+        return () if moment is None else (moment,)
 
     def blocks(self) -> Iterator[Solved]:
         """The solution in blocks: itself, or the parts of a long sweep in turn."""

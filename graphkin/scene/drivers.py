@@ -372,9 +372,11 @@ def moves_by_law(scene: Mechanism) -> bool:
     return any(d.law is not None for d in scene.drivers)
 
 
-def asked_time(scene: Mechanism) -> float:
-    """The moment (s) of the scene's position: the moment of its first law."""
-    return next((d.law.time for d in scene.drivers if d.law is not None), 0.0)
+def moment_of(scene: Mechanism) -> float | None:
+    """The moment (s) of the scene's position; None without a law, and where laws reach the values that were asked of
+    their drivers at different moments."""
+    times = [d.law.time for d in scene.drivers if d.law is not None]
+    return times[0] if times and all(math.isclose(time, times[0], abs_tol=1e-9) for time in times) else None
 
 
 def time_span(scene: Mechanism) -> tuple[float, float]:
@@ -404,7 +406,7 @@ def at_time(scene: Mechanism, time: float) -> tuple[Mechanism, dict[str, float]]
                            duration=f"{high:g}")
     drivers: list[model.Driver] = []
     values: dict[str, float] = {}
-    since = time - asked_time(scene)
+    since = time - next(d.law.time for d in scene.drivers if d.law is not None)
     for driver in scene.drivers:
         if driver.law is not None:
             values[driver.key] = driver.law.at(time).lift

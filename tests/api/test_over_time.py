@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 import graphkin
+from graphkin.account.given import given_drivers
+from graphkin.account.notation import notation_of
 from graphkin.errors import CallError, SceneError
 
 CRANK = {
@@ -216,3 +218,13 @@ def test_the_bounds_hold_what_rounding_does_to_a_law(time):
         second = 420 * (x - x * x) ** 2 * (1 - 2 * x) * way / mpmath.mpf("0.7") ** 2
         off = {"omega": float(abs(moved["1"]["omega"] - rate)), "alpha": float(abs(moved["1"]["alpha"] - second))}
     assert [] == [name for name, error in off.items() if not error <= bound[name]]
+
+
+@pytest.mark.parametrize(("at", "moment"), [
+    (None, 0.4), ({"time": 0.2}, 0.2), ({"1": 110}, None), ({"3": 70}, None), ({"1": 125, "3": 70}, None),
+])  # fmt: skip
+def test_a_moment_is_told_where_all_laws_stand_at_it(at, moment):
+    entry = graphkin.solve(five_bar(), at=at).data["positions"][0]
+    sheet = graphkin.check(five_bar(), at=at).sheet
+    lines = given_drivers(sheet, notation_of(sheet, "chinese"))
+    assert (moment, moment is not None) == (entry.get("time"), lines[0].startswith("$t$"))
