@@ -186,3 +186,24 @@ def test_links_too_short_to_be_seen_beside_the_others_are_told_by_name():
     }
     with pytest.raises(graphkin.SceneError, match=r"frame\.points\.D: lies 100 away, beside a bar of 1e-09"):
         graphkin.check(dots)
+
+
+@pytest.mark.parametrize(("before", "known"), [(1e-8, True), (1e-9, True), (1e-11, False)])
+def test_forces_are_judged_by_what_rounding_leaves_of_them_near_a_dead_point(before, known):
+    # B at 100 mm from D: links 2 and 3 are stretched out
+    end = math.degrees(math.acos((90**2 + 100**2 - 100**2) / (2 * 90 * 100)))
+    rows = graphkin.check({
+        "frame": {"points": {"A": [0, 0], "D": [100, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 90},
+            "2": {"points": ["B", "C"], "length": 40},
+            "3": {"points": ["D", "C"], "length": 60},
+        },
+        "sketch": {"C": [60, 60]},
+        "loads": {"P": {"on": "3", "at": "C", "force": 100, "angle": 20}},
+        "driver": {"link": "1", "angle": end - before, "omega": 1},
+    }).report.rows  # fmt: skip
+    pairs = [row for row in rows if row.reading.symbol.kind == "F"]
+    assert {True if known else None} == {row.ok for row in pairs}
+    # they differ by more than is allowed elsewhere
+    assert 1e-9 < max(abs(row.reading.value - row.exact) / abs(row.exact) for row in pairs)
