@@ -209,22 +209,22 @@ def check(
     return with_elsewhere(checked(plan(structure, values, here), motion, hand), asked, seed)
 
 
-def checked(what: Plan, motion: Motion, hand: Instrument, at_contacts: bool = True) -> Checked:
+def checked(planned: Plan, motion: Motion, hand: Instrument, at_contacts: bool = True) -> Checked:
     """Draw a plan and compare all its readings with the solver at the same position; sliding contacts also at the
     contact itself, by the same hands on another sheet."""
     from graphkin.solver.values import exact_values
 
-    other, other_hand = what.at_contacts() if at_contacts else None, hand if hand is EXACT else deepcopy(hand)
-    sheet = execute(what, hand)
+    other, other_hand = planned.at_contacts() if at_contacts else None, hand if hand is EXACT else deepcopy(hand)
+    sheet = execute(planned, hand)
     if hand is EXACT:
         report, advice = report_on(sheet, motion), None
     else:
         from graphkin.checking.uncertainty import advise, predict
 
         tools = sheet.scene.question.sheet.tools
-        predicted = predict(what, hand.name, tools)
+        predicted = predict(planned, hand.name, tools)
         report = report_on(sheet, motion, hand, predicted)
-        advice = advise(what, hand.name, tools, [row.reading for row in report.rows], predicted)
+        advice = advise(planned, hand.name, tools, [row.reading for row in report.rows], predicted)
     of_cycle = [symbol for symbol in sheet.asked if symbol.scope == "cycle"]
     over_turn = {s: float(value.real) for s, value in exact_values(motion, of_cycle).items()} if of_cycle else {}
     there = None if other is None else checked(other, motion, other_hand, at_contacts=False)
@@ -250,9 +250,9 @@ def with_elsewhere(made: Checked, asked: Sequence[Symbol], seed: int = 0) -> Che
     for name in names:
         wanted = tuple(s.here for s in asked if s.at == name)
         values = {**made.sheet.drivers, scene.drivers[0].key: value_at(scene, name)}
-        what = replace(plan(structure, values, wanted), scales=made.sheet.scales)
+        planned = replace(plan(structure, values, wanted), scales=made.sheet.scales)
         hand = hand_of(scene.question.sheet, made.sheet.instrument, seed)
-        there = checked(what, solver.solved_here(structure, values, wanted), hand).report
+        there = checked(planned, solver.solved_here(structure, values, wanted), hand).report
         kept = [row for row in there.rows if row.symbol in wanted]
         rows += [replace(row, reading=replace(row.reading, symbol=replace(row.symbol, at=name))) for row in kept]
         missing += [replace(s, at=name) for s in there.missing]

@@ -304,10 +304,10 @@ def draw(
     hand = hand_of(given.question.sheet, instrument, seed)
     structure = solver.structure_of(given)
     motion = solved_here(structure, values, asked_here(asked))
-    what = plan(structure, values, asked_here(asked))
-    whole = with_elsewhere(checked(what, motion, hand), asked, seed)
+    planned = plan(structure, values, asked_here(asked))
+    whole = with_elsewhere(checked(planned, motion, hand), asked, seed)
     by_name = figures is not None
-    drawn = Drawn(whole, what, motion, wanted, seed, language, convention, driver, places, by_name)
+    drawn = Drawn(whole, planned, motion, wanted, seed, language, convention, driver, places, by_name)
     return drawn.saved(out, formats)
 
 

@@ -123,12 +123,12 @@ def drawn_at(structure: Structure, at: Mapping[str, float] | None, options: Figu
     structure = structure if scene is structure.scene else solver.structure_of(scene)
     asked = tuple(scene.question.find)
     motion = solved_here(structure, values, asked_here(asked))
-    what = plan(structure, values, asked_here(asked))
+    planned = plan(structure, values, asked_here(asked))
     if options.scales is not None:
-        what = replace(what, scales=options.scales)
-    made = checked(what, motion, hand_of(scene.question.sheet, options.instrument, options.seed))
+        planned = replace(planned, scales=options.scales)
+    made = checked(planned, motion, hand_of(scene.question.sheet, options.instrument, options.seed))
     names = known_figures(scene, options.figures)
-    return Drawn(made, what, motion, names, options.seed, options.language, options.convention), motion
+    return Drawn(made, planned, motion, names, options.seed, options.language, options.convention), motion
 
 
 def shown(
@@ -202,16 +202,16 @@ def _in_motion(structure: Structure, at: Mapping[str, float] | None, options: Fi
     structure = structure if scene is structure.scene else _analysed(scene)
     said = ""
     try:
-        what = _plan(structure, values)
-        if _is_fast(what):  # beside a limit of the motion the solver has the last word, in fifty digits
+        planned = _plan(structure, values)
+        if _is_fast(planned):  # beside a limit of the motion the solver has the last word, in fifty digits
             solved_here(structure, values, asked_here(tuple(scene.question.find)))
     except Unsolvable as error:
         if not at or len(scene.drivers) != 1:
             raise
         said = _said(_exactly(structure, values, error), _spoken(options.language, scene))
-        what = _plan(structure, driver_values(scene, _last(scene, at)))
-    structure.kept["last drawing"] = what
-    sheet = execute(replace(what, scales=options.scales or what.scales))
+        planned = _plan(structure, driver_values(scene, _last(scene, at)))
+    structure.kept["last drawing"] = planned
+    sheet = execute(replace(planned, scales=options.scales or planned.scales))
     page = FigurePage.of(sheet, "", options.language, options.convention)
     there = [name for name in options.figures if name in _IN_MOTION]
     if not sheet.vectors["acceleration"]:
@@ -242,9 +242,9 @@ def _exactly(structure: Structure, values: Mapping[str, float] | None, stop: Uns
     return stop
 
 
-def _is_fast(what: Plan) -> bool:
+def _is_fast(planned: Plan) -> bool:
     """Whether a link moves so fast beside the drivers that the position may be a dead point or beyond one."""
-    scene, sheet = what.structure.scene, what.exact
+    scene, sheet = planned.structure.scene, planned.exact
     fastest = max((abs(z) for z in sheet.ends["velocity"].values()), default=0.0) * sheet.scales.velocity
     rates = (abs(d.values[1]) * (scene.size if d.turns else 1.0) for d in scene.drivers)
     return not fastest <= FAST * max(rates, default=0.0)

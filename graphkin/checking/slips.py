@@ -78,12 +78,12 @@ class Evidence:
     motion: Motion | None = None
 
     @classmethod
-    def of(cls, what: Plan, motion: Motion, predicted: Mapping[Symbol, Uncertainty]) -> Evidence:
+    def of(cls, planned: Plan, motion: Motion, predicted: Mapping[Symbol, Uncertainty]) -> Evidence:
         """The evidence at the position of a plan: all of it is drawn, so that slips on the path to the asked quantities
         and beside it are found."""
-        whole = plan(what.structure, what.values, ())
-        drawn = what if set(what.elements) == set(whole.elements) else whole
-        here = as_drawn(motion, what.structure)
+        whole = plan(planned.structure, planned.values, ())
+        drawn = planned if set(planned.elements) == set(whole.elements) else whole
+        here = as_drawn(motion, planned.structure)
         return cls(drawn, lambda symbol: exact_values(here, [symbol])[symbol], predicted)
 
     @cached_property

@@ -53,7 +53,8 @@ CURVED = 1.5  # so many times the deviation of the samples is stated then: squar
 
 
 def predict(
-    what: Plan, name: str, tools: Tools, together: bool = True, most: Mapping[Symbol, float] = NO_LIMITS, spare: int = 0
+    planned: Plan, name: str, tools: Tools, together: bool = True, most: Mapping[Symbol, float] = NO_LIMITS,
+    spare: int = 0,
 ) -> Mapping[Symbol, Uncertainty]:
     """Uncertainty of every reading of a plan drawn with an instrument ("pencil" or "cad").
 
@@ -65,7 +66,7 @@ def predict(
         then those seen so far
     """
     still = nudged(name, tools)
-    sheet, read = _drawn_by(what, still)
+    sheet, read = _drawn_by(planned, still)
     drawn = still.acts
     base = read(still) or {}
     if most and not together:
@@ -101,7 +102,7 @@ def predict(
                 shares[cause] = shares.get(cause, 0.0) + error
         if shares and symbol.is_vector and value == 0:  # what errs away from nothing is read off the ruler then
             order: Order = "velocity" if symbol.measure == "velocity" else "acceleration"
-            shares[reading] = shares.get(reading, 0.0) + (still.reading_error * what.scales.of(order)) ** 2
+            shares[reading] = shares.get(reading, 0.0) + (still.reading_error * planned.scales.of(order)) ** 2
         uncertainty = _summed(symbol, shares, drawn_causes)
         if times > BENT:
             uncertainty = replace(uncertainty, deviation=uncertainty.first * times)
@@ -112,10 +113,10 @@ def predict(
     return predicted
 
 
-def _drawn_by(what: Plan, still: Instrument) -> tuple[Sheet, Drawn]:
+def _drawn_by(planned: Plan, still: Instrument) -> tuple[Sheet, Drawn]:
     """A plan drawn without errors; and a function for its readings drawn by other hands, its force polygons (if any) at
     the same scale."""
-    stages, newtons_per_mm = Stages(what, what.scales, still), 0.0
+    stages, newtons_per_mm = Stages(planned, planned.scales, still), 0.0
     if stages.sheet.has_forces:
         from graphkin.construction.forces import force_scale, forces_on
 
@@ -218,7 +219,7 @@ def _sort(symbol: Symbol) -> str:
 
 
 def advise(
-    what: Plan, name: str, tools: Tools, readings: Sequence[Reading], predicted: Mapping[Symbol, Uncertainty]
+    planned: Plan, name: str, tools: Tools, readings: Sequence[Reading], predicted: Mapping[Symbol, Uncertainty]
 ) -> Phrase | None:
     """The worst reading of a drawing and its best remedy, in a sentence; None where no reading is uncertain.
 
@@ -244,8 +245,8 @@ def advise(
     relative, symbol = worst
     gains = {}
     for figure in ("length", "velocity", "acceleration"):
-        scales: Scales = replace(what.scales, **{figure: getattr(what.scales, figure) / 2})
-        larger = predict(replace(what, scales=scales), name, tools, together=False)
+        scales: Scales = replace(planned.scales, **{figure: getattr(planned.scales, figure) / 2})
+        larger = predict(replace(planned, scales=scales), name, tools, together=False)
         first = predicted[symbol].first
         gains[figure] = math.inf if symbol not in larger else larger[symbol].first / first if first else 0.0
     best = min(gains, key=gains.__getitem__)

@@ -180,21 +180,21 @@ class Plan:
 
 
 def positioned(
-    what: Plan, scales: Scales, instrument: Instrument = EXACT, own_values: OwnValues = AS_DRAWN,
+    planned: Plan, scales: Scales, instrument: Instrument = EXACT, own_values: OwnValues = AS_DRAWN,
     with_steps: bool = True,
 ) -> Polygons:
     """The position on a board without polygons; its steps, which need no readings, only if they are wanted."""
     board = Board(instrument)
-    triangles = [(inversion, inversion.drawn(board, scales, what.values)) for inversion in what.triangles]
-    values = {**what.values, **{v.key: v.near(what.values[v.key], motion[0]) for v, motion in triangles}}
-    assembly = replace(what.assembly, values=values)
+    triangles = [(inversion, inversion.drawn(board, scales, planned.values)) for inversion in planned.triangles]
+    values = {**planned.values, **{v.key: v.near(planned.values[v.key], motion[0]) for v, motion in triangles}}
+    assembly = replace(planned.assembly, values=values)
     told_on = board if with_steps else None
-    paper = place(what.opened, what.elements, 1.0 / scales.length, assembly, instrument, told_on)
-    polygons = Polygons(board, what.opened, paper, scales, own_values)
+    paper = place(planned.opened, planned.elements, 1.0 / scales.length, assembly, instrument, told_on)
+    polygons = Polygons(board, planned.opened, paper, scales, own_values)
     polygons.given.update({inversion.key: motion[1:] for inversion, motion in triangles})
-    polygons.at_contacts = what.touching
-    polygons.chains.update(what.chains)
-    polygons.plans.update(what.plans)
+    polygons.at_contacts = planned.touching
+    polygons.chains.update(planned.chains)
+    polygons.plans.update(planned.plans)
     for inversion, motion in triangles:
         for step in inversion.carried_over(motion):
             board.do(step)
@@ -202,35 +202,35 @@ def positioned(
 
 
 def carried_out(
-    what: Plan, scales: Scales, instrument: Instrument = EXACT, own_values: OwnValues = AS_DRAWN
+    planned: Plan, scales: Scales, instrument: Instrument = EXACT, own_values: OwnValues = AS_DRAWN
 ) -> Polygons:
     """Position and both polygons on a board."""
-    in_order = [*what.in_order]
-    polygons = positioned(what, scales, instrument, own_values)
+    in_order = [*planned.in_order]
+    polygons = positioned(planned, scales, instrument, own_values)
     for order, element in in_order:
         draw_element(polygons, order, element)
     return polygons
 
 
-def finished(what: Plan, polygons: Polygons) -> Sheet:
+def finished(planned: Plan, polygons: Polygons) -> Sheet:
     """The board as a sheet, with vectors that only a question needs."""
-    draw_asked(polygons, what.asked)
-    board, limits = polygons.board, what.limits
+    draw_asked(polygons, planned.asked)
+    board, limits = polygons.board, planned.limits
     groups: dict[LargerGroup, GroupWay] = {}
-    for group in needed(what.structure, what.asked) if what.structure.larger_groups else ():
+    for group in needed(planned.structure, planned.asked) if planned.structure.larger_groups else ():
         if isinstance(group, LargerGroup):
             by_points = group in polygons.plans and not polygons.plans[group].tried
             groups[group] = "special points" if by_points else "superposition"
     if limits:
         from graphkin.construction.position.limits import limits_on_paper
 
-        hand = EXACT if what.triangles else board.instrument
-        limits = limits_on_paper(limits, what.structure, what.elements, what.values, polygons.scales, hand)
+        hand = EXACT if planned.triangles else board.instrument
+        limits = limits_on_paper(limits, planned.structure, planned.elements, planned.values, polygons.scales, hand)
     sheet = Sheet(
-        scene=what.structure.scene,
-        structure=what.structure,
+        scene=planned.structure.scene,
+        structure=planned.structure,
         instrument=board.instrument.name,
-        drivers={d.key: what.values[d.key] for d in what.structure.scene.drivers},
+        drivers={d.key: planned.values[d.key] for d in planned.structure.scene.drivers},
         scales=polygons.scales,
         poses=dict(polygons.paper.poses),
         points={PointRef(p): z for p, z in polygons.places.items()},
@@ -241,16 +241,16 @@ def finished(what: Plan, polygons: Polygons) -> Sheet:
         equations=tuple(board.equations),
         assembly=board.assembly,
         noticed=tuple(board.noticed),
-        left_out=what.left_out,
+        left_out=planned.left_out,
         groups=groups,
         causes=tuple(board.causes) if board.instrument.acts else (),
-        asked=what.asked,
-        acting=what.acting,
-        growing=what.growing,
+        asked=planned.asked,
+        acting=planned.acting,
+        growing=planned.growing,
         trains=polygons.trains,
         limits=limits,
         readings=dict(board.readings),
-        has_forces=what.has_forces,
+        has_forces=planned.has_forces,
     )
     return without_residues(sheet) if board.instrument.faultless else sheet
 
@@ -268,12 +268,12 @@ class Stages:
     KEPT = 256
 
     def __init__(
-        self, what: Plan, scales: Scales, hand: Instrument = EXACT,
+        self, planned: Plan, scales: Scales, hand: Instrument = EXACT,
         own_values: Callable[[Own], OwnValues] = lambda _: AS_DRAWN,
     ) -> None:  # fmt: skip
-        self.what, self.scales, self.hand, self.own_values = what, scales, hand, own_values
-        self.in_order = tuple(what.in_order)
-        polygons = positioned(what, scales, hand)
+        self.planned, self.scales, self.hand, self.own_values = planned, scales, hand, own_values
+        self.in_order = tuple(planned.in_order)
+        polygons = positioned(planned, scales, hand)
         self.after = [(hand.acts, polygons)]
         """The acts of the hand, and the polygons, after a number of elements."""
         for order, element in self.in_order:
@@ -285,27 +285,27 @@ class Stages:
     @cached_property
     def sheet(self) -> Sheet:
         """The drawing as it was kept."""
-        return finished(self.what, self.after[-1][1].again(self.hand))
+        return finished(self.planned, self.after[-1][1].again(self.hand))
 
     def by(self, hand: Instrument, first: int = 0) -> Sheet:
         """The drawing of hands that err in no act before the ``first``; readings may be taken of it, the steps of its
         position may be missing.  Raises as `execute`."""
         before = [(acts, polygons) for acts, polygons in self.after if acts < first]
         if not before:
-            polygons = positioned(self.what, self.scales, hand, with_steps=False)
+            polygons = positioned(self.planned, self.scales, hand, with_steps=False)
         else:
             hand.acts, kept = before[-1]
             polygons = kept.again(hand)
         for order, element in self.in_order[max(0, len(before) - 1) :]:
             draw_element(polygons, order, element)
-        return finished(self.what, polygons)
+        return finished(self.planned, polygons)
 
     @cached_property
     def found_by(self) -> Mapping[Symbol, int]:
         """The number of elements that lead to each vector and rate; one more than there are, to what only a question
         asks for."""
         asked = self.after[-1][1].again(EXACT)
-        draw_asked(asked, self.what.asked)
+        draw_asked(asked, self.planned.asked)
         numbers: dict[Symbol, int] = {}
         for number, polygons in enumerate([*(polygons for _, polygons in self.after[1:]), asked], 1):
             rates = [Symbol(RATE[order], link=link) for order, links in polygons.rates.items() for link in links]
@@ -322,7 +322,7 @@ class Stages:
         if number < len(self.after):
             return self._from(number, own)
         polygons = self._from(number - 1, own).again(EXACT)
-        draw_asked(polygons, self.what.asked)
+        draw_asked(polygons, self.planned.asked)
         return polygons
 
     def _from(self, number: int, own: Own) -> Polygons:
@@ -390,36 +390,36 @@ def _plan(
     return _planned(Plan(structure, opened, asked, elements, assembly, triangles), room)
 
 
-def _planned(what: Plan, room: Room | None) -> Plan:
+def _planned(planned: Plan, room: Room | None) -> Plan:
     """A plan carried out exactly, with the limit positions and the loads that its question needs, and its scales."""
-    polygons = carried_out(what, NATURAL)
-    exact = finished(what, polygons)
-    asked = what.asked
-    if what.has_forces:
+    polygons = carried_out(planned, NATURAL)
+    exact = finished(planned, polygons)
+    asked = planned.asked
+    if planned.has_forces:
         from graphkin.construction.forces.position import acting_loads, strokes_of_loads
 
-        asked = (*asked, *strokes_of_loads(what.structure))
+        asked = (*asked, *strokes_of_loads(planned.structure))
     if any(symbol.scope == "turn" for symbol in asked):
         from graphkin.construction.position.limits import limits_asked
 
-        size = NATURAL.length / what.structure.scene.size
+        size = NATURAL.length / planned.structure.scene.size
         poses = {name: pose.scaled(size) for name, pose in polygons.paper.poses.items()}
-        limits = limits_asked(what.structure, needed(what.structure, what.asked), asked, what.values, poses)
-        what = replace(what, limits=limits)
-        exact = finished(what, polygons)
-    if what.has_forces:
-        growing = _growing(what, exact)
-        moves = any(driver.values[1] for driver in what.structure.scene.drivers)
-        what = replace(what, acting=acting_loads(exact, exact if moves else growing[0]), growing=growing)
-        exact = replace(exact, acting=what.acting, growing=what.growing)
-    scales = chosen_scales(what.structure.scene, exact.extents, room)
-    return replace(what, chains=polygons.chains, plans=polygons.plans, scales=scales, made=exact)
+        limits = limits_asked(planned.structure, needed(planned.structure, planned.asked), asked, planned.values, poses)
+        planned = replace(planned, limits=limits)
+        exact = finished(planned, polygons)
+    if planned.has_forces:
+        growing = _growing(planned, exact)
+        moves = any(driver.values[1] for driver in planned.structure.scene.drivers)
+        planned = replace(planned, acting=acting_loads(exact, exact if moves else growing[0]), growing=growing)
+        exact = replace(exact, acting=planned.acting, growing=planned.growing)
+    scales = chosen_scales(planned.structure.scene, exact.extents, room)
+    return replace(planned, chains=polygons.chains, plans=polygons.plans, scales=scales, made=exact)
 
 
-def _growing(what: Plan, here: Sheet) -> tuple[Sheet, ...]:
+def _growing(planned: Plan, here: Sheet) -> tuple[Sheet, ...]:
     """The position with each driver's value alone growing at a unit rate, unless a single driver's motion is drawn
     already."""
-    scene = what.structure.scene.whole
+    scene = planned.structure.scene.whole
     if len(scene.drivers) == 1 and scene.drivers[0].values[1]:
         return ()
     made = []
@@ -430,14 +430,14 @@ def _growing(what: Plan, here: Sheet) -> tuple[Sheet, ...]:
     return tuple(made)
 
 
-def execute(what: Plan, instrument: Instrument = EXACT, own_values: OwnValues = AS_DRAWN) -> Sheet:
+def execute(planned: Plan, instrument: Instrument = EXACT, own_values: OwnValues = AS_DRAWN) -> Sheet:
     """A plan drawn with an instrument; with ``own_values`` the drawing that follows from them.
 
     The exact drawing is in the plan already; erring hands, whose errors depend on the scale, draw it anew.
     """
     if instrument is EXACT and own_values is AS_DRAWN:
-        return what.exact.at(what.scales)
-    return finished(what, carried_out(what, what.scales, instrument, own_values))
+        return planned.exact.at(planned.scales)
+    return finished(planned, carried_out(planned, planned.scales, instrument, own_values))
 
 
 def draft(

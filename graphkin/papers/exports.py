@@ -79,9 +79,9 @@ class Question:
         return _NOTHING.sub("-", self.name).strip("-") or "question"
 
 
-def question_of(lesson: Lesson, what: Plan, motion: Motion, name: str) -> Question:
+def question_of(lesson: Lesson, planned: Plan, motion: Motion, name: str) -> Question:
     """The question of a lesson, drawn by a plan; quantities without a bound of the drawing's error are left out."""
-    evidence = Evidence.of(what, motion, lesson.tolerance)
+    evidence = Evidence.of(planned, motion, lesson.tolerance)
     first = languages(lesson.language)[0]
     scene = lesson.sheet.scene
     built = in_each(

@@ -177,17 +177,17 @@ class Lesson:
 # -- lessons of a scene ------------------------------------------------------------------------------------------------
 
 
-def lesson_of(what: Plan, motion: Motion, language: str, convention: str) -> Lesson:
+def lesson_of(planned: Plan, motion: Motion, language: str, convention: str) -> Lesson:
     """The lesson of a plan, with its check and with the tolerances of a pencil drawing.
 
     Raises
     ------
     Disagreement : its check finds a value out of tolerance
     """
-    sheet = execute(what)
+    sheet = execute(planned)
     report = report_on(sheet, motion)
     report.must_agree(sheet.scene)
-    return Lesson(sheet, report, predict(what, "pencil", sheet.scene.question.sheet.tools), language, convention)
+    return Lesson(sheet, report, predict(planned, "pencil", sheet.scene.question.sheet.tools), language, convention)
 
 
 def usual_count(scene: Mechanism) -> int:

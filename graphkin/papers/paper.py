@@ -131,15 +131,15 @@ def _sharing(whole: Plan, paper: Paper, wished: Mapping[str, float | None]) -> P
     return whole
 
 
-def _sizes(what: Plan) -> list[tuple[float, float]]:
+def _sizes(planned: Plan) -> list[tuple[float, float]]:
     """Width and height (mm) of the mechanism and of both polygons."""
-    pairs = ((what.exact.extents[diagram], what.scales.of(diagram)) for diagram in DIAGRAMS)
+    pairs = ((planned.exact.extents[diagram], planned.scales.of(diagram)) for diagram in DIAGRAMS)
     return [(width / per, height / per) for (width, height), per in pairs]
 
 
-def _share(what: Plan, paper: Paper) -> bool:
+def _share(planned: Plan, paper: Paper) -> bool:
     """Whether the mechanism, with its dimensions, fits beside or above each polygon."""
-    (wide, high), *polygons = _sizes(what)
+    (wide, high), *polygons = _sizes(planned)
     wide, high, body = wide + BESIDE, high + BESIDE, paper.body
     for across, up in polygons:
         across, up = max(across + AROUND, LEAST_WIDE), up + AROUND
@@ -149,18 +149,18 @@ def _share(what: Plan, paper: Paper) -> bool:
     return True
 
 
-def _fits(what: Plan, paper: Paper) -> dict[str, bool]:
+def _fits(planned: Plan, paper: Paper) -> dict[str, bool]:
     """Whether each of the three figures fits the paper."""
     most = paper.room(MOST)
-    rooms = zip(NAMES, _sizes(what), (most.mechanism, most.polygon, most.polygon), strict=True)
+    rooms = zip(NAMES, _sizes(planned), (most.mechanism, most.polygon, most.polygon), strict=True)
     return {name: size[0] <= room[0] and size[1] <= room[1] for name, size, room in rooms}
 
 
-def _larger(what: Plan, paper: Paper, wished: Mapping[str, float | None]) -> PaperName | None:
+def _larger(planned: Plan, paper: Paper, wished: Mapping[str, float | None]) -> PaperName | None:
     """The next paper on which the figures at the wished scales fit, None where they fit already or on no paper."""
 
     def serves(size: Paper) -> bool:
-        return all(fit or wished[name] is None for name, fit in _fits(what, size).items())
+        return all(fit or wished[name] is None for name, fit in _fits(planned, size).items())
 
     if serves(paper):
         return None

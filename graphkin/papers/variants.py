@@ -185,8 +185,8 @@ def examined(
         chosen = strict and fewest > 0 and not source.get("find")
         if chosen:
             asked = (*asked, *_of_larger_groups(scene, asked))
-        what = paper_plan(scene, None, asked, share=False)
-        sheet = execute(what)
+        planned = paper_plan(scene, None, asked, share=False)
+        sheet = execute(planned)
         answers = tuple(_answers(scene, motion, sheet, asked))
         idle = {s for s, value in answers if not value and s.scope == "force"}  # what a mechanism never loads
         remarks += _remarks(sheet, () if chosen else tuple(s for s in asked if s not in idle), bounds.crossing)
@@ -206,7 +206,7 @@ def examined(
             raise Unfit(next(_unread(sheet, asked), Phrase("unfit nothing moves")))
         most = {s: bounds.tolerance * abs(value) for s, value in read}
         spare = max(0, len(read) - fewest) if chosen else 0
-        found = predict(what, "pencil", scene.question.sheet.tools, together=False, most=most, spare=spare)
+        found = predict(planned, "pencil", scene.question.sheet.tools, together=False, most=most, spare=spare)
         first = {s: u.bound for s, u in found.items()}
         if chosen:
             usual = asked_of(scene)
@@ -215,7 +215,7 @@ def examined(
             read = answers = tuple(one for one in answers if one[0] in asked)
             made["find"] = [str(s) for s in asked]
         _held(read, first, bounds.tolerance)
-    predicted = predict(what, "pencil", scene.question.sheet.tools)
+    predicted = predict(planned, "pencil", scene.question.sheet.tools)
     bounded = []
     for symbol, value in answers:
         bound = predicted[symbol].bound if symbol in predicted else 0.0

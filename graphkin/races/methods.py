@@ -276,16 +276,16 @@ def drawn(work: Work, repeats: int) -> Iterator[Entry]:
     yield _drawn(asked, short, "exact drawing", "asked", [EXACT], repeats)
 
 
-def _larger(what: Plan, factor: float) -> Plan:
-    s = what.scales
-    return replace(what, scales=Scales(s.length / factor, s.velocity / factor, s.acceleration / factor))
+def _larger(planned: Plan, factor: float) -> Plan:
+    s = planned.scales
+    return replace(planned, scales=Scales(s.length / factor, s.velocity / factor, s.acceleration / factor))
 
 
-def acts(what: Plan, order: str) -> int:
+def acts(planned: Plan, order: str) -> int:
     """The number of acts of the hand in drawing a plan and reading it off, for velocities alone or with
     accelerations."""
-    hand = pencil(what.structure.scene.question.sheet.tools, 0)
-    sheet = execute(what, hand)
+    hand = pencil(planned.structure.scene.question.sheet.tools, 0)
+    sheet = execute(planned, hand)
     read_off(sheet, (), hand)
     share = 1.0
     if order == "velocity":

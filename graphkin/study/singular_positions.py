@@ -581,15 +581,16 @@ def drawing_scale(mp: MPContext, samples: int = 1) -> Singularity:
     """
     scene = mechanism_of("slider-crank-offset")
     symbol = Symbol.parse(f"v_{next(iter(scene.links[-1].points))}")
-    what = plan(scene, find=(symbol,))
-    crank = (scene.links[0].length or scene.size) / what.scales.length
-    right = abs(execute(what, EXACT).vectors["velocity"][symbol].span * what.scales.velocity)
+    planned = plan(scene, find=(symbol,))
+    crank = (scene.links[0].length or scene.size) / planned.scales.length
+    right = abs(execute(planned, EXACT).vectors["velocity"][symbol].span * planned.scales.velocity)
     sizes = sorted(size for size in (1e3 / v for v in grid(0.3e3, 1.0, 1)) if 3.0 <= size <= 1000.0)
 
     def errors(size: float) -> Answer:
         times = crank / size
-        scales = Scales(*(s * times for s in (what.scales.length, what.scales.velocity, what.scales.acceleration)))
-        larger = replace(what, scales=scales)
+        old = planned.scales
+        scales = Scales(*(s * times for s in (old.length, old.velocity, old.acceleration)))
+        larger = replace(planned, scales=scales)
         return Answer([predict(larger, "pencil", tools, together=False)[symbol].deviation / right
                        for tools in (POINTS_ONLY, scene.question.sheet.tools)])  # fmt: skip
 

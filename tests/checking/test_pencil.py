@@ -23,25 +23,25 @@ SIXBAR = "sixbar-guide-40deg"
 SEEDS = 100  # a reading that is off is so in all that use it: of a short series few drawings count for many
 
 
-def _series(what, tools):
+def _series(planned, tools):
     """Errors of every reading over a series of seeds (SI)."""
-    exact = {r.symbol: r.value for r in read_off(execute(what))}
+    exact = {r.symbol: r.value for r in read_off(execute(planned))}
     errors = {symbol: [] for symbol in exact}
     for seed in range(SEEDS):
         hand = pencil(tools, seed)
-        for r in read_off(execute(what, hand), (), hand):
+        for r in read_off(execute(planned, hand), (), hand):
             errors[r.symbol].append(abs(r.value - exact[r.symbol]))
     return errors
 
 
 @pytest.mark.parametrize("name", library())
 def test_readings_lie_within_their_bounds_and_the_bounds_are_not_lazy(name):
-    what = plan(mechanism_of(name), find=())
-    if not what.elements:
+    planned = plan(mechanism_of(name), find=())
+    if not planned.elements:
         pytest.skip("nothing of it is drawn with two lines")
     tools = Tools()
-    predicted = predict(what, "pencil", tools)
-    errors = _series(what, tools)
+    predicted = predict(planned, "pencil", tools)
+    errors = _series(planned, tools)
     inside = [e <= predicted[s].bound * (1 + 1e-9) + 1e-12 for s, es in errors.items() for e in es]
     assert 0.99 <= sum(inside) / len(inside)
     scatter = {s: math.sqrt(sum(e * e for e in es) / len(es)) for s, es in errors.items()}
@@ -57,12 +57,12 @@ def test_the_same_seed_draws_the_same_sheet():
 
 def test_bounds_that_are_kept_change_no_prediction_and_what_is_passed_is_seen():
     scene = mechanism_of("shaper-scheme-2")
-    what, tools = plan(scene, None, ()), scene.question.sheet.tools
-    whole = predict(what, "pencil", tools, together=False)
-    kept = predict(what, "pencil", tools, together=False, most={s: 3 * u.bound for s, u in whole.items()})
+    planned, tools = plan(scene, None, ()), scene.question.sheet.tools
+    whole = predict(planned, "pencil", tools, together=False)
+    kept = predict(planned, "pencil", tools, together=False, most={s: 3 * u.bound for s, u in whole.items()})
     assert whole == kept
     most = {s: 0.5 * u.bound for s, u in whole.items()}
-    short = predict(what, "pencil", tools, together=False, most=most)
+    short = predict(planned, "pencil", tools, together=False, most=most)
     assert any(short[s].bound > most[s] > 0 for s in most)
 
 
@@ -73,21 +73,21 @@ def test_a_pencil_drawing_is_judged_by_its_predicted_uncertainty():
 
 
 def test_a_coarser_ruler_makes_readings_less_certain():
-    what = plan(mechanism_of(SIXBAR), find=())
-    fine, coarse = (predict(what, "pencil", Tools(ruler=r)) for r in (0.1, 0.5))
+    planned = plan(mechanism_of(SIXBAR), find=())
+    fine, coarse = (predict(planned, "pencil", Tools(ruler=r)) for r in (0.1, 0.5))
     assert all(coarse[s].deviation >= fine[s].deviation for s in fine)
     assert coarse[Symbol.parse("v_D")].deviation > fine[Symbol.parse("v_D")].deviation
 
 
 def test_pricking_errors_fall_with_the_size_of_the_figures():
-    what = plan(mechanism_of(SIXBAR), find=())
-    s = what.scales
+    planned = plan(mechanism_of(SIXBAR), find=())
+    s = planned.scales
     double = replace(
-        what, scales=replace(s, length=s.length / 2, velocity=s.velocity / 2, acceleration=s.acceleration / 2)
+        planned, scales=replace(s, length=s.length / 2, velocity=s.velocity / 2, acceleration=s.acceleration / 2)
     )
     tools = Tools(ruler=0, compass=0, set_square=0, protractor=0)
     symbol = Symbol.parse("a_D")
-    small, large = (predict(w, "pencil", tools)[symbol].deviation for w in (what, double))
+    small, large = (predict(w, "pencil", tools)[symbol].deviation for w in (planned, double))
     assert 0.5 == pytest.approx(large / small, rel=1e-3)
 
 
@@ -122,12 +122,12 @@ def test_the_advice_names_a_step_and_a_figure_that_helps():
 
 @pytest.mark.parametrize(("part", "told"), [(0.25, True), (0.5, False)])
 def test_no_advice_is_given_on_what_is_not_told_from_nothing(part, told):
-    what = plan(mechanism_of(SIXBAR), find=())
-    readings = read_off(execute(what))
-    predicted = dict(predict(what, "pencil", Tools(), together=False))
+    planned = plan(mechanism_of(SIXBAR), find=())
+    readings = read_off(execute(planned))
+    predicted = dict(predict(planned, "pencil", Tools(), together=False))
     largest = max((r for r in readings if r.symbol.kind == "v"), key=lambda r: abs(r.value))
     one = replace(predicted[largest.symbol], deviation=part * abs(largest.value))
-    advice = advise(what, "pencil", Tools(), readings, {**predicted, largest.symbol: one})
+    advice = advise(planned, "pencil", Tools(), readings, {**predicted, largest.symbol: one})
     assert advice is not None
     assert told == (advice.gaps["symbol"] == largest.symbol)
 

@@ -182,8 +182,8 @@ def test_a_rate_seen_from_a_held_link_bears_the_name_of_that_last() -> None:
 @pytest.mark.parametrize("name", ["four-bar", "through a block"])
 def test_a_contour_is_drawn_again_by_hands_that_err_in_one_of_its_acts(name: str) -> None:
     scene = mechanism_of(SCENES[name])
-    what, still = plan(scene, find=()), nudged("pencil", Tools())
-    stages = Stages(what, what.scales, still)
+    planned, still = plan(scene, find=()), nudged("pencil", Tools())
+    stages = Stages(planned, planned.scales, still)
     for act in range(1, still.acts + 1, 12):
         whole, gone_on = (
             {r.symbol: r.value for r in read_off(stages.by(nudged("pencil", Tools(), {act: 1.0}), first))}
@@ -195,11 +195,11 @@ def test_a_contour_is_drawn_again_by_hands_that_err_in_one_of_its_acts(name: str
 
 @pytest.mark.parametrize("name", ["four-bar", "through a block"])
 def test_polygons_that_other_hands_go_on_with_leave_the_first_as_they_stood(name: str) -> None:
-    what = plan(mechanism_of(SCENES[name]), find=())
-    begun = positioned(what, what.scales)
+    planned = plan(mechanism_of(SCENES[name]), find=())
+    begun = positioned(planned, planned.scales)
     before = copy.deepcopy(vars(begun)["ends"]), set(begun.special), set(begun.ties), set(begun.seen)
     gone_on = begun.again(EXACT)
-    for order, element in what.in_order:
+    for order, element in planned.in_order:
         elements.draw_element(gone_on, order, element)
     assert before == (begun.ends, begun.special, set(begun.ties), set(begun.seen))
     # how elements are drawn, once that is found
@@ -209,11 +209,11 @@ def test_polygons_that_other_hands_go_on_with_leave_the_first_as_they_stood(name
 
 
 def test_a_wrong_angular_velocity_of_the_held_link_is_followed_to_the_term_of_coriolis() -> None:
-    what = plan(mechanism_of(FOUR_BAR), find=())
-    sheet = execute(what)
+    planned = plan(mechanism_of(FOUR_BAR), find=())
+    sheet = execute(planned)
     values = {r.symbol: r.value for r in read_off(sheet)}
     omega, coriolis = Symbol("omega", link="2"), Symbol.parse("ak_F@3/F@2")
-    (followed,) = Evidence(what, values.get, {}, lambda symbol: ()).following({omega: 1.2 * values[omega]}, coriolis)
+    (followed,) = Evidence(planned, values.get, {}, lambda symbol: ()).following({omega: 1.2 * values[omega]}, coriolis)
     assert complex(followed) == pytest.approx(1.2 * complex(values[coriolis]), rel=1e-9)
 
 

@@ -119,10 +119,10 @@ STEEP_SLOT: dict[str, Any] = {  # the plate's arm stands nearly square to the sl
 
 @pytest.mark.parametrize("seed", [3, 5, 7])
 def test_a_group_is_placed_by_hand_where_the_first_trial_does_not_close(seed: int) -> None:
-    what = plan(mechanism_of(STEEP_SLOT))
+    planned = plan(mechanism_of(STEEP_SLOT))
     exact, drawn = (
         {r.symbol: complex(r.value) for r in read_off(sheet) if r.symbol.kind == "v"}
-        for sheet in (execute(what), execute(what, pencil(Tools(), seed)))
+        for sheet in (execute(planned), execute(planned, pencil(Tools(), seed)))
     )
     largest = max(map(abs, exact.values()))
     assert [] == [str(symbol) for symbol, v in exact.items() if abs(drawn[symbol] - v) > 0.3 * largest]

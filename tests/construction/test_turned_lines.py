@@ -49,10 +49,10 @@ POLYGONS: dict[str, Any] = {
 }  # fmt: skip
 
 
-def wrong(what: Plan, motion: solver.Motion, own_values: OwnValues) -> set[str]:
+def wrong(planned: Plan, motion: solver.Motion, own_values: OwnValues) -> set[str]:
     largest: dict[str, float] = {}
     off: dict[str, float] = {}
-    for reading in read_off(execute(what, own_values=own_values)):
+    for reading in read_off(execute(planned, own_values=own_values)):
         exact, kind = complex(motion.value(reading.symbol)[0]), reading.symbol.kind[0]
         largest[kind] = max(largest.get(kind, 0.0), abs(exact))
         off[str(reading.symbol)] = abs(reading.value - exact)
@@ -62,20 +62,22 @@ def wrong(what: Plan, motion: solver.Motion, own_values: OwnValues) -> set[str]:
 @pytest.mark.parametrize("name", POLYGONS)
 def test_each_line_of_a_group_turned_by_a_tenth_of_a_degree_makes_readings_wrong(name: str) -> None:
     scene = mechanism_of(POLYGONS[name])
-    what, motion, lines = plan(scene), solver.solve(scene), list[Symbol]()
+    planned, motion, lines = plan(scene), solver.solve(scene), list[Symbol]()
 
     def noted(symbol: Symbol, along: complex) -> complex:
         lines.append(symbol)
         return along
 
-    sheet = execute(what, own_values=OwnValues(line=noted))
+    sheet = execute(planned, own_values=OwnValues(line=noted))
     rays = [s for step in sheet.steps for s in step.strokes if isinstance(s, Ray)]
     # a line that only leads back to where it begins may lie as it likes
     still = {ray.symbol for ray in rays if ray.to is not None and abs(ray.to - ray.through) < 1e-9}
-    assert set() == wrong(what, motion, OwnValues())
+    assert set() == wrong(planned, motion, OwnValues())
     unseen = {
         str(one) for one in lines
-        if not wrong(what, motion, OwnValues(line=lambda symbol, way, one=one: way * TURNED if symbol == one else way))
+        if not wrong(
+            planned, motion, OwnValues(line=lambda symbol, way, one=one: way * TURNED if symbol == one else way)
+        )
     }  # fmt: skip
     assert unseen <= set(map(str, still))
     assert len(unseen) < len(lines) / 3

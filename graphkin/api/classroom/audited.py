@@ -351,9 +351,9 @@ def evidence_at(
     """
     scene, values = placed(scene, at)
     motion = solved_here(scene, values)
-    what = plan(motion.structure, values, [symbol for symbol in asked if symbol.scope != "cycle"])
-    predicted = predict(what, "pencil", scene.question.sheet.tools)
-    evidence = Evidence.of(what, motion, predicted)
+    planned = plan(motion.structure, values, [symbol for symbol in asked if symbol.scope != "cycle"])
+    predicted = predict(planned, "pencil", scene.question.sheet.tools)
+    evidence = Evidence.of(planned, motion, predicted)
     return replace(evidence, elsewhere=_elsewhere(scene, values), variants=variants, motion=motion)
 
 

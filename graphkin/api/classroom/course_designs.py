@@ -164,8 +164,8 @@ def course_design(
     for k, (who, values) in enumerate(dealt):
         scheme = scheme_for(who, course)
         motion = solved_here(scheme.scene, values)
-        what = paper_plan(motion.structure, values, asked_symbols(scheme.scene, find))
-        lesson = lesson_of(what, motion, spoken, letters)
+        planned = paper_plan(motion.structure, values, asked_symbols(scheme.scene, find))
+        lesson = lesson_of(planned, motion, spoken, letters)
         agrees = agrees and lesson.report.ok
         if scheme.name not in shared:
             shared[scheme.name] = _figures(scheme.scene, spoken, letters)

@@ -194,10 +194,10 @@ def handout(
     asked = asked_symbols(given, find)
     given, values = placed(given, at)
     motion = solved_here(given, values)
-    what = paper_plan(motion.structure, values, asked)
+    planned = paper_plan(motion.structure, values, asked)
     wishes = given.question.sheet
-    lesson = lesson_of(what, motion, language or wishes.language, convention or wishes.convention)
-    question = question_of(lesson, what, motion, given.name) if platforms else None
+    lesson = lesson_of(planned, motion, language or wishes.language, convention or wishes.convention)
+    question = question_of(lesson, planned, motion, given.name) if platforms else None
     elsewhere = tuple(symbol for symbol in asked if symbol.at)
     kinds = tuple(dict.fromkeys(formats))
     return Handout(lesson, values, kinds, count, progress, question, platforms, elsewhere).saved(out)
@@ -226,11 +226,11 @@ def _papers(
 ) -> Mapping[str, bytes]:
     """The papers of a variant in each format, and questions for learning platforms, called by the name of the set."""
     motion = solver.solve(variant.scene)
-    what = paper_plan(motion.structure, None, asked_of(variant.scene), share=False)
-    lesson = lesson_of(what, motion, language, convention)
+    planned = paper_plan(motion.structure, None, asked_of(variant.scene), share=False)
+    lesson = lesson_of(planned, motion, language, convention)
     made = papers_in(lesson, formats)
     if exports:
-        made |= files_for(question_of(lesson, what, motion, f"{name}-{variant.name}"), exports)
+        made |= files_for(question_of(lesson, planned, motion, f"{name}-{variant.name}"), exports)
     return made
 
 

@@ -84,20 +84,20 @@ class Shown:
     without: Mapping[Symbol, Wording] = field(default_factory=dict)
 
 
-def shown_positions(what: Plan, values: Mapping[str, float]) -> Shown:
+def shown_positions(planned: Plan, values: Mapping[str, float]) -> Shown:
     """The positions that a scene's ``[positions]`` show; without them the limit positions.
 
     Parameters
     ----------
-    what : the plan of the scene's own position
+    planned : the plan of the scene's own position
     values : the named positions, the first driver's value (rad, m) at each
 
     Raises
     ------
     Unsolvable : a named position that cannot be assembled or reached
     """
-    structure, scene = what.structure, what.structure.scene
-    own = execute(what)
+    structure, scene = planned.structure, planned.structure.scene
+    own = execute(planned)
     positions = scene.question.positions
     show, marks = (positions.show, positions.marks) if positions else (("limits",), MARKS)
     every = positions.names[: positions.count] if positions and "all" in show else ()
