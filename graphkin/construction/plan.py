@@ -31,7 +31,7 @@ from graphkin.construction.position.position import Assembly, assembly_at, cams_
 from graphkin.construction.position.reduced_mechanism import PlacedElements
 from graphkin.errors import Unsolvable
 from graphkin.plane import Poses, dot
-from graphkin.scene.model import Loading, Mechanism
+from graphkin.scene.model import Loading, LoadOn, Mechanism
 from graphkin.scene.scene_tables import DIAGRAMS
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.structure import (
@@ -105,6 +105,14 @@ class Plan:
     def has_forces(self) -> bool:
         """Whether forces can be drawn: there are masses or loads, and all that they need is drawn."""
         return bool(self.structure.scene.loading) and self.is_whole
+
+    @property
+    def loads_on_strokes(self) -> dict[Symbol, LoadOn]:
+        """The strokes on parts of which loads act, each with a load on it; empty where no forces are drawn."""
+        loads = self.structure.scene.loading.loads if self.has_forces else ()
+        keys = {load.phase.stroke: load for load in loads[::-1] if load.phase is not None and load.phase.stroke}
+        parts = ((*key.partition("/"), load) for key, load in keys.items())
+        return {Symbol("stroke", link=sliding, other=on): load for sliding, _, on, load in parts}
 
     @cached_property
     def drawn(self) -> Mapping[Order, tuple[Element, ...]]:
@@ -394,20 +402,25 @@ def _planned(planned: Plan, room: Room | None) -> Plan:
     """A plan carried out exactly, with the limit positions and the loads that its question needs, and its scales."""
     polygons = carried_out(planned, NATURAL)
     exact = finished(planned, polygons)
-    asked = planned.asked
-    if planned.has_forces:
-        from graphkin.construction.forces.position import acting_loads, strokes_of_loads
-
-        asked = (*asked, *strokes_of_loads(planned.structure))
-    if any(symbol.scope == "turn" for symbol in asked):
+    asked, loads = planned.asked, planned.loads_on_strokes
+    if loads or any(symbol.scope == "turn" for symbol in asked):
         from graphkin.construction.position.limits import limits_asked
 
         size = NATURAL.length / planned.structure.scene.size
         poses = {name: pose.scaled(size) for name, pose in polygons.paper.poses.items()}
-        limits = limits_asked(planned.structure, needed(planned.structure, planned.asked), asked, planned.values, poses)
+        here = needed(planned.structure, asked), planned.values, poses
+        limits = limits_asked(planned.structure, asked, *here)
+        for stroke, load in loads.items():
+            if stroke.pair not in limits:
+                try:
+                    limits |= limits_asked(planned.structure, [stroke], *here)
+                except Unsolvable as stop:
+                    raise load.without_stroke(stop) from None
         planned = replace(planned, limits=limits)
         exact = finished(planned, polygons)
     if planned.has_forces:
+        from graphkin.construction.forces.position import acting_loads
+
         growing = _growing(planned, exact)
         moves = any(driver.values[1] for driver in planned.structure.scene.drivers)
         planned = replace(planned, acting=acting_loads(exact, exact if moves else growing[0]), growing=growing)

@@ -13,7 +13,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
-from graphkin.errors import Problem, did_you_mean
+from graphkin.errors import Problem, Unsolvable, did_you_mean
 from graphkin.scene.laws import MotionLaw
 from graphkin.scene.pairs import CircularSlot, LawCam, PlacedContact, PlacedGear, PlacedGuide, SlidingPair
 from graphkin.scene.scene_tables import (
@@ -62,6 +62,12 @@ class LoadOn:
     follows: str = ""
     against: str = ""
     phase: LoadPhase | None = None
+
+    def without_stroke(self, stop: Unsolvable) -> Unsolvable:
+        """The refusal of the stroke on a part of which it acts, by the load: nobody asked for the stroke."""
+        where = f"loads.{self.name}.when.stroke"
+        problems = (Problem(where, problem.found, "give when driver from to") for problem in stop.problems)
+        return Unsolvable(stop.status, *problems)
 
     def acts_at(self, value: Any, turns: bool) -> tuple[Any, Any]:
         """Whether it acts where the first driver has a value, and whether it begins or ends exactly there.

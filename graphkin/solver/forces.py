@@ -16,6 +16,7 @@ from functools import cached_property
 
 import numpy as np
 
+from graphkin.errors import Unsolvable
 from graphkin.plane import cross
 from graphkin.scene.model import EDGE, ForceJoint, LoadOn, SpringOn, joints
 from graphkin.scene.symbol import Symbol
@@ -475,7 +476,10 @@ def _acting(motion: Motion, load: LoadOn) -> tuple[Array, Array]:
     if not phase.stroke:
         acts, edge = load.acts_at(motion.values[:, 0], motion.scene.drivers[0].turns)
     else:
-        low, high = motion.reach().stroke(phase.stroke)
+        try:
+            low, high = motion.reach().stroke(phase.stroke)
+        except Unsolvable as stop:
+            raise load.without_stroke(stop) from None
         travel, speed = motion.slide(phase.stroke).travel, motion.growing.slide(phase.stroke).velocity
         part = (travel - low) / (high - low) if high > low else np.zeros(len(motion))
         acts, edge = load.acts_on_stroke(part, np.sign(speed) == phase.sense)

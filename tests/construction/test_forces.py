@@ -8,6 +8,7 @@ import random
 import sys
 import tomllib
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -25,6 +26,7 @@ from tests.mechanisms import KINDS, floating_cylinder, random_scene, redriven
 from tests.solver.test_forces import CASES, PLACES, loaded, number, scene_of
 
 SHAPER = scene_of("shaper-scheme-2")
+LIBRARY = Path(graphkin.__file__).parent / "scene" / "library"
 SCENES = 300 if os.environ.get("GRAPHKIN_ALL_POSITIONS") else 8
 
 
@@ -464,3 +466,16 @@ def test_a_guest_of_a_hinge_is_cut_free_before_its_host_whose_force_is_that_of_o
 @pytest.mark.parametrize("scene", [owned("g"), owned("s"), owned("g", "4"), owned("s", "4")])
 def test_forces_of_hosts_and_guests_are_those_of_the_solver(scene):
     assert (True, []) == judged(scene)
+
+
+def test_a_load_on_a_part_of_a_stroke_that_no_whole_turn_has_is_refused_by_its_name():
+    scene = tomllib.loads((LIBRARY / "toggle-press-force.toml").read_text(encoding="utf-8"))
+    scene["links"]["1"]["length"] = 260  # it does not turn fully
+    scene["driver"]["angle"] = 40
+    scene["sketch"]["B"] = [80, -230]
+    del scene["flywheel"]
+    problem = r"^loads.W.when.stroke: belongs to a whole turn.*; give when = \{ driver = \[from, to\] \}, values of the"
+    for call in (graphkin.check, graphkin.centres, lambda scene: graphkin.solve(scene, find=["F_2/3"])):
+        with pytest.raises(Unsolvable, match=problem):
+            call(scene)
+    assert graphkin.solve(scene, find=["v_C"])["v_C"] == pytest.approx(642.688j, abs=1e-3)

@@ -3,9 +3,9 @@ Zhukovsky's lever."""
 
 from graphkin.construction.forces.draw import force_readings, force_scale, forces_on, readings_of
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, Lever
-from graphkin.construction.forces.position import acting_loads, strokes_of_loads
+from graphkin.construction.forces.position import acting_loads
 
 __all__ = [
     "ForceGroup", "ForceSheet", "ForceState", "Lever", "acting_loads", "force_readings", "force_scale", "forces_on",
-    "readings_of", "strokes_of_loads",
+    "readings_of",
 ]  # fmt: skip

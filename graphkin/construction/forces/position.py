@@ -241,13 +241,6 @@ STILL = 1e-11
 """Of the greatest speed: what slides more slowly rests."""
 
 
-def strokes_of_loads(structure: Structure) -> tuple[Symbol, ...]:
-    """The strokes on parts of which loads act."""
-    phases = (load.phase for load in structure.scene.loading.loads)
-    keys = dict.fromkeys(phase.stroke for phase in phases if phase is not None and phase.stroke)
-    return tuple(Symbol("stroke", link=sliding, other=on) for sliding, _, on in (key.partition("/") for key in keys))
-
-
 def acting_loads(sheet: Sheet, growing: Sheet) -> dict[str, bool | None]:
     """For each load whether it acts; None where it begins or ends exactly here.
 

@@ -153,7 +153,7 @@ class TurnOfCrank:
 
 
 def limits_asked(
-    structure: Structure, elements: Sequence[Element], asked: Sequence[Symbol], values: Mapping[str, float],
+    structure: Structure, asked: Sequence[Symbol], elements: Sequence[Element], values: Mapping[str, float],
     poses: Poses,
 ) -> dict[str, Limits]:  # fmt: skip
     """The limit positions of every drawn output with an asked quantity of the whole turn, by its name, on paper of the
