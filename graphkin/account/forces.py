@@ -21,7 +21,6 @@ from graphkin.construction.board.scales import extent_of, fitting_scale, least_s
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.forces.force_sheet import (
     ForceGroup,
-    ForceSheet,
     ForceState,
     ForceVector,
     Inertia,
@@ -124,16 +123,15 @@ class ForceStage:
 
 @dataclass(frozen=True)
 class ForceAccount:
-    """Tells the forces of a sheet, which has their scale, in the letters of one convention."""
+    """Tells the forces drawn on a sheet, in the letters of one convention."""
 
     sheet: Sheet
-    forces: ForceSheet
     letters: Notation
 
     @cached_property
     def per_mm(self) -> str:
         """The scale of the polygons, as it is written in the file's unit of force."""
-        return amount(self.forces.per_mm / self.sheet.scene.units.newtons, 12)
+        return amount(self.sheet.scales.force / self.sheet.scene.units.newtons, 12)
 
     def name(self, symbol: Symbol, part: str = "") -> str:
         """A force or a moment as a symbol, or a part of it."""
@@ -147,11 +145,13 @@ class ForceAccount:
             yield replace(stage, steps=tuple(replace(s, number=n) for n, s in enumerate(stage.steps, first)))
 
     def _unnumbered(self) -> Iterator[ForceStage]:
-        first, *others = self.forces.states
+        if not self.sheet.forces:
+            return
+        first, *others = self.sheet.forces
         inertia = tuple(
             ForceStep("inertia", Phrase("force step inertia", link=link), (self.inertia(pushed),),
                       (Symbol("Fi", link=link),))
-            for link, pushed in self.forces.inertias.items()
+            for link, pushed in self.sheet.inertias.items()
         )
         if inertia:
             yield ForceStage("acceleration", Phrase("force inertia"), inertia, first)
@@ -164,7 +164,7 @@ class ForceAccount:
             shown += [(state, group, True) for group, before in pairs if group != before]
         for count, (state, group, again) in enumerate(shown, 1):
             yield ForceStage("forces", self.caption(group, count), (*self.of_group(state, group),), state, group, again)
-        for k, state in enumerate(self.forces.states):
+        for k, state in enumerate(self.sheet.forces):
             for lever in state.levers:
                 why = Phrase("lever reason", pole=f"${pole(self.letters.convention, 'velocity')}$")
                 why = Phrase("two sentences", first=why, second=Phrase("lever virtual")) if lever.virtual else why
@@ -194,7 +194,7 @@ class ForceAccount:
         units = self.sheet.scene.units
         for spring in self.sheet.scene.loading.springs:
             name = Symbol("P", name=spring.name)
-            pull_on, opposite = (load for load in self.forces.states[0].known if load.symbol == name)
+            pull_on, opposite = (load for load in self.sheet.forces[0].known if load.symbol == name)
             length = abs(opposite.at - pull_on.at) * self.sheet.scales.length
             force = spring.preload + spring.rate * (length - spring.free)
             start, rate = amount(spring.preload / units.newtons), amount(spring.rate * units.metres / units.newtons)
@@ -326,7 +326,7 @@ class ForceAccount:
 
     def _laid(self, group: ForceGroup) -> list[str]:
         """``ab = P = 9000 N ÷ 100 N/mm = 90.00 mm, 180.0°`` for each known force of a polygon."""
-        force, per_mm, lines = self.sheet.scene.units.force, self.forces.per_mm, []
+        force, per_mm, lines = self.sheet.scene.units.force, self.sheet.scales.force, []
         per = per_mm / self.sheet.scene.units.newtons
         for v in laid_off(group):
             value, length = to_lay_off(abs(v.span) * per, per, abs(v.span))

@@ -44,12 +44,15 @@ class Checked(OfScene, Result):
 
     table_file = "readings.csv"
 
-    sheet: Sheet
     report: Report
     advice: Phrase | None = None
     passed: tuple[ChangePoint, ...] = ()
     over_turn: Mapping[Symbol, float] = field(default_factory=dict)
     at_contacts: Checked | None = None
+
+    @property
+    def sheet(self) -> Sheet:
+        return self.report.sheet
 
     @property
     def mechanism(self) -> Mechanism:
@@ -104,7 +107,7 @@ class Checked(OfScene, Result):
             ways = {way: float(unit.of(values[row.symbol])) for way, values in others.items() if row.symbol in values}
             rows.append({**reading_row(scene, row), **ways})
         return {
-            "instrument": self.report.instrument,
+            "instrument": self.sheet.instrument,
             "ok": ok,
             "scales": scales,
             "readings": rows,
@@ -120,9 +123,10 @@ class Checked(OfScene, Result):
     def _construction(self) -> dict[str, Json]:
         """The construction of groups larger than a dyad: a word for all of them, and each by itself."""
         groups, forces = self.sheet.groups, dict[str, Json]()
-        if self.report.forces is not None:
+        for state in self.sheet.forces[:1]:
             forces = {"forces": ["drawn system" if way == "drawn system" else "moments and polygon"
-                                 for way in self.report.forces.ways if way != "driver"]}  # fmt: skip
+                                 for way in dict.fromkeys(group.way for group in state.groups)
+                                 if way != "driver"]}  # fmt: skip
         if not groups:
             return forces
         ways = ", ".join(dict.fromkeys(groups.values()))
@@ -133,7 +137,7 @@ class Checked(OfScene, Result):
     def scales(self) -> dict[str, float]:
         """The scales, the value of one mm on paper, as `Scales.shown`."""
         units = self.mechanism.units
-        return self.report.scales.shown(units.rates.metres, units.newtons)
+        return self.sheet.scales.shown(units.rates.metres, units.newtons)
 
     @cached_property
     def centres(self) -> Centres:
@@ -154,7 +158,7 @@ class Checked(OfScene, Result):
         }
         found = {"by_centres": {s: abs(v) if s.kind == "v" else v.real + 0.0
                                 for s, v in velocities.items() if v is not None}}  # fmt: skip
-        states = self.report.forces.states if self.report.forces is not None else ()
+        states = self.sheet.forces
         for symbol in symbols if states else ():
             balance = replace(symbol, plus=False, at="")
             for lever in states[-1 if symbol.plus else 0].levers:
@@ -228,7 +232,7 @@ def checked(planned: Plan, motion: Motion, hand: Instrument, at_contacts: bool =
     of_cycle = [symbol for symbol in sheet.asked if symbol.scope == "cycle"]
     over_turn = {s: float(value.real) for s, value in exact_values(motion, of_cycle).items()} if of_cycle else {}
     there = None if other is None else checked(other, motion, other_hand, at_contacts=False)
-    return Checked(sheet, report, advice, motion.passed, over_turn, there)
+    return Checked(report, advice, motion.passed, over_turn, there)
 
 
 def with_elsewhere(made: Checked, asked: Sequence[Symbol], seed: int = 0) -> Checked:

@@ -166,7 +166,7 @@ class Drawn(OfScene, Result):
             forces = self.with_forces if any(figure_kinds()[name].needs == "forces" for name in self.wanted) else None
             for made in (self.checked, forces):
                 if made is not None:
-                    made.report.must_agree(self.mechanism)
+                    made.report.must_agree()
         return super().pages(formats, text)
 
     def __repr__(self) -> str:
@@ -190,9 +190,9 @@ def _centres(drawn: Drawn) -> tuple[Any, ...]:
 
 def _forces(drawn: Drawn) -> tuple[Any, ...] | None:
     whole = drawn.with_forces
-    if whole is None or whole.report.forces is None:
+    if whole is None or not whole.sheet.forces:
         return None
-    return whole.sheet, whole.report.forces, whole.report
+    return whole.sheet, whole.report
 
 
 def _positions(drawn: Drawn) -> tuple[Any, ...]:

@@ -79,18 +79,18 @@ def report_text(checked: Checked, language: str) -> str:
 
 def _forces(checked: Checked, language: str) -> list[str]:
     """The construction of the forces, group by group, with the reason of each step."""
-    if checked.report.forces is None:
+    sheet = checked.sheet
+    if not sheet.forces:
         return []
     from graphkin.account.forces import ForceAccount
     from graphkin.account.notation import notation_of
 
-    sheet, forces = checked.sheet, checked.report.forces
-    account = ForceAccount(sheet, forces, notation_of(sheet, sheet.scene.question.sheet.convention))
+    account = ForceAccount(sheet, notation_of(sheet, sheet.scene.question.sheet.convention))
     per = f"1 mm = {checked.scales['force']:g} {sheet.scene.units.force}"
     lines = [word("forces", language), per]
-    lines += map(account.inertia, forces.inertias.values())
-    for number, state in enumerate(forces.states):
-        if len(forces.states) > 1:
+    lines += map(account.inertia, sheet.inertias.values())
+    for number, state in enumerate(sheet.forces):
+        if len(sheet.forces) > 1:
             lines.append(word("force with load" if number else "force without load", language))
         for count, group in enumerate(state.groups, 1):
             lines.append(say(account.caption(group, count), language))
@@ -104,7 +104,7 @@ def lever_lines(checked: Checked, language: str) -> list[str]:
     lines = []
     units, report = checked.mechanism.units, checked.report
     rows = {str(row.symbol): row for row in report.rows}
-    for number, state in enumerate(report.forces.states if report.forces else ()):
+    for number, state in enumerate(checked.sheet.forces):
         for lever in state.levers:
             balance = lever.unknown.symbol
             row = rows.get(f"{balance}+" if number else "", rows.get(str(balance)))
@@ -342,7 +342,7 @@ def _curves(turn: TurnStudy, language: str) -> list[str]:
 def reading_words(checked: Checked) -> Iterator[tuple[str, str, str, str, str, bool | None]]:
     """Each reading in words: symbol, mm on paper, measured with the figures that the drawing carries, exact, their
     unit, whether they agree."""
-    scales, units = checked.report.scales, checked.mechanism.units
+    scales, units = checked.sheet.scales, checked.mechanism.units
     for row in checked.report.rows:
         said = measured(row.reading, scales, units, row)
         if said == "0" and row.uncertainty is not None and row.bound > row.floor:

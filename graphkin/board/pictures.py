@@ -313,14 +313,10 @@ def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
 
 def _force_steps(drawn: Drawn, letters: Notation, spoken: str) -> list[dict[str, Json]]:
     """The steps by which the forces are found, behind those of the motion."""
-    forces = drawn.checked.report.forces
-    if forces is None:
-        return []
-    sheet = replace(drawn.checked.sheet, scales=replace(drawn.checked.sheet.scales, force=forces.per_mm))
     return [
         {"n": step.number, "figure": stage.figure, "html": words_html(step.words(spoken)[0][1], spoken),
          "work": [words_html(line, spoken) for line in step.lines(spoken)]}
-        for stage in ForceAccount(sheet, forces, letters).stages() for step in stage.steps
+        for stage in ForceAccount(drawn.checked.sheet, letters).stages() for step in stage.steps
     ]  # fmt: skip
 
 

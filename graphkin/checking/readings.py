@@ -23,7 +23,6 @@ from graphkin.words import Phrase, joined
 if TYPE_CHECKING:
     from graphkin.checking.report import Uncertainty
     from graphkin.construction.centres import Centres
-    from graphkin.construction.forces import ForceSheet
     from graphkin.solver import Motion
 
 Place = Callable[[str], complex | None]
@@ -32,10 +31,10 @@ Measured = tuple[float | None, float]
 
 
 def read_off(
-    sheet: Sheet, asked: Sequence[Symbol] = (), instrument: Instrument = EXACT, forces: ForceSheet | None = None
+    sheet: Sheet, asked: Sequence[Symbol] = (), instrument: Instrument = EXACT
 ) -> tuple[Reading, ...]:
     """Measure every drawn vector and rate, and the positions that the drawing was asked for, or only the quantities
-    asked here, with the instrument's accuracy; ``forces`` if they are drawn already.
+    asked here, with the instrument's accuracy.
 
     >>> from graphkin.scene import mechanism_of
     >>> from graphkin.construction import draft
@@ -65,10 +64,9 @@ def read_off(
             readings[fixed] = Reading(fixed, 0.0, 0.0, order)
     readings |= _measured(sheet, (*sheet.asked, *asked), instrument)
     if sheet.has_forces:
-        from graphkin.construction.forces import force_readings, readings_of
+        from graphkin.construction.forces import force_readings
 
-        loads = force_readings(sheet, instrument) if forces is None else readings_of(sheet, forces, instrument)
-        readings |= {reading.symbol: reading for reading in loads}
+        readings |= {reading.symbol: reading for reading in force_readings(sheet, instrument)}
         for symbol in (*sheet.asked, *asked):
             same = _as_drawn(symbol, readings)
             if same is not None and symbol not in readings:
@@ -96,16 +94,16 @@ def report_on(
     ------
     Unsolvable : "dead point": the balance does no work
     """
-    forces, motion = None, as_drawn(motion, sheet.structure)
+    motion = as_drawn(motion, sheet.structure)
     if sheet.has_forces:
-        from graphkin.construction.forces import forces_on
+        from graphkin.construction.forces import with_forces
 
         forces_here(motion)  # it tells best why there are none
-        forces = forces_on(sheet, hand)
-    readings = read_off(sheet, (), hand, forces)
+        sheet = with_forces(sheet, hand)
+    readings = read_off(sheet, (), hand)
     symbols = [reading.symbol for reading in readings]
     rounding, exact = rounding_of(motion, symbols, sheet.has_forces), exact_values(motion, symbols)
-    return compare(sheet, readings, exact, sheet.asked, predicted, rounding, forces)
+    return compare(sheet, readings, exact, sheet.asked, predicted, rounding)
 
 
 def _one_vector(sheet: Sheet) -> dict[Symbol, Symbol]:

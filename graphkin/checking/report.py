@@ -24,7 +24,6 @@ from graphkin.words import Phrase, say
 from graphkin.words.written import MOST, ROUNDED, amount, computed, figures, on_paper, product
 
 if TYPE_CHECKING:
-    from graphkin.construction.forces import ForceSheet
     from graphkin.scene.model import Mechanism
 
 EXACT_TOLERANCE = 1e-9
@@ -123,16 +122,14 @@ class Compared:
 class Report:
     """All compared readings of a drawing.
 
-    ``missing`` are asked symbols that the drawing does not reach; ``forces`` are drawn by the same hands, None where
-    there is neither mass nor load, or no force is asked for.  It is ``ok`` if no reading is out of tolerance, and at
-    least one found value is determined.
+    ``sheet`` is the drawing, with its forces if there are masses or loads and forces are asked for; ``missing`` are
+    asked symbols that it does not reach.  It is ``ok`` if no reading is out of tolerance, and at least one found value
+    is determined.
     """
 
-    instrument: str
-    scales: Scales
+    sheet: Sheet
     rows: tuple[Compared, ...]
     missing: tuple[Symbol, ...] = ()
-    forces: ForceSheet | None = None
 
     ok: bool = field(init=False, repr=False, compare=False)
 
@@ -141,14 +138,14 @@ class Report:
         ok = not self.rows or (found and all(row.ok is not False for row in self.rows))
         self.__dict__.update(ok=ok)
 
-    def must_agree(self, scene: Mechanism) -> None:
+    def must_agree(self) -> None:
         """Raises Disagreement, naming every reading out of tolerance with its drawn and its exact value."""
         wrong = [row for row in self.rows if row.ok is False]
         if not wrong:
             return
         problems = []
         for row in wrong:
-            told = ReadValue.of(scene, row)
+            told = ReadValue.of(self.sheet.scene, row)
             drawn, exact = told.shown(told.measured), told.shown(told.exact)
             problems.append(Problem(str(row.symbol), "by the drawing by computation",
                                     "no paper is written please report this scene", value=drawn, exact=exact))
@@ -167,7 +164,6 @@ def compare(
     asked: Sequence[Symbol] = (),
     predicted: Mapping[Symbol, Uncertainty] | None = None,
     rounding: Mapping[Symbol, Lost] | None = None,
-    forces: ForceSheet | None = None,
 ) -> Report:
     """Compare readings with exact values.
 
@@ -179,7 +175,6 @@ def compare(
         size; where the tolerance exceeds a thousandth of that (of a pencil: all of it) the reading is not determined
     rounding : for each reading the rounding errors of the exact places (m) and vectors (m/s, m/s2) that lead to it:
         very near a dead point they exceed 1e-9, and drawing and solver agree no better; smaller values are zero
-    forces : the drawn forces, of which some of the readings are
     """
     pairs = [(reading, exact[reading.symbol]) for reading in readings]
     row, lost = partial(_row, sheet, predicted), rounding or {reading.symbol: Lost() for reading in readings}
@@ -200,8 +195,7 @@ def compare(
 
     rows = tuple(by_scope.get(scope, place)(*pair) for scope, pair in zip(scopes, pairs, strict=True))
     have = {r.symbol for r in readings}
-    scales = replace(sheet.scales, force=forces.per_mm if forces else 0.0)
-    return Report(sheet.instrument, scales, rows, tuple(s for s in asked if s not in have), forces)
+    return Report(sheet, rows, tuple(s for s in asked if s not in have))
 
 
 def _row(

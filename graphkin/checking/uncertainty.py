@@ -118,15 +118,15 @@ def _drawn_by(planned: Plan, still: Instrument) -> tuple[Sheet, Drawn]:
     the same scale."""
     stages, newtons_per_mm = Stages(planned, planned.scales, still), 0.0
     if stages.sheet.has_forces:
-        from graphkin.construction.forces import force_scale, forces_on
+        from graphkin.construction.forces import force_scale, with_forces
 
         newtons_per_mm = force_scale(stages.sheet)
 
     def values(hand: Instrument, first: int = 0) -> Values | None:
         try:
             sheet = stages.sheet if hand is still else stages.by(hand, first)
-            forces = forces_on(sheet, hand, newtons_per_mm) if newtons_per_mm else None
-            return {r.symbol: r.value for r in read_off(sheet, (), hand, forces)}
+            sheet = with_forces(sheet, hand, newtons_per_mm) if newtons_per_mm else sheet
+            return {r.symbol: r.value for r in read_off(sheet, (), hand)}
         except (Unsolvable, ArithmeticError):
             return None
 

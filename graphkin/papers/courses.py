@@ -92,7 +92,7 @@ def scheme_of(name: str, scene: Mechanism, asked: Sequence[Symbol], count: int) 
         try:
             motion = solved_here(structure, {key: value})
             report = report_on(execute(paper_plan(structure, {key: value}, shown)), motion)
-            report.must_agree(scene)
+            report.must_agree()
             places[place] = read_at(place, value, scene, report, shown)
         except Unsolvable:
             places[place] = PlaceValues(place, scene.unit_of(scene.drivers[0]).of(value))

@@ -169,11 +169,11 @@ def _height(asked: Sequence[Paragraph | Picture]) -> float:
 def _forces(lesson: Lesson, bare: Drawing, paper: Paper) -> Iterator[Block]:
     """The equations of the groups cut free, and room for their polygons beside the mechanism, from which directions and
     arms are taken; the equations are on a page before if both do not fit on one."""
-    forces, language = lesson.forces, lesson.language
-    if forces is None:
+    language = lesson.language
+    if not lesson.sheet.forces:
         return
     heading = said("forces", language)
-    counts = [len(g.polygon) for g in forces.states[0].groups if g.way != "drawn system" and len(g.polygon) > 1]
+    counts = [len(g.polygon) for g in lesson.sheet.forces[0].groups if g.way != "drawn system" and len(g.polygon) > 1]
     asked: tuple[Paragraph | Picture, ...] = ()
     if counts and lesson.level != "hard":
         blank = pictures.blank_sums(lesson, counts, min(paper.body.width, A4.body.width))
@@ -336,7 +336,7 @@ def key_rows(lesson: Lesson) -> tuple[KeyRow, ...]:
 
 def result_cells(lesson: Lesson) -> Iterator[dict[str, str]]:
     """The cells of each result, by the keys of their heads."""
-    scales, units = lesson.report.scales, lesson.sheet.scene.units
+    scales, units = lesson.sheet.scales, lesson.sheet.scene.units
     for line, row in zip(key_rows(lesson), lesson.results, strict=True):
         placed, is_length = row.symbol.scope == "position", row.symbol.is_vector or row.symbol.measure == "length"
         size = line.exact if placed else abs(line.exact)
@@ -503,21 +503,21 @@ def _plan_blocks(
 def force_stages(lesson: Lesson) -> Iterator[tuple[ForceStage, Said, tuple[StepItem, ...]]]:
     """The stages of the forces, each with the load that its steps tell from those without it (none where there is but
     one), and its steps."""
-    forces, language = lesson.forces, lesson.language
-    for stage in () if forces is None else ForceAccount(lesson.scaled, forces, lesson.letters).stages():
-        several = forces is not None and len(forces.states) > 1 and bool(stage.group.links)
+    sheet, language = lesson.sheet, lesson.language
+    for stage in ForceAccount(sheet, lesson.letters).stages():
+        several = len(sheet.forces) > 1 and bool(stage.group.links)
         load = said("force with load" if stage.again else "force without load", language) if several else ()
         yield stage, load, tuple(StepItem(s.number, s.words(language), s.lines(language)) for s in stage.steps)
 
 
 def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
     """Force polygons group by group, and Zhukovsky's lever; ``count`` figures come before them."""
-    sheet, forces, language = lesson.sheet, lesson.forces, lesson.language
-    if forces is None:
+    sheet, language = lesson.sheet, lesson.language
+    if not sheet.forces:
         return
-    statement = Paragraph(spoken(scale_statement(lesson.scaled, lesson.letters.convention, "force"), language))
+    statement = Paragraph(spoken(scale_statement(sheet, lesson.letters.convention, "force"), language))
     lead: tuple[Heading | Paragraph, ...] = (Heading(said("forces", language)), statement)
-    lever = lever_figure(FigurePage(sheet, "lever", language, lesson.letters), forces)
+    lever = lever_figure(FigurePage(sheet, "lever", language, lesson.letters))
     for turn, (stage, load, steps) in enumerate(force_stages(lesson)):
         title = stage.heading(language)
         if load:
@@ -533,15 +533,15 @@ def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
 
 def _force_pictures(lesson: Lesson, stage: ForceStage, tag: str, count: int) -> Iterator[Picture]:
     """The equation of a group over its rows, and the group cut free beside its polygon."""
-    forces, group, language = lesson.forces, stage.group, lesson.language
-    if forces is None or not group.links:
+    group, language = stage.group, lesson.language
+    if not group.links:
         return
     width = paper_of(lesson.sheet.scene).body.width
-    page = FigurePage(lesson.scaled, "forces", language, lesson.letters, width)
+    page = FigurePage(lesson.sheet, "forces", language, lesson.letters, width)
     equation = group_equation(page, group)
     if equation is not None:
         yield Picture(equation, joined=True)
-    drawn = group_picture(page, forces, stage, tag)
+    drawn = group_picture(page, stage, tag)
     caption = said(about("figure of forces", group.links), language, links=", ".join(group.links))
     yield Picture(drawn, numbered(count, caption))
 

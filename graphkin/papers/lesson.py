@@ -21,7 +21,6 @@ from graphkin.construction.board.scales import Scales, next_of_series
 from graphkin.construction.board.sheet import Equation, Sheet
 from graphkin.construction.board.steps import DiagramName, Step
 from graphkin.construction.centres import Centres, find_centres
-from graphkin.construction.forces import ForceSheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.parts.polygon import extent
 from graphkin.errors import Unsolvable
@@ -79,15 +78,13 @@ class Lesson:
 
     Parameters
     ----------
-    sheet : the drawing, at the scales of the handout's paper
-    report : its readings compared with the exact values
+    report : the drawing, at the scales of the handout's paper, and its readings compared with the exact values
     tolerance : predicted uncertainty of each reading on a pencil drawing at these scales
     language : "en", "zh" or "both"
     convention : "chinese", "us", "british" or "russian"
     centres : the instant centres of the position, for a screen, if they exist
     """
 
-    sheet: Sheet
     report: Report
     tolerance: Mapping[Symbol, Uncertainty]
     language: str
@@ -107,15 +104,8 @@ class Lesson:
         return stages(self.sheet)
 
     @property
-    def forces(self) -> ForceSheet | None:
-        """The drawn forces; None where there is neither mass nor load, or no force is asked for."""
-        return self.report.forces
-
-    @cached_property
-    def scaled(self) -> Sheet:
-        """The sheet with the scale of its forces."""
-        sheet = self.sheet
-        return sheet if self.forces is None else replace(sheet, scales=replace(sheet.scales, force=self.forces.per_mm))
+    def sheet(self) -> Sheet:
+        return self.report.sheet
 
     @property
     def level(self) -> str:
@@ -186,8 +176,8 @@ def lesson_of(planned: Plan, motion: Motion, language: str, convention: str) -> 
     """
     sheet = execute(planned)
     report = report_on(sheet, motion)
-    report.must_agree(sheet.scene)
-    return Lesson(sheet, report, predict(planned, "pencil", sheet.scene.question.sheet.tools), language, convention)
+    report.must_agree()
+    return Lesson(report, predict(planned, "pencil", sheet.scene.question.sheet.tools), language, convention)
 
 
 def usual_count(scene: Mechanism) -> int:
@@ -253,7 +243,7 @@ def views_of(
         if number != given and any(row.ok is False for row in report.rows):
             start -= number < given
         else:
-            views.append(Lesson(sheet, report, {}, language, convention, here))
+            views.append(Lesson(report, {}, language, convention, here))
     return views, start
 
 

@@ -84,8 +84,7 @@ def _cropped(
 
 def _scale_foot(lesson: Lesson, diagram: DiagramName) -> tuple[Text, tuple[Primitive, ...]]:
     """The scale of a figure, and the bar that checks it, each about the left end of its baseline."""
-    sheet = lesson.scaled if diagram == "force" else lesson.sheet
-    words = Text(0j, rich(scale_statement(sheet, lesson.letters.convention, diagram), 3.2))
+    words = Text(0j, rich(scale_statement(lesson.sheet, lesson.letters.convention, diagram), 3.2))
     return words, check_bar(0j, rich(term("check bar", lesson.language, length="50 mm"), 2.4))
 
 

@@ -307,17 +307,17 @@ def _caption(words: Said) -> str:
 
 def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
     """The stages of the forces, after those of the motion; their figures are added to the others."""
-    forces, language = lesson.forces, lesson.language
-    if forces is None:
+    sheet, language = lesson.sheet, lesson.language
+    if not sheet.forces:
         return
-    sheet, first = lesson.scaled, languages(language)[0]
+    first = languages(language)[0]
     scale = words_html(scale_statement(sheet, lesson.letters.convention, "force"), first)
     for turn, (stage, load, items) in enumerate(force_stages(lesson)):
         name, svg, group = str(stage.figure), "", stage.group
         title = said_html(stage.heading(language))
         if group.links:
             name, page = f"force-{turn}", FigurePage(sheet, "forces", language, lesson.letters, WIDE)
-            drawn = group_picture(page, forces, stage, f"-{turn}")
+            drawn = group_picture(page, stage, f"-{turn}")
             whose = said("force on links", language, links=links_named(group.links))
             figures.append(_figure(name, drawn, said_html(whose), scale, named=True))
             equation = group_equation(page, group)
@@ -325,7 +325,7 @@ def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
         title += f" <small>{said_html(load)}</small>" if load else ""
         found = (_force_found(lesson, stage, step) for step in stage.steps)
         yield {"title": title, "svg": svg}, name, [*zip(items, found, strict=True)]
-    lever = lever_figure(FigurePage(sheet, "lever", language, lesson.letters), forces)
+    lever = lever_figure(FigurePage(sheet, "lever", language, lesson.letters))
     if lever is not None:
         figures.append(_figure("lever", lever, said_html(said("lever", language))))
 
@@ -361,14 +361,14 @@ def _found(lesson: Lesson, step: Step) -> dict[str, Json]:
 
 def _force_found(lesson: Lesson, stage: ForceStage, step: ForceStep) -> dict[str, Json]:
     """The result of a step of the forces that finds a single force or moment."""
-    if len(step.found) != 1 or lesson.forces is None:
+    if len(step.found) != 1:
         return {}
     (symbol,) = step.found
     back = replace(symbol, link=symbol.other, other=symbol.link) if symbol.other else symbol
     for side, sign in ((symbol, 1.0), (back, -1.0)):
         moment, span = stage.state.moments.get(side), stage.state.vectors.get(side)
         if moment or span:
-            value = moment or (span or 0j) * lesson.forces.per_mm
+            value = moment or (span or 0j) * lesson.sheet.scales.force
             return _find(lesson, symbol, lesson.letters.vector(symbol), sign * value)
     return {}
 

@@ -14,7 +14,7 @@ import pytest
 
 import graphkin
 from graphkin.construction import draft
-from graphkin.construction.forces import forces_on, groups
+from graphkin.construction.forces import groups, with_forces
 from graphkin.construction.forces import position as acting
 from graphkin.construction.forces.groups import CutFree
 from graphkin.errors import Unsolvable
@@ -36,19 +36,19 @@ def drawn(scene, driver_deg=None):
     return draft(mechanism, values)
 
 
-def by_name(forces, state=0):
+def by_name(sheet, state=0):
     """Forces (N) and moments (N m) as they were drawn."""
-    found = {str(symbol): span * forces.per_mm for symbol, span in forces.states[state].vectors.items()}
-    return found | {str(symbol): moment for symbol, moment in forces.states[state].moments.items()}
+    found = {str(symbol): span * sheet.scales.force for symbol, span in sheet.forces[state].vectors.items()}
+    return found | {str(symbol): moment for symbol, moment in sheet.forces[state].moments.items()}
 
 
 @pytest.mark.parametrize(("name", "at"), PLACES)
 def test_drawn_forces_are_those_of_the_reference(name, at):
     true = CASES[name]["positions"][at]
-    forces = forces_on(drawn(scene_of(name), true["driver_deg"]))
+    sheet = with_forces(drawn(scene_of(name), true["driver_deg"]))
     most = max(abs(number(v)) for v in true["forces"].values())
     for key, exact in {**true["forces"], **true["moments"]}.items():
-        found = by_name(forces, -1 if key.endswith("+") else 0)
+        found = by_name(sheet, -1 if key.endswith("+") else 0)
         bare = key.removesuffix("+")
         mine = found[bare] if bare in found else -found[str(Symbol.parse(bare).opposite)]
         assert abs(number(exact) - mine) <= 1e-11 * most, key
@@ -58,7 +58,7 @@ def test_drawn_forces_are_those_of_the_reference(name, at):
 def test_arms_on_the_lever_are_those_of_the_reference(at):
     case = CASES["shaper-scheme-2"]
     true = case["positions"][at]["lever"]
-    (lever,) = forces_on(drawn(SHAPER, case["positions"][at]["driver_deg"])).states[0].levers
+    (lever,) = with_forces(drawn(SHAPER, case["positions"][at]["driver_deg"])).forces[0].levers
     for row in lever.rows:
         expected = true["rows"].get(str(row.symbol), {}).get("arm_mm")
         if expected is not None and row.acting.force:
@@ -190,14 +190,14 @@ def test_a_cylinder_between_moving_links_agrees_with_the_solver():
 
 
 def test_forces_of_a_larger_group_come_from_one_drawn_system():
-    forces = forces_on(drawn(loaded(graphkin.read("double-butterfly").to_dict(), 5)))
-    assert ("drawn system", "driver") == forces.ways
+    sheet = with_forces(drawn(loaded(graphkin.read("double-butterfly").to_dict(), 5)))
+    assert ("drawn system", "driver") == tuple(group.way for group in sheet.forces[0].groups)
 
 
 @pytest.mark.parametrize("seed", [1, 4])
 def test_every_polygon_closes(seed):
-    forces = forces_on(drawn(loaded(random_scene(seed, ("RRR", "RPR", "RPP"), "crank"), seed)))
-    polygons = [p for group in forces.states[0].groups for p in group.polygons]
+    sheet = with_forces(drawn(loaded(random_scene(seed, ("RRR", "RPR", "RPP"), "crank"), seed)))
+    polygons = [p for group in sheet.forces[0].groups for p in group.polygons]
     for polygon in polygons:
         most = max(abs(v.span) for v in polygon)
         for one, two in zip(polygon, (*polygon[1:], polygon[0]), strict=True):
@@ -206,7 +206,7 @@ def test_every_polygon_closes(seed):
 
 def test_a_force_on_its_shifted_line_turns_as_its_couple_does():
     sheet = drawn(SHAPER)
-    shifted = [one for one in forces_on(sheet).inertias.values() if one.shifted is not None and one.moment]
+    shifted = [one for one in with_forces(sheet).inertias.values() if one.shifted is not None and one.moment]
     assert shifted
     for one in shifted:
         moment = cross(one.shifted - one.centre, one.force) * sheet.scales.length
@@ -216,15 +216,15 @@ def test_a_force_on_its_shifted_line_turns_as_its_couple_does():
 
 def test_at_rest_loads_against_a_motion_act_as_if_the_driver_grew():
     scene = graphkin.read(SHAPER).replace("driver", {"link": "2", "angle": 250.0, "omega": 0.0})
-    forces = by_name(forces_on(drawn(scene)))
+    forces = by_name(with_forces(drawn(scene)))
     exact = graphkin.solve(scene).forces
     assert exact.value(Symbol.parse("M_2"))[0] == pytest.approx(forces["M_2"], rel=1e-11)
     assert 9000 == pytest.approx(abs(forces["P_P"]))
 
 
 def test_where_a_load_ends_both_polygons_are_drawn():
-    forces = forces_on(drawn(scene_of("engine"), 180))
-    assert [0.0, 6000.0] == pytest.approx([abs(by_name(forces, k)["P_gas"]) for k in (0, 1)])
+    sheet = with_forces(drawn(scene_of("engine"), 180))
+    assert [0.0, 6000.0] == pytest.approx([abs(by_name(sheet, k)["P_gas"]) for k in (0, 1)])
 
 
 def test_a_pencil_keeps_its_promise():
@@ -233,8 +233,8 @@ def test_a_pencil_keeps_its_promise():
 
 def test_what_a_pencil_draws_of_forces_is_what_is_read_off():
     checked = graphkin.check("engine-gas-force", instrument="pencil", seed=3)
-    drawn = checked.report.forces.states[0].vectors[Symbol.parse("F_2/3")]
-    exact = graphkin.check("engine-gas-force").report.forces.states[0].vectors[Symbol.parse("F_2/3")]
+    drawn = checked.sheet.forces[0].vectors[Symbol.parse("F_2/3")]
+    exact = graphkin.check("engine-gas-force").sheet.forces[0].vectors[Symbol.parse("F_2/3")]
     assert abs(drawn) == pytest.approx(checked["F_2/3"].on_paper, abs=0.8)  # what is read errs a little more
     assert abs(drawn - exact) > 1e-3
     assert checked["F_2/3"].uncertainty > 0
@@ -431,7 +431,7 @@ loads.P = { on = "3", at = [100, 20], force = 100, angle = 200 }
 @pytest.mark.parametrize("scene", [owned("g"), owned("s"), owned("g", "4"), owned("s", "4"), owned("s", "1", "B"),
                                    owned("g") | IN_ORDER, owned("s") | IN_ORDER, BLOCK_ON_A_COMPOUND_HINGE])
 def test_a_force_in_a_polygon_is_the_force_of_its_name(scene):
-    (state,) = forces_on(drawn(scene)).states
+    (state,) = with_forces(drawn(scene)).forces
     met = [(joint.point, joint.symbol("F")) for joint in joints(mechanism_of(scene))]
     met += [(pin.point, Symbol("F", link=pin.on, other=pin.of)) for pin in mechanism_of(scene).pins]
     for polygon in (polygon for group in state.groups for polygon in group.polygons):
@@ -449,7 +449,7 @@ def test_a_force_in_a_polygon_is_the_force_of_its_name(scene):
 
 @pytest.mark.parametrize("of", ["1", "4"])
 def test_the_link_of_a_pin_bears_the_force_of_a_circular_slot_as_it_is_drawn(of):
-    forces = by_name(forces_on(drawn(owned("g", of))))
+    forces = by_name(with_forces(drawn(owned("g", of))))
     assert f"F_{of}/g" in forces
     on_link = forces[f"F_0/{of}"] - forces[f"F_{of}/g"] + forces[f"Fi_{of}"] + forces[f"G_{of}"]
     assert 0 == pytest.approx(abs(on_link), abs=1e-9)
@@ -458,7 +458,7 @@ def test_the_link_of_a_pin_bears_the_force_of_a_circular_slot_as_it_is_drawn(of)
 
 @pytest.mark.parametrize(("slot", "of"), [("g", "1"), ("s", "1"), ("g", "4"), ("s", "4")])
 def test_a_guest_of_a_hinge_is_cut_free_before_its_host_whose_force_is_that_of_one_pair(slot, of):
-    (state,) = forces_on(drawn(owned(slot, of))).states
+    (state,) = with_forces(drawn(owned(slot, of))).forces
     (polygon,) = next(group for group in state.groups if group.links == (of,)).polygons
     assert [f"F_0/{of}"] == [str(vector.symbol) for vector in polygon if not vector.known]
 

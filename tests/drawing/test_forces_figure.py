@@ -6,7 +6,6 @@ import math
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -47,11 +46,8 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 
 def stages_of(name: Any) -> tuple[ForceStage, ...]:
-    checked = graphkin.check(name)
-    assert checked.report.forces is not None
-    sheet = checked.sheet
-    sheet = replace(sheet, scales=replace(sheet.scales, force=checked.report.forces.per_mm))
-    return tuple(ForceAccount(sheet, checked.report.forces, notation_of(sheet, "chinese")).stages())
+    sheet = graphkin.check(name).sheet
+    return tuple(ForceAccount(sheet, notation_of(sheet, "chinese")).stages())
 
 
 def vectors(svg: bytes) -> dict[str, complex]:
@@ -156,9 +152,8 @@ def test_what_a_sum_of_moments_gives_is_laid_off_as_it_stands_there(name: str) -
 @pytest.mark.parametrize("name", ["rocker-return-spring", "boom-lifted", "engine-gas-force", "shaper-forces"])
 def test_a_sum_of_moments_gives_in_figures_what_is_drawn(name: str) -> None:
     checked = graphkin.check(name)
-    assert checked.report.forces is not None
     newtons, found = checked.mechanism.units.newtons, []
-    for state in checked.report.forces.states:
+    for state in checked.sheet.forces:
         for one in (m for group in state.groups for m in (*group.moments, *group.couples) if m.value):
             terms, arm, value = balance(checked.sheet, one)
             total = sum(float(f"{sign}1") * math.prod(map(float, factors)) for sign, factors in terms)

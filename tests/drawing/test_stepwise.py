@@ -3,6 +3,7 @@ from __future__ import annotations
 import pytest
 
 from graphkin.api.drawn import draw
+from graphkin.checking.report import Report
 from graphkin.drawing.ink.primitives import Group, Text, walk
 from graphkin.drawing.stepwise import so_far, step_of, stepped
 from graphkin.papers.lesson import Lesson
@@ -13,7 +14,7 @@ from tests.drawn import drafted
 
 def _layers(name, diagram):
     sheet, _ = drafted(name)
-    return sheet, parts(Lesson(sheet, None, {}, "en", "chinese"), diagram)
+    return sheet, parts(Lesson(Report(sheet, ()), {}, "en", "chinese"), diagram)
 
 
 @pytest.mark.parametrize("name", library())

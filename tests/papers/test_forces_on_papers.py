@@ -76,6 +76,12 @@ def test_the_lever_of_a_solution_does_not_repeat_the_title_of_the_page(papers):
     assert 0 == papers["handout.html"].count('class="heading"')
 
 
+def test_a_balancing_force_has_one_value_by_the_lever_and_by_the_polygons(tmp_path):
+    graphkin.handout("boom-lifted", out=tmp_path, formats=("html",), language="en", positions=1)
+    text = words((tmp_path / "handout.html").read_text(encoding="utf-8"))
+    assert "13.638 kN by the lever, 13.638 kN by the polygons" in text
+
+
 def test_the_forces_are_found_step_by_step_on_the_page(papers):
     (position,) = tests.papers.unpacked(papers["handout.html"])["positions"]
     svg = "".join(figure["svg"] for figure in position["figures"])

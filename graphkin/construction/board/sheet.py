@@ -38,6 +38,7 @@ from graphkin.structure.model import Element, LargerGroup, Structure
 from graphkin.words import Phrase, gaps_of
 
 if TYPE_CHECKING:
+    from graphkin.construction.forces.force_sheet import ForceState, Inertia
     from graphkin.construction.trains import TrainPlan
 
 PARALLEL = 1e-12  # sine below which two lines have no crossing at all
@@ -201,7 +202,8 @@ class Sheet:
     exactly here), if forces are drawn; ``growing`` are then, where the mechanism rests or has several drivers, drawings
     with each driver's value alone growing at a unit rate. ``trains`` are the velocity plans of rolling links, at scales
     of their own.  ``readings`` are the lengths (mm) that an erring hand has read for the construction, of vectors by
-    their symbols (`either_way`), of the mechanism by the two points.
+    their symbols (`either_way`), of the mechanism by the two points.  ``forces`` are the drawn forces, in the scale of
+    their polygons: once, or twice if a load begins or ends exactly here; ``inertias`` are those of the links.
     """
 
     scene: Mechanism
@@ -228,6 +230,8 @@ class Sheet:
     trains: tuple[TrainPlan, ...] = ()
     readings: Mapping[Symbol | frozenset[str], float] = field(default_factory=dict)
     has_forces: bool = False
+    inertias: Mapping[str, Inertia] = field(default_factory=dict)
+    forces: tuple[ForceState, ...] = ()
 
     def larger(self, times: float) -> Sheet:
         """The mechanism alone enlarged by a factor, drawn by any hands; without the points of its construction."""
@@ -238,7 +242,7 @@ class Sheet:
         )  # fmt: skip
 
     def at(self, scales: Scales) -> Sheet:
-        """The construction at other scales: every length on paper multiplied by a factor.
+        """The construction at other scales: every length on paper multiplied by a factor.  Forces are drawn anew.
 
         Raises
         ------
@@ -252,7 +256,7 @@ class Sheet:
         length, *fast = k.values()
         return replace(
             self,
-            scales=scales,
+            scales=scales, inertias={}, forces=(),
             poses={name: pose.scaled(length) for name, pose in self.poses.items()},
             points={ref: z * length for ref, z in self.points.items()},
             ends={order: {ref: z * k[order] for ref, z in self.ends[order].items()} for order in ORDERS},

@@ -22,7 +22,7 @@ from dataclasses import replace
 from graphkin.construction.board.instruments import EXACT, Instrument
 from graphkin.construction.board.scales import extent_of, fitting_scale
 from graphkin.construction.board.sheet import Reading, Sheet
-from graphkin.construction.forces.force_sheet import ForceSheet, ForceState, ForceVector, Lever, MomentTerm
+from graphkin.construction.forces.force_sheet import ForceState, ForceVector, Lever, MomentTerm
 from graphkin.construction.forces.groups import NORMAL, TANGENT, CutFree, at_driver, of_dyad, of_larger_group
 from graphkin.construction.forces.position import DrawnPosition, force_groups, from_outside, inertias
 from graphkin.construction.touching import Touching
@@ -40,8 +40,9 @@ NOUGHT = 1e-10
 """Of the largest force: an inertia force smaller than this has no line."""
 
 
-def forces_on(sheet: Sheet, hand: Instrument = EXACT, per_mm: float = 0.0) -> ForceSheet:
-    """All forces of a drawn position, each taken off its polygon, and the levers.
+def with_forces(sheet: Sheet, hand: Instrument = EXACT, per_mm: float = 0.0) -> Sheet:
+    """A drawn position with all its forces, each taken off its polygon, and the levers; drawn twice where a load begins
+    or ends exactly here.
 
     Parameters
     ----------
@@ -51,24 +52,7 @@ def forces_on(sheet: Sheet, hand: Instrument = EXACT, per_mm: float = 0.0) -> Fo
     ------
     Unsolvable : "dead point": the balance does no work, or a polygon does not close
     """
-    return _drawn(sheet, hand, per_mm or force_scale(sheet))
-
-
-def force_scale(sheet: Sheet) -> float:
-    """N for one mm of the force polygons: as the scene wishes, or the finest of the series at which every polygon fits
-    its room.  Raises Unsolvable as `forces_on`."""
-    newtons, wish = sheet.scene.units.newtons, sheet.scene.question.sheet.force_scale
-    if wish:
-        return wish * newtons
-    whole = _drawn(sheet, EXACT, 1.0)
-    polygons = [p for state in whole.states for group in state.groups for p in group.polygons]
-    extents = [extent_of([z for v in p for z in (v.tail, v.tip)], 1.0) for p in polygons if p]
-    largest = max((wide for wide, _ in extents), default=0.0), max((high for _, high in extents), default=0.0)
-    return fitting_scale(largest, ROOM, 1.0 / newtons) * newtons
-
-
-def _drawn(sheet: Sheet, hand: Instrument, per_mm: float) -> ForceSheet:
-    """Force polygons and levers at a scale (N for one mm), twice where a load begins or ends exactly here."""
+    per_mm = per_mm or force_scale(sheet)
     moves = any(driver.values[1] for driver in sheet.scene.drivers)
     growing = sheet if moves else sheet.growing[0]
     held, pushes = held_by_pairs(sheet), inertias(sheet, hand)
@@ -76,7 +60,21 @@ def _drawn(sheet: Sheet, hand: Instrument, per_mm: float) -> ForceSheet:
         _state(held, hand, per_mm, from_outside(sheet, growing, pushes, sheet.acting, with_edges, hand))
         for with_edges in ((False, True) if None in sheet.acting.values() else (False,))
     ]
-    return ForceSheet(per_mm, pushes, tuple(replace(state, levers=levers_of(sheet, state, hand)) for state in states))
+    forces = tuple(replace(state, levers=levers_of(sheet, state, hand)) for state in states)
+    return replace(sheet, scales=replace(sheet.scales, force=per_mm), inertias=pushes, forces=forces)
+
+
+def force_scale(sheet: Sheet) -> float:
+    """N for one mm of the force polygons: as the scene wishes, or the finest of the series at which every polygon fits
+    its room.  Raises Unsolvable as `with_forces`."""
+    newtons, wish = sheet.scene.units.newtons, sheet.scene.question.sheet.force_scale
+    if wish:
+        return wish * newtons
+    whole = with_forces(sheet, EXACT, 1.0)
+    polygons = [p for state in whole.forces for group in state.groups for p in group.polygons]
+    extents = [extent_of([z for v in p for z in (v.tail, v.tip)], 1.0) for p in polygons if p]
+    largest = max((wide for wide, _ in extents), default=0.0), max((high for _, high in extents), default=0.0)
+    return fitting_scale(largest, ROOM, 1.0 / newtons) * newtons
 
 
 def _state(held: Sheet, hand: Instrument, per_mm: float, known: tuple[ForceVector, ...]) -> ForceState:
@@ -221,25 +219,29 @@ def _on_lever(images: DrawnPosition, acting: ForceVector, hand: Instrument) -> M
 
 
 def force_readings(sheet: Sheet, hand: Instrument = EXACT) -> tuple[Reading, ...]:
-    """Draw the forces of a sheet with an instrument and read them off.  Raises Unsolvable as `forces_on`."""
-    return readings_of(sheet, forces_on(sheet, hand), hand)
+    """The forces of a sheet as they are read, first drawn if they are not drawn yet; with ``+`` those changed by a load
+    that begins or ends exactly there.  Raises Unsolvable as `with_forces`."""
+    sheet = sheet if sheet.forces else with_forces(sheet, hand)
+    largest = max((abs(v) for state in sheet.forces for v in state.vectors.values()), default=0.0)
+    least = NOUGHT * largest * sheet.scales.force
+    return (*_of_states(sheet, largest, hand), *_shifts(sheet, least), *_arms(sheet, least))
 
 
-def readings_of(sheet: Sheet, forces: ForceSheet, hand: Instrument = EXACT) -> tuple[Reading, ...]:
-    """The readings of drawn forces; with ``+`` those changed by a load that begins or ends exactly there."""
-    return (*_of_states(forces, hand), *_shifts(sheet, forces), *_arms(forces))
+def _of_states(sheet: Sheet, largest: float, hand: Instrument) -> Iterator[Reading]:
+    """Forces (N) and moments (N m) of each state; of the second only those that differ from the first.
 
-
-def _of_states(forces: ForceSheet, hand: Instrument) -> Iterator[Reading]:
-    """Forces (N) and moments (N m) of each state; of the second only those that differ from the first."""
-    base, *_ = forces.states
-    for state in forces.states:
+    Parameters
+    ----------
+    largest : the largest force of all states (mm of polygon)
+    """
+    base, *_ = sheet.forces
+    for state in sheet.forces:
         most = max((abs(m) for m in state.moments.values()), default=0.0)
-        kinds = (state.vectors, base.vectors, forces.largest), (state.moments, base.moments, most)
-        for values, old, largest in kinds:
+        kinds = (state.vectors, base.vectors, largest), (state.moments, base.moments, most)
+        for values, old, greatest in kinds:
             for symbol, value in values.items():
                 named = symbol if state is base else replace(symbol, plus=True)
-                if state is not base and abs(value - old[symbol]) <= SAME * largest:
+                if state is not base and abs(value - old[symbol]) <= SAME * greatest:
                     continue
                 size = abs(value)
                 if not symbol.is_vector or size == 0.0:
@@ -247,27 +249,26 @@ def _of_states(forces: ForceSheet, hand: Instrument) -> Iterator[Reading]:
                     continue
                 length = abs(hand.read(size))
                 along = hand.read_direction(value / size) if hand is not EXACT else value / size
-                yield Reading(named, length, length * along * forces.per_mm, "force")
+                yield Reading(named, length, length * along * sheet.scales.force, "force")
 
 
-def _shifts(sheet: Sheet, forces: ForceSheet) -> Iterator[Reading]:
-    """The shifts of inertia forces that have a couple."""
-    least = NOUGHT * forces.largest * forces.per_mm
-    for link, inertia in forces.inertias.items():
+def _shifts(sheet: Sheet, least: float) -> Iterator[Reading]:
+    """The shifts of inertia forces that have a couple, of more than the ``least`` force (N)."""
+    for link, inertia in sheet.inertias.items():
         if inertia.h is not None and inertia.mass.inertia and abs(inertia.force) > least:
             yield Reading(Symbol("h", link=link), abs(inertia.h) / sheet.scales.length, inertia.h, "mechanism")
 
 
-def _arms(forces: ForceSheet) -> Iterator[Reading]:
-    """The arms of all forces on the lever of one driver, in the state in which they act."""
-    if any(len(state.levers) != 1 for state in forces.states):
+def _arms(sheet: Sheet, least: float) -> Iterator[Reading]:
+    """The arms of all forces above the ``least`` (N) on the lever of one driver, in the state in which they act."""
+    if any(len(state.levers) != 1 for state in sheet.forces):
         return
     seen = set[Symbol]()
-    for (lever,) in (state.levers for state in forces.states):
+    for (lever,) in (state.levers for state in sheet.forces):
         for row in (*lever.rows, lever.unknown):
             symbol = Symbol("arm", name=str(row.symbol))
             sought = row is lever.unknown
-            forceful = row.symbol.is_vector and (sought or row.size > NOUGHT * forces.largest * forces.per_mm)
+            forceful = row.symbol.is_vector and (sought or row.size > least)
             if forceful and symbol not in seen:
                 seen.add(symbol)
                 arm = row.moment if sought else row.arm or 0.0  # what balances may act between two moving links

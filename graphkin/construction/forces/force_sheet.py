@@ -1,4 +1,4 @@
-"""The sheet of forces: forces and couples on links, moment equations, force polygons, and their results.
+"""Forces on a sheet: forces and couples on links, moment equations, force polygons, and their results.
 
 Places are complex numbers in mm on the drawn mechanism, force vectors in mm of their polygons at ``per_mm`` N; sizes
 are in N and N m, counter-clockwise positive.
@@ -223,22 +223,3 @@ class ForceState:
     vectors: Mapping[Symbol, complex]
     moments: Mapping[Symbol, float]
     levers: tuple[Lever, ...] = ()
-
-
-@dataclass(frozen=True)
-class ForceSheet:
-    """The drawing of the forces at a position: once, or twice if a load begins or ends exactly there."""
-
-    per_mm: float
-    inertias: Mapping[str, Inertia]
-    states: tuple[ForceState, ...]
-
-    @property
-    def ways(self) -> tuple[Way, ...]:
-        """The constructions of its groups, each once."""
-        return tuple(dict.fromkeys(group.way for group in self.states[0].groups))
-
-    @property
-    def largest(self) -> float:
-        """The largest force (mm of polygon)."""
-        return max((abs(v) for state in self.states for v in state.vectors.values()), default=0.0)

@@ -28,7 +28,7 @@ from graphkin.account.notation import Notation, as_vector, force_letters, pole
 from graphkin.checking.report import Report
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import Vector
-from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, ForceVector, Lever, MomentTerm
+from graphkin.construction.forces.force_sheet import ForceGroup, ForceState, ForceVector, Lever, MomentTerm
 from graphkin.construction.touching import Touching, outlines_on_paper
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import MARGIN, Block, FigurePage, column, framed, pages, panel, prose, row, rows, table
@@ -60,26 +60,25 @@ LEAST, SMALLEST, NARROW = 46.0, 26.0, 40.0  # mm, least heights of a sketch and 
 APART, CLOSE, INSIDE = 4.0, 2.0, 0.6  # mm between groups, between the parts of one, and inside a frame
 
 
-def forces_figure(page: FigurePage, forces: ForceSheet, report: Report | None = None) -> Drawing:
+def forces_figure(page: FigurePage, report: Report | None = None) -> Drawing:
     """The forces of a drawn position on pages of the scene's paper.
 
     Parameters
     ----------
     report : readings compared with the exact values; without it there is no table
     """
-    sheet = replace(page.sheet, scales=replace(page.sheet.scales, force=forces.per_mm))
-    page = replace(page, sheet=sheet)
+    sheet = page.sheet
     width, height = sheet.scene.question.sheet.size
-    boxes = [box for state in forces.states for group in state.groups for *_, box in _polygons(group)]
+    boxes = [box for state in page.sheet.forces for group in state.groups for *_, box in _polygons(group)]
     page = replace(page, width=max(width - 2 * MARGIN, *(box.width for box in boxes), 0.0))
     below = page.at_drivers(page.term("forces"))
     spare = page.height_for(below, height)
     needed = max((box.height for box in boxes), default=0.0) + 2 * page.prose(("force",)).height
     room, height = max(spare, needed), height + max(0.0, needed - spare)  # a larger paper for a wished scale
-    blocks = [_given(page, forces), *_groups(page, forces, room)]
+    blocks = [_given(page), *_groups(page, room)]
     if report is not None:
         rows = [TableRow(row.reading, row) for row in report.rows if row.symbol.scope == "force"]
-        blocks += _tables(replace(page, sheet=replace(sheet, scales=report.scales)), rows)
+        blocks += _tables(page, rows)
     units = sheet.scene.units
     scales = {"length": sheet.scales.length * 1e3, "force": sheet.scales.force / units.newtons}
     first, *further = (
@@ -93,10 +92,10 @@ def forces_figure(page: FigurePage, forces: ForceSheet, report: Report | None = 
     return replace(first, further=tuple(further))
 
 
-def _given(page: FigurePage, forces: ForceSheet) -> Block:
+def _given(page: FigurePage) -> Block:
     """Masses and loads, inertia forces, springs."""
-    account = ForceAccount(page.sheet, forces, page.letters)
-    inertia = [*map(account.inertia, forces.inertias.values())]
+    account = ForceAccount(page.sheet, page.letters)
+    inertia = [*map(account.inertia, page.sheet.inertias.values())]
     return column(
         page.prose((page.term("given"),), bold=True), page.prose(given_loads(page.sheet, page.letters)),
         page.prose((Phrase("force inertia"),) * bool(inertia), bold=True), page.prose(inertia),
@@ -104,21 +103,21 @@ def _given(page: FigurePage, forces: ForceSheet) -> Block:
     )  # fmt: skip
 
 
-def _groups(page: FigurePage, forces: ForceSheet, room: float) -> Iterator[Block]:
+def _groups(page: FigurePage, room: float) -> Iterator[Block]:
     """Group by group in the order of construction, each with its caption and the text below it, in parts if it does not
     fit a page, but sketch and polygons on one as long as it holds them; if loads begin or end here, without and with
     them."""
     names: Counter[str] = Counter()
     state = None
-    account = ForceAccount(page.sheet, forces, page.letters)
+    account = ForceAccount(page.sheet, page.letters)
     for stage in account.stages():
         if not stage.group.links:
             continue
-        if len(forces.states) > 1 and stage.state is not state:
+        if len(page.sheet.forces) > 1 and stage.state is not state:
             yield _loaded(page, stage.again)
         state = stage.state
         caption = page.prose((text for _, text in stage.heading(page.language)), 3.2, bold=True)
-        first, *more = _pictures(page, forces, stage, names)
+        first, *more = _pictures(page, stage, names)
         text = _below(page, account, stage)
         pictures = column(caption, first, *more, gap=CLOSE)
         whole = column(pictures, text, gap=CLOSE)
@@ -135,7 +134,7 @@ def _loaded(page: FigurePage, acts: bool) -> Block:
     return page.prose((Phrase("force with load" if acts else "force without load"),), bold=True)
 
 
-def group_picture(page: FigurePage, forces: ForceSheet, stage: ForceStage, tag: str) -> Drawing:
+def group_picture(page: FigurePage, stage: ForceStage, tag: str) -> Drawing:
     """The sketch of a group cut free with its polygons, every part with its step, without text below.
 
     Parameters
@@ -143,14 +142,14 @@ def group_picture(page: FigurePage, forces: ForceSheet, stage: ForceStage, tag: 
     page : of a sheet with the scale of the forces, at the greatest width of the picture
     tag : ends the names of its parts
     """
-    whole = column(*_pictures(page, forces, stage, Counter(), tag), gap=CLOSE)
+    whole = column(*_pictures(page, stage, Counter(), tag), gap=CLOSE)
     parts = tied(layer_groups(whole.piece))  # leaders come with their names
     return Drawing(max(page.width, whole.width), whole.height, parts, figure_title(page.sheet, "forces", page.language),
                    page.said("force described")[0], languages(page.language)[0])  # fmt: skip
 
 
 def _pictures(
-    page: FigurePage, forces: ForceSheet, stage: ForceStage, names: Counter[str], tag: str = ""
+    page: FigurePage, stage: ForceStage, names: Counter[str], tag: str = ""
 ) -> Iterator[Block]:
     """The sketch of a group beside its polygon, or above its polygons."""
     suffix = ("-with" if stage.again else "") + tag
@@ -161,7 +160,7 @@ def _pictures(
     shown = links.height * min((wide - ROOM) / max(links.width, 1e-6), 1.0)
     high = max(LEAST, min(HIGHEST, shown + ROOM), polygons[0][3].height if alone else 0.0)
     named = "-".join(stage.group.links) + suffix
-    sketch = framed(panel(wide, high, lambda room: _free_body(page, forces, stage, room.grown(-INSIDE), named)))
+    sketch = framed(panel(wide, high, lambda room: _free_body(page, stage, room.grown(-INSIDE), named)))
 
     def polygon(drawn: _Polygon, width: float, height: float) -> Block:
         return framed(panel(
@@ -233,12 +232,12 @@ def _cut_free(group: ForceGroup) -> tuple[str, ...]:
     return tuple(dict.fromkeys((*group.links, *(v.link for v in group.polygon))))
 
 
-def _free_body(page: FigurePage, forces: ForceSheet, stage: ForceStage, panel: Box, tag: str) -> Piece:
+def _free_body(page: FigurePage, stage: ForceStage, panel: Box, tag: str) -> Piece:
     """The sketch of a group in a panel, not larger than the mechanism is drawn."""
     box = _extent(page.sheet, stage.group)
     times = min((panel.width - ROOM) / max(box.width, 1e-6), (panel.height - ROOM) / max(box.height, 1e-6), 1.0)
     for _ in range(TRIES):
-        piece = _sketch(page, forces, stage, times, tag)
+        piece = _sketch(page, stage, times, tag)
         solid = joined(Piece({name: things}) for name, things in piece.layers.items() if name != "construction")
         ink = ink_box(solid.drawn) or panel
         over = max(ink.width / (panel.width - EDGE), ink.height / (panel.height - EDGE))
@@ -259,7 +258,7 @@ def _extent(sheet: Sheet, group: ForceGroup) -> Box:
     return Box.around(map(on_page, spots + Touching(sheet.scene, mm, sheet.poses).outermost(links)))
 
 
-def _sketch(page: FigurePage, forces: ForceSheet, stage: ForceStage, times: float, tag: str) -> Piece:
+def _sketch(page: FigurePage, stage: ForceStage, times: float, tag: str) -> Piece:
     """The sketch at ``times`` the size of the drawn mechanism, about the mechanism's own origin."""
     plate, links = Plate(), set(_cut_free(stage.group))
     here = MechanismOnPaper(page.sheet.larger(times), page.letters)
@@ -269,7 +268,7 @@ def _sketch(page: FigurePage, forces: ForceSheet, stage: ForceStage, times: floa
     plate.put("construction", *marks.layers["construction"])
     _arms(plate, stage, times)
     _acting(plate, page, stage, times, tag)
-    for link, pushed in forces.inertias.items():
+    for link, pushed in page.sheet.inertias.items():
         if link in links and pushed.shifted is not None and pushed.h:
             # where it acts together with its couple: a line at the distance h from the centre of mass
             along, at, centre = unit(pushed.force), pushed.shifted * times, pushed.centre * times
@@ -479,25 +478,18 @@ COLUMNS = 42.0, 34.0, 34.0, 64.0  # mm: force, its size, arm, moment
 DIGITS = 5
 
 
-def lever_figure(page: FigurePage, forces: ForceSheet, report: Report | None = None) -> Drawing | None:
-    """A lever for each driver, at the scale of the velocities; None where no balancing load moves.
-
-    Parameters
-    ----------
-    report : its check, if that has scales of its own
-    """
-    shown = [(k, state, lever) for k, state in enumerate(forces.states) for lever in state.levers]
+def lever_figure(page: FigurePage, report: Report | None = None) -> Drawing | None:
+    """A lever for each driver, at the scale of the velocities; None where no balancing load moves."""
+    shown = [(k, state, lever) for k, state in enumerate(page.sheet.forces) for lever in state.levers]
     if not shown:
         return None
-    sheet = page.sheet if report is None else replace(page.sheet, scales=report.scales)
-    page = replace(page, sheet=sheet)
+    sheet, account = page.sheet, ForceAccount(page.sheet, page.letters)
     why = [Phrase("lever reason", pole=f"${pole(page.convention, 'velocity')}$")]
     why += [Phrase("lever couple")] * any(row.pair for _, _, lever in shown for row in lever.rows)
     why += [Phrase("lever virtual")] * any(lever.virtual for _, _, lever in shown)
     body = [page.prose(why)]
     for number, (k, state, lever) in enumerate(shown):
-        body += [_loaded(page, k > 0)] * (len(forces.states) > 1)
-        account = ForceAccount(sheet, forces, page.letters)
+        body += [_loaded(page, k > 0)] * (len(page.sheet.forces) > 1)
         body += _lever(page, account, state, lever, str(number or ""))
     per = lever_scale(sheet, shown[0][2]) / sheet.scene.units.rates.metres
     return page.drawing(
