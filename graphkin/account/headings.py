@@ -13,6 +13,7 @@ from graphkin.account.spoken import spoken_vector
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import DiagramName, Direction, plain_in
 from graphkin.scene.model import Mechanism
+from graphkin.scene.pairs import told
 from graphkin.scene.tables import Measure
 from graphkin.version import __version__
 from graphkin.words import Neutral, Phrase, as_plain, in_all, languages, listed, rich_text, say, word
@@ -165,15 +166,7 @@ def structure_words(scene: Mechanism, language: str) -> list[str]:
     for slot in slots.values():
         runs = {"point": slot.point, "link": slot.of or slot.bar, "guide": slot.on, "centre": slot.centre}
         said.append(say(Phrase("runs on circle", **runs), language))
-    for contact in scene.contacts:
-        key = "rolls on" if contact.rolling else "touches"
-        said.append(say(Phrase(key, first=contact.links[0], second=contact.links[1], contact=contact.name), language))
-    for gear in scene.gears:
-        said.append(say(Phrase("meshes", first=gear.wheels[0], second=gear.wheels[1], carrier=gear.carrier), language))
-    for cam in scene.cams:
-        kind = "flat" if cam.flat else "roller" if cam.roller else "edge"
-        said.append(say(Phrase("cam moves", cam=cam.link, follower=cam.follower, kind=Phrase(f"cam {kind}")), language))
-    return said
+    return said + [say(told(pair, "built"), language) for pair in scene.higher_pairs]
 
 
 def _vectors(sheet: Sheet, diagram: DiagramName, language: str) -> list[str]:

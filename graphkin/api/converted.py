@@ -15,6 +15,7 @@ from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.exchange import FRAME, READ, Bodies, BodySlide, is_address, read_bodies, write_bodies
 from graphkin.files import Json, path_of
 from graphkin.scene.model import Mechanism
+from graphkin.scene.pairs import told
 from graphkin.scene.scene import Scene, SceneLike, safe_name, toml_text, written
 from graphkin.table import Table
 from graphkin.words import Phrase
@@ -150,9 +151,7 @@ def _bodies(scene: Mechanism) -> Bodies:
         made.slides.append(
             BodySlide(_name(scene, body), pair.pin, _name(scene, pair.on), through, angle, bool(pair.of))
         )
-    made.lost += [Phrase("lost cam", link=cam.link, follower=cam.follower) for cam in scene.cams]
-    made.lost += [Phrase("lost contact", name=c.name, first=c.links[0], second=c.links[1]) for c in scene.contacts]
-    made.lost += [Phrase("lost gears", name=g.name, first=g.wheels[0], second=g.wheels[1]) for g in scene.gears]
+    made.lost += [told(pair, "left behind") for pair in scene.higher_pairs]
     made.lost += [Phrase("lost redundant link", link=link.name) for link in scene.links if link.redundant]
     made.lost += [Phrase("lost mass", link=mass.link) for mass in scene.loading.masses]
     made.lost += [Phrase("lost load", name=load.name) for load in scene.loading.loads]

@@ -17,7 +17,7 @@ from graphkin.construction import EXACT, execute, plan
 from graphkin.errors import GraphkinError, Unsolvable
 from graphkin.files import Json
 from graphkin.scene.model import Driver, Mechanism, PlacedLink, forces_named
-from graphkin.scene.pairs import PlacedGuide
+from graphkin.scene.pairs import PlacedGuide, told
 from graphkin.scene.scene import SceneLike
 from graphkin.structure import LargerGroup, Structure, mobility_of
 from graphkin.table import Table
@@ -213,24 +213,7 @@ def _joints(scene: Mechanism) -> Iterator[Phrase]:
         yield Phrase(key, point=slot.point, link=link, guide=guide, centre=slot.centre, bar=slot.bar)
     for pin in scene.pins:
         yield Phrase("explained slot", point=pin.point, link=pin.of, guide=_guide_name(scene, pin.on, pin.guide))
-    for contact in scene.contacts:
-        sides = [_guide_name(scene, link, name) if link == contact.face else f"{link}.{name}"
-                 for link, name in zip(contact.links, contact.outlines, strict=True)]
-        rolling = "explained held rolling" if contact.carrier else "explained rolling"
-        key = rolling if contact.rolling else "explained contact"
-        yield Phrase(key, contact=contact.name, first=sides[0], second=sides[1], carrier=contact.carrier)
-    for cam in scene.cams:
-        kind = "flat" if cam.flat else "roller" if cam.roller else "edge"
-        pieces = str(len(cam.law.pieces))
-        yield Phrase("explained cam", cam=cam.link, follower=cam.follower, kind=Phrase(f"cam {kind}"), pieces=pieces)
-    for gear in scene.gears:
-        teeth = [_number(z) for z in gear.teeth if z is not None]
-        (first, second), name, carrier = gear.wheels, gear.name, gear.carrier
-        if gear.is_rack:
-            yield Phrase("explained rack", gear=name, wheel=first, rack=second, teeth=teeth[0], carrier=carrier)
-        else:
-            names = {"gear": name, "first": first, "second": second, "carrier": carrier}
-            yield Phrase("explained gear", **names, teeth_first=teeth[0], teeth_second=teeth[1])
+    yield from (told(pair, "explained") for pair in scene.higher_pairs)
 
 
 def _guide_name(scene: Mechanism, link: str, guide: str) -> str:

@@ -9,13 +9,21 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 from graphkin.errors import Problem, Unsolvable, did_you_mean
 from graphkin.scene.laws import MotionLaw
-from graphkin.scene.pairs import CircularSlot, LawCam, PlacedContact, PlacedGear, PlacedGuide, SlidingPair
+from graphkin.scene.pairs import (
+    CircularSlot,
+    HigherPair,
+    LawCam,
+    PlacedContact,
+    PlacedGear,
+    PlacedGuide,
+    SlidingPair,
+)
 from graphkin.scene.scene_tables import (
     Disc,
     Flywheel,
@@ -367,6 +375,16 @@ class Mechanism:
         return self if self.instead_of is None else self.instead_of
 
     @property
+    def higher_pairs(self) -> tuple[HigherPair, ...]:
+        """The pairs of links that touch."""
+        return *self.contacts, *self.gears, *self.cams
+
+    def keeping(self, kept: Callable[[HigherPair], object]) -> Mechanism:
+        """This mechanism without the higher pairs that are not kept."""
+        pairs: dict[str, Any] = {part: tuple(filter(kept, getattr(self, part))) for part in _TOUCHING}
+        return replace(self, **pairs)
+
+    @property
     def points(self) -> Mapping[str, tuple[str, ...]]:
         """The names of the points of each link, the frame's first."""
         return {link.name: tuple(link.points) for link in (self.frame, *self.links)}
@@ -472,7 +490,9 @@ def with_dimensions(mechanism: Mechanism, changed: Mapping[Dimension, complex]) 
     )  # fmt: skip
 
 
-_MOVING = ("frame", "links", "slides", "drivers", "cams", "contacts", "gears", "starts", "slots")
+_TOUCHING = "contacts", "gears", "cams"
+"""The parts of a mechanism with its higher pairs."""
+_MOVING = ("frame", "links", "slides", "drivers", *_TOUCHING, "starts", "slots")
 """The parts of a mechanism on which its motion depends."""
 
 

@@ -15,13 +15,13 @@ import cmath
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple
+from typing import ClassVar, NamedTuple, TypeAlias
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Values
 from graphkin.scene.laws import FollowerLaw, Lift
 from graphkin.scene.tables import Units
-from graphkin.words import Phrase
+from graphkin.words import Phrase, gaps_of, has_words
 
 # -- sliding pairs, slots, what touches --------------------------------------------------------------------------------
 
@@ -147,6 +147,31 @@ class PlacedContact:
         """The direction from the face to the disc, counted from the guide's sense."""
         return 1j if self.left else -1j
 
+    @property
+    def replaced(self) -> bool:
+        """Whether links and lower pairs replace it at every position."""
+        return not self.rolling
+
+    @property
+    def members(self) -> tuple[str, ...]:
+        """The links without which it is none: the two that touch, and the carrier."""
+        return (*self.links, *((self.carrier,) if self.carrier else ()))
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """The words of its kind, the most special first."""
+        if self.rolling:
+            return *(("held rolling",) if self.carrier else ()), "rolling", "contact"
+        return *(("flat contact",) if self.flat else ()), "contact"
+
+    @property
+    def gaps(self) -> dict[str, object]:
+        """The names in its sentences."""
+        sides = (f"{link}.{name}" if name else link for link, name in zip(self.links, self.outlines, strict=True))
+        return {"contact": self.name, "first": self.links[0], "second": self.links[1], "carrier": self.carrier,
+                "bar": self.block, "centre": self.centres[0],
+                **dict(zip(("first_side", "second_side"), sides, strict=True))}  # fmt: skip
+
 
 @dataclass(frozen=True)
 class PlacedGear:
@@ -167,6 +192,8 @@ class PlacedGear:
     guide: str = ""
     slide: str = ""
     sense: int = 1
+    replaced: ClassVar[bool] = False  # by links and lower pairs
+    block: ClassVar[str] = ""  # no link replaces it
 
     @property
     def is_rack(self) -> bool:
@@ -176,6 +203,23 @@ class PlacedGear:
     def links(self) -> tuple[str, ...]:
         """All its links, the wheels first."""
         return tuple(dict.fromkeys((*self.wheels, self.carrier)))
+
+    @property
+    def members(self) -> tuple[str, ...]:
+        """The links without which it is none."""
+        return self.links
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """The words of its kind, the most special first."""
+        return *(("rack",) if self.is_rack else ()), "gear"
+
+    @property
+    def gaps(self) -> dict[str, object]:
+        """The names in its sentences, and its numbers of teeth."""
+        first, second = (None if teeth is None else f"{teeth + 0.0:.6g}" for teeth in self.teeth)
+        return {"gear": self.name, "first": self.wheels[0], "second": self.wheels[1], "carrier": self.carrier,
+                "teeth_first": first, "teeth_second": second}  # fmt: skip
 
 
 # -- cams --------------------------------------------------------------------------------------------------------------
@@ -261,11 +305,29 @@ class LawCam:
     rolls: ClassVar[bool] = False
     given: ClassVar[bool] = False
     through: ClassVar[tuple[str, ...]] = ()
+    replaced: ClassVar[bool] = True
+    block: ClassVar[str] = ""
 
     @property
     def key(self) -> str:
         """The key by which it is distinguished from drivers."""
         return f"cam {self.link}"
+
+    @property
+    def members(self) -> tuple[str, ...]:
+        """The links without which it is none: the cam and its follower."""
+        return self.link, self.follower
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """The word of its kind."""
+        return ("cam",)
+
+    @property
+    def gaps(self) -> dict[str, object]:
+        """The names in its sentences, the kind of follower, and the number of pieces of its law."""
+        kind = Phrase("cam flat" if self.flat else "cam roller" if self.roller else "cam edge")
+        return {"cam": self.link, "follower": self.follower, "kind": kind, "pieces": str(len(self.law.pieces))}
 
     @property
     def turns(self) -> bool:
@@ -358,3 +420,19 @@ class LawCam:
             return motion.travel + moved
         line = self.axis - motion.centre
         return cmath.phase(-line if motion.back else line) + motion.side * moved
+
+
+HigherPair: TypeAlias = PlacedContact | PlacedGear | LawCam
+"""Two links that touch: all have a name, the links that they need, and words."""
+
+
+def told(pair: HigherPair, about: str) -> Phrase:
+    """The sentence on a higher pair in a list of the table of words, ("explained", "left behind", ...), by the most special of
+    its kinds that has one there.
+
+    >>> gear = PlacedGear("g", ("2", "4"), (20, None), "3", ("A", ""))
+    >>> str(told(gear, "left behind"))
+    'gears g of 2 and 4'
+    """
+    key = next(key for kind in pair.kinds if has_words(key := f"{about} {kind}"))
+    return Phrase(key, **{gap: pair.gaps[gap] for gap in gaps_of(key)})

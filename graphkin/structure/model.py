@@ -543,12 +543,9 @@ def without(scene: Mechanism, gone: Collection[str]) -> Mechanism:
     nothing is asked or stated."""
     lost = set(gone)
     return replace(
-        scene,
+        scene.keeping(lambda pair: lost.isdisjoint((*pair.members, pair.block))),
         links=tuple(link for link in scene.links if link.name not in lost),
         slides=tuple(s for s in scene.slides if lost.isdisjoint((s.link, s.of, s.on))),
-        cams=tuple(c for c in scene.cams if lost.isdisjoint((c.link, c.follower))),
-        contacts=tuple(c for c in scene.contacts if lost.isdisjoint((*c.links, c.block))),
-        gears=tuple(g for g in scene.gears if lost.isdisjoint((*g.wheels, g.carrier))),
         question=replace(scene.question, find=(), stated=()),
     )
 

@@ -21,7 +21,7 @@ from dataclasses import replace
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Poses, cross, unit
 from graphkin.scene.model import Mechanism, PlacedLink
-from graphkin.scene.pairs import CircularSlot, PlacedContact, PlacedGuide, SlidingPair
+from graphkin.scene.pairs import CircularSlot, PlacedContact, PlacedGuide, SlidingPair, told
 from graphkin.structure.model import OWN_AXIS, Mobility, Pair, Structure
 from graphkin.words import Phrase
 
@@ -79,21 +79,17 @@ def _standing(scene: Mechanism, poses: Poses, values: Mapping[str, float]) -> Me
 
 def replacement_told(structure: Structure) -> tuple[Phrase, ...]:
     """The higher pairs in words, the replacement of each, and the mobility counted after it."""
-    scene, m, said = structure.scene, structure.mobility, list[Phrase]()
-    sliding = [c for c in scene.contacts if not c.rolling]
-    for contact in scene.contacts:
-        names = {"contact": contact.name, "first": contact.links[0], "second": contact.links[1]}
-        if contact.rolling:
-            said.append(Phrase("structure rolling in gear" if contact.carrier else "structure rolling", **names))
-        elif contact.flat:
-            said.append(Phrase("structure flat contact", **names, centre=contact.centres[0]))
-        else:
-            said.append(Phrase("structure contact", **names, bar=contact.block))
-    said += [Phrase("structure gear", first=g.wheels[0], second=g.wheels[1], gear=g.name) for g in scene.gears]
+    scene, m = structure.scene, structure.mobility
     slots = [slot for slot in scene.whole.slots if not slot.block]
-    if scene.cams or sliding or slots:
+    said = [Phrase("structure high pair", point=pin.point, link=pin.on) for pin in scene.whole.pins]
+    said += [Phrase("structure circular slot", point=slot.point, link=slot.on, name=slot.bar,
+                    bar=slot.centre + slot.point) for slot in slots]  # fmt: skip
+    said += [told(pair, "structure") for pair in scene.higher_pairs]
+    said += [Phrase("structure roller", link=cam.follower) for cam in scene.cams if cam.roller]
+    replaced = [pair for pair in scene.higher_pairs if pair.replaced]
+    if replaced or slots:
         # links, each with two lower pairs
-        more = len(sliding) + len(slots) + len(scene.whole.pins) + len(scene.cams)
+        more = len(replaced) + len(slots) + len(scene.whole.pins)
         after = Mobility(m.links + more, m.lower + 2 * more, m.higher - more)
         numbers = {"links": after.links, "lower": after.lower, "higher": after.higher, "mobility": after.value}
         said.append(Phrase("structure replaced", **numbers))

@@ -25,8 +25,8 @@ from graphkin.words.symbols import plain, symbol
 __all__ = [
     "BOTH", "LANGUAGES", "Markup", "Neutral", "Phrase", "RichText", "Wording", "about", "alternatives", "area",
     "as_data", "as_markup", "as_plain", "class_of", "clause_of", "clauses", "filled", "from_data", "from_others",
-    "gaps_of", "in_all", "in_turn", "joined", "languages", "links_named", "listed", "parts", "rich_text", "say",
-    "sense_of", "word",
+    "gaps_of", "has_words", "in_all", "in_turn", "joined", "languages", "links_named", "listed", "parts", "rich_text",
+    "say", "sense_of", "word",
 ]  # fmt: skip
 
 _TABLES = {path.stem: path for path in Path(__file__).parent.glob("*.toml")}
@@ -176,6 +176,11 @@ def _pieces(key: str, language: str) -> tuple[tuple[str, str | None], ...]:
             found.append((before, gap))
             before = ""
     return (*found, (before, None))
+
+
+def has_words(key: str) -> bool:
+    """Whether the table has words of a key."""
+    return key in _table("en")
 
 
 def gaps_of(key: str) -> tuple[str, ...]:

@@ -116,7 +116,7 @@ def _joints(cut: CutFree, vectors: dict[Symbol, complex], moments: dict[Symbol, 
 def held_by_pairs(sheet: Sheet) -> Sheet:
     """The drawing with the structure for forces, in which lower pairs replace the contacts; itself without contacts."""
     scene, mm = sheet.scene, 1.0 / sheet.scales.length
-    if not (scene.contacts or scene.gears or scene.cams):
+    if not scene.higher_pairs:
         return sheet
     links = {link.name: link for link in (scene.frame, *scene.whole.links)}  # without bars for cams
     slides, points, poses = list(scene.whole.slides), dict(sheet.points), dict(sheet.poses)
@@ -144,9 +144,9 @@ def held_by_pairs(sheet: Sheet) -> Sheet:
         slides.append(SlidingPair.of_pin(touch.name, second, first, name))
         poses[slides[-1].key] = Pose(touch.at, along)
     other = replace(
-        scene, frame=links[scene.frame.name], links=tuple(links[link.name] for link in scene.whole.links),
-        slides=tuple(slides), contacts=(), gears=(), cams=(), slots=scene.whole.slots,
-    )  # fmt: skip
+        scene.keeping(lambda _: False), frame=links[scene.frame.name], slides=tuple(slides), slots=scene.whole.slots,
+        links=tuple(links[link.name] for link in scene.whole.links),
+    )
     return replace(sheet, structure=analyse(other), poses=poses, points=points)
 
 

@@ -26,7 +26,6 @@ from graphkin.drawing.place.piece import Piece, cut_to, ink_box, joined, moved_p
 from graphkin.drawing.text import plain, rich, symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import dot
-from graphkin.scene.pairs import LawCam
 from graphkin.structure import Driven, Dyad, Element, LargerGroup, Pair, Structure, replacement_told
 from graphkin.words import Phrase, class_of, languages, say
 
@@ -114,15 +113,6 @@ def _counted(structure: Structure, spoken: str) -> list[tuple[str, bool]]:
             if count > 2:
                 hinge = Phrase("structure compound", point=point, links=count, pairs=count - 1)
                 lines.append((say(hinge, each), False))
-        for pin in structure.scene.whole.pins:
-            lines.append((say(Phrase("structure high pair", point=pin.point, link=pin.on), each), False))
-        for slot in (s for s in structure.scene.whole.slots if not s.block):
-            bar = {"name": slot.bar, "bar": slot.centre + slot.point}
-            lines.append((say(Phrase("structure circular slot", point=slot.point, link=slot.on, **bar), each), False))
-        for cam in structure.scene.cams:
-            lines.append((say(Phrase("structure cam", cam=cam.link, follower=cam.follower), each), False))
-            if cam.roller:
-                lines.append((say(Phrase("structure roller", link=cam.follower), each), False))
         lines += [(say(phrase, each), False) for phrase in replacement_told(structure)]
         if idle:
             lines.append((say(Phrase("structure redundant", links=", ".join(idle)), each), False))
@@ -170,10 +160,9 @@ def _told(sheet: Sheet, element: Element, language: str) -> str:
         )  # fmt: skip
         return say(group, language)
     driver = element.driver
-    if isinstance(driver, LawCam):
-        return say(Phrase("structure follower", follower=element.link, cam=driver.link), language)
     if not driver.given:
-        return say(Phrase("structure led", link=element.link), language)
+        led = "structure led" if driver.rolls else "structure follower"
+        return say(Phrase(led, link=element.link, leading=driver.links[0]), language)
     other = next(name for name in reversed(driver.links) if name != element.link)
     if other == sheet.scene.frame.name:
         return say(Phrase("structure driver", link=element.link), language)
@@ -245,8 +234,8 @@ def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[l
             parts += [Line(on_page(ends[0]), on_page(z), dashed) for z in ends[1:] if z not in shape.points.values()]
         elif len(ends) > 1:  # the bar that replaces a contact
             parts.append(Line(on_page(ends[0]), on_page(ends[1]), dashed))
-    touching = here.scene.contacts or here.scene.gears or here.scene.cams  # of these every link has its number already
-    numbered = {shape.link for shape in here.shapes if shape.longest or touching}
+    # where links touch every link has its number already
+    numbered = {shape.link for shape in here.shapes if shape.longest or here.scene.higher_pairs}
     known = {b.slide.key: b for b in here.sliders}
     rolling = {contact.block for contact in here.scene.contacts if contact.rolling}  # their centres keep a distance
     for slide in (pair for pair in (*inner, *outer) if not pair.turns and pair.key not in rolling):

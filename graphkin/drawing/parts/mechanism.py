@@ -89,7 +89,7 @@ def links_alone(
         text = Text(0j, plain(shape.link, bold=True), "start", colour, classes=("label",))
         if shape.longest:
             labels.append(Label(text, (on_page(shape.longest[0]), on_page(shape.longest[1])), rank=rank))
-        elif here.scene.contacts or here.scene.gears or here.scene.cams:
+        elif here.scene.higher_pairs:
             labels.append(Label(text, on_page(here.sheet.poses[shape.link].origin), rank=rank))
     return parts, labels
 
