@@ -427,8 +427,8 @@ HigherPair: TypeAlias = PlacedContact | PlacedGear | LawCam
 
 
 def told(pair: HigherPair, about: str) -> Phrase:
-    """The sentence on a higher pair in a list of the table of words, ("explained", "left behind", ...), by the most special of
-    its kinds that has one there.
+    """The sentence on a higher pair in a list of the table of words ("explained", "left behind", ...), by the most
+    special of its kinds that has one there.
 
     >>> gear = PlacedGear("g", ("2", "4"), (20, None), "3", ("A", ""))
     >>> str(told(gear, "left behind"))
