@@ -182,7 +182,7 @@ def _rests(sheet: Sheet, ref: PointRef) -> bool:
 
 def _coincident(of: PointRef, to: PointRef, slide: Pair) -> Phrase:
     """The reason for two points that coincide under a sliding pair, or at a pin in a slot, where no link slides."""
-    if slide.slot and slide.pin is not None:
+    if slide.higher and slide.pin is not None:
         return Phrase("why in slot", point=of, other=to, pin=PointRef(slide.pin), link=slide.b)
     return Phrase("why coincident", point=of, other=to, block=slide.a, guide=slide.b)
 
@@ -197,7 +197,7 @@ def _of_a_point(sheet: Sheet, symbol: Symbol) -> Iterator[Phrase]:
         held = not of.link or of.link == slide.a or (body is not None and of.point in body.points)
         own = of.link == slide.a or (holder is not None and of.point in (slide.pin, *holder.points))
         if slide.b == frame.name and holder is not None and held and own:
-            yield Phrase("why runs", point=of) if slide.slot else Phrase("why guided", point=of, link=slide.a)
+            yield Phrase("why runs", point=of) if slide.higher else Phrase("why guided", point=of, link=slide.a)
             return
     for link in sheet.scene.links:
         pivot = next((p for p in link.points if p in frame.points), None)

@@ -196,9 +196,8 @@ class Centred(OfScene, Result):
 
         frame, whole = self.mechanism.frame.name, self.mechanism.whole
         few = len(self.centres.names) <= MOST_PLAYED
-        # what stands for a cam at one position is none of the links that move
-        standing = {slot.bar for slot in self.mechanism.slots if slot.bar not in whole.by_name}
-        pairs = [p for p in self.centres.table if (few or frame in p) and not standing.intersection(p)]
+        # bars for cams at one position are none of the links that move
+        pairs = [p for p in self.centres.table if (few or frame in p) and whole.by_name.keys() >= {*p}]
         values = {d.key: float(v) for d, v in zip(self.mechanism.drivers, self.motion.values[0], strict=True)}
         (motion, turned), mm = played(self.mechanism, values), self.centres.mm
         moving = [p for p in motion.scene.holders if p not in motion.scene.frame.points]

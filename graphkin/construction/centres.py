@@ -570,13 +570,13 @@ def _driven(centres: Centres, driver: Driver) -> dict[str, Turning]:
     """The links that the driver's own pair moves, from its rate: turning about their common centre, or sliding."""
     chart, structure, frame = centres.chart, centres.sheet.structure, centres.scene.frame.name
     slide = None if driver.turns else structure.slide(driver.key)
-    a, b = driver.links if slide is None else (slide.of or slide.a, slide.b)
+    a, b = driver.links if slide is None else (slide.body, slide.b)
     centre = centres.of(a, b)
     if centre.place is None:
         return {}
     once, reach = centre.place[2], 1.0
     if slide is not None:
-        at = centres.point(slide.pin) if slide.slot and slide.pin else chart.middle
+        at = centres.point(slide.pin) if slide.higher and slide.pin else chart.middle
         along = slide.along(centres.poses)
         once = dot(chart.velocity(centre.place, 1.0, at), along) / centres.mm
         reach = (abs(at - chart.middle) + chart.unit) / centres.mm

@@ -153,13 +153,13 @@ class Plan:
         by their replacements, at scales that suit it; None without such contacts, or if one lies in a pivot."""
         scene = self.structure.scene
         if not scene.cams:
-            if all(slot.block or slot.bar not in self.exact.poses for slot in scene.slots):
+            if scene.replacing.keys().isdisjoint(self.exact.poses):
                 return self._touching()
             poses = {name: pose.scaled(self.exact.scales.length) for name, pose in self.exact.poses.items()}
             other = _plan(analyse(pins_on_circles(scene, poses, self.values)), self.asked)
             return other._touching() or other
         whole = scene.whole
-        barred = any(slot.bar not in whole.by_name for slot in scene.slots)
+        barred = bool(scene.replacing.keys() - whole.by_name.keys())
         if not barred and not whole.contacts and not any(cam.flat for cam in whole.cams):
             return None
         values = {d.key: self.values[d.key] for d in whole.drivers}

@@ -11,6 +11,7 @@ import math
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any, Literal
 
 from graphkin.errors import Problem, Unsolvable, did_you_mean
@@ -374,6 +375,11 @@ class Mechanism:
         """The mechanism of the file: the mechanism with cams where this one replaces it, else this one."""
         return self if self.instead_of is None else self.instead_of
 
+    @cached_property
+    def replacing(self) -> Mapping[str, CircularSlot]:
+        """The bars that replace pins in circular slots, or cams at one position, with the path of each."""
+        return {slot.bar: slot for slot in self.slots if not slot.block}
+
     @property
     def higher_pairs(self) -> tuple[HigherPair, ...]:
         """The pairs of links that touch."""
@@ -519,13 +525,17 @@ class ForceJoint:
     sliding pair (``point`` is the sliding link's first point, or empty), a cam (``first``) with its follower, or a
     contact or gear ``point``.  ``second`` slides, or has the pin.
 
+    slide : the key of a sliding pair or a pin in a slot, "" of others
+    couple : whether a couple goes through it too
     several : whether the two share further joints
     """
 
-    kind: Literal["turning", "sliding", "slot", "cam", "contact", "rolling", "gear"]
+    kind: Literal["turning", "sliding", "cam", "contact", "rolling", "gear"]
     first: str
     second: str
     point: str
+    slide: str = ""
+    couple: bool = False
     several: bool = False
 
     def symbol(self, kind: Literal["F", "M"]) -> Symbol:
@@ -557,7 +567,7 @@ def joints(mechanism: Mechanism) -> tuple[ForceJoint, ...]:
         hosts = hosts_at(mechanism, point, at_point)
         first = next((name for name in at_point if name not in hosts), "")
         pairs += [ForceJoint("turning", hosts.get(name, first), name, point) for name in at_point if name != first]
-    pairs += [ForceJoint("slot" if s.of else "sliding", s.on, s.of or s.link, s.point)
+    pairs += [ForceJoint("sliding", s.on, s.of or s.link, s.point, s.key, not s.of)
               for s in mechanism.slides if {s.on, s.of or s.link} <= here]
     pairs += [ForceJoint("cam", c.link, c.follower, "") for c in mechanism.driving_cams if {c.link, c.follower} <= here]
     for contact in mechanism.contacts:
@@ -582,7 +592,7 @@ def forces_named(mechanism: Mechanism) -> tuple[Symbol, ...]:
     made += [Symbol("P", name=load.name, turning=not load.is_force) for load in loading.loads]
     made += [Symbol("P", name=spring.name) for spring in loading.springs]
     for joint in joints(mechanism):
-        made += [joint.symbol("F"), *([joint.symbol("M")] if joint.kind == "sliding" else [])]
+        made += [joint.symbol("F"), *([joint.symbol("M")] if joint.couple else [])]
     if loading.balance is not None:
         balances = [(loading.balance.is_force, loading.balance.link)]
     else:

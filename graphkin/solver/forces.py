@@ -53,7 +53,7 @@ def pair_forces(motion: Motion) -> list[PairForce]:
     for joint in joints(motion.scene):
         ways, at = _lines(motion, joint)
         found += [PairForce(joint.symbol("F"), joint.first, joint.second, way, at) for way in ways]
-        if joint.kind == "sliding":
+        if joint.couple:
             found.append(PairForce(joint.symbol("M"), joint.first, joint.second, None, at))
     return found
 
@@ -64,11 +64,8 @@ def _lines(motion: Motion, joint: ForceJoint) -> tuple[Sequence[complex | Array]
     scene, both = motion.scene, (1 + 0j, 1j)
     if joint.kind == "turning":
         return both, motion.position(joint.point)
-    if joint.kind == "slot":
-        slide = motion.structure.slide(f"{joint.point}/{joint.first}")
-        return [_square(motion, slide)], motion.position(joint.point, joint.second)
     if joint.kind == "sliding":
-        slide = motion.structure.slide(f"{joint.second}/{joint.first}")
+        slide = motion.structure.slide(joint.slide)
         return [_square(motion, slide)], _foot(motion, slide)
     if joint.kind == "cam":
         cam = next(c for c in scene.cams if c.link == joint.first)
@@ -102,17 +99,17 @@ def balances(motion: Motion) -> list[PairForce]:
             found.append(PairForce(Symbol("M", link=driver.link), driver.relative_to, driver.link, None, at))
             continue
         slide = motion.structure.slide(driver.key)
-        link = slide.of or slide.a
-        at = motion.position(slide.pin, link) if slide.slot and slide.pin else _foot(motion, slide)
+        link = slide.body
         along = -1j * _square(motion, slide)
-        found.append(PairForce(Symbol("F", link=link), slide.b or scene.frame.name, link, along, at))
+        force = Symbol("F", link=link)
+        found.append(PairForce(force, slide.b or scene.frame.name, link, along, _foot(motion, slide)))
     return found
 
 
 def _foot(motion: Motion, slide: Pair) -> Array:
-    """The place of a sliding pair's force: the first point of the sliding link, or its origin."""
-    at = motion.structure.links[slide.a].points[slide.pin] if slide.pin else 0j
-    return np.asarray(motion.poses[slide.a].fixed(at).z)
+    """The place of a sliding pair's force: the pin, the first point of the sliding link, or its origin."""
+    at = motion.structure.links[slide.body].points[slide.pin] if slide.pin else 0j
+    return np.asarray(motion.poses[slide.body].fixed(at).z)
 
 
 def _square(motion: Motion, slide: Pair) -> complex | Array:

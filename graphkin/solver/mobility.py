@@ -58,7 +58,7 @@ def structure_of(scene: Mechanism | Structure) -> Structure:
     if any(d.distance is not None and not d.exact for d in scene.drivers):
         structure = from_dead_point(structure)
     if structure.slides:
-        structure = with_sensible_slots(structure)
+        structure = with_sensible_guides(structure)
     if any(d.given_speed for d in scene.drivers):
         return at_given_speed(structure)
     return structure
@@ -117,7 +117,7 @@ MOST = 4
 """Guides that may point either way are tried in all combinations up to so many."""
 
 
-def with_sensible_slots(structure: Structure) -> Structure:
+def with_sensible_guides(structure: Structure) -> Structure:
     """The structure with points sketched so that guides have the only senses in which all links that hang on them
     reach; itself where the rule is enough, or where several senses or none are possible.
 

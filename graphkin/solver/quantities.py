@@ -252,9 +252,9 @@ def _path(posed: Posed, kind: str, of: PointRef, to: PointRef) -> tuple[str, Arr
     """
     links = posed.structure.scene.by_name
     curved = (s for s in posed.slides if s.guide.curvature and s.pin == of.point)
-    slot = next((s for s in curved if s.b in (of.link, to.link)), None)
-    if slot is not None and kind != "at":
-        return slot.b, np.asarray(1j * posed.poses[slot.b].u * slot.guide.direction)
+    slide = next((s for s in curved if s.b in (of.link, to.link)), None)
+    if slide is not None and kind != "at":
+        return slide.b, np.asarray(1j * posed.poses[slide.b].u * slide.guide.direction)
     contact = next((c for c in posed.structure.scene.contacts if c.name == of.point), None)
     if contact is not None and {of.link, to.link} == set(contact.links):
         # the centre of a disc lies on the normal
@@ -317,7 +317,7 @@ def _guiding(posed: Posed, symbol: Symbol, of: PointRef, to: PointRef) -> str:
         posed.point(ref)
     for pair in posed.slides:
         for slides, guides in ((of, to), (to, of)):
-            if of.point != to.point or not _is_on(posed, slides, pair.of or pair.a):
+            if of.point != to.point or not _is_on(posed, slides, pair.body):
                 continue
             # another link that is pinned there too has another rate, and so another Coriolis term
             if guides.link == pair.b or (not guides.link and _is_on(posed, guides, pair.b)):

@@ -234,16 +234,16 @@ def as_drawn(motion: Motion, structure: Structure) -> Motion:
         guide = poses[slide.b]
         turn = np.asarray(guide.u * slide.guide.direction)
         poses[slide.a] = Pose(at.z, turn, at.v, guide.omega, at.a, guide.alpha)
-    for slot in structure.scene.slots:
-        if slot.bar in poses or slot.bar not in structure.links or slot.on not in poses:
+    for bar, path in structure.scene.replacing.items():
+        if bar in poses or bar not in structure.links or path.on not in poses:
             continue
-        held = [n for n in structure.hinges.get(slot.point, ()) if n != slot.bar and n in poses]
+        held = [n for n in structure.hinges.get(path.point, ()) if n != bar and n in poses]
         if not held:
             continue  # nothing asks for it
         holder = held[0]
-        start = poses[slot.on].fixed(structure.links[slot.on].points[slot.centre])
-        end = poses[holder].fixed(structure.links[holder].points[slot.point])
-        poses[slot.bar] = aimed(start, end)
+        start = poses[path.on].fixed(structure.links[path.on].points[path.centre])
+        end = poses[holder].fixed(structure.links[holder].points[path.point])
+        poses[bar] = aimed(start, end)
     return replace(motion, structure=structure, poses=poses)
 
 

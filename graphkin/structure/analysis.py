@@ -106,12 +106,12 @@ def _placed(scene: Mechanism) -> Structure:
     relations = relations_of(scene, meshes_of(scene, contacts, gears, links)) if contacts or gears else ()
     followers, relations = followers_of(scene, relations, links, slides) if relations else ((), ())
     # F counts no blocks, nor bars that stand for pins in slots; what rolls has two constraints, as a lower pair
-    bars = {s.bar for s in scene.slots if not s.block and s.bar in links}
+    bars = scene.replacing.keys() & links.keys()
     real = {name for name in links if name in scene.by_name and name not in bars}
     rolling = sum(c.rolling and not c.carrier for c in contacts)
     turns = (len(real.intersection(names)) for names in hinges.values())
-    lower = sum(n - 1 for n in turns if n) + sum(not s.slot for s in slides) + rolling
-    blocks = sum(s.slot for s in slides) - sum(c.flat for c in contacts)
+    lower = sum(n - 1 for n in turns if n) + sum(not s.higher for s in slides) + rolling
+    blocks = sum(s.higher for s in slides) - sum(c.flat for c in contacts)
     higher = blocks + len(bars) + len(contacts) - rolling + len(gears) + len(cams)
     mobility = Mobility(len(real - {scene.frame.name}), lower, higher)
     shared = {p: tuple(names) for p, names in hinges.items() if len(names) > 1}
@@ -591,7 +591,7 @@ def _loose_ends(structure: Structure) -> Iterator[Problem]:
     scene, hinges = structure.scene, structure.hinges
     moving = [link for name, link in structure.links.items() if name in scene.by_name and name != scene.frame.name]
     unused = [p for p in scene.frame.points if p not in hinges]
-    held = {*hinges, *(cam.name_of_point for cam in structure.cams), *(s.pin for s in structure.slides if s.slot)}
+    held = {*hinges, *(cam.name_of_point for cam in structure.cams), *(s.pin for s in structure.slides if s.higher)}
     free = {link.name: [p for p in link.bar if p not in held] for link in moving}
     lonely = [p for points in free.values() for p in points]
     driven = {name for driver in scene.drivers for name in driver.links}

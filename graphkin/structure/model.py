@@ -37,8 +37,9 @@ class Pair:
     pin : a's first point, if it has one
     of : the link with the pin in a slot, or with the disc on a face, that the block ``a`` replaces; else ""
 
-    From these follow whether it ``turns`` or is a ``slot`` with such a block, both ``links``, the ``point`` about which
-    they turn ("" of a sliding pair) and its ``letter``, R (revolute) or P (prismatic).
+    From these follow whether it ``turns`` or is a ``higher`` pair with such a block, both ``links``, the ``body`` of
+    the file that slides, the ``point`` about which they turn ("" of a sliding pair) and its ``letter``, R (revolute) or
+    P (prismatic).
     """
 
     key: str
@@ -50,7 +51,8 @@ class Pair:
     of: str = ""
 
     turns: bool = field(init=False, repr=False, compare=False)
-    slot: bool = field(init=False, repr=False, compare=False)
+    higher: bool = field(init=False, repr=False, compare=False)
+    body: str = field(init=False, repr=False, compare=False)
     links: tuple[str, str] = field(init=False, repr=False, compare=False)
     point: str = field(init=False, repr=False, compare=False)
     letter: str = field(init=False, repr=False, compare=False)
@@ -58,8 +60,8 @@ class Pair:
     def __post_init__(self) -> None:
         turns = not self.guide.direction
         self.__dict__.update(
-            turns=turns, slot=bool(self.of), links=(self.a, self.b), point=self.key if turns else "",
-            letter="R" if turns else "P",
+            turns=turns, higher=bool(self.of), body=self.of or self.a, links=(self.a, self.b),
+            point=self.key if turns else "", letter="R" if turns else "P",
         )  # fmt: skip
 
     def other(self, link: str) -> str:
@@ -404,6 +406,11 @@ class Structure:
     def turning_with(self, link: str) -> set[str]:
         """A link, and the links that turn as it does because they slide on it, or on such links."""
         return {*reached([link], lambda name: [slide.other(name) for slide in self.slides if name in slide.links])}
+
+    @cached_property
+    def blocks(self) -> Mapping[str, Pair]:
+        """The blocks that replace pins in slots and discs on faces, with the sliding pair of each."""
+        return {slide.a: slide for slide in self.slides if slide.higher}
 
     def slide(self, key: str) -> Pair:
         """The sliding pair or pin in slot of that name."""

@@ -53,11 +53,11 @@ def pins_on_circles(scene: Mechanism, poses: Poses, values: Mapping[str, float])
     drivers, by key (rad, m).
     """
     links, slides = dict(scene.by_name), list(scene.slides)
-    for slot in scene.slots:
-        if slot.block or slot.bar not in poses:
+    for bar, slot in scene.replacing.items():
+        if bar not in poses:
             continue
-        del links[slot.bar]
-        holder = next(n for n in scene.holders[slot.point] if n != slot.bar)
+        del links[bar]
+        holder = next(n for n in scene.holders[slot.point] if n != bar)
         on, place = links[slot.on], poses[holder].place(scene.by_name[holder].points[slot.point])
         at = poses[slot.on].local(place)
         guide = _guide(on, slot.name, at, 1j * unit(at - on.points[slot.centre]), 1.0 / slot.radius)
@@ -79,17 +79,16 @@ def _standing(scene: Mechanism, poses: Poses, values: Mapping[str, float]) -> Me
 
 def replacement_told(structure: Structure) -> tuple[Phrase, ...]:
     """The higher pairs in words, the replacement of each, and the mobility counted after it."""
-    scene, m = structure.scene, structure.mobility
-    slots = [slot for slot in scene.whole.slots if not slot.block]
+    scene, m, bars = structure.scene, structure.mobility, structure.scene.whole.replacing
     said = [Phrase("structure high pair", point=pin.point, link=pin.on) for pin in scene.whole.pins]
-    said += [Phrase("structure circular slot", point=slot.point, link=slot.on, name=slot.bar,
-                    bar=slot.centre + slot.point) for slot in slots]  # fmt: skip
+    said += [Phrase("structure circular slot", point=path.point, link=path.on, name=bar,
+                    bar=path.centre + path.point) for bar, path in bars.items()]  # fmt: skip
     said += [told(pair, "structure") for pair in scene.higher_pairs]
     said += [Phrase("structure roller", link=cam.follower) for cam in scene.cams if cam.roller]
     replaced = [pair for pair in scene.higher_pairs if pair.replaced]
-    if replaced or slots:
+    if replaced or bars:
         # links, each with two lower pairs
-        more = len(replaced) + len(slots) + len(scene.whole.pins)
+        more = len(replaced) + len(bars) + len(scene.whole.pins)
         after = Mobility(m.links + more, m.lower + 2 * more, m.higher - more)
         numbers = {"links": after.links, "lower": after.lower, "higher": after.higher, "mobility": after.value}
         said.append(Phrase("structure replaced", **numbers))

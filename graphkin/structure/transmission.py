@@ -141,7 +141,7 @@ def _pushed(structure: Structure, name: str, line: Way, at: Spot) -> Transmissio
     """Between the line along which a link is pushed at a place and the normal of its velocity there: square to a guide
     of the frame on which it slides, or along the line to its fixed pivot."""
     frame, points = structure.scene.frame, structure.links[name].points
-    slide = next((s for s in structure.slides if s.a == name and s.b == frame.name and not s.slot), None)
+    slide = next((s for s in structure.slides if s.a == name and s.b == frame.name and not s.higher), None)
     if slide is not None:
         return TransmissionAngle(line, _guide(slide), True)
     pivot = next(((name, z) for p, z in points.items() if p in frame.points and (name, z) != at), None)

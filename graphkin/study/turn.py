@@ -445,7 +445,7 @@ def output_slides(motion: Motion) -> tuple[str, ...]:
     scene = motion.scene
     driven = {d.key for d in scene.drivers}
     return tuple(
-        s.key for s in motion.slides if scene.frame.name in (s.a, s.b) and s.key not in driven and not s.slot
+        s.key for s in motion.slides if scene.frame.name in (s.a, s.b) and s.key not in driven and not s.higher
     )
 
 

@@ -109,7 +109,7 @@ def _joints(cut: CutFree, vectors: dict[Symbol, complex], moments: dict[Symbol, 
     for slide in names.structure.slides:
         force, couple = cut.slides[slide.key]
         vectors[names.of_slide(slide)] = force / cut.per_mm
-        if not slide.slot:
+        if not slide.higher:
             moments[names.of_slide(slide, "M")] = couple
 
 

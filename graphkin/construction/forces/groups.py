@@ -480,7 +480,7 @@ def at_driver(cut: CutFree, element: Driven, balance: ForceVector) -> ForceGroup
     """
     link, pair = element.link, element.pair
     cut.load_pins((link,))
-    links = (link,) if link not in cut.drawn.blocks else ()
+    links = (link,) if link not in cut.drawn.structure.blocks else ()
     group = ForceGroup(links, "driver", "driver", cut.couples_on((link,)))
     chain, on, push = group.polygon, cut.at_pair(pair, (link,)), balance.on(link)
     if pair.turns and push.force:
@@ -607,4 +607,4 @@ def _carry_over(
         for force in (load, load.back):
             if force.link in polygons:
                 cut.lay(polygons[force.link], replace(force, by="closing"))
-    group.inner |= {name: chain for name, chain in polygons.items() if name not in cut.drawn.blocks}
+    group.inner |= {name: chain for name, chain in polygons.items() if name not in cut.drawn.structure.blocks}

@@ -47,17 +47,12 @@ class DrawnPosition:
     # -- forces by name ------------------------------------------------------------------------------------------------
 
     @cached_property
-    def blocks(self) -> Mapping[str, tuple[str, str]]:
-        """For each block the link of its pin and that of its slot."""
-        return {slide.a: (slide.of, slide.b) for slide in self.structure.slides if slide.slot}
-
-    @cached_property
     def hosts(self) -> Mapping[str, Mapping[str, str]]:
         """For each hinge its guests, each with its host."""
         hosts = dict[str, Mapping[str, str]]()
         for point, names in self.structure.hinges.items():
-            blocks = {block: of for block, (of, _) in self.blocks.items() if {block, of} <= {*names}}
-            hosts[point] = {**blocks, **hosts_at(self.structure.scene, point, names)}
+            slides = (slide for slide in self.structure.blocks.values() if {slide.a, slide.of} <= {*names})
+            hosts[point] = {**{slide.a: slide.of for slide in slides}, **hosts_at(self.structure.scene, point, names)}
         return hosts
 
     @cached_property
@@ -88,23 +83,20 @@ class DrawnPosition:
         ----------
         done : the links whose forces are known
         """
-        if link in self.blocks:
-            of, on = self.blocks[link]
-            return self.between(of, on, point)
+        blocks = self.structure.blocks
+        if link in blocks:
+            return self.between(blocks[link].of, blocks[link].b, point)
         hosts, (first, *later) = self.hosts[point], self.holders[point]
         paired = later if link == first else [hosts.get(link, first)]
         paired = [*paired, *(guest for guest, host in hosts.items() if host == link and guest not in done)]
         if len(paired) != 1:
             return Symbol("F", link=point, other=link)
-        _, other = self.blocks.get(paired[0], ("", paired[0]))
+        other = blocks[paired[0]].b if paired[0] in blocks else paired[0]
         return self.between(other, link, point)
 
     def of_slide(self, slide: Pair, kind: str = "F") -> Symbol:
         """The force (couple) of the guiding link on the sliding one."""
-        if slide.slot:
-            of, on = self.blocks[slide.key]
-            return self.between(on, of, slide.pin, kind)
-        return self.between(slide.b, slide.a, slide.pin, kind)
+        return self.between(slide.b, slide.body, slide.pin, kind)
 
     # -- places, and motion off the polygons ---------------------------------------------------------------------------
 
@@ -143,7 +135,7 @@ class DrawnPosition:
             link, other = (driver.link, driver.relative_to) if said is None else (said.link, frame)
             return ForceVector(Symbol("M", link=link), link, moment=1.0, off=other)
         slide = self.structure.slide(driver.key)
-        symbol = Symbol("F", link=slide.of or slide.a)
+        symbol = Symbol("F", link=slide.body)
         return ForceVector(symbol, slide.a, self.along(slide), self.foot(slide), off=slide.b)
 
     def slip(self, slide: Pair) -> tuple[float, float]:

@@ -93,7 +93,6 @@ class Polygons:
         size = max((abs(z - w) for z in self.places.values() for w in self.places.values()), default=1.0)
         self.tiny = 1e-11 * size
         self.touching = {c.name for c in structure.scene.contacts}
-        self.block_of = {slide.a: slide.of for slide in structure.slides if slide.slot}
         self.held = ""  # the link that is held still, and the group whose it is
         self.part_of: LargerGroup | None = None
         self.begin(structure.scene.frame.name)
@@ -162,7 +161,8 @@ class Polygons:
 
     def label(self, ref: PointRef) -> PointRef:
         """The name of a node: the block of a pin in a slot has the name of the pin's link."""
-        return PointRef(ref.point, self.block_of[ref.link]) if ref.link in self.block_of else ref
+        block = self.structure.blocks.get(ref.link)
+        return ref if block is None else PointRef(ref.point, block.of)
 
     def guide_names(self, slide: Pair) -> tuple[str, ...]:
         """The name of a guide in a direction: two letters on it, else its name."""

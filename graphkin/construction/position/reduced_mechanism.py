@@ -218,12 +218,11 @@ def _trials(structure: Structure, group: LargerGroup, gone: set[str], known: set
         if contact.name in rolling and contact.flat and {*contact.round_links, contact.block} <= set(group.members):
             yield Driver(contact.round_links[0], contact.block, 0.0, 0.0, 0.0)
     driven = {d.key for d in structure.scene.drivers}
-    blocks = {s.key for s in structure.slides if s.slot}
     pairs = [p for p in group.pairs if gone.isdisjoint(p.links)]
     for pair in sorted(pairs, key=lambda p: known.isdisjoint(p.links)):
         if not pair.turns and pair.key not in driven:
             yield Driver(pair.a, pair.b, 0.0, 0.0, 0.0, pair.key)
-        elif pair.turns and pair.a not in driven and blocks.isdisjoint(pair.links):
+        elif pair.turns and pair.a not in driven and structure.blocks.keys().isdisjoint(pair.links):
             yield Driver(pair.a, pair.b, 0.0, 0.0, 0.0)
 
 

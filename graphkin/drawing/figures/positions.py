@@ -138,7 +138,7 @@ def _outputs(scene: Mechanism, structure: Structure) -> list[str]:
         places = (scene.question.positions.first, *scene.question.positions.also.values())
         found += [place.stroke for place in places if place is not None and not isinstance(place, float)]
     last = [n for g in reversed(structure.groups) for n in g.links]
-    found += [s.key for name in last for s in structure.slides if s.a == name and s.b == frame.name and not s.slot]
+    found += [s.key for name in last for s in structure.slides if s.a == name and s.b == frame.name and not s.higher]
     found += [name for name in last if any(p in frame.points for p in structure.links[name].points)]
     return list(dict.fromkeys(found))
 
@@ -247,7 +247,7 @@ def _position(sheet: Sheet, letters: Notation, stroke: Stroke, id: str) -> Piece
         pen = stroke.coloured(here.colour(shape.link))
         parts += [Polygon(tuple(map(on_page, shape.corners)), "", pen)] if shape.corners else []
         parts += [Line(on_page(a), on_page(b), pen) for a, b in shape.bars]
-    for b in (slider for slider in here.sliders if not slider.slide.slot):
+    for b in (slider for slider in here.sliders if not slider.slide.higher):
         half, across = b.along * BLOCK_LENGTH * 0.35, 1j * b.along * BLOCK_WIDTH * 0.35
         corners = (b.at + half + across, b.at + half - across, b.at - half - across, b.at - half + across)
         parts.append(Polygon(tuple(map(on_page, corners)), "", strokes.DIMENSION.coloured(here.colour(b.slide.a))))

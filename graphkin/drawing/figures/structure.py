@@ -79,7 +79,7 @@ def _diagram(sheet: Sheet, letters: Notation, spoken: str, panel: Box) -> Piece:
             labels.append(Label.of(rich(f"{count} − 1", 2.4, bold=True), on_page(here.places[point]), f"badge-{point}",
                                    colour=strokes.GREY, rank=1))
     pairs = [(f"{pin.point}-{pin.on}", pin.point) for pin in sheet.scene.whole.pins]
-    pairs += [(f"{slot.point}-{slot.on}", slot.point) for slot in sheet.scene.whole.slots if not slot.block]
+    pairs += [(f"{path.point}-{path.on}", path.point) for path in sheet.scene.whole.replacing.values()]
     pairs += [(c.name, c.name) for c in sheet.scene.contacts if c.carrier or not c.rolling]
     higher = [(name, here.places[point]) for name, point in pairs if point in here.places]
     for name, place in (*higher, *((cam.cam.link, cam.contact) for cam in here.cams)):
@@ -239,7 +239,7 @@ def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[l
     known = {b.slide.key: b for b in here.sliders}
     rolling = {contact.block for contact in here.scene.contacts if contact.rolling}  # their centres keep a distance
     for slide in (pair for pair in (*inner, *outer) if not pair.turns and pair.key not in rolling):
-        stands = slide.key not in known or (slide.slot and slide.key in here.replaced_pairs)
+        stands = slide.key not in known or (slide.higher and slide.key in here.replaced_pairs)
         at = here.places[slide.pin] if stands and slide.pin else known[slide.key].at
         along = slide.along(here.sheet.poses)
         colour = here.colour(slide.a)

@@ -143,7 +143,7 @@ def _frame(here: MechanismOnPaper) -> Group:
         if here.moving(point):
             parts += symbols.fixed_pivot(on_page(here.places[point]), here.foot(point))
     for b in here.sliders:
-        if b.slide.slot and b.slide.b == here.ground:
+        if b.slide.higher and b.slide.b == here.ground:
             reach = GUIDE_LENGTH / 2 * b.along
             parts += symbols.slot(on_page(b.at - reach), on_page(b.at + reach))
             parts += symbols.guide(on_page(b.at), phase(b.along), GUIDE_LENGTH, symbols.SLOT_WIDTH)
@@ -180,7 +180,7 @@ def _link(here: MechanismOnPaper, shape: LinkShape) -> Group:
         if b.slide.b == shape.link and b.slide.key in here.cylinders:
             parts += symbols.cylinder(on_page(here.pivot(b)), on_page(b.at), colour)
     for b in here.sliders:
-        if b.slide.a == shape.link and not b.slide.slot and b.slide.key not in here.cylinders:
+        if b.slide.a == shape.link and not b.slide.higher and b.slide.key not in here.cylinders:
             shrink = 0.72 ** here.nested(shape.link)
             size = symbols.BLOCK_LENGTH * shrink, symbols.BLOCK_WIDTH * shrink
             parts += symbols.block(on_page(b.at), phase(b.along), colour, *size)
@@ -233,7 +233,7 @@ def _joint(here: MechanismOnPaper, point: str) -> list[Primitive]:
     z, moving = here.places[point], here.moving(point)
     held = [n for n in here.scene.holders.get(point, ()) if n in here.sheet.poses or n == here.ground]
     if len(held) > 1 and moving:
-        on_block = point in {b.slide.pin for b in here.sliders if not b.slide.slot}
+        on_block = point in {b.slide.pin for b in here.sliders if not b.slide.higher}
         radius = symbols.JOINT_RADIUS * (0.85 if on_block else 1.0)
         circle = symbols.turning_pair(on_page(z), radius=radius)
         return [*(_over_block(here, z) if on_block else ()), *circle, *_through(here, z, held)]

@@ -126,10 +126,9 @@ class MechanismOnPaper:
         slides = tuple(one for one in self.sliders if one.slide.key not in self.replaced_pairs)
         found = []
         centres = {slot.bar: slot.centre for slot in self.scene.slots}
-        replaced = {slot.bar for slot in self.scene.slots if not slot.block}
         for link in self.scene.whole.links:
             points = {p: self.places[p] for p in link.points if p in self.places and p != centres.get(link.name)}
-            if link.name in replaced:  # it stands for a slot, which is drawn in its place
+            if link.name in self.scene.replacing:  # it stands for a slot, which is drawn in its place
                 points = {}
             if link.redundant and len(points) == len(link.points):
                 corners, bars = _spanned(tuple(points.values()))
@@ -213,7 +212,7 @@ class MechanismOnPaper:
         """Driven slides that are drawn as cylinder and rod."""
         found = []
         for b in self.sliders:
-            if b.driven and b.slide.b != self.ground and not b.slide.slot:
+            if b.driven and b.slide.b != self.ground and not b.slide.higher:
                 rod = b.at - self.pivot(b)
                 found += [b.slide.key] if abs(cross(rod, b.along)) < 1e-3 and dot(rod, b.along) > 12.0 else []
         return frozenset(found)
@@ -256,7 +255,7 @@ class MechanismOnPaper:
     def nested(self, link: str) -> int:
         """The number of larger blocks around the block of a link: two that slide at one pin lie in each other."""
         mine = next(b for b in self.sliders if b.slide.a == link)
-        around = [b for b in self.sliders if not b.slide.slot and b.slide.a != link and abs(b.at - mine.at) < 0.5]
+        around = [b for b in self.sliders if not b.slide.higher and b.slide.a != link and abs(b.at - mine.at) < 0.5]
         rank = (mine.slide.b != self.ground, self.scene.order.get(link, 0))
         return sum((b.slide.b != self.ground, self.scene.order.get(b.slide.a, 0)) < rank for b in around)
 
@@ -298,7 +297,7 @@ def _shape(
         solid = _solid(slotted, low, high, line)
         bars += [(line.at + a * line.along, line.at + z * line.along) for a, z in solid]
         for b in slotted:
-            if b.slide.slot:
+            if b.slide.higher:
                 slots.append((b.at - PAST_PIN * line.along, b.at + PAST_PIN * line.along))
     loose = [z for z in anchors if z not in tied]
     corners: tuple[complex, ...] = ()
@@ -317,7 +316,7 @@ def _reach(sliding: list[Slider], span: list[float]) -> tuple[float, float]:
     fixed = len(span) > 1
     for b in sliding:
         t = dot(b.at - start, along)
-        past = PAST_PIN if b.slide.slot else PAST_BLOCK
+        past = PAST_PIN if b.slide.higher else PAST_BLOCK
         if fixed and low <= t <= high:
             continue
         if not span or t >= high:
@@ -332,7 +331,7 @@ def _solid(sliding: list[Slider], low: float, high: float, line: Slider) -> list
     start, along = line.at, line.along
     solid = [(low, high)]
     for b in sliding:
-        if b.slide.slot:
+        if b.slide.higher:
             t = dot(b.at - start, along)
             cut = (t - PAST_PIN, t + PAST_PIN)
             solid = [

@@ -184,10 +184,9 @@ def replacing_links(here: MechanismOnPaper, clear: float = 0.0) -> tuple[Primiti
         else:
             drawn += _dashed(spots[0], spots[1], colour, clear)
     whole = here.scene.whole
-    own = {slot.bar for slot in whole.slots}
-    for slot in here.scene.slots:
-        if slot.bar not in own and {slot.centre, slot.point} <= here.places.keys():
-            drawn += _dashed(here.places[slot.centre], here.places[slot.point], here.colour(slot.bar), clear)
+    for bar, path in here.scene.replacing.items():
+        if bar not in whole.replacing and {path.centre, path.point} <= here.places.keys():
+            drawn += _dashed(here.places[path.centre], here.places[path.point], here.colour(bar), clear)
     for pin in here.scene.pins:
         if pin not in whole.pins and pin.point in here.places:
             along = here.sheet.poses[pin.on].axis * here.scene.by_name[pin.on].guides[pin.guide].direction
