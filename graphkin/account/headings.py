@@ -14,7 +14,6 @@ from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import DiagramName, Direction, plain_in
 from graphkin.scene.model import Mechanism
 from graphkin.scene.pairs import told
-from graphkin.scene.tables import Measure
 from graphkin.version import __version__
 from graphkin.words import Neutral, Phrase, as_plain, in_all, languages, listed, rich_text, say, word
 from graphkin.words.written import amount, in_markup, on_paper, pointing, product, true_minus
@@ -90,7 +89,7 @@ def written(plain: str) -> str:
     return f"{head}·$10^{{{power}}}$" if power else head
 
 
-DRAWN: tuple[Measure, ...] = ("length", "velocity", "acceleration")
+DRAWN = ("length", "velocity", "acceleration")
 
 
 def facts(sheet: Sheet, figure: str) -> dict[str, object]:

@@ -358,7 +358,7 @@ def _numbered(rows: Sequence[str]) -> str:
 def _told_in(table: TrialPositions, row: TrialRow) -> tuple[str, str]:
     """The values of a trial, and its gaps, each with its unit."""
     values = (  # angles from -180 to 180
-        f"{_two_digits(180.0 - (180.0 - v) % 360.0)}°" if symbol.measure == "angle" else f"{_two_digits(v)} mm"
+        f"{_two_digits(180.0 - (180.0 - v) % 360.0)}°" if symbol.measure.is_angle else f"{_two_digits(v)} mm"
         for v, symbol in zip(row[0], table.moved, strict=True)
     )
     misses = (_two_digits(m) + ("°" if one.angle else " mm") for m, one in zip(row[1], table.missed, strict=True))

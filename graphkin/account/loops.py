@@ -306,7 +306,7 @@ def loops_text(motion: Motion, language: str) -> LoopText:
         raise CallError.of("loops", "no position is solved", why=motion.reasons[0])
     k = int(np.argmax(motion.ok))
     axes = {name: complex(pose.u[k]) for name, pose in motion.poses.items()}
-    travels = {s.key: float(motion.slide(s.key).travel[k]) for s in motion.slides}
+    travels = {s.key: float(motion.slide(s.key)[0][k]) for s in motion.slides}
     travels = {key: value for key, value in travels.items() if math.isfinite(value)}
     blocks = loops_in_numbers(motion.structure, axes, travels)
     in_loops = {name for block in blocks for loop in block.loops for name in loop.links}

@@ -40,12 +40,6 @@ _PARTS: Mapping[str, tuple[str, str, str, str]] = {
 _ROWS: Mapping[str, Rows] = {"chinese": "rows", "us": "over", "british": "table", "russian": "underlines"}
 PART_MARKS = {mark: kind for marks in _PARTS.values() for mark, kind in zip(marks, PARTS, strict=True)}
 """The part of an acceleration by the mark that it bears in some convention."""
-# letters of positions, and what stands above them to tell them from others
-_PLACES: Mapping[str, tuple[str, str]] = {
-    "x": ("x", ""), "y": ("y", ""), "theta": ("θ", ""), "d": ("l", ""), "s": ("s", ""), "gamma": ("γ", ""),
-    "pressure": ("α", "p"), "stroke": ("H", ""), "swing": ("ψ", ""), "K": ("K", ""), "theta_lag": ("θ", "K"),
-    "transmission": ("γ", ""),
-}  # fmt: skip
 _NAME = re.compile(r"([A-Za-z]+)(.*)")
 
 
@@ -104,14 +98,13 @@ class Notation:
             return f"{self.vector(symbol.here)}({symbol.at})"
         if symbol.scope == "force":
             return force_letters(self.convention, symbol)
-        if symbol.kind in _PLACES:
-            letter, mark = _PLACES[symbol.kind]
+        kind, us = symbol.entry, self.convention == "us"
+        if symbol.scope != "motion":
             names = "".join(self.ref(ref) for ref in (symbol.of, symbol.to) if ref) + _pair(symbol)
-            return f"{letter}{f'^{{{mark}}}' if mark else ''}_{{{names + symbol.name.replace('-', '')}}}"
-        us = self.convention == "us"
+            above = f"^{{{kind.mark}}}" if kind.mark else ""
+            return f"{kind.letter or kind.name}{above}_{{{names + symbol.name.replace('-', '')}}}"
         if symbol.of is None:
-            letter = {"omega": "ω", "alpha": "α"}.get(symbol.kind) or (symbol.kind.upper() if us else symbol.kind)
-            return f"{letter}_{{{_pair(symbol)}}}"
+            return f"{kind.letter or (kind.name.upper() if us else kind.name)}_{{{_pair(symbol)}}}"
         index = self.ref(symbol.of)
         if symbol.to is not None:
             index += ("/" if us else "") + self.ref(symbol.to)

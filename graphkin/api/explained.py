@@ -287,4 +287,5 @@ def _loads(scene: Mechanism) -> Iterator[Phrase]:
         )  # fmt: skip
     for force in forces_named(scene):
         if force.kind in ("F", "M") and not force.other:
-            yield Phrase(f"explained balancing {force.measure}", **{force.measure: str(force)}, link=force.link)
+            measure = force.measure.name
+            yield Phrase(f"explained balancing {measure}", **{measure: str(force)}, link=force.link)

@@ -458,4 +458,4 @@ def prepare(
     if not asked:
         raise CallError.of("find", "asks for nothing", "name quantities for example v_c omega_3")
     columns_shown(given, [name for name in asked if " at " in name])
-    return Prepared(scene, asked, fast, prepared(given, asked, given.units.per_si, bounds))
+    return Prepared(scene, asked, fast, prepared(given, asked, given.units, bounds))

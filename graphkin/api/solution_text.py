@@ -11,6 +11,7 @@ import numpy as np
 
 from graphkin.errors import Unsolvable
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.scene.tables import MEASURES
 from graphkin.solver import listed_points, own_slides
 from graphkin.solver.forces import Forces
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
@@ -74,7 +75,7 @@ def _whole(solved: Solved, language: str) -> list[Texts]:
         ref = PointRef(point, "" if point in scene.by_name[link].points else link)
         points.append((f"{point}@{link}", columns(*(Quantity(Symbol(kind, ref)) for kind in ("place", "v", "a")))))
     for pair in pairs:
-        term = push.of(motion.settled(motion.slide(pair.key).coriolis, "acceleration", 2.0))
+        term = push.of(motion.settled(motion.slide(pair.key)[3], MEASURES["acceleration"], 2.0))
         slides.append((pair.key, [*columns(*slide_quantities(pair.key)), _texts(term.real, term.imag)]))
     tables = [table("links", links, 1, 2, 3), table("points", points), table("slides", slides, 1, 2, 3)]
     if solved.forces is not None:

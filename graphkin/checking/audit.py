@@ -93,7 +93,7 @@ def _judged(case: Evidence, printed: Printed) -> Judged:
 def _turned(case: Evidence, judged: Judged, right: Value) -> Judged | None:
     """A value of the right size and a wrong stated direction or line, with its slip; None for others."""
     printed = judged.printed
-    if not right or printed.symbol.measure == "angle":
+    if not right or printed.symbol.measure.is_angle:
         return None
     true = cmath.phase(complex(right))
     drawn = judged.bound / abs(right) if math.isfinite(judged.bound) else math.pi
@@ -266,7 +266,7 @@ def _exact_rows(
             if symbol in errors:
                 nothing = NOTHING / COMPUTED_SHARE * errors[symbol]
             elif symbol.scope == "force":
-                nothing = np.nan_to_num(forces_of(motion).bound[symbol.measure == "moment"])
+                nothing = np.nan_to_num(forces_of(motion).bound[symbol.measure.length])
             columns[symbol] = np.where(np.abs(column) <= nothing, 0.0, column).tolist()
             lines[symbol] = senses_along(motion, symbol)
 
@@ -296,20 +296,14 @@ def computing_errors(motion: Motion, symbols: Sequence[Symbol]) -> dict[Symbol, 
     reach = np.max([none, *(np.abs(p.z) + none for p in motions)], axis=0)
     in_rpm = (d.rate for d in motion.scene.drivers if d.turns and d.rpm and d.rate)
     rate = max((abs(float(f"{given:.4g}") / given - 1.0) for given in in_rpm), default=0.0)
-    first, second = COMPUTED_SHARE + rate, COMPUTED_SHARE + 2 * rate
     bounds = {}
-    for symbol in symbols:
-        arm = _reach_of(motion, symbol.link)
-        errors = {
-            "velocity": first * speed, "acceleration": second * acceleration, "length": COMPUTED_SHARE * reach,
-            "angle": COMPUTED_SHARE + none, "angular velocity": first * speed / arm if arm else none,
-            "angular acceleration": second * acceleration / arm if arm else none,
-        }  # fmt: skip
-        if symbol.scope in ("motion", "position") and symbol.measure in errors:
-            rates = {"velocity": first, "angular velocity": first, "acceleration": second,
-                     "angular acceleration": second}  # fmt: skip
-            size = np.abs(value_of(motion, symbol))
-            bounds[symbol] = np.maximum(errors[symbol.measure], rates.get(symbol.measure, COMPUTED_SHARE) * size)
+    for symbol in (s for s in symbols if s.scope in ("motion", "position")):
+        order, share = symbol.measure.order, COMPUTED_SHARE + symbol.measure.order * rate
+        whole = (reach, speed, acceleration)[order]
+        if symbol.measure.angle:
+            arm = _reach_of(motion, symbol.link)
+            whole = none + 1.0 if order == 0 else whole / arm if arm else none
+        bounds[symbol] = share * np.maximum(whole, np.abs(value_of(motion, symbol)))
     return bounds
 
 

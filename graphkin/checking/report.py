@@ -188,9 +188,9 @@ def compare(
 
     def place(reading: Reading, value: Value) -> Compared:
         """A length is judged by the size of the mechanism, an angle by a radian, a number by itself."""
-        size, length = sheet.scene.size, reading.symbol.measure == "length"
-        whole = max(size if length else 1.0, abs(value))
-        rounded = lost[reading.symbol].mechanism / (1.0 if length else size)
+        size, power = sheet.scene.size, reading.symbol.measure.length
+        whole = max(size**power, abs(value))
+        rounded = lost[reading.symbol].mechanism / size ** (1 - power)
         return row(reading, float(value.real), whole, max(rounded, ROUNDING * whole), rounded)
 
     rows = tuple(by_scope.get(scope, place)(*pair) for scope, pair in zip(scopes, pairs, strict=True))
@@ -221,7 +221,7 @@ def _row(
     part = FAIR if sheet.instrument in ON_PAPER else COARSE
     fair = whole == 0.0 == least or tolerance <= max(part * whole, least)
     deviation = reading.value - exact if math.isfinite(abs(exact)) else math.inf
-    error = abs(math.remainder(deviation.real, math.tau) if symbol.measure == "angle" else deviation)
+    error = abs(math.remainder(deviation.real, math.tau) if symbol.measure.is_angle else deviation)
     told = fair and not (unsure and 0.0 < abs(exact) <= floor)
     return Compared(
         reading, exact, error, tolerance, _turned(reading, exact, whole), expected, floor, told, by_drivers
@@ -291,7 +291,7 @@ def _forces(
     """The comparison of forces, by the largest force (N), that force times the size of the mechanism (N m), and the
     rounding error of a force (N)."""
     def most(measure: str) -> float:
-        sizes = (max(abs(r.value), abs(v)) for r, v in forces if r.symbol.measure == measure)
+        sizes = (max(abs(r.value), abs(v)) for r, v in forces if r.symbol.measure.name == measure)
         return max((size for size in sizes if math.isfinite(size)), default=0.0)
 
     largest, size = most("force"), sheet.scene.size
@@ -305,11 +305,11 @@ def _forces(
 
     def compared(reading: Reading, value: Value) -> Compared:
         symbol = reading.symbol
-        whole = wholes.get(symbol.measure, size)
+        whole = wholes.get(symbol.measure.name, size)
         if symbol.kind == "h" and inertia.get(symbol.link):
             # a moment over a force: a small force has an uncertain line
             whole = (turning + abs(value) * largest) / inertia[symbol.link]
-        hand = HAND * largest / 100.0 if sheet.instrument not in ON_PAPER and symbol.measure == "force" else 0.0
+        hand = HAND * largest / 100.0 if sheet.instrument not in ON_PAPER and symbol.measure.name == "force" else 0.0
         share, floor = max(EXACT_TOLERANCE, 4.0 * relative), max(relative, CANCELLED) * whole
         return row(reading, value, whole, floor, 0.0, share, hand, relative > SLIGHT)
 

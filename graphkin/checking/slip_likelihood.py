@@ -125,7 +125,7 @@ class Judged:
     def off(self) -> Value:
         """The stated value less the exact one; of an angle without whole turns."""
         deviation = self.printed.value - self.exact
-        return math.remainder(deviation.real, math.tau) if self.printed.symbol.measure == "angle" else deviation
+        return math.remainder(deviation.real, math.tau) if self.printed.symbol.measure.is_angle else deviation
 
     @property
     def deviation(self) -> float | None:

@@ -276,11 +276,10 @@ def _slipped(slips: Sequence[Slipped], symbol: Symbol, exact: Value) -> Iterator
 
 def _factors(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
     """The value in another unit, doubled or halved, or by the scale of the other polygon."""
-    second = symbol.measure in ("acceleration", "angular acceleration")
-    scene, scales = case.plan.structure.scene, case.plan.scales
+    scene, scales, second = case.plan.structure.scene, case.plan.scales, symbol.measure.order == 2
     units = [(f"{factor:g}", factor) for power in (1, 2, 3) for factor in (10.0**power, 0.1**power)]
     unit_name = scene.units.length
-    if unit_name in INCHES and symbol.measure in ("velocity", "acceleration", "length"):  # no powers of ten
+    if unit_name in INCHES and symbol.measure.is_of_motion and symbol.measure.length:  # no powers of ten
         lengths = (LENGTHS[unit_name] / metres for unit, metres in LENGTHS.items() if unit != unit_name)
         units += [(f"{factor:.4g}", factor) for factor in lengths]
     for shown, factor in units:
@@ -375,7 +374,7 @@ def _others(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
 def _sort(symbol: Symbol) -> str:
     """The kind of a quantity by a common name; an arm of the lever, which is a velocity on paper, is a kind of its
     own."""
-    return "arm" if symbol.kind == "arm" else symbol.measure
+    return "arm" if symbol.kind == "arm" else symbol.measure.name
 
 
 # -- somebody's own values ---------------------------------------------------------------------------------------------

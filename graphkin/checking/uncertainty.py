@@ -101,7 +101,7 @@ def predict(
             if error:
                 shares[cause] = shares.get(cause, 0.0) + error
         if shares and symbol.is_vector and value == 0:  # what errs away from nothing is read off the ruler then
-            order: Order = "velocity" if symbol.measure == "velocity" else "acceleration"
+            order: Order = "velocity" if symbol.measure.order == 1 else "acceleration"
             shares[reading] = shares.get(reading, 0.0) + (still.reading_error * planned.scales.of(order)) ** 2
         uncertainty = _summed(symbol, shares, drawn_causes)
         if times > BENT:
@@ -215,7 +215,7 @@ SMALL = 0.05  # readings below this part of the largest of their kind are no fai
 
 def _sort(symbol: Symbol) -> str:
     """The kind of a reading, within which sizes are compared."""
-    return symbol.kind[0] if symbol.scope == "motion" else symbol.measure
+    return symbol.kind[0] if symbol.scope == "motion" else symbol.measure.name
 
 
 def advise(

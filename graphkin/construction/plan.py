@@ -118,7 +118,7 @@ class Plan:
     def drawn(self) -> Mapping[Order, tuple[Element, ...]]:
         """The elements of each polygon that the asked quantities need: in accelerations only those that lead to
         accelerations."""
-        pushes = [s for s in self.asked if s.measure in ("acceleration", "angular acceleration")]
+        pushes = [s for s in self.asked if s.measure.order == 2]
         wanted = needed(self.opened, pushes) if pushes else []
         pushed = self.elements if self.is_whole else tuple(e for e in self.elements if e in wanted)
         return {"velocity": self.elements, "acceleration": pushed}

@@ -93,7 +93,7 @@ def problem(lesson: Lesson) -> Document:
         first = (Beside(words, Picture(bare)),)
     asked = [
         {"quantity": f"${lesson.letters.vector(s)}$", "unit": lesson.unit(s),
-         "on paper": "" if s.is_vector or s.measure == "length" else "–"}
+         "on paper": "" if s.is_vector or s.measure.is_length else "–"}
         for s in lesson.questions
     ]  # fmt: skip
     blank = table_of(language, asked, ("quantity", "on paper", "value", "unit", "sense"), roomy=True)
@@ -338,7 +338,7 @@ def result_cells(lesson: Lesson) -> Iterator[dict[str, str]]:
     """The cells of each result, by the keys of their heads."""
     scales, units = lesson.sheet.scales, lesson.sheet.scene.units
     for line, row in zip(key_rows(lesson), lesson.results, strict=True):
-        placed, is_length = row.symbol.scope == "position", row.symbol.is_vector or row.symbol.measure == "length"
+        placed, is_length = row.symbol.scope == "position", row.symbol.is_vector or row.symbol.measure.is_length
         size = line.exact if placed else abs(line.exact)
         read, right = measured(row.reading, scales, units, row), exact(row, units)
         tolerance, accept = accepted(size, line.tolerance or 0.0, -math.inf if placed else 0.0)
@@ -421,14 +421,18 @@ def head_of(symbol: Symbol, units: Units) -> str:
 
 def unsigned(row: Compared, text: str) -> str:
     """A value without its sign where its sense is in words; a place keeps its sign."""
-    placed = row.symbol.scope == "position" or row.symbol.kind in ("h", "arm")
-    return text if placed else text.removeprefix("−")
+    return text if _is_place(row.symbol) else text.removeprefix("−")
+
+
+def _is_place(symbol: Symbol) -> bool:
+    """Whether its sign tells a side, not a sense: a position, or the arm or shift of a force."""
+    return symbol.scope == "position" or (symbol.scope == "force" and not symbol.is_load)
 
 
 def way(row: Compared, language: str) -> str:
     """Direction of a vector in degrees, or the sense of a rate in words; "" where it is zero."""
     value = row.true
-    if value == 0.0 or row.symbol.scope not in ("motion", "force") or row.symbol.kind in ("h", "arm"):
+    if value == 0.0 or row.symbol.scope not in ("motion", "force") or _is_place(row.symbol):
         return ""
     if row.symbol.is_vector:
         return f"{pointing(complex(value))}°"

@@ -125,11 +125,12 @@ class Lesson:
         moments.
         """
         kept = [row for row in self.report.rows if row.symbol in self.questions or self._is_result(row.symbol)]
-        order = {"velocity": 1, "angular velocity": 2, "acceleration": 3, "angular acceleration": 4}
-        last = {"force": 5, "moment": 6}
 
-        def place(symbol: Symbol) -> int:
-            return last.get(symbol.measure, 7) if symbol.scope == "force" else order.get(symbol.measure, 0)
+        def place(symbol: Symbol) -> tuple[int, ...]:
+            measure = symbol.measure
+            if symbol.scope == "force":
+                return 1, 0 if symbol.is_load else 1, measure.length
+            return 0, measure.order, measure.angle if measure.order else 0
 
         return tuple(sorted(kept, key=lambda row: place(row.symbol)))
 

@@ -251,7 +251,7 @@ def _figures(lesson: Lesson, piece: Piece, frames: Frames) -> Iterator[Figure]:
         vectors = word("list semicolon", first).join(
             f"{spoken_words(f'${letters.vector(row.symbol)}$', first)} "
             f"{number(lesson.in_unit(row.symbol, abs(row.true)), 4)} {lesson.unit(row.symbol)}, {way(row, first)}"
-            for row in lesson.results if row.symbol.is_vector and row.symbol.measure == name
+            for row in lesson.results if row.symbol.is_vector and row.symbol.measure.name == name
         )  # fmt: skip
         title = term(FIGURE_WORDS[name] if name != "centres" else name, lesson.language)
         drawing = Drawing(panel.width, panel.height, stepped(children) if is_stepped else children, title,

@@ -37,7 +37,7 @@ from graphkin.scene.scene_tables import (
     no_position,
 )
 from graphkin.scene.symbol import PointRef, Printed, Symbol
-from graphkin.scene.tables import Measure, Unit, Units
+from graphkin.scene.tables import Unit, Units
 
 EDGE = 1e-9
 """Of the stroke or the turn: a load that begins or ends within this of a position does so exactly there."""
@@ -221,7 +221,7 @@ class Driver:
     key: str = field(init=False, repr=False, compare=False)
     links: tuple[str, str] = field(init=False, repr=False, compare=False)
     values: tuple[float, float, float] = field(init=False, repr=False, compare=False)
-    measure: Measure = field(init=False, repr=False, compare=False)
+    measure: str = field(init=False, repr=False, compare=False)
     rolls: bool = field(init=False, repr=False, compare=False)
     given: bool = field(init=False, repr=False, compare=False)
 

@@ -171,8 +171,9 @@ def unit_factor(text: str, symbol: Symbol, units: Units) -> float | None:
     for unit, pattern in _UNITS.items():
         plain = pattern.sub(unit, plain)
     bare = re.sub(r"[\s^·*⋅.{}]", "", plain).replace("µ", "u").replace("μ", "u")
-    if symbol.measure in ("force", "moment"):
-        arms = _LENGTHS if symbol.measure == "moment" else {"": 1.0}
+    measure = symbol.measure
+    if measure.force:
+        arms = _LENGTHS if measure.length else {"": 1.0}
         for force, newtons in _FORCES.items():  # lb-ft, or ft-lb
             split = (bare.removeprefix(force), bare.removesuffix(force))
             arm = next((a.strip("-") for a in split if a != bare and a.strip("-") in arms), None)
@@ -181,11 +182,7 @@ def unit_factor(text: str, symbol: Symbol, units: Units) -> float | None:
         return None
     bare = bare.replace("rpm", "r/min")
     match = _RATE.fullmatch(bare)
-    if match is None:
-        return None
-    order = {"velocity": 1, "angular velocity": 1, "acceleration": 2, "angular acceleration": 2, "length": 0,
-             "angle": 0}.get(symbol.measure)  # fmt: skip
-    if order is None:
+    if match is None or not measure.is_of_motion:
         return None
     power = 0
     if match["over"]:
@@ -195,9 +192,9 @@ def unit_factor(text: str, symbol: Symbol, units: Units) -> float | None:
     elif match["by"]:
         power = int(match["times"])
     time = _TIMES[match["over"] or match["one"] or match["by"] or ""]
-    table = _LENGTHS if symbol.measure in ("velocity", "acceleration", "length") else _ANGLES
+    table = _LENGTHS if measure.length else _ANGLES
     what = match["what"]
-    if power != order or what not in table or (order == 0 and what in ("", "1")):
+    if power != measure.order or what not in table or (power == 0 and what in ("", "1")):
         return None
     return table[what] / time**power
 
@@ -379,7 +376,7 @@ def _ways(text: str, symbol: Symbol) -> Iterator[tuple[Way, str]]:
 
 def _letters(match: re.Match[str], symbol: Symbol) -> bool:
     """Whether a compass point is a letter that may be a unit of a force."""
-    return symbol.measure in ("force", "moment") and any(g in ("N", "E", "S", "W") for g in match.groups())
+    return symbol.measure.force > 0 and any(g in ("N", "E", "S", "W") for g in match.groups())
 
 
 def _by_compass_angle(text: str, symbol: Symbol) -> Iterator[tuple[Way, str]]:
@@ -519,7 +516,7 @@ def read_cell(
             factor_said = unit_factor(said, symbol, units)
             if factor_said is None:
                 key = "cell no unit" if is_unit(said, units) else "cell no words"
-                measure = Phrase(f"measure {symbol.measure}")
+                measure = Phrase(f"measure {symbol.measure.name}")
                 raise ValueError(Phrase(key, cell=text.strip()[:60], unit=said[:40], measure=measure))
             factor = factor_said
             break

@@ -16,7 +16,7 @@ from dataclasses import dataclass, field, replace
 from decimal import Decimal, InvalidOperation
 from typing import Literal, NamedTuple
 
-from graphkin.scene.tables import Measure, Unit, Units
+from graphkin.scene.tables import MEASURES, Measure, Unit, Units
 from graphkin.words import Phrase
 
 Value = complex | float
@@ -74,20 +74,25 @@ _FORMS = forms_of_names(_POINT, _LINK)
 class Kind:
     """A kind of quantity.
 
-    ``form`` is the form of its names (a key of the forms above), ``scope`` where it belongs: to a polygon of motion, to
-    the mechanism's position, to the whole turn, to a force polygon, or to a flywheel.  ``order`` is the order of its
-    derivative by time of a place, an angle or a travel; None for other kinds.  With ``of_pairs`` sliding pairs have it
-    too, along the guide and with a sign.
+    ``measure`` is the name of its measure, ``form`` the form of its names (a key of the forms above), ``scope`` where
+    it belongs: to a polygon of motion, to the mechanism's position, to the whole turn, to a force polygon, or to a
+    flywheel.  ``letter`` is its letter in print, where it is not its name, ``mark`` a sign above it.  ``of_pose`` tells
+    a place, an angle, a travel or a derivative of one by time; with ``of_pairs`` sliding pairs have it too, along the
+    guide and with a sign.  A ``distance`` and an ``acute`` angle, of at most 90 degrees, are never negative.
     """
 
     name: str
-    measure: Measure
+    measure: str
     form: str
     scope: Scope
     example: str
     is_vector: bool = False
-    order: int | None = None
+    of_pose: bool = False
     of_pairs: bool = False
+    letter: str = ""
+    mark: str = ""
+    distance: bool = False
+    acute: bool = False
 
     @property
     def sign(self) -> str:
@@ -98,25 +103,25 @@ class Kind:
 KINDS = {
     kind.name: kind
     for kind in (
-        Kind("v", "velocity", "points", "motion", "v_B, v_B@3 or v_C/B", True, 1, of_pairs=True),
-        Kind("a", "acceleration", "points", "motion", "a_B, a_B@3 or a_C/B", True, 2, of_pairs=True),
+        Kind("v", "velocity", "points", "motion", "v_B, v_B@3 or v_C/B", True, of_pose=True, of_pairs=True),
+        Kind("a", "acceleration", "points", "motion", "a_B, a_B@3 or a_C/B", True, of_pose=True, of_pairs=True),
         Kind("an", "acceleration", "points", "motion", "an_B or an_C/B", True),
         Kind("at", "acceleration", "points", "motion", "at_B or at_C/B", True),
         Kind("ak", "acceleration", "coincident", "motion", "ak_B@3/B@2", True),
         Kind("ar", "acceleration", "coincident", "motion", "ar_B@3/B@2", True),
-        Kind("omega", "angular velocity", "link", "motion", "omega_3", order=1),
-        Kind("alpha", "angular acceleration", "link", "motion", "alpha_3", order=2),
+        Kind("omega", "angular velocity", "link", "motion", "omega_3", of_pose=True, letter="ω"),
+        Kind("alpha", "angular acceleration", "link", "motion", "alpha_3", of_pose=True, letter="α"),
         Kind("x", "length", "point", "position", "x_D"),
         Kind("y", "length", "point", "position", "y_D"),
-        Kind("theta", "angle", "link of link", "position", "theta_3 or theta_3/2", order=0),
-        Kind("d", "length", "two points", "position", "d_B/C or d_P12/A"),
-        Kind("s", "length", "pair", "position", "s_2/3", order=0),
-        Kind("gamma", "angle", "links", "position", "gamma_2-3"),
-        Kind("pressure", "angle", "link", "position", "pressure_5"),
-        Kind("stroke", "length", "pair", "turn", "stroke_5/6"),
-        Kind("swing", "angle", "link", "turn", "swing_3"),
+        Kind("theta", "angle", "link of link", "position", "theta_3 or theta_3/2", of_pose=True, letter="θ"),
+        Kind("d", "length", "two points", "position", "d_B/C or d_P12/A", letter="l", distance=True),
+        Kind("s", "length", "pair", "position", "s_2/3", of_pose=True),
+        Kind("gamma", "angle", "links", "position", "gamma_2-3", letter="γ", acute=True),
+        Kind("pressure", "angle", "link", "position", "pressure_5", letter="α", mark="p", acute=True),
+        Kind("stroke", "length", "pair", "turn", "stroke_5/6", letter="H"),
+        Kind("swing", "angle", "link", "turn", "swing_3", letter="ψ"),
         Kind("K", "number", "link of link", "turn", "K_5/6"),
-        Kind("theta_lag", "angle", "link of link", "turn", "theta_lag_5/6"),
+        Kind("theta_lag", "angle", "link of link", "turn", "theta_lag_5/6", letter="θ", mark="K"),
         Kind("F", "force", "link or joint", "force", "F_5/6, F_5/6@C or F_2", True),
         Kind("Fi", "force", "of link", "force", "Fi_6", True),
         Kind("G", "force", "of link", "force", "G_6", True),
@@ -131,11 +136,10 @@ KINDS = {
 }
 """All kinds of quantities by name.  A further kind of quantity is a further entry."""
 
-VECTORS = tuple(name for name, kind in KINDS.items() if kind.is_vector)
 _OF_ALL = {
     **KINDS,
-    "place": Kind("place", "length", "points", "motion", "C or B@3", order=0),
-    "transmission": Kind("transmission", "angle", "links", "position", "4-5"),
+    "place": Kind("place", "length", "points", "motion", "C or B@3", of_pose=True),
+    "transmission": Kind("transmission", "angle", "links", "position", "4-5", letter="γ", acute=True),
 }
 """With the place of a point, which has no letter of its own, and what only a group as a whole has."""
 _LONGEST_FIRST = sorted(KINDS, key=len, reverse=True)
@@ -227,19 +231,24 @@ class Symbol:
         return cls(kind, of, to, link, other, name=name, plus=bool(names.get("plus")))
 
     @property
+    def entry(self) -> Kind:
+        """The entry of its kind."""
+        return _OF_ALL[self.kind]
+
+    @property
     def is_vector(self) -> bool:
-        return self.kind in VECTORS and not (self.turning or self.axis or self.is_rate_of_pair)
+        return self.entry.is_vector and not (self.turning or self.axis or self.is_rate_of_pair)
 
     @property
     def is_rate_of_pair(self) -> bool:
         """Whether it is a rate of a sliding pair along its guide."""
-        return self.of is None and _OF_ALL[self.kind].of_pairs
+        return self.of is None and self.entry.of_pairs
 
     @property
     def of_pair(self) -> Symbol | None:
         """The rate of a sliding pair whose links are called as its two points; None where it is no such quantity."""
         of, to = self.of, self.to
-        if of is None or to is None or of.link or to.link or not _OF_ALL[self.kind].of_pairs:
+        if of is None or to is None or of.link or to.link or not self.entry.of_pairs:
             return None
         return Symbol(self.kind, link=of.point, other=to.point, at=self.at)
 
@@ -252,20 +261,20 @@ class Symbol:
     @property
     def is_load(self) -> bool:
         """Whether it is a force or a moment of the mechanism."""
-        return self.scope == "force" and self.kind not in ("h", "arm")
+        return self.scope == "force" and self.measure.force == 1
 
     @property
     def order(self) -> int | None:
         """The order of its derivative by time of a place, an angle or a travel; None for other quantities."""
-        return _OF_ALL[self.kind].order
+        return self.measure.order if self.entry.of_pose else None
 
     @property
     def scope(self) -> Scope:
-        return _OF_ALL[self.kind].scope
+        return self.entry.scope
 
     @property
     def measure(self) -> Measure:
-        return "moment" if self.turning else _OF_ALL[self.kind].measure
+        return MEASURES["moment" if self.turning else self.entry.measure]
 
     @property
     def pair(self) -> str:
@@ -307,7 +316,7 @@ class Symbol:
     def __str__(self) -> str:
         if self.of is None or self.link:
             name = f"{self.kind}_{self.link or self.name}"
-            name += f"{KINDS[self.kind].sign}{self.other}" if self.other else ""
+            name += f"{self.entry.sign}{self.other}" if self.other else ""
             name += (f"@{self.of}" if self.of else "") + ("+" if self.plus else "")
         elif self.kind == "place":
             name = str(self.of)

@@ -171,11 +171,46 @@ def entries(table: FileTable) -> dict[str, object]:
 
 # -- units -------------------------------------------------------------------------------------------------------------
 
-Measure = Literal[
-    "velocity", "acceleration", "angular velocity", "angular acceleration", "length", "angle", "number", "force",
-    "moment", "work", "inertia",
-]
-"""What a number measures: its unit follows from it and from the units of the scene."""
+class Measure(NamedTuple):
+    """What a number measures, by its dimension: powers of length, angle, force and mass, and the order of its
+    derivative by time.
+
+    Its unit in files, the spellings of that unit, the error bound by which a value is nothing, and the size of such
+    values in a mechanism follow from these.  A further measure is a further entry of `MEASURES`.
+    """
+
+    name: str
+    length: int = 0
+    angle: int = 0
+    order: int = 0
+    force: int = 0
+    mass: int = 0
+
+    @property
+    def is_of_motion(self) -> bool:
+        """Whether it is a length or an angle, or a derivative of one by time."""
+        return self.length + self.angle == 1 and not self.force and not self.mass
+
+    @property
+    def is_angle(self) -> bool:
+        return self.angle == 1 and not self.order
+
+    @property
+    def is_length(self) -> bool:
+        return self.is_of_motion and self.length == 1 and not self.order
+
+
+MEASURES: Mapping[str, Measure] = {
+    measure.name: measure
+    for measure in (
+        Measure("length", length=1), Measure("velocity", length=1, order=1), Measure("acceleration", length=1, order=2),
+        Measure("angle", angle=1), Measure("angular velocity", angle=1, order=1),
+        Measure("angular acceleration", angle=1, order=2), Measure("number"), Measure("force", force=1),
+        Measure("moment", length=1, force=1), Measure("work", length=1, force=1), Measure("mass", mass=1),
+        Measure("inertia", length=2, mass=1), Measure("stiffness", length=-1, force=1),
+    )
+}  # fmt: skip
+"""All measures by name."""
 
 
 class Unit(NamedTuple):
@@ -195,7 +230,7 @@ class Unit(NamedTuple):
     @property
     def written(self) -> str:
         """The unit in print: ``mm/s²``, ``°``, ``N·m``."""
-        return self.text.replace("2", "²").replace("deg", "°").replace(" ", "·")
+        return self.text.translate(str.maketrans("23 ", "²³·")).replace("deg", "°")
 
     def beside(self, number: str) -> str:
         """A number, as it is written, with the unit beside it: ``482.7 mm/s``, ``30°``."""
@@ -246,45 +281,36 @@ class Units(FileTable):
         """One unit of inertia in kg m2."""
         return self.of("inertia").si
 
-    @property
-    def per_si(self) -> tuple[float, float, float]:
-        """One metre, one radian and one metre in rates, in the units of tables."""
-        return 1.0 / self.metres, math.degrees(1.0), 1.0 / self.rates.metres
-
-    def of(self, measure: Measure, radians: bool = False) -> Unit:
-        """The unit of a measure: people read angles in degrees, programs in radians."""
-        return _unit(self, measure, radians)
+    def of(self, measure: Measure | str, radians: bool = False) -> Unit:
+        """The unit of a measure, or of one by its name: people read angles in degrees, programs in radians."""
+        return _unit(self, MEASURES[measure] if isinstance(measure, str) else measure, radians)
 
 
 @cache
-def _unit(units: Units, measure: str, radians: bool) -> Unit:
-    fast = units.rates
-    pounds = units.mass == "lb"
-    return {
-        "length": Unit(units.length, units.metres),
-        "velocity": Unit(f"{fast.length}/s", fast.metres),
-        "acceleration": Unit(f"{fast.length}/s2", fast.metres),
-        "angle": Unit("rad", 1.0) if radians else Unit("deg", math.radians(1.0)),
-        "angular velocity": Unit("rad/s", 1.0),
-        "angular acceleration": Unit("rad/s2", 1.0),
-        "number": Unit("", 1.0),
-        "force": Unit(units.force, units.newtons),
-        "moment": Unit(f"{units.force} m", units.newtons),
-        "work": Unit(f"{units.force} m", units.newtons),
-        "mass": Unit(units.mass, units.kilograms),
-        "inertia": Unit(f"{units.mass} {'ft2' if pounds else 'm2'}", units.kilograms * (0.3048**2 if pounds else 1.0)),
-        "stiffness": Unit(f"{units.force}/{units.length}", units.newtons / units.metres),
-    }[measure]
+def _unit(units: Units, measure: Measure, radians: bool) -> Unit:
+    """The product of the units in a measure; the arm of a force is in m, that of a mass in m, or in ft beside lb."""
+    if measure.is_angle and not radians:
+        return Unit("deg", math.radians(1.0))
+    length = units.rates.length if measure.order else units.length
+    if measure.length > 0 and (measure.force or measure.mass):
+        length = "ft" if measure.mass and units.mass == "lb" else "m"
+    powers = ((units.force, units.newtons, measure.force), (units.mass, units.kilograms, measure.mass),
+              (length, LENGTHS[length], measure.length), ("rad", 1.0, measure.angle), ("s", 1.0, -measure.order))
+    above, below = ([(f"{name}{abs(power) if abs(power) > 1 else ''}", si ** abs(power)) for name, si, power in powers
+                     if power * sign > 0] for sign in (1, -1))
+    (over, si), (under, per) = ((" ".join(name for name, _ in part), math.prod(si for _, si in part))
+                                for part in (above, below))
+    return Unit(f"{over}/{under}" if under else over, si / per)
 
 
 def in_si(table: AnyTable, units: Units) -> AnyTable:
     """A table of a file, and the tables in it, with every number in SI whose key has a unit."""
-    return _converted(table, lambda number, measure: number * _unit(units, measure, False).si)
+    return _converted(table, lambda number, measure: number * units.of(measure).si)
 
 
 def in_units(table: AnyTable, units: Units) -> AnyTable:
     """A table with its numbers in SI as it stands in a file of these units, without the noise of the conversion."""
-    return _converted(table, lambda number, measure: tidy(_unit(units, measure, False).of(number)))
+    return _converted(table, lambda number, measure: tidy(units.of(measure).of(number)))
 
 
 def _converted(table: AnyTable, change: Callable[[float, str], float]) -> AnyTable:

@@ -22,7 +22,7 @@ from graphkin.solver.algebra.bounds import Accuracy
 from graphkin.solver.algebra.pose import Array, Drive, rest
 from graphkin.solver.drivers import goal_values, own_values
 from graphkin.solver.mobility import structure_of
-from graphkin.solver.motion import Motion, Sliding, listed_points, own_slides
+from graphkin.solver.motion import Motion, listed_points, own_slides
 from graphkin.solver.path.assemblies import choose_modes
 from graphkin.solver.path.driver_range import DriverRange, motion_of, range_from, range_of, stopped_why, way_to
 from graphkin.solver.sentences import assembly_words
@@ -31,7 +31,7 @@ from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, Wording, listed
 
 __all__ = [
-    "DriverRange", "Motion", "Sliding", "driver_range", "listed_points", "over_time", "own_slides", "solve",
+    "DriverRange", "Motion", "driver_range", "listed_points", "over_time", "own_slides", "solve",
     "solved_here", "structure_of", "sweep_in_blocks",
 ]  # fmt: skip
 

@@ -133,7 +133,7 @@ def disc_course(structure: Structure, disc: DiscCam, angle: Array) -> tuple[Arra
         pivot = next(p for p in scene.by_name[disc.follower].points if p in scene.frame.points)
         motion_of_follower = 1j * (place - scene.frame.points[pivot])
     else:
-        value = motion.slide(of).travel
+        value = motion.slide(of)[0]
         pair = next(s for s in scene.slidings if s.key == of)
         motion_of_follower = np.full(len(angle), scene.frame.guides[pair.guide].direction)
     pitch = None if contact.flat else (motion.position(contact.centres[1 - side], disc.follower) - axis) * back

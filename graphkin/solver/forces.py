@@ -457,7 +457,7 @@ def _force(motion: Motion, load: LoadOn) -> Array:
         moving = [growing.poses[link.name] for link in scene.links if not link.redundant]
         speeds = [np.abs(pose.v) for pose in moving] + [np.abs(pose.omega) * scene.size for pose in moving]
         most = np.max(np.nan_to_num(speeds), axis=0) + np.abs(growing.poses[slide.b].omega) * scene.size
-        speed = growing.slide(slide.key).velocity
+        _, speed, *_ = growing.slide(slide.key)
         sign = np.where(np.abs(speed) > 1e-12 * most, np.sign(speed), 0.0)
         return np.asarray(-load.size * sign * motion.poses[slide.b].u * slide.guide.direction)
     if load.follows:
@@ -477,7 +477,7 @@ def _acting(motion: Motion, load: LoadOn) -> tuple[Array, Array]:
             low, high = motion.reach().stroke(phase.stroke)
         except Unsolvable as stop:
             raise load.without_stroke(stop) from None
-        travel, speed = motion.slide(phase.stroke).travel, motion.growing.slide(phase.stroke).velocity
+        travel, speed = motion.slide(phase.stroke)[0], motion.growing.slide(phase.stroke)[1]
         part = (travel - low) / (high - low) if high > low else np.zeros(len(motion))
         acts, edge = load.acts_on_stroke(part, np.sign(speed) == phase.sense)
     return np.asarray(acts), np.asarray(edge)

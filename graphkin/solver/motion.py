@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -23,20 +23,7 @@ from graphkin.structure import Pair, Structure
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, Wording
 
-_FIELDS: tuple[Measure, ...] = (
-    "length", "velocity", "acceleration", "angle", "angular velocity", "angular acceleration",
-)  # fmt: skip
-"""What the bounds of an ``ErrorBound`` are of, in their order."""
 SLIGHT = 1e-9  # of what the drivers alone make: a bound above it does not tell rounding from a small value
-
-
-class Sliding(NamedTuple):
-    """A sliding pair's motion, signed along the guide's sense; ``coriolis`` is a vector (complex), 2 i omega v."""
-
-    travel: Array
-    velocity: Array
-    acceleration: Array
-    coriolis: Array
 
 
 @dataclass(frozen=True)
@@ -193,14 +180,18 @@ class Motion:
         """real, shape (n,) (rad/s2), counter-clockwise positive."""
         return np.asarray(self.poses[self.link(link).name].alpha)
 
-    def slide(self, key: str) -> Sliding:
-        """A sliding pair or pin in slot by its key ("2/3", "B/3").  Raises CallError for an unknown one."""
+    def slide(self, key: str) -> tuple[Array, Array, Array, Array]:
+        """Travel, velocity and acceleration of a sliding pair or pin in slot by its key ("2/3", "B/3"), signed along
+        the guide's sense, and the Coriolis acceleration 2 i omega v, a vector (complex).
+
+        Raises CallError for an unknown one.
+        """
         pair = next((s for s in self.slides if s.key == key), None)
         if pair is None:
             raise CallError.of(Phrase("slide", key=key), "there is no such sliding pair",
                                did_you_mean(key, [s.key for s in self.slides]))
         guide, seen = self.posed.guide(pair), self.posed.sliding(pair)
-        return Sliding(seen.z.real, seen.v.real, seen.a.real, 2j * guide.omega * guide.u * seen.v.real)
+        return seen.z.real, seen.v.real, seen.a.real, 2j * guide.omega * guide.u * seen.v.real
 
     @cached_property
     def driven(self) -> tuple[Array, Array]:
@@ -213,20 +204,15 @@ class Motion:
                 one, two = self.poses[driver.link], self.poses[driver.relative_to]
                 rate, second = rate + np.abs(one.omega - two.omega), second + np.abs(one.alpha - two.alpha)
             else:
-                slide = self.slide(driver.key)
-                rate, second = rate + np.abs(slide.velocity) / size, second + np.abs(slide.acceleration) / size
+                _, velocity, acceleration, _ = self.slide(driver.key)
+                rate, second = rate + np.abs(velocity) / size, second + np.abs(acceleration) / size
         return rate, second + rate**2
 
     @cached_property
-    def _scales(self) -> Mapping[Measure, tuple[Array | float, Array | float]]:
-        """By measure the size of the drivers' motion, and the least rounding in adding a point to its link."""
-        size, (rate, second) = self.scene.size, self.driven
+    def _added(self) -> Sequence[Array]:
+        """The least rounding in adding a point to its link: of its place, velocity and acceleration."""
         poses = self.accuracy.poses.values()
-        place, fast, pushed = (FEW * UNIT * np.max([np.abs(getattr(p, f)) for p in poses], axis=0) for f in "zva")
-        return {
-            "length": (size, place), "velocity": (rate * size, fast), "acceleration": (second * size, pushed),
-            "angle": (1.0, 0.0), "angular velocity": (rate, 0.0), "angular acceleration": (second, 0.0),
-        }  # fmt: skip
+        return [FEW * UNIT * np.max([np.abs(getattr(p, f)) for p in poses], axis=0) for f in "zva"]
 
     def settled(self, value: Array, measure: Measure, ends: float = 1.0) -> Array:
         """Values of a measure (SI), shape (n,), 0 where they are rounding alone; complex ones by their parts.
@@ -240,9 +226,10 @@ class Motion:
         """
         if np.iscomplexobj(value):
             return self.settled(value.real, measure, ends) + 1j * self.settled(value.imag, measure, ends)
-        if measure not in self._scales:
+        if not measure.is_of_motion:
             return value
-        whole, least = self._scales[measure]
+        whole = (1.0, *self.driven)[measure.order] * self.scene.size**measure.length
+        least = self._added[measure.order] if measure.length else 0.0
         large = np.abs(value)
         small = self.ok & (large <= ends * SLIGHT * whole)
         if not small.any():
@@ -251,9 +238,7 @@ class Motion:
         doubtful = np.flatnonzero(small & ~nothing & (value != 0.0))
         if len(doubtful):
             few = len(self) <= BLOCK  # then the bounds of all are found once
-            of = self.bound if few else self.accuracy.rows(doubtful).of(())
-            bound = dict(zip(_FIELDS, of, strict=True))[measure]
-            bound = bound[doubtful] if few else bound
+            bound = self.bound.of(measure)[doubtful] if few else self.accuracy.rows(doubtful).of(()).of(measure)
             slight = bound <= SLIGHT * np.broadcast_to(whole, value.shape)[doubtful]
             nothing[doubtful] = slight & (large[doubtful] <= ends * bound)
         return np.where(nothing, 0.0, value) + 0.0  # never -0

@@ -12,7 +12,7 @@ import numpy as np
 from graphkin.errors import CallError
 from graphkin.scene.model import Dimension, Mechanism, dimensions, force_of
 from graphkin.scene.symbol import Symbol
-from graphkin.scene.tables import Measure
+from graphkin.scene.tables import Measure, Units
 from graphkin.solver.algebra.bounds import error_bounds
 from graphkin.solver.algebra.dyads import DyadSolution
 from graphkin.solver.algebra.expressions import Code, Name, Real, Vec
@@ -31,9 +31,6 @@ from graphkin.structure import Structure
 CHUNK = 16384  # positions in a piece, so that all columns of one stay in the cache
 PRODUCTS = 4
 """Roundings in the cosine and sine of an angle, those of many even steps included."""
-_PER: Mapping[Measure, int] = {"length": 0, "angle": 1, "velocity": 2, "acceleration": 2}
-"""Which of the units a measure has."""
-_NAMES: tuple[Name, ...] = (("per metre",), ("per radian",), ("per metre of rates",))
 RESIDUE = 16 * UNIT  # of what moves: a few roundings
 CLEAR = 3.0
 """Times the greatest turn of a link between two positions: a sine that is more than that at both is not zero between
@@ -48,7 +45,7 @@ class PreparedMechanism:
 
     names : of the columns, two for a vector ("v_B.x", "v_B.y") asked : their formulas, except those of loads
     wanted : the names of the asked quantities
-    units : what one metre, one radian and one metre in rates are in the units of the columns
+    units : of the columns, as tables have them; SI without any
     bounded : whether columns of bounds follow all others, one for each name; they are made from the constraints of
         all links, some hundred times slower than the values
     loads : forces and moments that were asked for, by name: the last of the names, solved position by position as they
@@ -61,7 +58,7 @@ class PreparedMechanism:
     asked: tuple[Real, ...]
     dimensioned: DimensionedProgram
     wanted: tuple[str, ...]
-    units: Units = (1.0, 1.0, 1.0)
+    units: Units | None = None
     bounded: bool = False
     loads: tuple[str, ...] = ()
     open: frozenset[Name] = frozenset()
@@ -75,21 +72,17 @@ class PreparedMechanism:
     def residues(self) -> Array:
         """The size of a few roundings in each column, by the size of the mechanism and the motion of its drivers, shape
         (columns,); 0 for forces, whose size these do not give."""
-        scene, (metre, radian, metre_of_rates) = self.structure.scene, self.units
-        rate = second = 0.0
+        scene, rate, second = self.structure.scene, 0.0, 0.0
         for driver in scene.drivers:
             by = 1.0 if driver.turns else 1.0 / scene.size
             rate, second = rate + by * abs(driver.values[1]), second + by * abs(driver.values[2])
-        second += rate**2
-        whole = {"length": scene.size * metre, "velocity": scene.size * rate * metre_of_rates, "angle": radian,
-                 "acceleration": scene.size * second * metre_of_rates, "angular velocity": rate,
-                 "angular acceleration": second}  # fmt: skip
 
         def left(name: str) -> float:
             if name in self.loads:
                 return 0.0
-            symbol = Symbol.parse(name if name in self.wanted else name.removesuffix(".x").removesuffix(".y"))
-            return RESIDUE * whole.get(symbol.measure, 0.0)
+            measure = Symbol.parse(name).measure if name[-2:] not in (".x", ".y") else Symbol.parse(name[:-2]).measure
+            whole = scene.size**measure.length * (1.0, rate, second + rate**2)[measure.order]
+            return RESIDUE * whole * _factor(measure, self.units)
 
         return np.array([left(name) for name in self.names])
 
@@ -159,7 +152,8 @@ class PreparedMechanism:
     @cached_property
     def _held(self) -> dict[Name, float]:
         """Units, rates of the drivers, and values of those but the first."""
-        held: dict[Name, float] = dict(zip(_NAMES, self.units, strict=True))
+        measures = {column_symbol(name).measure for name in self.wanted}
+        held: dict[Name, float] = {("per", measure.name): _factor(measure, self.units) for measure in measures}
         count = len(self.structure.scene.drivers)
         for k, driver in enumerate(self.structure.drivers):
             _, rate, second = driver.values
@@ -411,7 +405,7 @@ class PreparedMechanism:
         posed = Posed(structure, state.poses, structure.slides)
         for row, name in zip(out, self.wanted, strict=True):
             symbol = column_symbol(name)
-            row[ok] = bound_of_symbol(posed, symbol, links) * _factor(symbol, self.units)
+            row[ok] = bound_of_symbol(posed, symbol, links) * _factor(symbol.measure, self.units)
 
     def _state(self, value: Array) -> State:
         """The mechanism at values of the first driver that the motion reaches, in 16 digits."""
@@ -438,7 +432,7 @@ def _every(n: int) -> Array:
 def prepare(
     scene: Mechanism | Structure,
     asked: Sequence[str],
-    units: Units = (1.0, 1.0, 1.0),
+    units: Units | None = None,
     bounded: bool = False,
     along: DriverRange | None = None,
 ) -> PreparedMechanism:
@@ -448,7 +442,7 @@ def prepare(
     ----------
     scene : a scene, or its structure
     asked : columns by name, as in ``column_symbol``: "B", "v_B", "a_B@3", "omega_3", ...
-    units : what one metre, one radian and one metre in rates are in the units of the columns
+    units : of the columns, as tables have them; SI without any
     bounded : after all others a column for each name, with a bound of its values' rounding errors
     along : the range of its first driver, if it is known already
 
@@ -466,9 +460,6 @@ def prepare(
     along = along or range_of(structure)
     return PreparedMechanism(names, along, tuple(columns.values()), dimensioned, tuple(asked), units, bounded, loads)
 
-Units = tuple[float, float, float]
-"""What one metre, one radian and one metre in rates are in the units of the columns."""
-
 
 def column_symbol(name: str) -> Symbol:
     """The symbol of a column: "B", "B@3" (place of a point), "v_B", "a_B@3", "v_C/B", "theta_3", "omega_3", "alpha_3",
@@ -482,20 +473,20 @@ def column_symbol(name: str) -> Symbol:
     return symbol
 
 
-def _factor(symbol: Symbol, units: Units) -> float:
+def _factor(measure: Measure, units: Units | None) -> float:
     """The factor from a quantity in SI to the columns' unit."""
-    return units[_PER[symbol.measure]] if symbol.measure in _PER else 1.0
+    return 1.0 if units is None else float(units.of(measure).of(1.0))
 
 
 def formulas(
-    program: Program, structure: Structure, asked: Sequence[str], units: Units = (1.0, 1.0, 1.0)
+    program: Program, structure: Structure, asked: Sequence[str], units: Units | None = None
 ) -> dict[str, Real]:
     """A formula for each column.
 
     Parameters
     ----------
     asked : names as in ``column_symbol``; of points two columns each, "B.x" and "B.y"
-    units : of lengths, of angles and of lengths in rates; rates of angles are in radians always
+    units : as tables have them; SI without any
 
     Raises
     ------
@@ -506,8 +497,8 @@ def formulas(
     for name in asked:
         symbol = column_symbol(name)
         formula: Real | Vec = VALUES[symbol.kind](posed, symbol)
-        if _factor(symbol, units) != 1.0:
-            formula = formula * program.graph.param(_NAMES[_PER[symbol.measure]])
+        if _factor(symbol.measure, units) != 1.0:
+            formula = formula * program.graph.param(("per", symbol.measure.name))
         if isinstance(formula, Vec):
             made[f"{name}.x"], made[f"{name}.y"] = formula.real, formula.imag
         else:

@@ -420,7 +420,7 @@ def _begins_and_ends(reach: DriverRange, phase: LoadPhase) -> Iterator[float]:
 
     def part(edge: float) -> Callable[[Array], Array]:
         wanted = least + (most - least) * (edge if phase.sense > 0 else 1.0 - edge)
-        return lambda offset: reach.motion(offset, extended=False).slide(stroke).travel - wanted
+        return lambda offset: reach.motion(offset, extended=False).slide(stroke)[0] - wanted
 
     speed = _speed(reach, stroke)
     for edge in (phase.start, phase.end):
@@ -431,7 +431,7 @@ def _begins_and_ends(reach: DriverRange, phase: LoadPhase) -> Iterator[float]:
 
 
 def _speed(reach: DriverRange, pair: str) -> Callable[[Array], Array]:
-    return lambda offset: reach.motion(offset, unit=True, extended=False).slide(pair).velocity
+    return lambda offset: reach.motion(offset, unit=True, extended=False).slide(pair)[1]
 
 
 def _crossings(reach: DriverRange, value: Callable[[Array], Array]) -> list[float]:

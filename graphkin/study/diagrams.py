@@ -127,7 +127,7 @@ def _apart(turn: TurnStudy, quantity: Quantity, over: Sequence[tuple[float, floa
         return []
     at, read = np.array(over, dtype=float).T
     deviation = read - np.asarray(quantity.values(turn.reach, turn.reach.motion(at)), dtype=float)
-    if quantity.measure == "angle":
+    if quantity.measure.is_angle:
         deviation = np.remainder(deviation + np.pi, 2 * np.pi) - np.pi
     deviation = np.abs(deviation[np.isfinite(deviation)])
     if not len(deviation):

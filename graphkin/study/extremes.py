@@ -146,7 +146,7 @@ class CurveParameter:
     def end(self, curve: Curve, which: int) -> float:
         """The value of a position at the lower or upper end of the motion, 0 where it is nothing but rounding."""
         value, size = self._at_end(curve, which), self.reach.scene.size
-        return 0.0 if abs(value) <= NOTHING * (size if curve.quantity.measure == "length" else 1.0) else value
+        return 0.0 if abs(value) <= NOTHING * size**curve.quantity.measure.length else value
 
     def _at_end(self, curve: Curve, which: int) -> float:
         """The value at an end, where the solver refuses it, or loses half of its digits: from the curve, or from values
@@ -226,10 +226,10 @@ def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[Traced, .
     # apart, because positions stay smooth where rates grow without bound
     curves: list[Curve] = []
     if places:
-        curves += resolved(places, np.array([reach.scene.size if q.measure == "length" else 1.0 for q in places]))
+        curves += resolved(places, np.array([reach.scene.size**q.measure.length for q in places]))
     if rates:
         # near the end of a motion, a distance x away, velocities grow as x^-1/2 and accelerations as x^-3/2
-        power = np.array([(3.0 if "acceleration" in q.measure else 1.0) * (2 if q.is_size else 1) for q in rates])
+        power = np.array([(2.0 * q.measure.order - 1.0) * (2 if q.is_size else 1) for q in rates])
         curves += resolved(rates, _floor(reach, rates), None if reach.full else power * _grow(reach, rates))
     traced = _traced(way, curves) if reach.full else _beside_ends(reach, _traced(way, curves))
     found = {t.quantity: t for t in traced if t.constant is None or np.isfinite(t.constant)}
@@ -261,11 +261,12 @@ def _floor(reach: DriverRange, rates: Sequence[Quantity]) -> Array:
     motion = reach.motion(np.linspace(*reach.ends, 62)[1:-1], extended=False)
     poses = [motion.poses[link.name] for link in reach.scene.links]
     omega = max(_usual(p.omega) for p in poses)
-    speed = max(omega * size, *(_usual(p.v) for p in poses))
-    alpha = max(omega**2, *(_usual(p.alpha) for p in poses))
-    push = max(alpha * size, *(_usual(p.a) for p in poses))
-    table = {"angular velocity": omega, "angular acceleration": alpha, "velocity": speed, "acceleration": push}
-    return np.array([table[q.measure] ** (2 if q.is_size else 1) for q in rates]) * 1e-3
+    turning, moving = [1.0], [size]
+    for order, (turns, moves) in enumerate((("omega", "v"), ("alpha", "a")), 1):
+        turning.append(max(omega**order, *(_usual(getattr(p, turns)) for p in poses)))
+        moving.append(max(turning[order] * size, *(_usual(getattr(p, moves)) for p in poses)))
+    usual = [(turning if q.measure.angle else moving)[q.measure.order] ** (2 if q.is_size else 1) for q in rates]
+    return np.array(usual) * 1e-3
 
 
 def _usual(values: Array) -> float:

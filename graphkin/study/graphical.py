@@ -176,7 +176,7 @@ def graphical(reach: DriverRange, name: str, way: Way) -> Chords:
     per_x = (high - low) / WIDE / abs(rate)  # s
     drawn, at = (nodes, middles) if way == "derivative" else (middles, nodes)
     values = _drawn(reach, given, drawn)
-    if given.measure == "angle":
+    if given.measure.is_angle:
         values = np.unwrap(values)
     unit = scene.units.of(given.measure)
     per_y = unit.si * next_of_series(float(unit.of(np.max(np.abs(values), initial=1e-300))) / TALL)

@@ -75,7 +75,7 @@ class TimeAxis(Axis):
         within = (places >= low) & (places <= high)  # a law says nothing of what comes before and after it
         values = np.full(np.shape(places), np.nan)
         values[within] = quantity.values(None, over_time(self.structure, places[within], extended=False))
-        if quantity.measure != "angle":
+        if not quantity.measure.is_angle:
             return values
         # whole turns as on the curve
         near = np.interp(places, self.times, self.course(quantity))

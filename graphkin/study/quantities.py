@@ -128,7 +128,7 @@ class Quantity:
         array, or a vector's components."""
         found = self.values(reach, motion) if self.is_angle else self.whole(motion)
         if self.is_load:
-            found = settled(found, forces_of(motion).floors[self.measure == "moment"])
+            found = settled(found, forces_of(motion).floors[self.measure.length])
         else:
             found = motion.settled(found, self.measure, self._ends)
         value = self.unit(motion.scene).of(found)
@@ -171,31 +171,23 @@ class Quantity:
     @property
     def _folded(self) -> bool:
         """Whether it is an angle of at most 90 degrees."""
-        return self.kind in ("gamma", "pressure", "transmission")
+        return self.symbol.entry.acute
 
     @property
     def _apart(self) -> bool:
         """Whether it is a distance."""
-        return self.kind == "d"
+        return self.symbol.entry.distance
 
     @property
     def _ends(self) -> float:
         """The number of places whose errors it has: two for points seen from each other."""
-        return 1.0 if self.measure.startswith("ang") or self.kind == "place" else 2.0
+        return 1.0 if self.measure.angle or self.kind == "place" else 2.0
 
     def _bound(self, motion: Motion) -> Array:
         """The bound of its rounding error; 0 where it is unknown."""
         if self.is_load:
-            return np.nan_to_num(forces_of(motion).bound[self.measure == "moment"])
-        of = motion.accuracy.of(self._links(motion))
-        bound = {
-            "angle": of.angle,
-            "length": of.position,
-            "angular velocity": of.omega,
-            "velocity": of.velocity,
-            "angular acceleration": of.alpha,
-            "acceleration": of.acceleration,
-        }[self.measure]
+            return np.nan_to_num(forces_of(motion).bound[self.measure.length])
+        bound = motion.accuracy.of(self._links(motion)).of(self.measure)
         return np.asarray(np.where(np.isfinite(bound), self._ends * bound, 0.0))
 
     def _links(self, motion: Motion) -> Iterable[str]:

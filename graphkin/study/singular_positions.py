@@ -549,7 +549,7 @@ def slow_sliding(mp: MPContext, samples: int = 4) -> Singularity:
 
     def solved(e: float) -> Answer:
         motion = solver.solve(beside(e))
-        rates = float(motion.slide("2/3").velocity[0]), float(motion.omega("3")[0])
+        rates = float(motion.slide("2/3")[1][0]), float(motion.omega("3")[0])
         return Answer([float(abs(value / exact - 1)) for value, exact in zip(rates, right(e), strict=True)])
 
     def by_pencil(e: float) -> Answer:

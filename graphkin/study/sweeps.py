@@ -92,7 +92,7 @@ class FollowedDesign:
         if not all(e.explicit for e in self.structure.elements):
             return None
         try:
-            return prepare(self.structure, [w.name for w in self.asked], self.scene.units.per_si, along=self.reach)
+            return prepare(self.structure, [w.name for w in self.asked], self.scene.units, along=self.reach)
         except CallError:  # a redundant link is none of its
             return None
 

@@ -38,7 +38,7 @@ def test_a_turn_has_the_values_of_solve_in_the_units_of_the_scene():
     samples, motion = shaper().sweep(30), graphkin.solve("shaper-scheme-2", sweep=30).motion
     assert motion.velocity("C") * 1000 == pytest.approx(samples["v_C"], abs=1e-9)
     assert motion.acceleration("B", "4") * 1000 == pytest.approx(samples["a_B@4"], abs=1e-8)
-    assert motion.slide("3/4").travel * 1000 == pytest.approx(samples["s_3/4"], abs=1e-9)
+    assert motion.slide("3/4")[0] * 1000 == pytest.approx(samples["s_3/4"], abs=1e-9)
     assert motion.omega("4") == pytest.approx(samples["omega_4"], abs=1e-12)
     assert np.degrees(motion.angle("4")) == pytest.approx(samples["theta_4"], abs=1e-9)
 

@@ -18,6 +18,7 @@ import pytest
 import graphkin
 from graphkin.api.results import Result, Tabled
 from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import MEASURES
 from graphkin.solver.algebra.bounds import Accuracy
 from tests.scenes import four_bar
 
@@ -234,9 +235,9 @@ def test_what_is_not_determined_is_no_0():
     beside, doubtful = (graphkin.solve(four_bar(40, 110, 80, 120), at=60).motion for _ in range(2))
     off = replace(beside.bound, alpha=np.full(1, 1e6))
     with patch.object(Accuracy, "of", lambda *given, **more: off):
-        assert [1e-14] == doubtful.settled(np.full(1, 1e-14), "angular acceleration").tolist()
-    assert [0.0] == beside.settled(np.full(1, 1e-14), "angular acceleration").tolist()
-    assert [1e-9] == beside.settled(np.full(1, 1e-9), "angular acceleration").tolist()
+        assert [1e-14] == doubtful.settled(np.full(1, 1e-14), MEASURES["angular acceleration"]).tolist()
+    assert [0.0] == beside.settled(np.full(1, 1e-14), MEASURES["angular acceleration"]).tolist()
+    assert [1e-9] == beside.settled(np.full(1, 1e-9), MEASURES["angular acceleration"]).tolist()
 
 
 def minus_before_nought(data: object) -> list[str]:

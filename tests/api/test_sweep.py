@@ -78,7 +78,7 @@ def test_arrays_are_those_of_the_solver() -> None:
 def test_arrays_of_everything_are_named_by_what_they_are() -> None:
     swept, motion = graphkin.sweep(NAME, positions=12), graphkin.solve(NAME, sweep=12).motion
     np.testing.assert_allclose(motion.position("C") * 1000, swept["C"], rtol=1e-12)
-    np.testing.assert_allclose(motion.slide("3/4").velocity * 1000, swept["v_3/4"], atol=1e-9)
+    np.testing.assert_allclose(motion.slide("3/4")[1] * 1000, swept["v_3/4"], atol=1e-9)
     np.testing.assert_allclose(np.degrees(motion.angle("2")), swept["theta_2"], atol=1e-10)
 
 

@@ -13,6 +13,7 @@ from graphkin.checking.report import Uncertainty, compare
 from graphkin.construction import draft
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import Measure
 from graphkin.solver.values import Lost
 from graphkin.words import Phrase
 
@@ -231,11 +232,11 @@ def test_exact_hands_may_be_off_by_a_billionth_of_the_largest_and_by_no_more(off
     sheet = draft(mechanism_of("engine-gas-force"))
     readings = read_off(sheet)
     exact = {r.symbol: r.value for r in readings}
-    largest: dict[str, float] = {}
+    largest: dict[Measure, float] = {}
     for symbol, value in exact.items():
         largest[symbol.measure] = max(largest.get(symbol.measure, 0.0), abs(value))
     report = compare(sheet, readings, {s: value + off * largest[s.measure] for s, value in exact.items()})
-    judged = [row for row in report.rows if row.symbol.measure in ("velocity", "acceleration", "force", "angle")]
+    judged = [row for row in report.rows if row.symbol.measure.name in ("velocity", "acceleration", "force", "angle")]
     assert {agrees} == {row.ok for row in judged if row.ok is not None}
 
 
@@ -244,8 +245,9 @@ def test_what_rounding_leaves_of_a_moment_is_what_it_leaves_of_a_force_times_the
     sheet = draft(mechanism_of("engine-gas-force"))
     readings = read_off(sheet)
     exact = {r.symbol: r.value for r in readings}
-    forces, moments = ([abs(v) for s, v in exact.items() if s.measure == measure] for measure in ("force", "moment"))
+    loads = ("force", "moment")
+    forces, moments = ([abs(v) for s, v in exact.items() if s.measure.name == measure] for measure in loads)
     report = compare(sheet, readings, exact, rounding=dict.fromkeys(exact, Lost(force=1e-9 * max(forces))))
     expected = 1e-9 * max(*moments, max(forces) * sheet.scene.size)
-    floors = {row.floor for row in report.rows if row.symbol.measure == "moment"}
+    floors = {row.floor for row in report.rows if row.symbol.measure.name == "moment"}
     assert [pytest.approx(expected)] == list(floors)

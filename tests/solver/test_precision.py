@@ -67,12 +67,12 @@ LOOPS = {
     "RRP": Loop(
         scenes.OFFSET_SLIDER, 9, 4, _offset_slider,
         lambda q, a, s: 40 * _ray(q) + 130 * _ray(a), ("C", "2"),
-        lambda m: [m.angle("2")[0], 1000 * m.slide("3/0").travel[0]],
+        lambda m: [m.angle("2")[0], 1000 * m.slide("3/0")[0][0]],
     ),
     "RPR": Loop(
         scenes.OFFSET_SWING, 9, 4, _offset_swing,
         lambda q, b, s: mp.mpc(90, -20) + 50 * _ray(b), ("D", "3"),
-        lambda m: [m.angle("3")[0], 1000 * m.slide("2/3").travel[0]],
+        lambda m: [m.angle("3")[0], 1000 * m.slide("2/3")[0][0]],
     ),
 }  # fmt: skip
 

@@ -122,7 +122,7 @@ def test_columns_hold_no_number_where_there_is_no_such_position_and_everywhere_e
 def test_a_travel_is_that_of_solve() -> None:
     columns, _ = prepare(mechanism_of("shaper-scheme-2"), ("s_3/4", "theta_4")).sweep(10)
     motion = solve(mechanism_of("shaper-scheme-2"), sweep=10)
-    assert columns[0] == pytest.approx(motion.slide("3/4").travel, abs=1e-15)
+    assert columns[0] == pytest.approx(motion.slide("3/4")[0], abs=1e-15)
 
 
 def test_a_driven_slide_is_swept_inside_its_range() -> None:

@@ -92,8 +92,7 @@ def redriven(motion: Motion, key: str, base: str) -> Mechanism:
     """The scene with its first driver replaced, and every point sketched where the motion found it."""
     old = motion.scene
     if "/" in key:
-        s = motion.slide(key)
-        new = Driver(*sides(old, key), float(s.travel[0]), float(s.velocity[0]), float(s.acceleration[0]), key)
+        new = Driver(*sides(old, key), *(float(x[0]) for x in motion.slide(key)[:3]), key)
     else:
         rates = [float(f(key)[0] - f(base)[0]) for f in (motion.angle, motion.omega, motion.alpha)]
         new = Driver(key, base, *rates)

@@ -555,7 +555,7 @@ class TrialPositions(OnPaper):
 
     def scaled(self, times: float) -> Self:
         """The trial positions with their lengths multiplied by ``times``."""
-        x = [1.0 if symbol.measure == "angle" else times for symbol in self.moved]
+        x = [times**symbol.measure.length for symbol in self.moved]
         y = [1.0 if miss.angle else times for miss in self.missed]
 
         def rows(old: tuple[TrialRow, ...]) -> tuple[TrialRow, ...]:

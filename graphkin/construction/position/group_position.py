@@ -293,7 +293,7 @@ def _measured(
     moved = [_moved(known, reduced, driver) for driver in reduced.trial]
 
     def row(trial: TrialDrawing) -> TrialRow:
-        shown = (math.degrees(v + ahead) if symbol.measure == "angle" else v * size
+        shown = (math.degrees(v + ahead) if symbol.measure.is_angle else v * size
                  for v, (symbol, ahead) in zip(trial.at, moved, strict=True))  # fmt: skip
         pairs = zip(trial.gaps, reduced.removed, strict=True)
         misses = (math.degrees(gap) if r.is_angle else gap * size for gap, r in pairs)

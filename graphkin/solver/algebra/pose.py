@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.plane import cross, dot
+from graphkin.scene.tables import Measure
 from graphkin.structure import Structure
 
 Array = NDArray[Any]
@@ -221,6 +222,10 @@ class ErrorBound(Generic[R]):
 
     def __add__(self, other: ErrorBound[R]) -> ErrorBound[R]:
         return ErrorBound(*(a + b for a, b in zip(self, other, strict=True)))
+
+    def of(self, measure: Measure) -> R:
+        """The bound of a length, an angle, or a derivative of one by time."""
+        return (self.of_turning if measure.angle else self.of_point)[measure.order]
 
     @property
     def of_point(self) -> tuple[R, R, R]:

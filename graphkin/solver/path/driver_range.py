@@ -634,8 +634,7 @@ def _turns(reach: DriverRange, symbol: Symbol) -> tuple[Array, Array, float]:
         """Value and rate by the driver's own angle, shape (n, 2)."""
         motion = reach.motion(offset, unit=True, extended=extended)
         if symbol.other:
-            slide = motion.slide(symbol.pair)
-            return np.stack([slide.travel, slide.velocity], axis=1)
+            return np.stack(motion.slide(symbol.pair)[:2], axis=1)
         return np.stack([reach.angle(motion, symbol.link), motion.omega(symbol.link)], axis=1)
 
     def curves(offset: Array) -> tuple[Array, Array]:

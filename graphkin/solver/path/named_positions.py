@@ -62,7 +62,7 @@ def _value(reach: DriverRange, place: float | StrokeStart | None) -> float:
     span, goal = (end - begin) % math.tau, start + place.sense * place.at * limits.stroke
 
     def before(part: Array) -> Array:
-        travel = reach.motion((begin + part) % math.tau).slide(place.stroke).travel
+        travel = reach.motion((begin + part) % math.tau).slide(place.stroke)[0]
         return np.asarray(place.sense * (travel - goal) < 0.0)
 
     part = span * place.at if place.at in (0.0, 1.0) else last_true(before, 0.0, span)
