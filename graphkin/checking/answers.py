@@ -200,8 +200,8 @@ def _columns(
             problems += _unknown(scene, str(symbol), where)
             if unit and unit_factor(unit, symbol, scene.units) is None:
                 wanted = Phrase("give it in", unit=symbol.unit(scene.units).text)
-                problems.append(Problem(where, "is no unit of", wanted, unit=unit,
-                                        measure=symbol.measure.name))
+                measure = Phrase(f"measure {symbol.measure.name}")
+                problems.append(Problem(where, "is no unit of", wanted, unit=unit, measure=measure))
             if symbol in {known for known, _ in values.values()}:
                 problems.append(Problem(where, "stands twice", "keep one of them"))
             values[i] = symbol, unit

@@ -8,6 +8,7 @@ import pytest
 
 import graphkin
 from graphkin.errors import CallError
+from tests.command import run
 
 pytestmark = pytest.mark.quick
 
@@ -48,6 +49,12 @@ def test_what_may_be_meant_in_two_ways_is_refused(tmp_path, text, said):
     (tmp_path / "a.csv").write_text(text)
     with pytest.raises(CallError, match=re.escape(said)):
         graphkin.audit(SIXBAR, answers=tmp_path / "a.csv")
+
+
+def test_a_wrong_unit_in_a_head_is_told_in_one_language(tmp_path):
+    (tmp_path / "a.csv").write_text("name,v_D (kg)\nx,0.48\n")
+    refused = run("audit", SIXBAR, "--answers", str(tmp_path / "a.csv"), "--lang", "zh")
+    assert (True, False) == ("kg 不是速度的单位" in refused.stderr, "velocity" in refused.stderr)
 
 
 @pytest.mark.parametrize(
