@@ -11,12 +11,11 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
-from functools import cached_property
 from itertools import chain
 from typing import Literal, TypeAlias
 
 from graphkin.account.headings import number, written
-from graphkin.account.notation import Notation, force_letters, pole
+from graphkin.account.notation import Notation, force_letters, pole, scale_statement
 from graphkin.construction.board.scales import extent_of, fitting_scale, least_scale
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.forces.force_sheet import (
@@ -128,10 +127,9 @@ class ForceAccount:
     sheet: Sheet
     letters: Notation
 
-    @cached_property
-    def per_mm(self) -> str:
-        """The scale of the polygons, as it is written in the file's unit of force."""
-        return amount(self.sheet.scales.force / self.sheet.scene.units.newtons, 12)
+    def per_mm(self, group: ForceGroup) -> str:
+        """The scale of a group's polygons, as it is written in the file's unit of force."""
+        return amount(group.per_mm / self.sheet.scene.units.newtons, 12)
 
     def name(self, symbol: Symbol, part: str = "") -> str:
         """A force or a moment as a symbol, or a part of it."""
@@ -215,10 +213,15 @@ class ForceAccount:
     # -- a group -------------------------------------------------------------------------------------------------------
 
     def caption(self, group: ForceGroup, count: int) -> Phrase:
-        """``1. Links 5, 6 (RRP) cut free``."""
+        """``1. Links 5, 6 (RRP) cut free``, with the scale of their polygons if it is their own."""
         kind = {"driver": Phrase("force driver"), "drawn system": Phrase("force larger group")}
-        return Phrase(about("force group", group.links),
-                      number=str(count), links=listed(group.links), kind=kind.get(group.way, group.kind))  # fmt: skip
+        gaps = {"number": str(count), "links": listed(group.links), "kind": kind.get(group.way, group.kind)}
+        caption = Phrase(about("force group", group.links), **gaps)
+        if group.per_mm == self.sheet.scales.force:
+            return caption
+        drawn = replace(self.sheet, scales=replace(self.sheet.scales, force=group.per_mm))
+        return Phrase("force group scale", group=caption,
+                      scale=Neutral(scale_statement(drawn, self.letters.convention, "force")))  # fmt: skip
 
     def of_group(self, state: ForceState, group: ForceGroup) -> Iterator[ForceStep]:
         """The steps by which the forces of a group are found."""
@@ -311,35 +314,35 @@ class ForceAccount:
 
     def read_off(self, state: ForceState, group: ForceGroup) -> dict[Symbol, str]:
         """``F_R45 = 43.33 mm x 200 N/mm = 8666.4 N``, for each force that was found here."""
-        force, found = self.sheet.scene.units.force, dict[Symbol, str]()
+        unit, per_mm, found = self.sheet.scene.units.force, self.per_mm(group), dict[Symbol, str]()
         for vector in chain(group.polygon, *group.inner.values()):
             symbol, back = vector.symbol, vector.symbol.opposite
             if vector.known or symbol in found or back in found:
                 continue
-            span = state.vectors.get(symbol, state.vectors.get(back))
-            size = on_paper(abs(vector.span if span is None else span))
-            value = f"{written(product(size, self.per_mm))} {force}"
-            sum_ = f"{written(size)} mm × {written(self.per_mm)} {force}/mm = {value}"
-            nothing = abs(vector.span if span is None else span) < ZERO
-            found[symbol] = f"{self.name(symbol)} = {'0' if nothing else sum_}"
+            force = state.vectors.get(symbol, state.vectors.get(back))
+            mm = abs(vector.span if force is None else force / group.per_mm)
+            size = on_paper(mm)
+            value = f"{written(product(size, per_mm))} {unit}"
+            sum_ = f"{written(size)} mm × {written(per_mm)} {unit}/mm = {value}"
+            found[symbol] = f"{self.name(symbol)} = {'0' if mm < ZERO else sum_}"
         return found
 
     def _laid(self, group: ForceGroup) -> list[str]:
         """``ab = P = 9000 N ÷ 100 N/mm = 90.00 mm, 180.0°`` for each known force of a polygon."""
-        force, per_mm, lines = self.sheet.scene.units.force, self.sheet.scales.force, []
-        per = per_mm / self.sheet.scene.units.newtons
+        force, scale, lines = self.sheet.scene.units.force, self.per_mm(group), list[str]()
+        per = group.per_mm / self.sheet.scene.units.newtons
         for v in laid_off(group):
             value, length = to_lay_off(abs(v.span) * per, per, abs(v.span))
             of = (m for m in group.moments
                   if m.unknown.symbol == v.symbol and v.part in (m.unknown.acting.part, ""))  # fmt: skip
-            by_moments = next((m for m in of if abs(abs(m.value) / per_mm - abs(v.span)) < SAME), None)
+            by_moments = next((m for m in of if abs(abs(m.value) / group.per_mm - abs(v.span)) < SAME), None)
             if by_moments is not None:
                 # as their sum gave it
                 value = amount(float(abs(balance(self.sheet, by_moments)[2])), MOST)
-                length = length if is_quotient(length, value, self.per_mm) else on_paper(float(value) / per)
+                length = length if is_quotient(length, value, scale) else on_paper(float(value) / per)
             begin, end = (corner_at(group, place) for place in (v.tail, v.tip))
             ends = f"${begin}{end}$ = " if begin != end else ""  # "" where they bear one letter
-            sum_ = f"{written(value)} {force} ÷ {written(self.per_mm)} {force}/mm = {written(length)} mm"
+            sum_ = f"{written(value)} {force} ÷ {written(scale)} {force}/mm = {written(length)} mm"
             lines.append(f"{ends}{self.name(v.symbol, v.part)} = {sum_},  {pointing(v.span)}°")
         return lines
 
@@ -381,7 +384,7 @@ class ForceAccount:
         if moment:
             values = lever.value, float(state.moments.get(balances) or 0.0)
         else:
-            values = abs(lever.value), abs(state.vectors.get(balances, 0j)) * self.sheet.scales.force
+            values = abs(lever.value), abs(state.vectors.get(balances, 0j))
         lead = f"{'−' if arm < 0 else ''}{name}·{number(abs(arm), MOST)}"
         rest = f"{'+' if total >= 0 else '−'} {number(abs(total), MOST)}"
         unit = units.force + ("·m" if moment else "")

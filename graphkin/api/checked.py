@@ -105,7 +105,10 @@ class Checked(OfScene, Result):
         for row in self.report.rows:
             unit = row.symbol.unit(scene.units, radians=True)
             ways = {way: float(unit.of(values[row.symbol])) for way, values in others.items() if row.symbol in values}
-            rows.append({**reading_row(scene, row), **ways})
+            per_mm, own_scale = row.reading.per_mm, dict[str, Json]()
+            if row.reading.diagram == "force" and per_mm not in (0.0, self.sheet.scales.force):
+                own_scale = {"scale": float(f"{unit.of(per_mm):.12g}")}
+            rows.append({**reading_row(scene, row), **own_scale, **ways})
         return {
             "instrument": self.sheet.instrument,
             "ok": ok,

@@ -342,9 +342,9 @@ def _curves(turn: TurnStudy, language: str) -> list[str]:
 def reading_words(checked: Checked) -> Iterator[tuple[str, str, str, str, str, bool | None]]:
     """Each reading in words: symbol, mm on paper, measured with the figures that the drawing carries, exact, their
     unit, whether they agree."""
-    scales, units = checked.sheet.scales, checked.mechanism.units
+    units = checked.mechanism.units
     for row in checked.report.rows:
-        said = measured(row.reading, scales, units, row)
+        said = measured(row.reading, units, row)
         if said == "0" and row.uncertainty is not None and row.bound > row.floor:
             said = f"0 {deviation(row, units)}"
         yield str(row.symbol), paper(row.reading, row), said, exact(row, units), row.symbol.unit(units).text, row.ok

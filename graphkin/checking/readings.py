@@ -53,7 +53,7 @@ def read_off(
                 readings[symbol] = replace(twin, symbol=symbol)
                 continue
             length, along = _vector(sheet, symbol, span, instrument)
-            readings[symbol] = Reading(symbol, length, along * per_mm, order)
+            readings[symbol] = Reading(symbol, length, along * per_mm, order, per_mm)
         for link, r in rates.items():
             if link == sheet.scene.frame.name or "/" in link:
                 continue
@@ -119,7 +119,8 @@ def _measured(sheet: Sheet, asked: Sequence[Symbol], instrument: Instrument) -> 
         return {}
     places = _centres(sheet, instrument)
     lengths = {symbol: _position(sheet, symbol, instrument, places) for symbol in asked}
-    return {s: Reading(s, *measured, "mechanism") for s, measured in lengths.items() if measured is not None}
+    per_mm = sheet.scales.length
+    return {s: Reading(s, *measured, "mechanism", per_mm) for s, measured in lengths.items() if measured is not None}
 
 
 def _as_drawn(symbol: Symbol, readings: Mapping[Symbol, Reading]) -> Reading | None:

@@ -10,7 +10,6 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
-from graphkin.construction.board.scales import Scales
 from graphkin.construction.board.sheet import Reading, Sheet
 from graphkin.construction.board.steps import ORDERS, Cause, phrase_of
 from graphkin.errors import Disagreement, Problem
@@ -363,7 +362,7 @@ def paper(reading: Reading, compared: Compared | None = None) -> str:
     return f"< {amount(compared.bound * abs(reading.on_paper / reading.value), 2)}"
 
 
-def measured(reading: Reading, scales: Scales, units: Units, compared: Compared | None = None) -> str:
+def measured(reading: Reading, units: Units, compared: Compared | None = None) -> str:
     """A reading in scene units: a vector or a length as the length on paper times the scale, a rate with the figures of
     its vector; 0 where it cannot be told from zero."""
     value = reading.value if compared is None else compared.measured
@@ -373,11 +372,11 @@ def measured(reading: Reading, scales: Scales, units: Units, compared: Compared 
     if not reading.on_paper:
         return amount(unit.of(float(value.real)), MOST + 1)
     length = on_paper(reading.on_paper)
+    by_scale = product(length, amount(unit.of(reading.per_mm), 12)) if reading.per_mm else ""
     if reading.symbol.is_vector:
-        return product(length, amount(unit.of(scales.of(reading.diagram)), 12))
-    if abs(abs(value) - abs(reading.on_paper) * scales.length) < 1e-9 * abs(value):
-        minus = "-" if value.real < 0.0 < reading.on_paper else ""
-        return minus + product(length, amount(unit.of(scales.length), 12))
+        return by_scale
+    if abs(abs(value) - abs(reading.on_paper) * reading.per_mm) < 1e-9 * abs(value):
+        return ("-" if value.real < 0.0 < reading.on_paper else "") + by_scale
     return computed(unit.of(float(value.real)), min(MOST, figures(length)))
 
 

@@ -115,17 +115,18 @@ def predict(
 
 def _drawn_by(planned: Plan, still: Instrument) -> tuple[Sheet, Drawn]:
     """A plan drawn without errors; and a function for its readings drawn by other hands, its force polygons (if any) at
-    the same scale."""
-    stages, newtons_per_mm = Stages(planned, planned.scales, still), 0.0
-    if stages.sheet.has_forces:
-        from graphkin.construction.forces import force_scale, with_forces
+    the same scales."""
+    stages = Stages(planned, planned.scales, still)
+    has_forces = stages.sheet.has_forces
+    if has_forces:
+        from graphkin.construction.forces import force_scales, with_forces
 
-        newtons_per_mm = force_scale(stages.sheet)
+        scales = force_scales(stages.sheet)
 
     def values(hand: Instrument, first: int = 0) -> Values | None:
         try:
             sheet = stages.sheet if hand is still else stages.by(hand, first)
-            sheet = with_forces(sheet, hand, newtons_per_mm) if newtons_per_mm else sheet
+            sheet = with_forces(sheet, hand, scales) if has_forces else sheet
             return {r.symbol: r.value for r in read_off(sheet, (), hand)}
         except (Unsolvable, ArithmeticError):
             return None

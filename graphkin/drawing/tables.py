@@ -117,7 +117,7 @@ def _texts(sheet: Sheet, row: TableRow, letters: Notation, language: str) -> lis
     if row.more:
         name = f"{name[0]}_{{{','.join((reading.symbol.link, *row.more))}}}"
     texts = [f"${name}$, {unit}" if unit else f"${name}$", written(paper(reading, compared)),
-             written(measured(reading, sheet.scales, units, compared))]  # fmt: skip
+             written(measured(reading, units, compared))]  # fmt: skip
     if compared is not None:
         agrees = compared.uncertainty is None and compared.ok
         texts += [written(exact(compared, units)),

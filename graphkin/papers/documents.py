@@ -336,11 +336,11 @@ def key_rows(lesson: Lesson) -> tuple[KeyRow, ...]:
 
 def result_cells(lesson: Lesson) -> Iterator[dict[str, str]]:
     """The cells of each result, by the keys of their heads."""
-    scales, units = lesson.sheet.scales, lesson.sheet.scene.units
+    units = lesson.sheet.scene.units
     for line, row in zip(key_rows(lesson), lesson.results, strict=True):
         placed, is_length = row.symbol.scope == "position", row.symbol.is_vector or row.symbol.measure.is_length
         size = line.exact if placed else abs(line.exact)
-        read, right = measured(row.reading, scales, units, row), exact(row, units)
+        read, right = measured(row.reading, units, row), exact(row, units)
         tolerance, accept = accepted(size, line.tolerance or 0.0, -math.inf if placed else 0.0)
         yield {
             "quantity": f"${lesson.letters.vector(row.symbol)}$",

@@ -366,9 +366,8 @@ def _force_found(lesson: Lesson, stage: ForceStage, step: ForceStep) -> dict[str
     (symbol,) = step.found
     back = replace(symbol, link=symbol.other, other=symbol.link) if symbol.other else symbol
     for side, sign in ((symbol, 1.0), (back, -1.0)):
-        moment, span = stage.state.moments.get(side), stage.state.vectors.get(side)
-        if moment or span:
-            value = moment or (span or 0j) * lesson.sheet.scales.force
+        value = stage.state.moments.get(side) or stage.state.vectors.get(side)
+        if value:
             return _find(lesson, symbol, lesson.letters.vector(symbol), sign * value)
     return {}
 

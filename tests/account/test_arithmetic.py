@@ -278,7 +278,7 @@ def test_with_a_pencil_what_is_read_once_is_the_same_number_wherever_it_stands(n
         if step.reason != "rate" or step.held or not (told := rate_sum(sheet, step, units=False)):
             continue
         rate = table[Symbol(step.kind, link=step.link)]
-        shown = measured(rate, sheet.scales, sheet.scene.units)
+        shown = measured(rate, sheet.scene.units)
         assert told.split(" = ")[1].split()[0] == shown.lstrip("-")
         if step.symbol in table:
             per = amount(scale_of(sheet, step.diagram), 12)

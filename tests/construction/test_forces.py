@@ -38,7 +38,7 @@ def drawn(scene, driver_deg=None):
 
 def by_name(sheet, state=0):
     """Forces (N) and moments (N m) as they were drawn."""
-    found = {str(symbol): span * sheet.scales.force for symbol, span in sheet.forces[state].vectors.items()}
+    found = {str(symbol): force for symbol, force in sheet.forces[state].vectors.items()}
     return found | {str(symbol): moment for symbol, moment in sheet.forces[state].moments.items()}
 
 
@@ -233,8 +233,9 @@ def test_a_pencil_keeps_its_promise():
 
 def test_what_a_pencil_draws_of_forces_is_what_is_read_off():
     checked = graphkin.check("engine-gas-force", instrument="pencil", seed=3)
-    drawn = checked.sheet.forces[0].vectors[Symbol.parse("F_2/3")]
-    exact = graphkin.check("engine-gas-force").sheet.forces[0].vectors[Symbol.parse("F_2/3")]
+    name, per_mm = Symbol.parse("F_2/3"), checked.sheet.scales.force
+    drawn = checked.sheet.forces[0].vectors[name] / per_mm
+    exact = graphkin.check("engine-gas-force").sheet.forces[0].vectors[name] / per_mm
     assert abs(drawn) == pytest.approx(checked["F_2/3"].on_paper, abs=0.8)  # what is read errs a little more
     assert abs(drawn - exact) > 1e-3
     assert checked["F_2/3"].uncertainty > 0
@@ -434,10 +435,10 @@ def test_a_force_in_a_polygon_is_the_force_of_its_name(scene):
     (state,) = with_forces(drawn(scene)).forces
     met = [(joint.point, joint.symbol("F")) for joint in joints(mechanism_of(scene))]
     met += [(pin.point, Symbol("F", link=pin.on, other=pin.of)) for pin in mechanism_of(scene).pins]
-    for polygon in (polygon for group in state.groups for polygon in group.polygons):
+    for per_mm, polygon in ((group.per_mm, polygon) for group in state.groups for polygon in group.polygons):
         spans = {}
         for vector in (v for v in polygon if v.symbol.other and not (v.known and v.symbol.link in "ABCDEF")):
-            spans[vector.symbol] = spans.get(vector.symbol, 0j) + vector.span
+            spans[vector.symbol] = spans.get(vector.symbol, 0j) + vector.span * per_mm
         for symbol, span in spans.items():
             pairs = {symbol: 1, symbol.opposite: -1}
             if symbol.link in "ABCDEF":  # the pin's own, of several links
@@ -479,3 +480,50 @@ def test_a_load_on_a_part_of_a_stroke_that_no_whole_turn_has_is_refused_by_its_n
         with pytest.raises(Unsolvable, match=problem):
             call(scene)
     assert graphkin.solve(scene, find=["v_C"])["v_C"] == pytest.approx(642.688j, abs=1e-3)
+
+
+# -- groups with a scale of their own ----------------------------------------------------------------------------------
+
+PRESS = "toggle-press-force"
+
+
+def on_paper(checked):
+    """The largest force (mm on paper) of each group, by its links."""
+    groups = checked.sheet.forces[0].groups
+    return {group.links: max(abs(v.span) for polygon in group.polygons for v in polygon) for group in groups}
+
+
+@pytest.mark.parametrize("at", [350, 358, 359.9, 359.999])
+def test_no_force_polygon_is_too_small_to_be_read(at):
+    assert [] == [links for links, most in on_paper(graphkin.check(PRESS, at=at)).items() if most < 10.0]
+
+
+@pytest.mark.parametrize("at", [350, 359.9])
+def test_a_reading_is_its_length_on_paper_times_the_scale_told_beside_it(at):
+    data = graphkin.check(PRESS, at=at).data
+    forces = [row for row in data["readings"] if row["symbol"].startswith(("F_", "P_", "G_", "Fi_"))]
+    values = [row["on_paper_mm"] * row.get("scale", data["scales"]["force"]) for row in forces]
+    assert [row["measured"] for row in forces] == pytest.approx(values, rel=1e-12)
+
+
+def test_only_readings_off_a_polygon_at_its_own_scale_tell_it():
+    rows = graphkin.check(PRESS).data["readings"]
+    assert {"F_6/1": 0.1} == {row["symbol"]: row["scale"] for row in rows if "scale" in row}
+
+
+def test_groups_of_forces_of_one_size_share_a_scale():
+    sheet = graphkin.check("shaper-forces").sheet
+    assert {sheet.scales.force} == {group.per_mm for group in sheet.forces[0].groups}
+
+
+def test_a_wished_scale_of_forces_is_that_of_all_groups():
+    checked = graphkin.check(graphkin.read(PRESS).replace("sheet", {"force_scale": 1}))
+    assert {1000.0} == {group.per_mm for group in checked.sheet.forces[0].groups}
+
+
+def test_the_scale_of_a_group_stands_in_its_caption_and_with_the_readings():
+    from graphkin.api.report_text import report_text
+
+    told = report_text(graphkin.check(PRESS), "en")
+    assert "Link 1 (driven) cut free;  polygon at μ_F = 0.1 kN/mm" in told
+    assert "F_6/1: read off the force polygon of link 1, at a scale of its own, 1 mm = 0.1 kN" in told

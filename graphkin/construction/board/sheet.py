@@ -35,7 +35,8 @@ from graphkin.scene.scene_tables import DIAGRAMS, Diagram
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import greatest_before
 from graphkin.structure.model import Element, LargerGroup, Structure
-from graphkin.words import Phrase, gaps_of
+from graphkin.words import Neutral, Phrase, gaps_of, links_named, listed
+from graphkin.words.written import amount
 
 if TYPE_CHECKING:
     from graphkin.construction.forces.force_sheet import ForceState, Inertia
@@ -157,15 +158,20 @@ class Rate:
 class Reading:
     """A quantity read off a drawing.
 
-    ``on_paper`` is its length on paper (mm), None for an angle read with the protractor; ``value`` a
-    complex number (m/s, m/s2) for a vector, a float (rad/s, rad/s2, counter-clockwise positive; m, rad) for others.
-    ``diagram`` is the diagram of the reading.
+    Parameters
+    ----------
+    on_paper : its length on paper (mm), None for an angle read with the protractor
+    value : of a vector a complex number (m/s, m/s2, N), of others a float (rad/s, rad/s2, counter-clockwise positive;
+        m, rad, N m)
+    diagram : the diagram of the reading
+    per_mm : the value of 1 mm there (m, m/s, m/s2, N); 0 where no length is read
     """
 
     symbol: Symbol
     on_paper: float | None
     value: complex | float
     diagram: DiagramName
+    per_mm: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -275,8 +281,21 @@ class Sheet:
 
     @property
     def notes(self) -> tuple[Phrase, ...]:
-        """The remarks as phrases, each once."""
-        return tuple(dict.fromkeys(remark.phrase for remark in self.remarks))
+        """The remarks as phrases, each once; at last the scales of force polygons that have their own."""
+        return (*dict.fromkeys(remark.phrase for remark in self.remarks), *self.force_notes)
+
+    @property
+    def force_notes(self) -> tuple[Phrase, ...]:
+        """The scales of force polygons that have their own, with the forces that are read there."""
+        units, phrases = self.scene.units, list[Phrase]()
+        for state in self.forces[:1]:
+            read_at = state.per_mm.items()
+            for per_mm in dict.fromkeys(per_mm for _, per_mm in read_at if per_mm != self.scales.force):
+                forces = listed([symbol for symbol, per in read_at if per == per_mm])
+                links = links_named([name for g in state.groups if g.per_mm == per_mm for name in g.links])
+                scale = Neutral(f"1 mm = {amount(per_mm / units.newtons, 12)} {units.force}")
+                phrases.append(Phrase("own scale of forces", links=links, scale=scale, forces=forces))
+        return tuple(phrases)
 
     @cached_property
     def special_points(self) -> dict[str, str]:

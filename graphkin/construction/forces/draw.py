@@ -16,7 +16,8 @@ mechanisms and machines, ch. 13).  A couple is a pair of forces square to a bar,
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from graphkin.construction.board.instruments import EXACT, Instrument
@@ -34,54 +35,76 @@ from graphkin.structure import Driven, Dyad, analyse
 
 ROOM = (98.0, 84.0)
 """Width and height (mm) that the largest force polygon fills at most, where the scene wishes for no scale."""
+LEAST = 10.0
+"""Length on paper (mm) of the largest force of a group; a group of smaller forces has a scale of its own, since nobody
+can read them to a hundredth."""
+ForceScales = Mapping[tuple[str, ...], float]
+"""N for one mm of force polygons: of groups with a scale of their own by their links, of all others by ()."""
 SAME = 1e-12
 """Of the largest force: a load that begins exactly here leaves what differs less as it is."""
 NOUGHT = 1e-10
 """Of the largest force: an inertia force smaller than this has no line."""
 
 
-def with_forces(sheet: Sheet, hand: Instrument = EXACT, per_mm: float = 0.0) -> Sheet:
+def with_forces(sheet: Sheet, hand: Instrument = EXACT, scales: ForceScales | None = None) -> Sheet:
     """A drawn position with all its forces, each taken off its polygon, and the levers; drawn twice where a load begins
     or ends exactly here.
 
     Parameters
     ----------
-    per_mm : N for one mm of the polygons; 0: by `force_scale`
+    scales : of the polygons; None: by `force_scales`
 
     Raises
     ------
     Unsolvable : "dead point": the balance does no work, or a polygon does not close
     """
-    per_mm = per_mm or force_scale(sheet)
+    scales = scales or force_scales(sheet)
     moves = any(driver.values[1] for driver in sheet.scene.drivers)
     growing = sheet if moves else sheet.growing[0]
     held, pushes = held_by_pairs(sheet), inertias(sheet, hand)
     states = [
-        _state(held, hand, per_mm, from_outside(sheet, growing, pushes, sheet.acting, with_edges, hand))
+        _state(held, hand, scales, from_outside(sheet, growing, pushes, sheet.acting, with_edges, hand))
         for with_edges in ((False, True) if None in sheet.acting.values() else (False,))
     ]
     forces = tuple(replace(state, levers=levers_of(sheet, state, hand)) for state in states)
-    return replace(sheet, scales=replace(sheet.scales, force=per_mm), inertias=pushes, forces=forces)
+    return replace(sheet, scales=replace(sheet.scales, force=scales[()]), inertias=pushes, forces=forces)
 
 
-def force_scale(sheet: Sheet) -> float:
-    """N for one mm of the force polygons: as the scene wishes, or the finest of the series at which every polygon fits
-    its room.  Raises Unsolvable as `with_forces`."""
+def force_scales(sheet: Sheet) -> ForceScales:
+    """The scales of the force polygons: as the scene wishes, or the finest of the series at which every polygon fits
+    its room, for groups of far smaller forces the finest at which their own do.  Raises Unsolvable as `with_forces`."""
     newtons, wish = sheet.scene.units.newtons, sheet.scene.question.sheet.force_scale
     if wish:
-        return wish * newtons
-    whole = with_forces(sheet, EXACT, 1.0)
-    polygons = [p for state in whole.forces for group in state.groups for p in group.polygons]
-    extents = [extent_of([z for v in p for z in (v.tail, v.tip)], 1.0) for p in polygons if p]
-    largest = max((wide for wide, _ in extents), default=0.0), max((high for _, high in extents), default=0.0)
-    return fitting_scale(largest, ROOM, 1.0 / newtons) * newtons
+        return {(): wish * newtons}
+    polygons: defaultdict[tuple[str, ...], list[Sequence[ForceVector]]] = defaultdict(list)
+    for state in with_forces(sheet, EXACT, {(): 1.0}).forces:
+        for group in state.groups:
+            polygons[group.links] += group.polygons
+
+    def fitting(drawn: Iterable[Sequence[ForceVector]]) -> float:
+        extents = [extent_of([z for v in polygon for z in (v.tail, v.tip)], 1.0) for polygon in drawn]
+        widest = max((wide for wide, _ in extents), default=0.0), max((high for _, high in extents), default=0.0)
+        return fitting_scale(widest, ROOM, 1.0 / newtons) * newtons
+
+    common = fitting(polygon for drawn in polygons.values() for polygon in drawn)
+    largest = {links: max((abs(v.span) for p in drawn for v in p), default=0.0) for links, drawn in polygons.items()}
+    least = NOUGHT * max(largest.values(), default=0.0)
+    small = {links for links, most in largest.items() if least < most < LEAST * common}
+    return {(): common} | {links: fitting(polygons[links]) for links in small}
 
 
-def _state(held: Sheet, hand: Instrument, per_mm: float, known: tuple[ForceVector, ...]) -> ForceState:
+Found = dict[Symbol, tuple[complex, tuple[str, ...]]]
+"""Drawn forces (N), each with the links on which it acts."""
+
+
+def _state(held: Sheet, hand: Instrument, scales: ForceScales, known: tuple[ForceVector, ...]) -> ForceState:
     """All forces, from the known loads."""
-    cut, groups = CutFree(DrawnPosition(held), hand, per_mm), []
+    common, drawn_at = scales[()], dict[str, float]()  # the scale of the polygons of each link, in order
+    cut, groups = CutFree(DrawnPosition(held), hand, common), []
     cut.push(*known)
     for element in force_groups(cut.drawn):
+        cut.per_mm = scales.get(element.links, common)
+        drawn_at |= dict.fromkeys(element.members, cut.per_mm)
         balances = {driver.key: cut.drawn.balance(driver) for driver in element.drivers}
         if isinstance(element, Driven):
             groups.append(at_driver(cut, element, balances[element.driver.key]))
@@ -89,26 +112,31 @@ def _state(held: Sheet, hand: Instrument, per_mm: float, known: tuple[ForceVecto
             groups.append(of_dyad(cut, element, balances))
         else:
             groups.append(of_larger_group(cut, element, tuple(balances.values())))
-    vectors = {load.symbol: load.force / per_mm for load in known if not load.turned and load.symbol.is_vector}
+    loads = (load for load in known if not load.turned and load.symbol.is_vector)
+    forces: Found = {load.symbol: (load.force, (load.link,)) for load in loads}
     moments = {load.symbol: load.moment for load in known if not load.symbol.is_vector}
-    _joints(cut, vectors, moments)
+    _joints(cut, forces, moments)
     for symbol, value in cut.balances.items():
         if symbol.kind == "M":
             moments[symbol] = float(value.real)
         else:
-            vectors[symbol] = complex(value) / per_mm
-    return ForceState(known, tuple(g for g in groups if g.links), vectors, moments)
+            forces[symbol] = complex(value), (symbol.link, symbol.other)
+    vectors = {symbol: force for symbol, (force, _) in forces.items()}
+    per_mm = {symbol: next((drawn_at[name] for name in drawn_at if name in links), common)
+              for symbol, (_, links) in forces.items()}  # fmt: skip
+    return ForceState(known, tuple(g for g in groups if g.links), vectors, moments, per_mm)
 
 
-def _joints(cut: CutFree, vectors: dict[Symbol, complex], moments: dict[Symbol, float]) -> None:
-    """The forces of all joints by their names, from those of pins and sliding pairs."""
+def _joints(cut: CutFree, forces: Found, moments: dict[Symbol, float]) -> None:
+    """The forces of all joints, each with both links, and their couples (N m), from those of pins and sliding pairs.
+    """
     names = cut.drawn
     for joint in (joint for joint in names.joints if joint.kind == "turning"):
         force = cut.at_pin(joint.point, joint.second)
-        vectors[names.between(joint.first, joint.second, joint.point)] = force / cut.per_mm
+        forces[names.between(joint.first, joint.second, joint.point)] = force, (joint.first, joint.second)
     for slide in names.structure.slides:
         force, couple = cut.slides[slide.key]
-        vectors[names.of_slide(slide)] = force / cut.per_mm
+        forces[names.of_slide(slide)] = force, slide.links
         if not slide.higher:
             moments[names.of_slide(slide, "M")] = couple
 
@@ -223,7 +251,7 @@ def force_readings(sheet: Sheet, hand: Instrument = EXACT) -> tuple[Reading, ...
     that begins or ends exactly there.  Raises Unsolvable as `with_forces`."""
     sheet = sheet if sheet.forces else with_forces(sheet, hand)
     largest = max((abs(v) for state in sheet.forces for v in state.vectors.values()), default=0.0)
-    least = NOUGHT * largest * sheet.scales.force
+    least = NOUGHT * largest
     return (*_of_states(sheet, largest, hand), *_shifts(sheet, least), *_arms(sheet, least))
 
 
@@ -232,7 +260,7 @@ def _of_states(sheet: Sheet, largest: float, hand: Instrument) -> Iterator[Readi
 
     Parameters
     ----------
-    largest : the largest force of all states (mm of polygon)
+    largest : the largest force of all states (N)
     """
     base, *_ = sheet.forces
     for state in sheet.forces:
@@ -243,20 +271,21 @@ def _of_states(sheet: Sheet, largest: float, hand: Instrument) -> Iterator[Readi
                 named = symbol if state is base else replace(symbol, plus=True)
                 if state is not base and abs(value - old[symbol]) <= SAME * greatest:
                     continue
-                size = abs(value)
-                if not symbol.is_vector or size == 0.0:
+                if not symbol.is_vector or value == 0.0:
                     yield Reading(named, 0.0 if symbol.is_vector else None, value, "force")
                     continue
-                length = abs(hand.read(size))
-                along = hand.read_direction(value / size) if hand is not EXACT else value / size
-                yield Reading(named, length, length * along * sheet.scales.force, "force")
+                span = value / (per_mm := state.per_mm[symbol])
+                length, along = abs(hand.read(abs(span))), span / abs(span)
+                along = hand.read_direction(along) if hand is not EXACT else along
+                yield Reading(named, length, length * along * per_mm, "force", per_mm)
 
 
 def _shifts(sheet: Sheet, least: float) -> Iterator[Reading]:
     """The shifts of inertia forces that have a couple, of more than the ``least`` force (N)."""
     for link, inertia in sheet.inertias.items():
         if inertia.h is not None and inertia.mass.inertia and abs(inertia.force) > least:
-            yield Reading(Symbol("h", link=link), abs(inertia.h) / sheet.scales.length, inertia.h, "mechanism")
+            per_mm = sheet.scales.length
+            yield Reading(Symbol("h", link=link), abs(inertia.h) / per_mm, inertia.h, "mechanism", per_mm)
 
 
 def _arms(sheet: Sheet, least: float) -> Iterator[Reading]:

@@ -1,7 +1,7 @@
 """Forces on a sheet: forces and couples on links, moment equations, force polygons, and their results.
 
-Places are complex numbers in mm on the drawn mechanism, force vectors in mm of their polygons at ``per_mm`` N; sizes
-are in N and N m, counter-clockwise positive.
+Places are complex numbers in mm on the drawn mechanism, the vectors of polygons in mm at the scale of their group;
+sizes are in N and N m, counter-clockwise positive.
 """
 
 from __future__ import annotations
@@ -167,6 +167,7 @@ class ForceGroup:
     Parameters
     ----------
     links, kind, way : of the group, and the construction of its forces
+    per_mm : N for one mm of its polygons
     couples_before : couples on it that are known beforehand
     moments : equations that give parts of forces
     polygon : the forces on it head to tail, closed; empty for a group drawn link by link
@@ -179,6 +180,7 @@ class ForceGroup:
     links: tuple[str, ...]
     kind: str
     way: Way = "polygon"
+    per_mm: float = 1.0
     couples_before: Sequence[ForceVector] = ()
     moments: list[MomentEquation] = field(default_factory=list)
     polygon: list[ForceVector] = field(default_factory=list)
@@ -214,12 +216,18 @@ class Lever:
 class ForceState:
     """All forces of the mechanism, with or without the loads that begin or end exactly at the position.
 
-    ``vectors`` are drawn forces by symbol (mm of polygon), ``moments`` by symbol (N m); ``known`` are the forces and
-    couples that act from outside, inertia included.
+    Parameters
+    ----------
+    known : the forces and couples that act from outside, inertia included
+    groups : in the order of construction
+    vectors, moments : drawn forces (N) and couples (N m) by symbol
+    per_mm : N for one mm of the polygon in which a force was found, or laid off first, by symbol
+    levers : one for each driver whose balance does work
     """
 
     known: tuple[ForceVector, ...]
     groups: tuple[ForceGroup, ...]
     vectors: Mapping[Symbol, complex]
     moments: Mapping[Symbol, float]
+    per_mm: Mapping[Symbol, float]
     levers: tuple[Lever, ...] = ()

@@ -67,7 +67,8 @@ class CutFree:
     """The known forces on all links during the construction; the last group comes first.
 
     ``acting`` are the known forces and couples by link, ``pins`` the forces of pins on links, ``slides`` force and
-    couple of each guiding link on its sliding one, ``done`` the links whose forces are known.
+    couple of each guiding link on its sliding one, ``done`` the links whose forces are known, ``per_mm`` N
+    for one mm of the polygons under work.
     """
 
     drawn: DrawnPosition
@@ -293,7 +294,7 @@ def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, ForceVector]) -> Fo
     Unsolvable : "dead point": the lines that close the polygon are parallel
     """
     cut.load_pins(dyad.members)
-    group = ForceGroup(dyad.links, dyad.kind, "polygon", cut.couples_on(dyad.members))
+    group = ForceGroup(dyad.links, dyad.kind, "polygon", cut.per_mm, cut.couples_on(dyad.members))
     pairs = dyad.outer_first, dyad.outer_second
     at_first, at_second = (cut.at_pair(pair, body.links) for pair, body in zip(pairs, dyad.bodies, strict=True))
     (first, head), (second, tail) = _outer_parts(cut, dyad, at_first, at_second, group)
@@ -481,7 +482,7 @@ def at_driver(cut: CutFree, element: Driven, balance: ForceVector) -> ForceGroup
     link, pair = element.link, element.pair
     cut.load_pins((link,))
     links = (link,) if link not in cut.drawn.structure.blocks else ()
-    group = ForceGroup(links, "driver", "driver", cut.couples_on((link,)))
+    group = ForceGroup(links, "driver", "driver", cut.per_mm, cut.couples_on((link,)))
     chain, on, push = group.polygon, cut.at_pair(pair, (link,)), balance.on(link)
     if pair.turns and push.force:
         equation = cut.moments((link,), on.at, pair.point, push)
@@ -514,7 +515,7 @@ def of_larger_group(cut: CutFree, group: LargerGroup, balances: Sequence[ForceVe
     Unsolvable : "dead point": the drawn system tells nothing
     """
     cut.load_pins(group.members)
-    made = ForceGroup(group.links, group.kind, "drawn system", cut.couples_on(group.members))
+    made = ForceGroup(group.links, group.kind, "drawn system", cut.per_mm, cut.couples_on(group.members))
     unknowns = _unknown_forces(cut, group.members, balances)
     values = _solved(cut, group.members, unknowns)
     _carry_over(cut, made, group.members, unknowns, values)

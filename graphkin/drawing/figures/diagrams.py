@@ -194,7 +194,7 @@ def _position(
     named = sheet.scene.question.positions is not None and name in sheet.scene.question.positions.names
     head = (said + punctuation("colon", page.language)) * named + drivers(sheet, letters)
     found = [
-        f"${letters.vector(r.symbol)}$ = {written(measured(r, sheet.scales, units))} {r.symbol.unit(units).written}"
+        f"${letters.vector(r.symbol)}$ = {written(measured(r, units))} {r.symbol.unit(units).written}"
         for r in read_off(sheet, [s for s in sheet.scene.question.find if s.scope == "motion" and not s.at])
     ] if sheet.scene.question.find else []  # fmt: skip
     panels = (framed(panel(*size, partial(polygon, diagram))) for diagram in shown)

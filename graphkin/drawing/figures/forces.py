@@ -25,6 +25,7 @@ from graphkin.account.forces import (
 from graphkin.account.given import given_loads
 from graphkin.account.headings import figure_title, written
 from graphkin.account.notation import Notation, as_vector, force_letters, pole
+from graphkin.account.voice import Account
 from graphkin.checking.report import Report
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import Vector
@@ -204,17 +205,17 @@ def group_equation(page: FigurePage, group: ForceGroup) -> Drawing | None:
 
 def _tables(page: FigurePage, some: Sequence[TableRow]) -> Iterator[Block]:
     """The readings with their check, in parts if they do not fit a page."""
-    left = list(some)
+    left, account = list(some), Account(page.sheet, page.letters)
     while left:
         most = min(len(left), 80)
         height = 10.0 + 4.2 * -(-most // 2) + 3.7 * (len(languages(page.language)) - 1)
         area = Box(0.0, 0.0, page.width, height)
         readings, shown = readings_table(page.sheet, left[:most], page.letters, page.language, area)
         caption = page.prose((page.term("readings"),), 3.2, bold=True)
-        yield column(caption, Block(Piece({"answers": readings}), height))
-        if shown == 0:
-            return
-        left = left[shown:]
+        left = left[shown:] if shown else []
+        notes = ((note, each) for note in page.sheet.force_notes * (not left) for each in languages(page.language))
+        sentences = prose((account.sentence(note, each) for note, each in notes), page.width)
+        yield column(caption, Block(Piece({"answers": readings}), height), sentences)
 
 
 # -- a group cut free --------------------------------------------------------------------------------------------------
