@@ -13,7 +13,7 @@ from graphkin.cli import main
 
 __all__ = ["PROGRAM", "run", "start"]
 
-PROGRAM = [sys.executable, "-c", "from graphkin.cli import main; main()"]
+PROGRAM = [sys.executable, "-m", "graphkin"]
 
 
 def run(*args: str, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
