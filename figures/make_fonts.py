@@ -24,6 +24,7 @@ from fontTools.fontBuilder import FontBuilder
 from fontTools.pens.basePen import AbstractPen
 from fontTools.pens.recordingPen import DecomposingRecordingPen
 from fontTools.pens.reverseContourPen import ReverseContourPen
+from fontTools.pens.transformPen import TransformPen
 from fontTools.pens.ttGlyphPen import TTGlyphPen
 from fontTools.ttLib import TTCollection, TTFont
 
@@ -37,6 +38,8 @@ RANGES = (
     (0x2100, 0x214F), (0x2150, 0x215F), (0x2190, 0x21FF), (0x2200, 0x22FF), (0x25A0, 0x25FF),
 )  # fmt: skip
 EPOCH = 3_786_825_600  # the same date in every file
+RAISED = dict(zip("⁰⁴⁵⁶⁷⁸⁹⁻", "0456789−", strict=True))  # of which STIX General has no glyphs, as it has ¹²³
+RAISED_AS = (0.6, 0.0, 0.0, 0.6, 0.0, 270.0)  # its ¹²³: so much smaller and higher than 1, 2, 3
 CORNER = 60.0  # degrees that one curve does not go round
 MERGED = 6  # curves at most that become one
 
@@ -237,18 +240,18 @@ def write(name: str, style: str, sources: list[tuple[TTFont, set[str]]]) -> None
         times = 1000 / font["head"].unitsPerEm
         assert times == 1.0, name
         for character in sorted(characters):
-            code = ord(character)
-            if code in cmap or code not in held:
+            code, base = ord(character), ord(RAISED.get(character, character))
+            if code in cmap or base not in held:
                 continue
             path = DecomposingRecordingPen(drawn)
-            drawn[held[code]].draw(path)
+            drawn[held[base]].draw(path if base == code else TransformPen(path, RAISED_AS))
             pen = TTGlyphPen(None)
             quadratic = "glyf" in font
             for contour in segments(path.value):
                 lay(fitted(contour, LATIN if quadratic else CHINESE), pen if quadratic else ReverseContourPen(pen))
             own = f"u{code:04X}"
             glyphs[own] = pen.glyph()
-            metrics[own] = (round(drawn[held[code]].width), 0)
+            metrics[own] = (round(drawn[held[base]].width * (1.0 if base == code else RAISED_AS[0])), 0)
             cmap[code] = own
     order = [".notdef", *(cmap[code] for code in sorted(cmap))]
     made = FontBuilder(1000, isTTF=True)

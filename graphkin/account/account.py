@@ -10,14 +10,15 @@ from collections.abc import Collection, Iterator
 
 from graphkin.account.arithmetic import bound, factors_of, lengths_measured, rule_sum
 from graphkin.account.in_mechanism import InMechanism
-from graphkin.account.in_polygon import InPolygon, alike, rate_name
+from graphkin.account.in_polygon import InPolygon, alike
 from graphkin.account.notation import Notation
 from graphkin.account.voice import Account, Telling
 from graphkin.construction.board.sheet import Equation, Sheet
-from graphkin.construction.board.steps import Reason, Step, Term, Vector
+from graphkin.construction.board.steps import PointNames, Reason, Step, Term, Vector
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Pair
 from graphkin.words import Phrase, languages, sense_of, word
+from graphkin.words.symbols import RichText, rate, spaced
 from graphkin.words.written import pointing
 
 
@@ -26,10 +27,10 @@ def telling(account: Account, step: Step) -> Telling:
     return InMechanism(account, step) if step.diagram == "mechanism" else InPolygon(account, step)
 
 
-def why(account: Account, equation: Equation, language: str) -> str:
-    """The reasons of an equation, in sentences; "" without any."""
+def why(account: Account, equation: Equation, language: str) -> RichText:
+    """The reasons of an equation, in sentences; empty without any."""
     told = (account.sentence(phrase, language) for phrase in reasons(account.sheet, equation))
-    return word("between sentences", language).join(told)
+    return spaced(word("between sentences", language), told)
 
 
 # -- what is written to repeat it --------------------------------------------------------------------------------------
@@ -37,8 +38,8 @@ def why(account: Account, equation: Equation, language: str) -> str:
 SHARE_A_LINE: Collection[Reason] = ("similar", "division")
 """Reasons of steps that are written on in the line of the step before, where that is one of them."""
 TAKEN_FROM_THE_MECHANISM: Collection[Reason] = ("special point", "pitch point")
-WrittenLine = Equation | str
-"""A vector equation, or a rule on one line as words with symbols."""
+WrittenLine = Equation | RichText
+"""A vector equation, or a rule on one line."""
 
 
 def written_lines(sheet: Sheet, letters: Notation, language: str) -> list[WrittenLine]:
@@ -68,15 +69,15 @@ def written_lines(sheet: Sheet, letters: Notation, language: str) -> list[Writte
             lines += _products(sheet, equation, letters)
         for line in telling(account, step).written(language):
             before = lines[-1] if lines else None
-            if shared and step.reason in SHARE_A_LINE and isinstance(before, str):
-                lines[-1] = f"{before};  {line}"
+            if shared and step.reason in SHARE_A_LINE and isinstance(before, RichText):
+                lines[-1] = before + ";  " + line
             else:
-                lines.append(line)
+                lines.append(RichText(line))
         shared = step.reason in SHARE_A_LINE
     return lines
 
 
-def _products(sheet: Sheet, equation: Equation, letters: Notation) -> list[str]:
+def _products(sheet: Sheet, equation: Equation, letters: Notation) -> list[RichText]:
     """``a^n_CB = 0.7396² × 383.14 = 209.58 mm/s²``: the sizes in an equation that follow from rates, in numbers, each
     once; an equation that is only a rule contains its own."""
     if rule_alone(sheet, equation):
@@ -89,19 +90,19 @@ def _products(sheet: Sheet, equation: Equation, letters: Notation) -> list[str]:
         for one in side
         if one.symbol in laid_off and "0" not in factors_of(sheet, one.size)
     }
-    said = [f"${letters.vector(symbol)}$ =\u00a0{bound(text)}" for symbol, text in arithmetic.items() if text]
-    return [";  ".join(said)] if said else []
+    said = [letters.vector(symbol) + " =\u00a0" + bound(text) for symbol, text in arithmetic.items() if text]
+    return [spaced(";  ", said)] if said else []
 
 
-def _shared_with_drivers(sheet: Sheet, equation: Equation) -> Iterator[str]:
+def _shared_with_drivers(sheet: Sheet, equation: Equation) -> Iterator[RichText]:
     """``ω_2 = ω_1``: links that slide on a driven one turn as it does."""
     kind = "omega" if equation.diagram == "velocity" else "alpha"
     rates = sheet.rates[kind]
-    for rate in rates.values():
-        if rate.vector is None and not rate.same_as and rate.value != 0.0:
-            others = alike(rates.values(), rate)
+    for turning in rates.values():
+        if turning.vector is None and not turning.same_as and turning.value != 0.0:
+            others = alike(rates.values(), turning)
             if others:
-                yield " = ".join(rate_name(kind, name) for name in (*others[::-1], rate.link))
+                yield spaced(" = ", (rate(kind, name) for name in (*others[::-1], turning.link)))
 
 
 def rule_alone(sheet: Sheet, equation: Equation) -> bool:
@@ -133,7 +134,8 @@ def _why(sheet: Sheet, equation: Equation, term: Term) -> Iterator[Phrase]:
     rolling |= {s.point: (s.links[0], s.links[1]) for s in sheet.steps if s.reason == "pitch point"}
     for ref in (of, to):
         if ref is not None and (links := rolling.get(ref.point)):
-            yield Phrase(f"why rolling {equation.diagram}", point=ref.point, first=links[0], second=links[1])
+            pitch = PointNames((ref.point,))
+            yield Phrase(f"why rolling {equation.diagram}", point=pitch, first=links[0], second=links[1])
     step = _found_before(sheet, equation, term)
     if step:
         yield Phrase("why known", vector=symbol, step=step)
@@ -203,7 +205,7 @@ def _of_a_point(sheet: Sheet, symbol: Symbol) -> Iterator[Phrase]:
         pivot = next((p for p in link.points if p in frame.points), None)
         own = of.link == link.name or (not of.link and of.point in link.points)
         if own and pivot is not None and pivot != of.point and symbol.kind == "v":
-            yield Phrase("why turning", point=of, pivot=pivot, link=link.name)
+            yield Phrase("why turning", point=of, pivot=PointNames((pivot,)), link=link.name)
             return
     under = next((s for s in sheet.structure.slides if s.pin == of.point and of.link in (s.a, s.b)), None)
     if under is not None and of.point in frame.points:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from graphkin.account.given import slide_index
-from graphkin.account.headings import number, written
+from graphkin.account.headings import number
 from graphkin.account.notation import Notation, unit_of
 from graphkin.construction.board.instruments import EXACT
 from graphkin.construction.board.sheet import Sheet, either_way
@@ -20,6 +20,7 @@ from graphkin.construction.position.links_on_paper import pushed_by_driver
 from graphkin.plane import added_up
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Units
+from graphkin.words.symbols import RichText, Words, sign
 from graphkin.words.written import (
     FINER,
     LEAST,
@@ -32,6 +33,7 @@ from graphkin.words.written import (
     increased,
     is_quotient,
     on_paper,
+    printed,
     product,
     quotient,
 )
@@ -64,12 +66,12 @@ def times_scale(sheet: Sheet, diagram: DiagramName, mm: float) -> str:
     unit, per = unit_of(sheet, diagram).written, scale_of(sheet, diagram)
     length = on_paper(mm)
     value, finer = product(length, amount(per, 12)), amount(mm * per, MOST)
-    more = "" if finer == value or sheet.instrument != EXACT.name else f" ({written(finer)})"
+    more = "" if finer == value or sheet.instrument != EXACT.name else f" ({printed(finer)})"
     shown = unit if diagram == "mechanism" else f"({unit})"
-    return f"{written(length)} mm × {number(per)} {shown}/mm = {written(value)} {unit}{more}"
+    return f"{printed(length)} mm × {number(per)} {shown}/mm = {printed(value)} {unit}{more}"
 
 
-def lengths_measured(sheet: Sheet, letters: Notation) -> Iterator[tuple[tuple[str, str], str]]:
+def lengths_measured(sheet: Sheet, letters: Notation) -> Iterator[tuple[tuple[str, str], RichText]]:
     """Each length that enters an equation and is not given, in the order of use, by its ends, with its millimetres:
     ``l_O4A = 38.31 mm × 10 mm/mm = 383.1 mm (383.14)``."""
     bars: dict[frozenset[str], tuple[str, str]] = {}
@@ -83,11 +85,12 @@ def lengths_measured(sheet: Sheet, letters: Notation) -> Iterator[tuple[tuple[st
         pushed = pushed_by_driver(sheet.structure, sheet.drivers, (one, other))
         if pushed is not None:
             driver, far = pushed
-            value = f"{written(as_given(far / sheet.scene.units.metres))} {sheet.scene.units.length}"
-            yield (one, other), f"${letters.length((one, other))}$ = $s_{{{slide_index(sheet, driver.key)}}}$ = {value}"
+            value = f"{printed(as_given(far / sheet.scene.units.metres))} {sheet.scene.units.length}"
+            travel = sign("s", slide_index(sheet, driver.key))
+            yield (one, other), letters.length((one, other)) + " = " + travel + f" = {value}"
             continue
         mm = sheet.arm_mm((one, other)) or 0.0
-        yield (one, other), f"${letters.length((one, other))}$ = {times_scale(sheet, 'mechanism', mm)}"
+        yield (one, other), letters.length((one, other)) + f" = {times_scale(sheet, 'mechanism', mm)}"
 
 
 def is_given(sheet: Sheet, bar: tuple[str, str]) -> bool:
@@ -106,7 +109,7 @@ def rate_sum(sheet: Sheet, step: Step, units: bool = True) -> str:
     divided = _divided(sheet, step)
     if divided is None:
         return ""
-    size, arm, value = (written(one) for one in divided)
+    size, arm, value = (printed(one) for one in divided)
     unit = unit_of(sheet, step.diagram).written
     of, over = (f" {unit}", f" {sheet.scene.units.rates.length}") if units else ("", "")
     return f"{size}{of} / {arm}{over} = {value} {RATE_UNITS[step.kind]}"
@@ -170,23 +173,23 @@ def divisions(sheet: Sheet, step: Step, divided: Superposed) -> list[Division]:
         if len(divided.found) == 1:
             one, two = (on_paper(row[0]) for row in divided.apart)
             over, under = on_paper(abs(divided.apart[0][0])), on_paper(float(difference(one, two)))
-            less, most = (written(mm) for mm in sorted((one.lstrip("-"), two.lstrip("-")), key=float))
+            less, most = (printed(mm) for mm in sorted((one.lstrip("-"), two.lstrip("-")), key=float))
             whole = f"({less} + {most})" if one.startswith("-") != two.startswith("-") else f"({most} − {less})"
             if under == "0":  # the trials differ by less than a ruler shows
                 under = amount(abs(divided.apart[0][0] - divided.apart[1][0]), 3)
-                whole = written(under)
+                whole = printed(under)
             added = quotient(product(over, size), under, figures(over, under))
-            part = f"{written(over)} / {whole}"
+            part = f"{printed(over)} / {whole}"
         else:
             share = amount(abs((rate - low) / more), 4)
-            added, part = product(share, size, carried=figures(share)), written(share)
+            added, part = product(share, size, carried=figures(share)), printed(share)
         falls = rate < low
         finer = computed(rate, MOST)
         by_hand = sheet.instrument != EXACT.name  # who has written it down already
         value = finer if by_hand else increased(start, f"-{added}" if falls else added)
-        exact = "" if finer == value else f" ({written(finer)})"
-        terms = f"{written(start)} {'−' if falls else '+'} {part} × {written(size)}"
-        found.append(Division(terms, written(value) + exact, ("" if falls == (more < 0.0) else "−") + part))
+        exact = "" if finer == value else f" ({printed(finer)})"
+        terms = f"{printed(start)} {'−' if falls else '+'} {part} × {printed(size)}"
+        found.append(Division(terms, printed(value) + exact, ("" if falls == (more < 0.0) else "−") + part))
     return found
 
 
@@ -255,10 +258,10 @@ def _turning(sheet: Sheet, rate: Literal["omega", "alpha"], links: Sequence[str]
 
 def substituted(rule: Size | None, factors: tuple[str, ...]) -> str:
     """A rule of a size with numbers in place of its symbols: ``2 × 2.819 × 575.4`` for 2ω v."""
-    shown = [written(factor) for factor in factors]
+    shown = [printed(factor) for factor in factors]
     if rule is not None and (rule.square or rule.rule == "rolling curves"):
         del shown[-2]
-        shown[-2] = f"({shown[-2]})²" if "$" in shown[-2] else f"{shown[-2]}²"
+        shown[-2] = f"({shown[-2]})²" if "·" in shown[-2] else f"{shown[-2]}²"
     return " × ".join(shown)
 
 
@@ -267,7 +270,7 @@ def rule_sum(sheet: Sheet, rule: Size | None, diagram: DiagramName) -> str:
     factors = factors_of(sheet, rule)
     if not factors:
         return ""
-    value = written(product(*factors, carried=carried_by(sheet, rule)))
+    value = printed(product(*factors, carried=carried_by(sheet, rule)))
     return f"{substituted(rule, factors)} = {value} {unit_of(sheet, diagram).written}"
 
 
@@ -294,10 +297,12 @@ def laid_sum(sheet: Sheet, diagram: DiagramName, rule: Size | None, mm: float) -
     ]  # fmt: skip
     factors, value = next((t for t in tried if is_quotient(length, t[1], scale)), tried[0])
     middle = f"{substituted(rule, factors)} = " if factors else ""
-    shown = f"{written(value)} {unit}"
-    return f"{middle}{shown}", f"{shown} ÷ {number(per)} ({unit})/mm = {written(length)} mm"
+    shown = f"{printed(value)} {unit}"
+    return f"{middle}{shown}", f"{shown} ÷ {number(per)} ({unit})/mm = {printed(length)} mm"
 
 
-def bound(text: str) -> str:
+def bound(text: Words) -> RichText:
     """A sum that breaks only before the sign of equality."""
-    return text.replace(" ", "\u00a0").replace("\u00a0=\u00a0", " =\u00a0")
+    return RichText(text).with_words(
+        lambda words: words.replace(" ", "\u00a0").replace("\u00a0=\u00a0", " =\u00a0")
+    )

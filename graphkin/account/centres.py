@@ -10,6 +10,7 @@ from graphkin.construction.centres import Centre, CentreRelation, Centres, LinkP
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, written
+from graphkin.words.symbols import RichText, Words
 from graphkin.words.written import MOST, amount, on_paper, true_minus
 
 SURE = 1e-6  # of the largest rate: one that may err by more, and is no larger than that, is nothing but rounding
@@ -17,7 +18,7 @@ TOGETHER = 1e-9  # mm: places nearer than this are one
 STILL = 1e-12  # part of the largest speed that is none
 
 
-def how_found(centres: Centres, centre: Centre, name: Callable[[LinkPair], str]) -> Phrase:
+def how_found(centres: Centres, centre: Centre, name: Callable[[LinkPair], Words]) -> Phrase:
     """The construction of a centre as a phrase; ``name`` writes centres."""
     if centre.kind == "undetermined":
         return Phrase("centre none", centre=centre.pair)
@@ -37,9 +38,11 @@ def how_found(centres: Centres, centre: Centre, name: Callable[[LinkPair], str])
     return Phrase(key, centre=centre.pair, first=first, second=second)
 
 
-def line_through(line: CentreRelation, name: Callable[[LinkPair], str], normal: Callable[[str], str]) -> str:
+def line_through(
+    line: CentreRelation, name: Callable[[LinkPair], Words], normal: Callable[[str], Words]
+) -> RichText:  # fmt: skip
     """A line through a centre, by the centres on it, or as the normal of a pin in a slot."""
-    return "".join(normal(through) if isinstance(through, str) else name(through) for through in line.through)
+    return RichText(*(normal(through) if isinstance(through, str) else name(through) for through in line.through))
 
 
 def place_of(centres: Centres, centre: Centre) -> tuple[float, float] | None:

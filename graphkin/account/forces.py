@@ -14,7 +14,7 @@ from decimal import Decimal
 from itertools import chain
 from typing import Literal, TypeAlias
 
-from graphkin.account.headings import number, written
+from graphkin.account.headings import number
 from graphkin.account.notation import Notation, force_letters, pole, scale_statement
 from graphkin.construction.board.scales import extent_of, fitting_scale, least_scale
 from graphkin.construction.board.sheet import Sheet
@@ -29,8 +29,9 @@ from graphkin.construction.forces.force_sheet import (
 )
 from graphkin.plane import added_up
 from graphkin.scene.symbol import Symbol
-from graphkin.words import Neutral, Phrase, Wording, about, in_all, languages, links_named, listed, say
-from graphkin.words.written import FINER, MOST, amount, is_quotient, on_paper, pointing, product, to_lay_off
+from graphkin.words import Neutral, Phrase, Wording, about, in_all, languages, links_named, listed, rich_text
+from graphkin.words.symbols import RichText, rate, sign, spaced
+from graphkin.words.written import FINER, MOST, amount, is_quotient, on_paper, pointing, printed, product, to_lay_off
 
 ZERO = 1e-8  # mm: a shorter force is nothing but rounding
 SAME = 1e-6  # mm
@@ -62,11 +63,11 @@ class ForceStep:
     part: str = ""
     number: int = 0
 
-    def words(self, language: str) -> tuple[tuple[str, str], ...]:
-        """Each language of a paper, and the reason of the step, in words with symbols."""
-        return tuple((each, say(self.why, each)) for each in languages(language))
+    def words(self, language: str) -> tuple[tuple[str, RichText], ...]:
+        """Each language of a paper, and the reason of the step."""
+        return tuple((each, rich_text(self.why, each)) for each in languages(language))
 
-    def lines(self, language: str) -> tuple[str, ...]:
+    def lines(self, language: str) -> tuple[RichText, ...]:
         """The sums, in the languages of a paper."""
         return tuple(line for told in self.work for line in in_all(told, language))
 
@@ -85,9 +86,9 @@ class ForceStage:
     group: ForceGroup = field(default_factory=lambda: ForceGroup((), ""))
     again: bool = False
 
-    def heading(self, language: str) -> tuple[tuple[str, str], ...]:
+    def heading(self, language: str) -> tuple[tuple[str, RichText], ...]:
         """Each language of a paper, and the title."""
-        return tuple((each, say(self.title, each)) for each in languages(language))
+        return tuple((each, rich_text(self.title, each)) for each in languages(language))
 
     def told(self, *kinds: Kind) -> list[Wording]:
         """The reasons of steps of some kinds, each with its sums."""
@@ -131,9 +132,9 @@ class ForceAccount:
         """The scale of a group's polygons, as it is written in the file's unit of force."""
         return amount(group.per_mm / self.sheet.scene.units.newtons, 12)
 
-    def name(self, symbol: Symbol, part: str = "") -> str:
+    def name(self, symbol: Symbol, part: str = "") -> RichText:
         """A force or a moment as a symbol, or a part of it."""
-        return f"${force_letters(self.letters.convention, symbol, part)}$"
+        return force_letters(self.letters.convention, symbol, part)
 
     def stages(self) -> Iterator[ForceStage]:
         """All steps from the drawn accelerations to the balancing load, by their numbers."""
@@ -164,28 +165,29 @@ class ForceAccount:
             yield ForceStage("forces", self.caption(group, count), (*self.of_group(state, group),), state, group, again)
         for k, state in enumerate(self.sheet.forces):
             for lever in state.levers:
-                why = Phrase("lever reason", pole=f"${pole(self.letters.convention, 'velocity')}$")
+                why = Phrase("lever reason", pole=pole(self.letters.convention, "velocity"))
                 why = Phrase("two sentences", first=why, second=Phrase("lever virtual")) if lever.virtual else why
                 total, balanced = self.lever(state, lever)
                 steps = (ForceStep("lever", why), ForceStep("lever", Phrase("lever step forces")),
                          ForceStep("lever", balanced, (total,), (lever.unknown.symbol,)))  # fmt: skip
                 yield ForceStage("lever", Phrase("lever"), steps, state, again=bool(k))
 
-    def inertia(self, pushed: Inertia) -> str:
+    def inertia(self, pushed: Inertia) -> RichText:
         """``F_I4 = -m_4 a_S4 = 22.4 kg x 2.11 m/s2 = 47.4 N; M_I4 = ...; h_4 = ...``."""
         units, link = self.sheet.scene.units, pushed.mass.link
         mass, push = amount(pushed.mass.mass / units.kilograms, MOST), amount(abs(pushed.push), MOST)
         size = product(mass, push, amount(units.kilograms / units.newtons, 12), carried=MOST)
         point = next((p for p, z in self.sheet.scene.by_name[link].points.items() if z == pushed.mass.at), f"S{link}")
         letter = "A" if self.letters.convention == "us" else "a"
-        said = [f"{self.name(Symbol('Fi', link=link))} = $m_{{{link}}}$ ${letter}_{{{point}}}$ = "
-                f"{written(mass)} {units.mass} × {written(push)} m/s² = {written(size)} {units.force}"]  # fmt: skip
+        force, moment = (self.name(Symbol(kind, link=link)) for kind in ("Fi", "Mi"))
+        in_numbers = f"{printed(mass)} {units.mass} × {printed(push)} m/s² = {printed(size)} {units.force}"
+        said = [force + " = " + sign("m", link) + " " + sign(letter, point, meaning=("a", point)) + " = " + in_numbers]
         if pushed.mass.inertia:
             turned = f"{number(pushed.moment / units.newtons, MOST)} {units.force}·m"
-            said.append(f"{self.name(Symbol('Mi', link=link))} = −$J_{{{link}}}$ $α_{{{link}}}$ = {turned}")
+            said.append(moment + " = −" + sign("J", link) + " " + rate("alpha", link) + f" = {turned}")
         if pushed.mass.inertia and pushed.h is not None:
-            said.append(f"$h_{{{link}}}$ = {number(abs(pushed.h) / units.metres, MOST)} {units.length}")
-        return ";  ".join(said)
+            said.append(sign("h", link) + f" = {number(abs(pushed.h) / units.metres, MOST)} {units.length}")
+        return spaced(";  ", said)
 
     def springs(self) -> Iterator[Phrase]:
         """The force of each spring from its measured length."""
@@ -203,12 +205,13 @@ class ForceAccount:
 
             tried = [amount(length / units.metres, carried) for carried in FINER]
             measured = next((text for text in tried if float(as_written(text)) == float(pull)), tried[0])
-            preload = f"{written(start)} + " if spring.preload else ""
-            stretch = f"{written(rate)} × ({written(measured)} − {written(free)})"
-            total = Neutral(f"{self.name(name)} = {preload}{stretch} = {written(pull)} {units.force}")
+            preload = f"{printed(start)} + " if spring.preload else ""
+            stretch = f"{printed(rate)} × ({printed(measured)} − {printed(free)})"
+            total = Neutral(self.name(name), f" = {preload}{stretch} = {printed(pull)} {units.force}")
             key = "force spring" if force >= 0 else "force spring pushes"
-            ends = "".join(map(self.letters.point, spring.points))
-            yield Phrase(key, ends=ends, sum=total, link=spring.links[0])
+            ends = self.letters.bar(spring.points)
+            size = sign("l", ends, meaning=("length", " ".join(spring.points)))
+            yield Phrase(key, length=size, ends=ends, sum=total, link=spring.links[0])
 
     # -- a group -------------------------------------------------------------------------------------------------------
 
@@ -260,7 +263,7 @@ class ForceAccount:
             yield ForceStep("moments", said, (), (held.symbol,), "n")
         for equation in group.moments:
             symbol, part = equation.unknown.symbol, equation.unknown.acting.part
-            links, point = _links(equation.links), f"${self.letters.point(equation.about)}$"
+            links, point = _links(equation.links), self.letters.point(equation.about)
             if not equation.terms and group.way == "polygon" and group.kind != "RPR":
                 said = Phrase("force two-force member", links=links, force=self.name(symbol), point=point)
                 yield ForceStep("moments", said, (), (symbol,), part)
@@ -281,7 +284,7 @@ class ForceAccount:
             symbol = equation.unknown.symbol
             name = self.name(symbol)
             if symbol.other and not equation.value:
-                yield ForceStep("couples", Phrase("force no couple", moment=Neutral(f"{name} = 0")), (), (symbol,))
+                yield ForceStep("couples", Phrase("force no couple", moment=Neutral(name, " = 0")), (), (symbol,))
                 continue
             work = self._in_numbers(equation, name)
             for force, (_, shifted) in group.lines.items():
@@ -292,29 +295,30 @@ class ForceAccount:
             key = "force reason couple" if symbol.other else "force reason balance"
             yield ForceStep("couples", Phrase(key, links=_links(equation.links), moment=name), work, (symbol,))
 
-    def _in_numbers(self, equation: MomentEquation, name: str) -> list[Wording]:
+    def _in_numbers(self, equation: MomentEquation, name: RichText) -> list[Wording]:
         """The arms of a moment equation as measured on the mechanism, the forces without one, and the equation as
         ``ΣM_C = F_G5 x 0.0488 m ... = 0, F^t_R45 = -10.7 N``; ``name`` is the name of its unknown."""
         of = [*((self.name(t.symbol), t.arm) for t in with_moments(equation)), (name, equation.unknown.arm)]
-        arms = [f"{force} {written(on_paper(abs(arm)))} mm" for force, arm in of if arm is not None]
+        arms = [force + f" {printed(on_paper(abs(arm)))} mm" for force, arm in of if arm is not None]
         scale = Neutral(f"× {amount(self.sheet.scales.length, 12)} m/mm")
-        told: list[Wording] = [Phrase("force arms", arms=Neutral(",  ".join(arms)), scale=scale)] if arms else []
+        told: list[Wording] = [Phrase("force arms", arms=Neutral(spaced(",  ", arms)), scale=scale)] if arms else []
         through = [self.name(t.symbol) for t in equation.terms if t not in with_moments(equation)]
-        told += [Phrase("force no arm", forces=Neutral(",  ".join(through)))] if through else []
+        told += [Phrase("force no arm", forces=Neutral(spaced(",  ", through)))] if through else []
         scene, point = self.sheet.scene, equation.about
         point = f"({point})" if point in scene.by_name and point not in scene.holders else point
         terms, arm, total = balance(self.sheet, equation)
-        whole = " ".join(f"{'−' if sign == '-' else '+'} {'·'.join(map(written, factors))}" for sign, factors in terms)
+        sums = " ".join(f"{'−' if turn == '-' else '+'} {'·'.join(map(printed, factors))}" for turn, factors in terms)
         # the sense of a force is that in which it comes out positive; of a moment what acts may be the opposite
         turned = not arm and equation.unknown.acting.turned
-        whole += f" {'−' if turned or (arm and total < 0) else '+'} {name}" + (f"·{written(arm)}" if arm else "")
+        sums += f" {'−' if turned or (arm and total < 0) else '+'} "
+        whole = sums.lstrip().removeprefix("+ ") + name + (f"·{printed(arm)}" if arm else "")
         value = number(float(abs(total) if arm else -total if turned else total), MOST) if total else "0"
         unit = scene.units.force + ("" if arm else "·m")
-        return [*told, f"$ΣM_{{{point}}}$ = {whole.strip().removeprefix('+ ')} = 0;  {name} = {value} {unit}"]
+        return [*told, sign("ΣM", point) + " = " + whole + " = 0;  " + name + f" = {value} {unit}"]
 
-    def read_off(self, state: ForceState, group: ForceGroup) -> dict[Symbol, str]:
+    def read_off(self, state: ForceState, group: ForceGroup) -> dict[Symbol, RichText]:
         """``F_R45 = 43.33 mm x 200 N/mm = 8666.4 N``, for each force that was found here."""
-        unit, per_mm, found = self.sheet.scene.units.force, self.per_mm(group), dict[Symbol, str]()
+        unit, per_mm, found = self.sheet.scene.units.force, self.per_mm(group), dict[Symbol, RichText]()
         for vector in chain(group.polygon, *group.inner.values()):
             symbol, back = vector.symbol, vector.symbol.opposite
             if vector.known or symbol in found or back in found:
@@ -322,14 +326,14 @@ class ForceAccount:
             force = state.vectors.get(symbol, state.vectors.get(back))
             mm = abs(vector.span if force is None else force / group.per_mm)
             size = on_paper(mm)
-            value = f"{written(product(size, per_mm))} {unit}"
-            sum_ = f"{written(size)} mm × {written(per_mm)} {unit}/mm = {value}"
-            found[symbol] = f"{self.name(symbol)} = {'0' if mm < ZERO else sum_}"
+            value = f"{printed(product(size, per_mm))} {unit}"
+            sum_ = f"{printed(size)} mm × {printed(per_mm)} {unit}/mm = {value}"
+            found[symbol] = self.name(symbol) + f" = {'0' if mm < ZERO else sum_}"
         return found
 
-    def _laid(self, group: ForceGroup) -> list[str]:
+    def _laid(self, group: ForceGroup) -> list[RichText]:
         """``ab = P = 9000 N ÷ 100 N/mm = 90.00 mm, 180.0°`` for each known force of a polygon."""
-        force, scale, lines = self.sheet.scene.units.force, self.per_mm(group), list[str]()
+        force, scale, lines = self.sheet.scene.units.force, self.per_mm(group), list[RichText]()
         per = group.per_mm / self.sheet.scene.units.newtons
         for v in laid_off(group):
             value, length = to_lay_off(abs(v.span) * per, per, abs(v.span))
@@ -341,9 +345,9 @@ class ForceAccount:
                 value = amount(float(abs(balance(self.sheet, by_moments)[2])), MOST)
                 length = length if is_quotient(length, value, scale) else on_paper(float(value) / per)
             begin, end = (corner_at(group, place) for place in (v.tail, v.tip))
-            ends = f"${begin}{end}$ = " if begin != end else ""  # "" where they bear one letter
-            sum_ = f"{written(value)} {force} ÷ {written(scale)} {force}/mm = {written(length)} mm"
-            lines.append(f"{ends}{self.name(v.symbol, v.part)} = {sum_},  {pointing(v.span)}°")
+            ends = sign(begin + end) + " = " if begin != end else ""  # "" where they bear one letter
+            sum_ = f"{printed(value)} {force} ÷ {printed(scale)} {force}/mm = {printed(length)} mm"
+            lines.append(ends + self.name(v.symbol, v.part) + f" = {sum_},  {pointing(v.span)}°")
         return lines
 
     def _closed_by(self, group: ForceGroup) -> Phrase | None:
@@ -352,11 +356,11 @@ class ForceAccount:
         if not known or not unknown or len(unknown) > 2:
             return None
 
-        def name(vector: ForceVector) -> str:
+        def name(vector: ForceVector) -> RichText:
             return self.name(vector.symbol, vector.part)
 
-        def corner(place: complex) -> str:
-            return f"${corner_at(group, place)}$"
+        def corner(place: complex) -> RichText:
+            return sign(corner_at(group, place))
 
         first, last = known[0], known[-1]
         chained = {"first": name(first), "last": name(last), "begin": corner(first.tail), "end": corner(last.tip)}
@@ -367,7 +371,7 @@ class ForceAccount:
         if behind is None or before is None:
             return None
         frame, sought = self.sheet.scene.frame.name, (behind, before)
-        ways = [f"${way}$" for v in sought if (way := self.letters.direction(v.direction, frame))]
+        ways = [way for v in sought if (way := self.letters.direction(v.direction, frame))]
         if len(ways) < 2:
             return None
         line, other_line = ways
@@ -385,13 +389,13 @@ class ForceAccount:
             values = lever.value, float(state.moments.get(balances) or 0.0)
         else:
             values = abs(lever.value), abs(state.vectors.get(balances, 0j))
-        lead = f"{'−' if arm < 0 else ''}{name}·{number(abs(arm), MOST)}"
+        lead = "−" * (arm < 0) + name + f"·{number(abs(arm), MOST)}"
         rest = f"{'+' if total >= 0 else '−'} {number(abs(total), MOST)}"
         unit = units.force + ("·m" if moment else "")
         by_lever, by_polygons = (f"{number(v / units.newtons, MOST)} {unit}" for v in values)
         return (
-            Phrase("lever sum", sum=Neutral(f"{lead} {rest} = 0")),
-            Phrase("lever balance", lever=Neutral(f"{name} = {by_lever}"), polygons=Neutral(by_polygons)),
+            Phrase("lever sum", sum=Neutral(lead, f" {rest} = 0")),
+            Phrase("lever balance", lever=Neutral(name, f" = {by_lever}"), polygons=Neutral(by_polygons)),
         )
 
 

@@ -9,12 +9,11 @@ from __future__ import annotations
 
 import cmath
 import math
-import re
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import reduce
 
-from graphkin.account.headings import number, term, written
+from graphkin.account.headings import number, term
 from graphkin.account.notation import Notation, force_letters
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.forces.position import DrawnPosition
@@ -25,42 +24,42 @@ from graphkin.scene.pairs import PlacedGuide, SlidingPair
 from graphkin.scene.scene_tables import LoadPhase
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Driven, RollingRelation
-from graphkin.words import Neutral, Phrase, languages, say
-from graphkin.words.written import as_given
+from graphkin.words import Neutral, Phrase, Wording, languages, listed, rich_text
+from graphkin.words.symbols import RichText, Words, rate, sign, spaced
+from graphkin.words.written import as_given, printed
 
-_BETWEEN_CHINESE = re.compile(r"(?<=[\u4e00-\u9fff]) (?=[\u4e00-\u9fff])")
 LEVEL = 1e-9  # of directions and of lengths by the size of a scene: what rounding leaves
 NO_LENGTH = 1e-12  # of the mechanism's size: what is shorter are two points that fall together
 
 # -- drivers -----------------------------------------------------------------------------------------------------------
 
 
-def given_drivers(sheet: Sheet, letters: Notation) -> list[str]:
-    """The moment, and values of drivers with their rates: words with symbols between dollar signs."""
+def given_drivers(sheet: Sheet, letters: Notation) -> list[RichText]:
+    """The moment, and values of drivers with their rates."""
     scene = sheet.scene
     moment = moment_of(scene)
-    told = [] if moment is None else [f"$t$ = {number(moment)} s"]
+    told = [] if moment is None else [sign("t") + f" = {number(moment)} s"]
     for driver in scene.drivers:
         told.append(_stands(sheet, driver, sheet.drivers[driver.key]))
         if driver.turns and driver.rpm is not None and math.isclose(driver.rpm * math.pi / 30, driver.rate):
-            told.append(f"$n_{{{_index(sheet, driver)}}}$ = {number(driver.rpm)} r/min")
-        names = ("ω", "α") if driver.turns else ("V", "A") if letters.convention == "us" else ("v", "a")
-        kinds = ("omega", "alpha") if driver.turns else ("v", "a")
-        for name, kind, value in zip(names, kinds, driver.values[1:], strict=True):
+            told.append(sign("n", _index(sheet, driver)) + f" = {number(driver.rpm)} r/min")
+        for kind, value in zip(("omega", "alpha") if driver.turns else ("v", "a"), driver.values[1:], strict=True):
             unit = Symbol(kind, link=driver.link).unit(scene.units)
             if value or kind in ("omega", "v"):
-                told.append(f"${name}_{{{_index(sheet, driver)}}}$ = {unit.beside(number(unit.of(value)))}")
+                letter = kind.upper() if letters.convention == "us" else kind
+                name = (rate if driver.turns else sign)(kind if driver.turns else letter, _index(sheet, driver))
+                told.append(name + f" = {unit.beside(number(unit.of(value)))}")
     return told
 
 
-def drivers(sheet: Sheet, letters: Notation) -> str:
+def drivers(sheet: Sheet, letters: Notation) -> RichText:
     """The drivers with their rates in one line."""
-    return ",  ".join(given_drivers(sheet, letters))
+    return spaced(",  ", given_drivers(sheet, letters))
 
 
-def rolling_starts(sheet: Sheet) -> list[str]:
+def rolling_starts(sheet: Sheet) -> list[RichText]:
     """The starts of links that move each other by rolling, at the scene's own position: ``φ_3 = 60° (φ_1 =
-    50°)``, symbols between dollar signs."""
+    50°)``."""
     scene, parts = sheet.scene, []
     own = [_stands(sheet, driver, driver.values[0]) for driver in scene.drivers]
     for group in sheet.structure.elements:
@@ -69,15 +68,15 @@ def rolling_starts(sheet: Sheet) -> list[str]:
             if driver.turns:  # from what never turns
                 value = cmath.phase(sheet.poses[driver.relative_to].axis * cmath.rect(1.0, value))
                 driver = replace(driver, relative_to=scene.frame.name)
-            parts.append(f"{_stands(sheet, driver, value)} ({', '.join(own)})")
+            parts.append(_stands(sheet, driver, value) + " (" + spaced(", ", own) + ")")
     return parts
 
 
-def rolled_starts(sheet: Sheet) -> list[str]:
+def rolled_starts(sheet: Sheet) -> list[RichText]:
     """The starts of links that only follow by rolling, as in `rolling_starts`: of a wheel that has but its axis none
     counts."""
     scene = sheet.scene
-    own = ", ".join(_stands(sheet, driver, driver.values[0]) for driver in scene.drivers)
+    own = spaced(", ", (_stands(sheet, driver, driver.values[0]) for driver in scene.drivers))
     told = []
     for element in sheet.structure.elements:
         if not isinstance(element, Driven):
@@ -91,13 +90,13 @@ def rolled_starts(sheet: Sheet) -> list[str]:
         if not driver.turns or len(sheet.structure.links[element.link].points) > 1 or _axis_counts(
             scene.whole, scene.by_name[element.link]
         ):
-            told.append(f"{_stands(sheet, driver, driver.value)} ({own})")
+            told.append(_stands(sheet, driver, driver.value) + " (" + own + ")")
     return told
 
 
-def _stands(sheet: Sheet, driver: Driver, value: float) -> str:
+def _stands(sheet: Sheet, driver: Driver, value: float) -> RichText:
     unit = sheet.scene.unit_of(driver)
-    return f"${'φ' if driver.turns else 's'}_{{{_index(sheet, driver)}}}$ = {unit.beside(number(unit.of(value)))}"
+    return sign("φ" if driver.turns else "s", _index(sheet, driver)) + f" = {unit.beside(number(unit.of(value)))}"
 
 
 def _index(sheet: Sheet, driver: Driver) -> str:
@@ -115,35 +114,35 @@ def slide_index(sheet: Sheet, key: str) -> str:
 # -- lengths, teeth and the frame --------------------------------------------------------------------------------------
 
 
-def given_lengths(scene: Mechanism, letters: Notation) -> list[tuple[str, str]]:
-    """The given lengths of all links: symbol (without dollar signs) and value in the scene's unit, as it is given."""
-    found: list[tuple[str, float]] = []
+def given_lengths(scene: Mechanism, letters: Notation) -> list[tuple[RichText, str]]:
+    """The given lengths of all links: symbol and value in the scene's unit, as it is given."""
+    found: list[tuple[RichText, float]] = []
     for link in scene.links:
         if link.length is not None:
             found.append((letters.length(link.bar), link.length / scene.units.metres))
         found += _further(link, scene, letters)
     metres = scene.units.metres
     discs = (disc for link in (*scene.links, scene.frame) for disc in link.discs.items())
-    found += [(f"r_{{{name}}}", abs(disc.r) / metres) for name, disc in discs]
+    found += [(sign("r", name), abs(disc.r) / metres) for name, disc in discs]
     least = NO_LENGTH * scene.size / metres
-    return [(name, written(as_given(length))) for name, length in found if length > least]
+    return [(name, printed(as_given(length))) for name, length in found if length > least]
 
 
-def given_teeth(scene: Mechanism, language: str) -> list[str]:
+def given_teeth(scene: Mechanism, language: str) -> list[RichText]:
     """The numbers of teeth, each wheel once; for a wheel with several numbers with the gear.  Internal teeth are
     marked."""
-    found: dict[str, str] = {}
+    found: dict[str, RichText] = {}
     for gear in scene.gears:
         for wheel, teeth in zip(gear.wheels, gear.teeth, strict=True):
             if teeth is None:
                 continue
-            said = f"$z_{{{wheel}}}$ = {number(abs(teeth))}" + f" ({term('internal', language)})" * (teeth < 0)
+            said = sign("z", wheel) + f" = {number(abs(teeth))}" + f" ({term('internal', language)})" * (teeth < 0)
             if found.setdefault(wheel, said) != said:
-                found[f"{wheel} {gear.name}"] = f"{said} ({gear.name})"
+                found[f"{wheel} {gear.name}"] = said + f" ({gear.name})"
     return list(found.values())
 
 
-def _further(link: PlacedLink, scene: Mechanism, letters: Notation) -> list[tuple[str, float]]:
+def _further(link: PlacedLink, scene: Mechanism, letters: Notation) -> list[tuple[RichText, float]]:
     """Distances of the further points of a link from its own."""
     told = off_its_guide(scene, link) if len(link.bar) < 2 and along_its_guide(scene, link) else []
     more = [p for p in link.points if p not in (*link.bar, *told)]
@@ -154,14 +153,14 @@ def _further(link: PlacedLink, scene: Mechanism, letters: Notation) -> list[tupl
     ]
 
 
-def fixed_points(scene: Mechanism, letters: Notation) -> list[tuple[str, str]]:
-    """The points of the frame: symbol (without dollar signs) and coordinates in the scene's unit, in brackets."""
+def fixed_points(scene: Mechanism, letters: Notation) -> list[tuple[RichText, str]]:
+    """The points of the frame: symbol and coordinates in the scene's unit, in brackets."""
     return [(letters.point(point), place_of(z, scene)) for point, z in scene.frame.points.items()]
 
 
-def fixed_guides(scene: Mechanism, letters: Notation) -> list[tuple[str, str, str]]:
-    """The guides of the frame that have a name: symbol (without dollar signs), coordinates of a point of each in the
-    scene's unit, in brackets, and direction (degrees)."""
+def fixed_guides(scene: Mechanism, letters: Notation) -> list[tuple[RichText, str, str]]:
+    """The guides of the frame that have a name: symbol, coordinates of a point of each in the scene's unit, in
+    brackets, and direction (degrees)."""
     return [
         (letters.guide(guide.name, scene.frame.name), place_of(guide.through, scene),
          number(degrees(guide.direction)))
@@ -179,8 +178,8 @@ def place_of(z: complex, scene: Mechanism) -> str:
 # -- shapes of links ---------------------------------------------------------------------------------------------------
 
 
-def given_shapes(scene: Mechanism, letters: Notation, language: str) -> list[str]:
-    """The shapes of links as short phrases, symbols between dollar signs: ``guide s on 3: 140 mm from C, 90° to x``.
+def given_shapes(scene: Mechanism, letters: Notation, language: str) -> list[RichText]:
+    """The shapes of links as short phrases: ``guide s on 3: 140 mm from C, 90° to x``.
 
     Angles are those of lines, from -90 to 90 degrees, counter-clockwise positive; places are along the guide on which
     the link slides and to the left of it.  Pins and blocks in circular slots come last.
@@ -189,11 +188,11 @@ def given_shapes(scene: Mechanism, letters: Notation, language: str) -> list[str
     found = [phrase for link in whole.links if not link.redundant for phrase in _shape(whole, link, letters)]
     for slot in whole.slots:
         centre, point = letters.point(slot.centre), letters.point(slot.point)
-        key, bar = "block on circle" if slot.block else "pin on circle", f"${centre}{point}$"
-        runs = {"point": f"${point}$", "link": slot.of or slot.bar, "on": slot.on, "centre": f"${centre}$"}
+        key, bar = "block on circle" if slot.block else "pin on circle", letters.bar((slot.centre, slot.point))
+        runs = {"point": point, "link": slot.of or slot.bar, "on": slot.on, "centre": centre}
         found.append(Phrase(key, **runs, **({} if slot.block else {"bar": bar, "name": slot.bar})))
-    told = ((_BETWEEN_CHINESE.sub("", say(phrase, each)) for each in languages(language)) for phrase in found)
-    return [" ".join(dict.fromkeys(shape)) for shape in told]
+    told = ((rich_text(phrase, each) for each in languages(language)) for phrase in found)
+    return [spaced(" ", dict.fromkeys(shape)) for shape in told]
 
 
 def _shape(scene: Mechanism, link: PlacedLink, letters: Notation) -> Iterator[Phrase]:
@@ -213,26 +212,26 @@ def _shape(scene: Mechanism, link: PlacedLink, letters: Notation) -> Iterator[Ph
         beside = []
     for point in beside:
         z = link.points[point]
-        name = f"${letters.point(point)}$"
+        name = letters.point(point)
         if pairs:
             place, origin = _place(z * turn, scene), _origin(link, letters)
             yield Phrase("point along", point=name, place=place, origin=origin, axis=axis)
         else:
-            bar = f"${letters.point(link.bar[0])}{letters.point(point)}$" if link.bar else name
+            bar = letters.bar((link.bar[0], point)) if link.bar else name
             yield Phrase("held at angle", bar=bar, angle=number(degrees(z)), axis=axis)
     guides = used_guides(scene, link)
     alone = not pairs and len(link.bar) < 2 and len(guides) == 1 and not beside and not _carries_its_axis(scene, link)
     for guide in guides:
-        name = f"${letters.guide(guide.name, scene.frame.name)}$"
+        name = letters.guide(guide.name, scene.frame.name)
         angle = number(as_line(guide.direction * turn))
         on = next((p for p, z in link.points.items() if abs(z - guide.through) < LEVEL * scene.size), None)
         if alone and on is not None:  # what its angle counts from is nothing else's
-            yield Phrase("guide on link only through", guide=name, link=link.name, point=f"${letters.point(on)}$")
+            yield Phrase("guide on link only through", guide=name, link=link.name, point=letters.point(on))
         elif on is None and abs(guide.through) < LEVEL * scene.size:
             yield Phrase("guide on link", guide=name, link=link.name, angle=angle, axis=axis)
         elif on is not None:
-            point = f"${letters.point(on)}$"
-            yield Phrase("guide on link through", guide=name, link=link.name, point=point, angle=angle, axis=axis)
+            through = letters.point(on)
+            yield Phrase("guide on link through", guide=name, link=link.name, point=through, angle=angle, axis=axis)
         else:
             place = _place(guide.through * turn, scene)
             at = {"place": place, "origin": _origin(link, letters), "axis": axis}
@@ -278,28 +277,28 @@ def _axis_counts(scene: Mechanism, link: PlacedLink) -> bool:
     return turned or _carries_its_axis(scene, link) or bool(used_guides(scene, link))
 
 
-def _guide_name(scene: Mechanism, pair: SlidingPair, letters: Notation) -> str:
+def _guide_name(scene: Mechanism, pair: SlidingPair, letters: Notation) -> Words:
     if pair.guide:
-        return f"${letters.guide(pair.guide, scene.frame.name)}$"
+        return letters.guide(pair.guide, scene.frame.name)
     on = scene.by_name[pair.on]
-    return "$x$" if pair.on == scene.frame.name else _own(on, letters)
+    return sign("x") if pair.on == scene.frame.name else _own(on, letters)
 
 
-def _own(link: PlacedLink, letters: Notation) -> str:
+def _own(link: PlacedLink, letters: Notation) -> Words:
     """The own axis of a link: its bar, else its number."""
-    return f"${''.join(letters.point(p) for p in link.bar)}$" if len(link.bar) == 2 else link.name
+    return letters.bar(link.bar) if len(link.bar) == 2 else link.name
 
 
-def _axis(scene: Mechanism, link: PlacedLink, pairs: list[SlidingPair], letters: Notation) -> str | Phrase:
+def _axis(scene: Mechanism, link: PlacedLink, pairs: list[SlidingPair], letters: Notation) -> Wording:
     """The line from which angles on a link count: its bar, the guide on which it slides, else its own axis."""
     if len(link.bar) == 2:
         return _own(link, letters)
     return _guide_name(scene, pairs[0], letters) if pairs else Phrase("axis of", link=link.name)
 
 
-def _origin(link: PlacedLink, letters: Notation) -> str:
+def _origin(link: PlacedLink, letters: Notation) -> Words:
     """The origin of a link's own axes."""
-    return f"${letters.point(link.bar[0])}$" if link.bar else f"({link.name})"
+    return letters.point(link.bar[0]) if link.bar else f"({link.name})"
 
 
 def _place(z: complex, scene: Mechanism) -> str:
@@ -321,7 +320,7 @@ def given_loads(sheet: Sheet, letters: Notation) -> list[Phrase]:
         *([Phrase("given weights", angle=number(aslant, 5))] if masses and abs(aslant + 90.0) > LEVEL else []),
         *(_load(scene, load, letters) for load in loading.loads),
         *(_spring_given(scene, spring, letters) for spring in loading.springs),
-        Phrase("given balance", forces=", ".join(f"${force_letters(letters.convention, one)}$" for one in balances)),
+        Phrase("given balance", forces=listed([force_letters(letters.convention, one) for one in balances])),
         *([_load(scene, balance, letters)] if balance is not None and balance.is_force else []),
     ]
 
@@ -329,23 +328,23 @@ def given_loads(sheet: Sheet, letters: Notation) -> list[Phrase]:
 def _masses(scene: Mechanism, letters: Notation) -> Iterator[Phrase]:
     units, loading = scene.units, scene.loading
     for mass in loading.masses:
-        said = f"$m_{{{mass.link}}}$ = {number(mass.mass / units.kilograms, 5)} {units.mass}"
+        said = sign("m", mass.link) + f" = {number(mass.mass / units.kilograms, 5)} {units.mass}"
         if loading.gravity:
             weight, unit = mass.mass * abs(loading.gravity), units.of("force")
             name = force_letters(letters.convention, Symbol("G", link=mass.link))
-            said += f", ${name}$ = {unit.beside(number(unit.of(weight), 5))}"
+            said += ", " + name + f" = {unit.beside(number(unit.of(weight), 5))}"
         if mass.inertia:
             unit = units.of("inertia")
-            said += f", $J_{{{mass.link}}}$ = {unit.beside(number(unit.of(mass.inertia), 5))}"
+            said += ", " + sign("J", mass.link) + f" = {unit.beside(number(unit.of(mass.inertia), 5))}"
         yield Phrase("given mass", mass=Neutral(said), point=_place_on(scene, mass.link, mass.at, letters))
 
 
-def _place_on(scene: Mechanism, name: str, at: complex, letters: Notation) -> str | Phrase:
+def _place_on(scene: Mechanism, name: str, at: complex, letters: Notation) -> Wording:
     """A place in a link's own axes (m): the point that lies there, else along the link's axis and to the left of it."""
     link = scene.by_name[name]
     point = next((p for p, z in link.points.items() if z == at), "")
     if point:
-        return f"${letters.point(point)}$"
+        return letters.point(point)
     pairs = along_its_guide(scene, link)
     turn = pairs[0].turn if pairs and len(link.bar) < 2 else 1.0 + 0j
     axis = _axis(scene, link, pairs, letters)
@@ -356,8 +355,8 @@ def _load(scene: Mechanism, load: LoadOn, letters: Notation) -> Phrase:
     """The given data of a load; of the balancing load, whose size is sought, its line."""
     sought, kind = not load.name, "F" if load.is_force else "M"
     symbol = Symbol(kind, link=load.link) if sought else Symbol("P", name=load.name, turning=not load.is_force)
-    unit, name = symbol.unit(scene.units), f"${force_letters(letters.convention, symbol)}$"
-    size = name if sought else Neutral(f"{name} = {unit.beside(number(unit.of(load.size)))}")
+    unit, name = symbol.unit(scene.units), force_letters(letters.convention, symbol)
+    size = name if sought else Neutral(name, f" = {unit.beside(number(unit.of(load.size)))}")
     gaps = {"size": size, "link": load.link, "point": _place_on(scene, load.link, load.at, letters)}
     if not load.is_force:
         said = Phrase("given moment", size=size, link=load.link)
@@ -383,13 +382,13 @@ def _phase(scene: Mechanism, phase: LoadPhase) -> Phrase:
 def _spring_given(scene: Mechanism, spring: SpringOn, letters: Notation) -> Phrase:
     """The given data of a spring, in words with symbols."""
     units = scene.units
-    one, two = (f"${letters.point(point)}$" for point in spring.points)
+    one, two = (letters.point(point) for point in spring.points)
     rate = Neutral(f"{number(spring.rate * units.metres / units.newtons)} {units.force}/{units.length}")
     free, preload = (
         Neutral(unit.beside(number(unit.of(value))))
         for unit, value in ((units.of("length"), spring.free), (units.of("force"), spring.preload))
     )
-    name = f"${force_letters(letters.convention, Symbol('P', name=spring.name))}$"
+    name = force_letters(letters.convention, Symbol("P", name=spring.name))
     link, other_link = spring.links
     return Phrase(
         "given spring", name=spring.name, point=one, link=link, other_point=two, other_link=other_link, rate=rate,

@@ -15,8 +15,8 @@ from graphkin.construction.board.steps import DiagramName, Direction, plain_in
 from graphkin.scene.model import Mechanism
 from graphkin.scene.pairs import told
 from graphkin.version import __version__
-from graphkin.words import Neutral, Phrase, as_plain, in_all, languages, listed, rich_text, say, word
-from graphkin.words.written import amount, in_markup, on_paper, pointing, product, true_minus
+from graphkin.words import Neutral, Phrase, in_all, languages, listed, say, word
+from graphkin.words.written import ROUNDED, amount, on_paper, pointing, printed, product
 
 FIGURE_WORDS: Mapping[DiagramName, str] = {
     "mechanism": "mechanism", "velocity": "velocity polygon", "acceleration": "acceleration polygon", "force": "forces",
@@ -33,7 +33,8 @@ def term(key: str, language: str, otherwise: str | None = None, **values: str) -
     ('Detail 局部放大图 5 : 1', 'Forces 力分析', '3-4-5 多项式')
     """
     if values:
-        return " ".join(in_all(Phrase(key, **{gap: Neutral(value) for gap, value in values.items()}), language))
+        lines = in_all(Phrase(key, **{gap: Neutral(value) for gap, value in values.items()}), language)
+        return " ".join(map(str, lines))
     words = tuple(dict.fromkeys(word(key, each, otherwise) for each in languages(language)))
     return " ".join(one for one in words if not any(other.startswith(f"{one} ") for other in words))
 
@@ -60,7 +61,7 @@ def titles(sheet: Sheet, language: str) -> tuple[str, ...]:
         for d in scene.drivers
     )
     found = (scene.question.title_in(each) or scene.name for each in languages(language))
-    return tuple(dict.fromkeys(in_markup(title if own else _OWN_POSITION.sub("", title).strip()) for title in found))
+    return tuple(dict.fromkeys(title if own else _OWN_POSITION.sub("", title).strip() for title in found))
 
 
 def dimensions_in(sheet: Sheet, language: str) -> str:
@@ -80,13 +81,7 @@ def number(value: float, digits: int = 6) -> str:
     >>> number(-10.0), number(0.1230)
     ('−10', '0.123')
     """
-    return written(amount(value, digits))
-
-
-def written(plain: str) -> str:
-    """A number of `graphkin.words.written` for people: powers of ten as such, a typographic minus sign."""
-    head, _, power = true_minus(plain).partition("e")
-    return f"{head}·$10^{{{power}}}$" if power else head
+    return printed(amount(value, digits))
 
 
 DRAWN = ("length", "velocity", "acceleration")
@@ -114,7 +109,7 @@ def figure_title(sheet: Sheet, figure: str, language: str) -> str:
     """Title of a figure as one line."""
     parts = []
     for each, title in zip(languages(language), titles(sheet, language) * 2, strict=False):
-        parts.append(title.replace("$$", "$") + word("colon", each) + word(figure, each))
+        parts.append(title + word("colon", each) + word(figure, each))
     return " / ".join(parts)
 
 
@@ -130,7 +125,7 @@ def _sentences(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -
         said += structure_words(sheet.scene, language)
         unit, per_mm = sheet.scene.units.length, sheet.scales.length / sheet.scene.units.metres
         for ref, z in sheet.points.items():
-            x, y = (number(part * per_mm, 5) for part in (z.real, z.imag))
+            x, y = (number(part * per_mm if abs(part) > ROUNDED else 0.0, 5) for part in (z.real, z.imag))
             said.append(say(Phrase("point lies", point=ref.point, x=x, y=y, unit=unit), language))
     for diagram in diagrams:
         for step in sheet.steps:
@@ -195,11 +190,11 @@ def _sentence(said: Phrase, language: str) -> str:
             return ("∥" if thing.relation == "along" else "⊥") + "".join(thing.names)
         return plain(thing).replace("@", "")
 
-    text = as_plain(rich_text(said, language, shown), "_")
+    text = say(said, language, shown)
     return _capital(text).rstrip("。.") + word("full stop", language)
 
 
 def _capital(text: str) -> str:
     """A sentence with a capital first letter, unless it begins with a symbol."""
-    letter = text[:1].isascii() and text[1:2] != "_" and text[:1] != "$"
+    letter = text[:1].isascii() and text[1:2] != "_"
     return (text[:1].upper() if letter else text[:1]) + text[1:]

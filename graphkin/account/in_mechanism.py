@@ -18,14 +18,16 @@ from graphkin.construction.board.steps import (
     CompassArc,
     Mark,
     MeasuredGap,
+    PointNames,
     Reason,
     TrialPositions,
     TrialRow,
 )
 from graphkin.plane import cross, degrees, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Markup, Neutral, Phrase, in_turn, joined, listed, sense_of
-from graphkin.words.written import in_markup, on_paper, roman, true_minus
+from graphkin.words import Neutral, Phrase, in_turn, joined, listed, sense_of
+from graphkin.words.symbols import RichText, Words, sign, spaced
+from graphkin.words.written import on_paper, roman, true_minus
 
 SAME = 1e-6  # mm
 STRAIGHT = 1e-6  # of a length: so little beside a line a point lies on it
@@ -49,7 +51,7 @@ class InMechanism(Telling):
     def places(self) -> object:
         """Fixed points and guides by their places on paper."""
         found = ((p, self.at(p)) for p in self.step.points)
-        told = [Phrase("place of a point", point=p, **_coordinates(z)) for p, z in found if z is not None]
+        told = [Phrase("place of a point", point=_named(p), **_coordinates(z)) for p, z in found if z is not None]
         for guide in self.sheet.scene.frame.guides.values():
             if guide.name:
                 through = guide.through / self.sheet.scales.length
@@ -82,8 +84,9 @@ class InMechanism(Telling):
             if name not in found:
                 said = self._marked(known, name)
             else:
-                alone = Phrase("place alone", point=name, link=link)
-                said = Phrase("place joined", other=known[0], point=name, link=link) if known else alone
+                said = Phrase("place alone", point=_named(name), link=link)
+                if known:
+                    said = Phrase("place joined", other=_named(known[0]), point=_named(name), link=link)
             if said is None:
                 return None
             told.append(said)
@@ -98,8 +101,8 @@ class InMechanism(Telling):
             return None
         if not places:
             if link not in self.sheet.scene.by_name:  # what only stands for a pin in a slot
-                return Phrase("pin by coordinates", point=name, **_coordinates(at))
-            return Phrase("place by coordinates", link=link, point=name, **_coordinates(at))
+                return Phrase("pin by coordinates", point=_named(name), **_coordinates(at))
+            return Phrase("place by coordinates", link=link, point=_named(name), **_coordinates(at))
         bars = [(p, q) for p in places for q in places if abs(places[p] - places[q]) > SAME]
         if bars:
             p, q = max(bars, key=lambda b: abs(places[b[0]] - places[b[1]]))
@@ -108,7 +111,7 @@ class InMechanism(Telling):
             if abs(side) < STRAIGHT * abs(b - a) ** 2:
                 return _on_line((p, a), (q, b), name, at)
             radii = {f"radii.{i}": on_paper(abs(at - z)) for i, z in enumerate((a, b))}
-            points = {"points.0": p, "points.1": q, "point": name}
+            points = {"points.0": _named(p), "points.1": _named(q), "point": _named(name)}
             return Phrase(f"place by arcs {'left' if side > 0 else 'right'}", **points, **radii)
         (pivot, start), *_ = places.items()
         for s in reversed(self.sheet.before(self.step)):  # the pin that has directed a guide from its pivot
@@ -121,11 +124,12 @@ class InMechanism(Telling):
         span = at - start
         if abs(span) < SAME:
             return None
-        own = self.sheet.structure.links[link].points
+        own, laid_off = self.sheet.structure.links[link].points, {
+            "point": _named(name), "bar": PointNames((pivot, name), bar=True), "length": on_paper(abs(span))
+        }  # fmt: skip
         if laid and abs(cmath.phase(own[name] - own[pivot])) < STRAIGHT:
-            return Phrase("points at", link=link, point=name, bar=pivot + name, length=on_paper(abs(span)))
-        angle = _degrees(span)
-        return Phrase("place polar", pivot=pivot, angle=angle, bar=pivot + name, length=on_paper(abs(span)), point=name)
+            return Phrase("points at", link=link, **laid_off)
+        return Phrase("place polar", pivot=_named(pivot), angle=_degrees(span), **laid_off)
 
     # -- points that are found -----------------------------------------------------------------------------------------
 
@@ -160,7 +164,7 @@ class InMechanism(Telling):
     def _special_lines(self, language: str) -> Iterator[Phrase]:
         """The place of the special point."""
         step = self.step
-        joints = map(Markup, map(self.account.letters.point, (step.point, *step.points)))
+        joints = map(self.account.letters.point, (step.point, *step.points))
         key = "written relative special" if step.base and step.kind != "driven" else "written special"
         point, first, second = joints
         told = Phrase(key, point=point, first=first, second=second, base=step.base, link=step.link)
@@ -207,7 +211,7 @@ class InMechanism(Telling):
             moved_words, missed = self._moved_and_missed(trial)
             rows = [_told_in(trial, row) for row in trial.trials]
             if len(trial.moved) > 1:
-                numbered = ([Neutral(f"${roman(i)}$ {row[k]}") for i, row in enumerate(rows, 1)] for k in (0, 1))
+                numbered = ([Neutral(sign(roman(i)), f" {row[k]}") for i, row in enumerate(rows, 1)] for k in (0, 1))
                 values, misses = map(listed, numbered)
                 parts.append(Phrase("written tried", moved=moved_words, values=values))
                 parts.append(Phrase("written missed", missed=missed, misses=misses))
@@ -223,9 +227,9 @@ class InMechanism(Telling):
             parts.insert(2, Phrase("written route", route=listed([*map(Neutral, route)])))
         yield in_turn(parts)
 
-    def _route(self) -> Iterator[str]:
+    def _route(self) -> Iterator[RichText]:
         """Each point with its construction: its link, the centres of its arcs, its guide."""
-        paths: dict[str, str] = {}
+        paths: dict[str, Words] = {}
         arced: set[str] = set()
         for step in self.sheet.steps[self.step.number :]:
             guides = [self._guide(pair) for pair in step.pairs]
@@ -238,21 +242,21 @@ class InMechanism(Telling):
                     ends = [self._points([name]) for name in step.points]
                     along = [paths.get(step.point, "")] if step.reason == "arc on path" else []
                     arced |= {step.point} if step.reason != "guide to point" else set()
-                    yield f"{self._points([step.point])} ({', '.join(filter(None, (*ends, *along, *guides)))})"
+                    yield self._points([step.point]) + " (" + spaced(", ", filter(None, (*ends, *along, *guides))) + ")"
                 case "points" | "whole link":
                     new = [name for name in step.points if name not in arced]
                     if new:
-                        yield f"{self._points(new)} ({step.link})"
+                        yield self._points(new) + f" ({step.link})"
                 case "guide" | "tangent":
-                    yield f"{guides[0]} ({self._points(step.points)})"
+                    yield guides[0] + " (" + self._points(step.points) + ")"
 
-    def _guide(self, pair: str) -> str:
+    def _guide(self, pair: str) -> Words:
         """The guide of a sliding pair by its name, or by its pair."""
         name = next((s.guide.name for s in self.sheet.structure.slides if s.key == pair), "")
-        return f"${in_markup(name)}$" if name else pair
+        return sign(name) if name else pair
 
-    def _points(self, names: Sequence[str]) -> str:
-        return ", ".join(f"${self.account.letters.point(name)}$" for name in names)
+    def _points(self, names: Sequence[str]) -> RichText:
+        return spaced(", ", map(self.account.letters.point, names))
 
     def _moved_and_missed(self, table: TrialPositions) -> tuple[Phrase, Phrase]:
         """All moved quantities of trial positions, and all gaps."""
@@ -261,7 +265,8 @@ class InMechanism(Telling):
     def _missed(self, missed: MeasuredGap) -> Phrase:
         """A measured gap: between the ends of a bar, from a guide, or of a list."""
         if missed.kind != "guide":
-            named = "".join(missed.names) if missed.kind == "bar" else ", ".join(missed.names)
+            ends = PointNames(missed.names, bar=True)
+            named: object = ends if missed.kind == "bar" else ", ".join(missed.names)
             return Phrase(f"missed {missed.kind}", names=named, length=on_paper(missed.length))
         *points, key = missed.names
         slide = self.sheet.structure.slide(key)
@@ -270,8 +275,8 @@ class InMechanism(Telling):
         from_guide = {p: (z - guide.through) * guide.direction.conjugate() for p, z in places.items()}
         size = max(map(abs, from_guide.values()), default=0.0)
         on = sorted((along.real, p) for p, along in from_guide.items() if abs(along.imag) <= IN_LINE * size)
-        name = on[0][1] + on[-1][1] if len(on) > 1 else guide.name
-        off_guide = {"point": ", ".join(points), "link": slide.b}
+        name = PointNames((on[0][1], on[-1][1]), bar=True) if len(on) > 1 else guide.name
+        off_guide = {"point": PointNames(tuple(points)), "link": slide.b}
         return Phrase("missed guide", **off_guide, guide=name) if name else Phrase("missed guide of link", **off_guide)
 
     def _moved(self, moved: Symbol) -> Phrase:
@@ -282,18 +287,18 @@ class InMechanism(Telling):
             return Phrase("trial travel", slide=moved.pair)
         if not moved.other:
             points = links[moved.link].points.items()
-            spans = ((p + q, w - z) for p, z in points for q, w in points if z != w)
+            spans = (((p, q), w - z) for p, z in points for q, w in points if z != w)
             # a bar along the axis of the link
             bars = [bar for bar, span in spans if abs(cmath.phase(span)) < IN_LINE]
             if bars:
-                return Phrase("trial angle of bar", link=moved.link, bar=bars[0])
+                return Phrase("trial angle of bar", link=moved.link, bar=PointNames(bars[0], bar=True))
             return Phrase("trial angle", link=moved.link)
         one, other = links[moved.other], links[moved.link]
         hinge = next((p for p in one.points if p in other.points), "")
         if len(one.bar) < 2 or len(other.bar) < 2 or not hinge:
             return Phrase("trial turn", link=moved.link, base=moved.other)
-        bar, base = ("".join(link.bar[:2]) for link in (other, one))
-        return Phrase("trial turn of bars", link=moved.link, bar=bar, base=base, hinge=hinge)
+        bar, base = (PointNames(link.bar[:2], bar=True) for link in (other, one))
+        return Phrase("trial turn of bars", link=moved.link, bar=bar, base=base, hinge=_named(hinge))
 
     sentences: ClassVar[Mapping[Reason, tuple[str, ...] | Callable[[InMechanism], Phrase | None]]] = {
         "frame": ("fixed on paper",), "angle": ("lay off angle from link", "lay off angle from x"),
@@ -312,18 +317,24 @@ def _along(p: tuple[str, complex], q: tuple[str, complex], name: str, at: comple
         return _on_line(p, q, name, at)
     turn = degrees((at - a) / (b - a))
     return Phrase(
-        "place turned", pivot=one, angle=number(abs(turn), 4), sense=sense_of(turn), base=one + q[0],
-        bar=one + name, length=on_paper(abs(at - a)), point=name,
+        "place turned", pivot=_named(one), angle=number(abs(turn), 4), sense=sense_of(turn),
+        base=PointNames((one, q[0]), bar=True), bar=PointNames((one, name), bar=True), length=on_paper(abs(at - a)),
+        point=_named(name),
     )  # fmt: skip
 
 
 def _on_line(p: tuple[str, complex], q: tuple[str, complex], name: str, at: complex) -> Phrase:
     (one, a), (two, b) = p, q
     along = dot(at - a, b - a) / abs(b - a) ** 2
-    gaps = {"bar": one + two, "point": name, "part": one + name, "length": on_paper(abs(at - a))}
+    bar, part = (PointNames(ends, bar=True) for ends in ((one, two), (one, name)))
+    gaps = {"bar": bar, "point": _named(name), "part": part, "length": on_paper(abs(at - a))}
     if 0.0 <= along <= 1.0:
         return Phrase("place within", **gaps)
-    return Phrase("place beyond", **gaps, end=one if along < 0.0 else two)
+    return Phrase("place beyond", **gaps, end=_named(one if along < 0.0 else two))
+
+
+def _named(point: str) -> PointNames:
+    return PointNames((point,))
 
 
 def _coordinates(z: complex) -> dict[str, str]:
@@ -342,10 +353,10 @@ def _divided_by_parts(table: TrialPositions, told: Phrase) -> Phrase:
     for i, row in enumerate(table.divided):
         values, misses = _told_in(table, row)
         if i:
-            replaced = roman(table.replaced[i - 1])
+            replaced = sign(roman(table.replaced[i - 1]))
             told = Phrase("trial parts again", division=told, trial=replaced, values=values, misses=misses)
         else:
-            steps = ", ".join(roman(k) for k in range(2, len(table.trials) + 1))
+            steps = spaced(", ", (sign(roman(k)) for k in range(2, len(table.trials) + 1)))
             parts = ", ".join(map(_two_digits, table.parts))
             told = Phrase("trial parts", division=told, parts=parts, trials=steps, values=values, misses=misses)
     return told

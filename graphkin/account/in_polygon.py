@@ -20,13 +20,14 @@ from graphkin.account.arithmetic import (
     scale_of,
     trials_of,
 )
-from graphkin.account.headings import number, term, written
+from graphkin.account.headings import number, term
 from graphkin.account.notation import unit_of
 from graphkin.account.voice import SAME, Telling
 from graphkin.construction.board.sheet import Rate
 from graphkin.construction.board.steps import (
     GIVEN,
     Bar,
+    PointNames,
     RateTrial,
     Ray,
     Reason,
@@ -39,8 +40,9 @@ from graphkin.construction.board.steps import (
 )
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Markup, Neutral, Phrase, in_turn, joined, languages, listed, sense_of
-from graphkin.words.written import MOST, amount, on_paper, pointing, quotient, roman, true_minus
+from graphkin.words import Neutral, Phrase, in_turn, joined, languages, listed, sense_of
+from graphkin.words.symbols import RichText, Words, rate, sign, spaced
+from graphkin.words.written import MOST, amount, on_paper, pointing, printed, quotient, roman, true_minus
 
 SEEN = 0.005  # mm on paper: less than that is not taken off
 ON_THE_POINT = 1e-9  # of a bar: so near to its end a point divides nothing
@@ -56,11 +58,15 @@ class InPolygon(Telling):
     def gap(self, name: str) -> object:
         """The value of a gap by its name; None without a value."""
         if set(name) <= set("abcABC"):
-            letters = [self._letter(one) for one in name]
-            return None if None in letters else Markup("".join(map(str, letters)))
+            return self._lettered(name)
         return self._ratios[name] if name in RATIOS else super().gap(name)
 
-    def _letter(self, name: str) -> str | None:
+    def _lettered(self, names: str) -> RichText | None:
+        """Several points side by side; None where one has no letter."""
+        letters = [letter for name in names if (letter := self._letter(name)) is not None]
+        return RichText(*letters) if len(letters) == len(names) else None
+
+    def _letter(self, name: str) -> RichText | None:
         refs = self.step.ref if name in "cC" else self.step.refs["abAB".index(name) % 2]
         account = self.account
         return account.end_of(self.step.diagram, refs) if name.islower() else account.letters.point(refs.point)
@@ -82,20 +88,21 @@ class InPolygon(Telling):
         return next(bars, next(rays, None))
 
     @property
-    def begin(self) -> Markup | None:
+    def begin(self) -> RichText | None:
         """The letter at its beginning."""
         return self.account.end_at(self.step.diagram, self.places and self.places[0])
 
     @property
-    def end(self) -> Markup | None:
+    def end(self) -> RichText | None:
         """The letter at its end."""
         return self.account.end_at(self.step.diagram, self.places and self.places[1])
 
     @property
-    def ends(self) -> Markup | None:
+    def ends(self) -> RichText | None:
         """A vector by the letters of its ends, ``pb``; None where the convention has no letters, and for a vector so
         small that both ends have one letter."""
-        return None if None in (self.begin, self.end) or self.begin == self.end else Markup(f"{self.begin}{self.end}")
+        begin, end = self.begin, self.end
+        return None if begin is None or end is None or begin == end else begin + end
 
     @property
     def start(self) -> Phrase | None:
@@ -210,7 +217,7 @@ class InPolygon(Telling):
         gaps = {"symbol": step.symbol, "vector": told, "rule": rule, "slip": slip, "sense": sense_of(turning)}
         return Phrase("written carried over coriolis", **gaps)
 
-    def _laid_sums(self) -> Iterable[str]:
+    def _laid_sums(self) -> Iterable[Words]:
         """The rule of a vector in numbers, and its length on paper."""
         step = self.step
         if step.reason == "before its turn" and (step.size is None or not step.mm):
@@ -218,7 +225,7 @@ class InPolygon(Telling):
         if self.places is None or not step.mm:
             return self.measured()
         computed, on_scale = laid_sum(self.sheet, step.diagram, step.size, abs(self.places[1] - self.places[0]))
-        return f"{self.account.symbol(step.symbol)} = {computed}", on_scale
+        return self.account.symbol(step.symbol) + f" = {computed}", on_scale
 
     # -- images --------------------------------------------------------------------------------------------------------
 
@@ -249,7 +256,7 @@ class InPolygon(Telling):
         unit = self.sheet.scales.length / self.sheet.scene.units.metres
         part, whole = (amount(abs(z - a) * unit, 4) for z in (c, b))
         sides = (number(abs(c - z) / abs(b - a), 4) for z in (a, b))
-        found = written(part), written(whole), written(quotient(part, whole, 4)), *sides
+        found = printed(part), printed(whole), printed(quotient(part, whole, 4)), *sides
         return dict(zip(RATIOS, found, strict=True))
 
     @property
@@ -267,24 +274,29 @@ class InPolygon(Telling):
             return self.first("division lettered {where}", "division {where}")
         return self.first("image with sides", "image lettered")
 
-    def _image_lines(self, language: str) -> Iterator[str | Phrase]:
+    def _image_lines(self, language: str) -> Iterator[Words | Phrase]:
         """``△bce ∼ △BCE``, or ``pm : pd = AM : AD`` for a point between others; where a convention has no end points
         the vector with the similar figure of the link, none for a vector that is not drawn."""
         step, on_line = self.step, self.step.reason == "division"
         if step.held:
             yield Phrase("written image seen", vector=step.symbol, link=step.link)
-        elif self._one_place and self.gap("a") is not None:
-            yield bound(f"${self.gap('a')}$ = ${self.gap('b')}$ = ${self.gap('c')}$")
-        elif self.gap("abc") is None:
+        elif self._one_place and self._lettered("abc"):
+            yield bound(self._side_by_side(" = ", "a", "b", "c"))
+        elif self._lettered("abc") is None:
             vector = Symbol("v" if step.diagram == "velocity" else "a", step.ref)
             if self.account.letters.convention == "us" and vector in self.sheet.vectors[step.diagram]:
-                similar = f"${self.gap('AC')}$ : ${self.gap('AB')}$" if on_line else f"△${self.gap('ABC')}$"
+                similar = self._side_by_side(" : ", "AC", "AB") if on_line else self._side_by_side("△", "", "ABC")
                 named = Phrase("written image named", vector=vector, link=step.link, points=Neutral(similar))
                 yield bound(self.account.say(named, languages(language)[0]))
         elif on_line:
-            yield bound(f"${self.gap('ac')}$ : ${self.gap('ab')}$ = ${self.gap('AC')}$ : ${self.gap('AB')}$")
+            image, bar = (self._side_by_side(" : ", *names) for names in (("ac", "ab"), ("AC", "AB")))
+            yield bound(image + " = " + bar)
         else:
-            yield bound(f"△${self.gap('abc')}$ ∽ △${self.gap('ABC')}$")
+            yield bound(self._side_by_side("△", "", "abc") + self._side_by_side(" ∽ △", "", "ABC"))
+
+    def _side_by_side(self, between: str, *names: str) -> RichText:
+        """Lettered points or bars with a sign between each two."""
+        return spaced(between, (self._lettered(some) or "" for some in names))
 
     @property
     def parts(self) -> list[tuple[Term, complex]]:
@@ -310,22 +322,23 @@ class InPolygon(Telling):
     def _by_rates(self) -> Phrase | None:
         return self.first("ends seen" if self.step.held else "ends in")
 
-    def _by_rates_sums(self) -> Iterator[str]:
+    def _by_rates_sums(self) -> Iterator[Words]:
         """The parts of a relative vector that follow from the rates of a link, each with its length and direction."""
         per, unit = scale_of(self.sheet, self.step.diagram), unit_of(self.sheet, self.step.diagram).written
         for said, (_, span) in zip(self._by_rates_lines(""), self.parts, strict=True):
             yield said
-            yield f"÷ {number(per)} ({unit})/mm = {written(on_paper(abs(span)))} mm,  {pointing(span)}°"
+            yield f"÷ {number(per)} ({unit})/mm = {printed(on_paper(abs(span)))} mm,  {pointing(span)}°"
         yield from self.measured()
 
-    def _by_rates_lines(self, language: str) -> Iterator[str]:
+    def _by_rates_lines(self, language: str) -> Iterator[RichText]:
         """``v_CB = ω_3 l_CB = 1.4737 × 151.21 = 222.84 mm/s,  ⊥CB``."""
         letters = self.account.letters
         for part, _ in self.parts:
             assert part.size is not None
             way = letters.direction(part.direction, self.sheet.scene.frame.name)
-            rule = f"${letters.size(part.size)}$ =\u00a0{bound(rule_sum(self.sheet, part.size, self.step.diagram))}"
-            yield f"{self.account.symbol(part.symbol)} =\u00a0{rule},  ${way}$"
+            value = bound(rule_sum(self.sheet, part.size, self.step.diagram))
+            rule = spaced(" =\u00a0", (self.account.symbol(part.symbol), letters.size(part.size), value))
+            yield rule + ",  " + way
 
     # -- rates ---------------------------------------------------------------------------------------------------------
 
@@ -335,34 +348,34 @@ class InPolygon(Telling):
         step, rates = self.step, self.sheet.rates[self.step.kind]
         return (step.link + step.held,) if step.held else (step.link, *alike(rates.values(), rates[step.link]))
 
-    def _rate_sums(self) -> Iterable[str]:
+    def _rate_sums(self) -> Iterable[Words]:
         step = self.step
         value = rate_sum(self.sheet, step) or f"{number(abs(step.value), MOST)} {RATE_UNITS[step.kind]}"
-        return (f"{rate_name(step.kind, self.turning_links[0])} = {value}",)
+        return (rate(step.kind, self.turning_links[0]) + f" = {value}",)
 
-    def _rate_lines(self, language: str) -> Iterator[str]:
+    def _rate_lines(self, language: str) -> Iterator[RichText]:
         """``ω_4 = ω_3 = v_A4 / l_AO4 = 0.74 rad/s, clockwise``: the quotient of a vector and a bar."""
         step, rates = self.step, self.sheet.rates[self.step.kind]
         value = step.value if step.held else rates[step.link].value
-        rule = f"{self.account.symbol(step.symbol)} / ${self.account.letters.length(step.points)}$"
+        rule = self.account.symbol(step.symbol) + " / " + self.account.letters.length(step.points)
         shown = bound(rate_sum(self.sheet, step, units=False)) or f"{number(abs(value), 5)} {RATE_UNITS[step.kind]}"
-        names = (rate_name(step.kind, name) for name in self.turning_links)
-        yield " =\u00a0".join((*names, rule, shown)) + _turning(value, language)
+        names = (rate(step.kind, name) for name in self.turning_links)
+        yield spaced(" =\u00a0", (*names, rule, shown)) + _turning(value, language)
 
-    def _held_still_lines(self, language: str) -> Iterator[str]:
+    def _held_still_lines(self, language: str) -> Iterator[RichText]:
         """``ω_32 = 0.1437 rad/s, clockwise, drawn apart, with one link held still``."""
         step = self.step
         if step.kind in RATE_UNITS:
             value = f"{number(abs(step.value), 5)} {RATE_UNITS[step.kind]}{_turning(step.value, language)}"
-            yield f"{rate_name(step.kind, step.link + step.held)} = {value},  {term('held still', language)}"
+            yield rate(step.kind, step.link + step.held) + f" = {value},  {term('held still', language)}"
 
-    def _plan_lines(self, language: str) -> Iterator[str]:
+    def _plan_lines(self, language: str) -> Iterator[RichText]:
         """``ω_3 = 30.00 mm × 0.25 (rad/s)/mm = 7.5 rad/s, clockwise``: read from the plan of a train."""
         step = self.step
-        value = f"{bound(plan_sum(step))}{_turning(step.value, language)}" if step.value else "0"
-        yield f"{rate_name(step.kind, step.link)} = {value}"
+        value = bound(plan_sum(step)) + _turning(step.value, language) if step.value else "0"
+        yield rate(step.kind, step.link) + " = " + value
 
-    def _summed_lines(self, language: str) -> Iterator[str]:
+    def _summed_lines(self, language: str) -> Iterator[RichText]:
         """``ω_2 = ω_3 + ω_23 = −0.04162 + 0.08323 = 0.04161 rad/s``: of a link with a known rate relative to a link of
         known rate."""
         yield bound(self.account.say(self.step.phrase, languages(language)[0]))
@@ -380,7 +393,7 @@ class InPolygon(Telling):
         own = (s for s in later if s.number >= first and any(getattr(x, "symbol", None) in assumed for x in s.strokes))
         last = max((s.number for s in own), default=first)
         rates = self._rates(trial.assumed)
-        told = Phrase("trial lettered", trial=roman(trial.number), rates=rates, first=first, last=last)
+        told = Phrase("trial lettered", trial=sign(roman(trial.number)), rates=rates, first=first, last=last)
         if trial.number > 1:
             return told
         if trial.far is None:
@@ -408,24 +421,24 @@ class InPolygon(Telling):
         """
         divided, symbol = self._divided, self.account.symbol
         trials = trials_of(self.sheet, self.step, divided)
-        numerals = [Markup(roman(trial.number)) for trial in trials]
+        numerals = [sign(roman(trial.number)) for trial in trials]
         closing = listed([
             Phrase("open pair", pair=name) if "/" in name else Phrase("open link", link=name)
             for name in divided.closing
         ])  # fmt: skip
         yield Phrase("written trials", trials=listed(numerals), left_out=closing, open=self._left_open())
         for trial, mark, row in zip(trials, numerals, divided.apart, strict=True):
-            rates = ", ".join(f"{symbol(s)} = {number(v, 5)} {self._unit(s)}" for s, v in trial.assumed)
-            gaps = ", ".join(written(on_paper(mm)) for mm in row)
+            rates = spaced(", ", (symbol(s) + f" = {number(v, 5)} {self._unit(s)}" for s, v in trial.assumed))
+            gaps = ", ".join(printed(on_paper(mm)) for mm in row)
             yield Phrase("written trial polygon", trial=mark, rates=Neutral(rates), open=gaps)
         quotients = divisions(self.sheet, self.step, divided)
-        said = Neutral("; ".join(
-            bound(f"{symbol(s)} = {one.terms} = {one.value} {self._unit(s)}")
+        said = Neutral(spaced("; ", (
+            bound(symbol(s) + f" = {one.terms} = {one.value} {self._unit(s)}")
             for (s, _), one in zip(divided.found, quotients, strict=True)
-        ))  # fmt: skip
+        )))  # fmt: skip
         if len(quotients) > 1:
             parts = ", ".join(one.part for one in quotients)
-            first, others = Markup(roman(1)), listed(numerals[1:])
+            first, others = sign(roman(1)), listed(numerals[1:])
             yield Phrase("written superposed several", parts=parts, first=first, others=others, rates=said)
         else:
             yield Phrase("written superposed", rates=said)
@@ -440,12 +453,14 @@ class InPolygon(Telling):
         told, divided = [], self._divided
         for way, refs, less in zip(divided.ways, divided.between, divided.less, strict=True):
             begin, end = (
-                self.account.end_of(self.step.diagram, ref) or Phrase("point on link", point=ref.point, link=ref.link)
+                self.account.end_of(self.step.diagram, ref)
+                or Phrase("point on link", point=PointNames((ref.point,)), link=ref.link)
                 for ref in refs
             )
             across, names = "square" if way.relation == "square" else "along", tuple(ref.point for ref in refs)
             if names[0] != names[1] or (way.names == names and not refs[0].link + refs[1].link):
-                said = Phrase(f"open {across} bar", begin=begin, end=end, first=names[0], second=names[1])
+                first, second = (PointNames((name,)) for name in names)
+                said = Phrase(f"open {across} bar", begin=begin, end=end, first=first, second=second)
             else:
                 said = Phrase(f"open {across} guide", begin=begin, end=end, guide="".join(way.names))
             for one, mm in less:
@@ -473,11 +488,11 @@ class InPolygon(Telling):
         "before its turn": ("{nought}", "carry lettered", "carry from"), "similar": _image, "division": _image,
         "rates": _by_rates, "polygon": _trial, "open ends": _superposed,
     }  # fmt: skip
-    arithmetic: ClassVar[Mapping[Reason, Callable[[InPolygon], Iterable[str]]]] = {
+    arithmetic: ClassVar[Mapping[Reason, Callable[[InPolygon], Iterable[Words]]]] = {
         **dict.fromkeys((*ROLES, "before its turn"), _laid_sums), "rates": _by_rates_sums, "rate": _rate_sums,
-        "plan": lambda told: [f"{rate_name(told.step.kind, told.step.link)} = {plan_sum(told.step)}"],
+        "plan": lambda told: [rate(told.step.kind, told.step.link) + f" = {plan_sum(told.step)}"],
     }
-    lines: ClassVar[Mapping[Reason, Callable[[InPolygon, str], Iterable[str | Phrase]]]] = {
+    lines: ClassVar[Mapping[Reason, Callable[[InPolygon, str], Iterable[Words | Phrase]]]] = {
         **dict.fromkeys(ROLES, lambda told, language: filter(None, [told._carried_over()])),
         "similar": _image_lines, "division": _image_lines,
         "rates": _by_rates_lines, "rate": _rate_lines, "sum of rates": _summed_lines,
@@ -485,15 +500,10 @@ class InPolygon(Telling):
     }  # fmt: skip
 
 
-def rate_name(kind: str, link: str) -> str:
-    """The letter of an angular rate with its link."""
-    return f"${'ω' if kind == 'omega' else 'α'}_{{{link}}}$"
-
-
-def alike(rates: Iterable[Rate], rate: Rate) -> list[str]:
+def alike(rates: Iterable[Rate], turning: Rate) -> list[str]:
     """Links that turn as a link does, without blocks of pins."""
     return [
-        other.link for other in rates if other.same_as == rate.link and other.value == rate.value
+        other.link for other in rates if other.same_as == turning.link and other.value == turning.value
         and "/" not in other.link
     ]  # fmt: skip
 

@@ -1,7 +1,7 @@
 """Vector loops in words and as data: the equation of each, its projections, its root, and the two matrix equations of
 its rates; those of a position as lines for a terminal, as LaTeX, and for programs (``graphkin solve --loops``).
 
-Lines stand in the notation of `graphkin.words.symbols`; `plain_words` and `as_latex` give them to terminals and papers.
+Lines are rich text; `plain` and `as_latex` give them to terminals and papers.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,8 +24,8 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.scene_tables import Convention
 from graphkin.structure.loops import Loop, LoopArrow, LoopBlock, Root, loops_in_numbers
 from graphkin.structure.model import Coordinate
-from graphkin.words import Phrase, say, word
-from graphkin.words.symbols import Atom, parsed, plain, plain_words, symbol
+from graphkin.words import Phrase, rich_text, say, word
+from graphkin.words.symbols import Atom, RichText, Words, plain, rate, sign, spaced, stretches
 
 if TYPE_CHECKING:
     from graphkin.solver import Motion
@@ -35,25 +36,26 @@ ROUNDED = 1e-11  # of the longest arrow: a sum of arrows that is less is nothing
 MORE = 9  # figures of what a root of 7 is worked out from
 
 
-def size_name(arrow: LoopArrow) -> str:
-    """The size of an arrow: ``l_{AB}``, or ``s_{34}`` of a travel."""
+def size_name(arrow: LoopArrow) -> RichText:
+    """The size of an arrow: ``l_AB``, or ``s_34`` of a travel."""
     if arrow.slide:
-        return f"s_{{{arrow.slide.replace('/', '')}}}"
-    return f"l_{{{''.join(arrow.names)}}}" if all(arrow.names) else f"l_{{{arrow.link}}}"
+        return sign("s", arrow.slide.replace("/", ""))
+    if not all(arrow.names):
+        return sign("l", arrow.link)
+    return sign("l", "".join(arrow.names), meaning=("length", " ".join(arrow.names)))
 
 
-def equation(loop: Loop, convention: Convention) -> str:
+def equation(loop: Loop, convention: Convention) -> RichText:
     """The vector equation: ``AB + BC + CD + DA = 0``."""
-    terms = " + ".join(f"${as_vector(convention, size_name(a))}$" for a in loop.arrows)
-    return f"{terms} = 0"
+    return spaced(" + ", (as_vector(convention, size_name(a)) for a in loop.arrows)) + " = 0"
 
 
-def projections(loop: Loop, block: LoopBlock, scene: Mechanism) -> tuple[str, str]:
+def projections(loop: Loop, block: LoopBlock, scene: Mechanism) -> tuple[RichText, RichText]:
     """The sums of the arrows' components along x and y, in numbers and unknowns (scene units)."""
     return _projection(loop, block, scene, "cos"), _projection(loop, block, scene, "sin")
 
 
-def _projection(loop: Loop, block: LoopBlock, scene: Mechanism, function: str) -> str:
+def _projection(loop: Loop, block: LoopBlock, scene: Mechanism, function: str) -> RichText:
     terms, known, metres = [], 0.0, scene.units.metres
     for arrow in loop.arrows:
         turns, slides = ("angle", loop.ties[arrow.link]) in block.unknowns, ("travel", arrow.slide) in block.unknowns
@@ -62,38 +64,39 @@ def _projection(loop: Loop, block: LoopBlock, scene: Mechanism, function: str) -
             known += part / metres
             continue
         size = "" if slides else f"{number(abs(arrow.coefficient) * arrow.travel / metres, 5)} "
-        name = f"${size_name(arrow)}$ " if slides else ""
+        name = size_name(arrow) if slides else RichText()
         if turns:
-            sign, angle = _angle(arrow)
-            terms.append((sign, f"{size}{name}{function} {angle}"))
+            before, angle = _angle(arrow)
+            terms.append((before, size + name + " " * slides + f"{function} " + angle))
         else:
             share = arrow.along.real if function == "cos" else arrow.along.imag
             if abs(share) > 1e-12:
                 scale = "" if abs(abs(share) - 1.0) < 1e-12 else f"{number(abs(share), 5)} "
-                terms.append(("−" if share < 0 else "+", f"{scale}{name.strip()}"))
+                terms.append(("−" if share < 0 else "+", scale + name))
     if abs(known) > ROUNDING * scene.size / metres or not terms:
-        terms.append(("−" if known < 0 else "+", number(abs(known), 6)))
-    text = " ".join(f"{sign} {term}" for sign, term in terms)
-    return ("" if text.startswith("+") else "−") + text[2:] + " = 0"
+        terms.append(("−" if known < 0 else "+", RichText(number(abs(known), 6))))
+    (first, term), *others = terms
+    lead = term if first == "+" else "−" + term
+    return RichText(lead, *(f" {before} " + term for before, term in others), " = 0")
 
 
-def _angle(arrow: LoopArrow) -> tuple[str, str]:
+def _angle(arrow: LoopArrow) -> tuple[str, RichText]:
     """The angle of an arrow by that of its link, and the sign of its size."""
-    offset, name = cmath.phase(arrow.coefficient), f"$θ_{{{arrow.link}}}$"
+    offset, name = cmath.phase(arrow.coefficient), sign("θ", arrow.link)
     if abs(math.remainder(offset, math.tau)) < STRAIGHT:
         return "+", name
     if abs(math.remainder(offset - math.pi, math.tau)) < STRAIGHT:
         return "−", name
     degrees = math.degrees(offset)
-    return "+", f"({name} {'−' if degrees < 0 else '+'} {number(abs(degrees), 6)}°)"
+    return "+", "(" + name + f" {'−' if degrees < 0 else '+'} {number(abs(degrees), 6)}°)"
 
 
-def root(solution: Root, scene: Mechanism, language: str) -> str:
+def root(solution: Root, scene: Mechanism, language: str) -> RichText:
     """The closed-form root with the sign of its assembly."""
     metres = scene.units.metres
-    sign = "+" if solution.sign >= 0 else "−"
+    assembly = "+" if solution.sign >= 0 else "−"
     kind, of = solution.unknown
-    name = f"$θ_{{{of}}}$" if kind == "angle" else f"$s_{{{of.replace('/', '')}}}$"
+    name = sign("θ", of) if kind == "angle" else sign("s", of.replace("/", ""))
 
     def shown(value: float, power: int) -> str:
         return number(value / metres**power if abs(value) > ROUNDING * scene.size**power else 0.0, MORE)
@@ -101,13 +104,13 @@ def root(solution: Root, scene: Mechanism, language: str) -> str:
     if solution.key == "loop root angle":
         a, b, c = (shown(x, 2) for x in solution.numbers)
         angle = number(math.degrees(solution.value), 7)
-        return say(Phrase(solution.key, unknown=name, A=a, B=b, C=c, sign=sign, value=angle), language)
+        return rich_text(Phrase(solution.key, unknown=name, A=a, B=b, C=c, sign=assembly, value=angle), language)
     value = number(solution.value / metres if abs(solution.value) > ROUNDING * scene.size else 0.0, 7)
     if solution.key == "loop root lines":
-        return say(Phrase(solution.key, unknown=name, value=value, unit=scene.units.length), language)
+        return rich_text(Phrase(solution.key, unknown=name, value=value, unit=scene.units.length), language)
     middle, rest = (shown(x, power) for power, x in enumerate(solution.numbers[:2], 1))
-    numbers = {"middle": middle, "sign": sign, "rest": rest, "value": value}
-    return say(Phrase(solution.key, unknown=name, **numbers, unit=scene.units.length), language)
+    numbers = {"middle": middle, "sign": assembly, "rest": rest, "value": value}
+    return rich_text(Phrase(solution.key, unknown=name, **numbers, unit=scene.units.length), language)
 
 
 def _plain_name(unknown: Coordinate) -> str:
@@ -120,9 +123,9 @@ class MatrixEquation:
 
     key: str
     rows: tuple[tuple[str, ...], ...]
-    unknowns: tuple[str, ...]
+    unknowns: tuple[RichText, ...]
     right: tuple[str, ...]
-    solution: tuple[str, ...]
+    solution: tuple[RichText, ...]
 
 
 def _in_units(block: LoopBlock, scene: Mechanism) -> LoopBlock:
@@ -140,15 +143,16 @@ def matrices(block: LoopBlock, scene: Mechanism) -> Iterator[MatrixEquation]:
     weights = [1.0 if kind == "travel" else scene.size / scene.units.rates.metres for kind, _ in block.unknowns]
     rows = tuple(tuple(number(x, 6) for x in row) for row in _clean(in_units.matrix.tolist()))
     for key, right, values, letters, after in (
-        ("loop velocities", in_units.velocity, in_units.rates, ("ω", "v"), ("rad/s", f"{length}/s")),
-        ("loop accelerations", in_units.acceleration, in_units.second_rates, ("α", "a"), ("rad/s²", f"{length}/s²")),
-    ):
+        ("loop velocities", in_units.velocity, in_units.rates, ("omega", "v"), ("rad/s", f"{length}/s")),
+        ("loop accelerations", in_units.acceleration, in_units.second_rates, ("alpha", "a"),
+         ("rad/s²", f"{length}/s²")),
+    ):  # fmt: skip
         travels = [kind == "travel" for kind, _ in block.unknowns]
         indices = (name.replace("/", "") for _, name in block.unknowns)
-        names = [f"{letters[t]}_{{{index}}}" for t, index in zip(travels, indices, strict=True)]
+        names = [(sign if t else rate)(letters[t], index) for t, index in zip(travels, indices, strict=True)]
         most = max(map(abs, (*right, *np.multiply(weights, values))), default=0.0)
         kept = [x if w * abs(x) > ROUNDING * most else 0.0 for w, x in zip(weights, values, strict=True)]
-        solution = [f"${n}$ = {number(x, 7)} {after[t]}" for n, t, x in zip(names, travels, kept, strict=True)]
+        solution = [n + f" = {number(x, 7)} {after[t]}" for n, t, x in zip(names, travels, kept, strict=True)]
         (column,) = _clean([right.tolist()])
         yield MatrixEquation(key, rows, tuple(names), tuple(number(x, 6) for x in column), tuple(solution))
 
@@ -163,16 +167,25 @@ def _clean(rows: Sequence[Sequence[float]]) -> list[list[float]]:
 
 _IN_LATEX = {"θ": r"\theta", "ω": r"\omega", "α": r"\alpha", "−": "-", "·": r"\cdot ", "°": r"^{\circ}",
              "cos": r"\cos", "sin": r"\sin"}  # fmt: skip
+_LOWERED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-", strict=True))
 _SIGNS = str.maketrans({sign: command for sign, command in _IN_LATEX.items() if len(sign) == 1})
 
 
-def as_latex(markup: str) -> str:
+def as_latex(line: Words) -> str:
     """A line as LaTeX, all of it in mathematics."""
     return "".join(
         _symbol_in_latex(part) if not isinstance(part, str)
-        else " ".join(_IN_LATEX.get(text, text.translate(_SIGNS)) for text in part.split(" "))
-        for part in parsed(markup)
+        else " ".join(_IN_LATEX.get(text) or _word_in_latex(text) for text in part.split(" "))
+        for part in stretches(line)
     )  # fmt: skip
+
+
+def _word_in_latex(text: str) -> str:
+    written = ""
+    for raised, signs in groupby(text, _LOWERED.__contains__):
+        part = "".join(signs)
+        written += f"^{{{''.join(_LOWERED[sign] for sign in part)}}}" if raised else part.translate(_SIGNS)
+    return written
 
 
 def _symbol_in_latex(atoms: Sequence[Atom]) -> str:
@@ -187,9 +200,9 @@ def _symbol_in_latex(atoms: Sequence[Atom]) -> str:
 
 def matrix_lines(matrix: MatrixEquation) -> list[str]:
     """A matrix equation in lines for a terminal."""
-    rows = [[*map(plain_words, row)] for row in matrix.rows]
+    rows = matrix.rows
     wide = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    names, right_side = [plain(symbol(name)) for name in matrix.unknowns], [*map(plain_words, matrix.right)]
+    names, right_side = [*map(plain, matrix.unknowns)], matrix.right
     high, right = (max(map(len, column)) for column in (names, right_side))
     lines = []
     for k, row in enumerate(rows):
@@ -202,7 +215,7 @@ def matrix_lines(matrix: MatrixEquation) -> list[str]:
 def matrix_latex(matrix: MatrixEquation) -> str:
     """A matrix equation as LaTeX."""
     rows = r" \\ ".join(" & ".join(map(as_latex, row)) for row in matrix.rows)
-    names = r" \\ ".join(_symbol_in_latex(symbol(name)) for name in matrix.unknowns)
+    names = r" \\ ".join(map(as_latex, matrix.unknowns))
     right = r" \\ ".join(map(as_latex, matrix.right))
     return " ".join(rf"\begin{{bmatrix}} {part} \end{{bmatrix}}" if part != "=" else "="
                     for part in (rows, names, "=", right))  # fmt: skip
@@ -266,9 +279,9 @@ class LoopText:
                 links, sum_ = ", ".join(loop.links), equation(loop, letters)
                 head = Phrase("loop heading", loop=loop.name, links=links, equation=sum_)
                 x, y = projections(loop, block, self.scene)
-                lines += [plain_words(say(head, self.language)), f"  x: {plain_words(x)}", f"  y: {plain_words(y)}"]
+                lines += [say(head, self.language), f"  x: {plain(x)}", f"  y: {plain(y)}"]
                 if loop.root is not None:
-                    lines.append(f"  {plain_words(root(loop.root, self.scene, self.language))}")
+                    lines.append(f"  {plain(root(loop.root, self.scene, self.language))}")
                 longest = max(abs(arrow.vector) for arrow in loop.arrows)
                 if abs(loop.gap) <= ROUNDED * longest:
                     lines.append(f"  {word('loop closes', self.language)}")
@@ -277,7 +290,7 @@ class LoopText:
                     lines.append(f"  {say(Phrase('loop gap', gap=gap, unit=self.scene.units.length), self.language)}")
             for matrix in matrices(block, self.scene):
                 lines += [f"  {word(matrix.key, self.language)}", *matrix_lines(matrix)]
-                lines.append("  " + ", ".join(map(plain_words, matrix.solution)))
+                lines.append("  " + ", ".join(map(plain, matrix.solution)))
             lines.append("")
         if self.rolling:
             lines.append(word("loops and rolling", self.language))

@@ -1,7 +1,7 @@
 """The notation of each school: poles, end points, component marks, directions, instant centres, scale statements,
 forces.
 
-All symbols are in the notation of `graphkin.words.symbols` (without dollar signs unless stated). Chinese: Sun Huan,
+Chinese: Sun Huan,
 Mechanical Principles; us: Norton, Design of Machinery; british: Hannah and Stephens, Mechanics of Machines; russian:
 Artobolevsky, Theory of Mechanisms and Machines.  Forces and moments: chinese F_R56, F_I6; us and british
 F_56, F_i6, W_6; russian R_56, Φ_6, G_6.
@@ -10,7 +10,7 @@ F_56, F_i6, W_6; russian R_56, Φ_6, G_6.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Literal
@@ -20,15 +20,16 @@ from graphkin.construction.board.steps import PARTS, DiagramName, Direction, Siz
 from graphkin.scene.scene_tables import Convention
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Unit
-from graphkin.words.written import true_minus
+from graphkin.words.symbols import RichText, Words, plain, rate, sign
+from graphkin.words.written import printed
 
 Rows = Literal["rows", "over", "table", "underlines"]
 
-_POLES: Mapping[str, tuple[str, str]] = {
-    "chinese": ("p", "p'"),
-    "us": ("O_{v}", "O_{a}"),
-    "british": ("o", "o'"),
-    "russian": ("p", "π"),
+_POLES: Mapping[str, tuple[RichText, RichText]] = {
+    "chinese": (sign("p"), sign("p'")),
+    "us": (sign("O", "v"), sign("O", "a")),
+    "british": (sign("o"), sign("o'")),
+    "russian": (sign("p"), sign("π")),
 }
 # superscripts of the parts of an acceleration: normal, tangential, Coriolis, sliding
 _PARTS: Mapping[str, tuple[str, str, str, str]] = {
@@ -38,12 +39,10 @@ _PARTS: Mapping[str, tuple[str, str, str, str]] = {
     "russian": ("n", "τ", "k", "r"),
 }
 _ROWS: Mapping[str, Rows] = {"chinese": "rows", "us": "over", "british": "table", "russian": "underlines"}
-PART_MARKS = {mark: kind for marks in _PARTS.values() for mark, kind in zip(marks, PARTS, strict=True)}
-"""The part of an acceleration by the mark that it bears in some convention."""
 _NAME = re.compile(r"([A-Za-z]+)(.*)")
 
 
-def pole(convention: Convention, diagram: DiagramName) -> str:
+def pole(convention: Convention, diagram: DiagramName) -> RichText:
     """The letter of the pole of a diagram."""
     return _POLES[convention][diagram == "acceleration"]
 
@@ -53,14 +52,15 @@ def rows_of(convention: Convention) -> Rows:
     return _ROWS[convention]
 
 
-def as_vector(convention: Convention, magnitude: str) -> str:
-    r"""A symbol as a vector, distinct from its magnitude: ``\mathbf{v}_{B3B2}``, russian ``\vec{v}_{B3B2}``.
+def as_vector(convention: Convention, magnitude: RichText) -> RichText:
+    """A symbol as a vector, distinct from its magnitude: its letter bold, russian with an arrow.
 
     Sun Huan, Norton, Hannah and Stephens print vectors bold or without a mark; Russian books and blackboards have a
     mark over the letter.
     """
-    mark = "vec" if convention == "russian" else "mathbf"
-    return rf"\{mark}{{{magnitude[0]}}}{magnitude[1:]}"
+    letter, *others = magnitude.atoms
+    arrow = convention == "russian"
+    return RichText(letter._replace(bold=not arrow, arrow=arrow), *others)
 
 
 @dataclass(frozen=True)
@@ -75,66 +75,74 @@ class Notation:
     blocks: Mapping[str, str] = field(default_factory=dict)
     holders: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
-    def point(self, name: str) -> str:
+    def point(self, name: str) -> RichText:
         """A point of the mechanism: capital letter, digits as an index."""
         letter, rest = _parted(name)
-        return f"{letter}_{{{rest}}}" if rest else letter
+        return sign(letter, rest) if letter else RichText(rest)
 
-    def ref(self, ref: PointRef) -> str:
+    def bar(self, names: Iterable[str]) -> RichText:
+        """A bar, or a figure of points, by the letters of its ends."""
+        return RichText(*map(self.point, names))
+
+    def ref(self, ref: PointRef) -> RichText:
         """A point of a link as an index: ``B3``."""
         link = ref.link or self.blocks.get(ref.point, "")
-        if not link:
-            return ref.point
-        return f"{ref.point}_{{{link}}}" if ref.point[-1].isdigit() else f"{ref.point}{link}"
+        return sign(ref.point, link) if ref.point[-1].isdigit() else sign(ref.point + link)
 
-    def arrow(self, symbol: Symbol) -> str:
-        r"""A vector as such, in an equation or at its arrow: ``\mathbf{v}_{B3B2}``."""
+    def coincident(self, ref: PointRef) -> RichText:
+        """A point, with the link as a further index where coincident points are distinguished: ``B_2``, ``O_4,2``."""
+        letter, rest = _parted(ref.point)
+        link = ref.link or self.blocks.get(ref.point, "")
+        return sign(letter, f"{rest},{link}" if rest and link else rest + link)
+
+    def arrow(self, symbol: Symbol) -> RichText:
+        """A vector as such, in an equation or at its arrow."""
         return as_vector(self.convention, self.vector(symbol))
 
-    def vector(self, symbol: Symbol) -> str:
-        """The magnitude of a vector, or a rate: ``v_{B3B2}``, ``a^{n}_{CB}``, ``ω_{3}``; seen from link 2 held still,
-        ``a^{n(2)}_{CB}``; the rate of a sliding pair ``v_{61}``, a component along an axis ``v_{Cx}``."""
+    def vector(self, symbol: Symbol) -> RichText:
+        """The magnitude of a vector, or a rate: ``v_B3B2``, ``a^n_CB``, ``ω_3``; seen from link 2 held still,
+        ``a^n(2)_CB``; the rate of a sliding pair ``v_61``, a component along an axis ``v_Cx``."""
         if symbol.at:
-            return f"{self.vector(symbol.here)}({symbol.at})"
+            return self.vector(symbol.here) + sign(f"({symbol.at})")
         if symbol.scope == "force":
             return force_letters(self.convention, symbol)
         kind, us = symbol.entry, self.convention == "us"
         if symbol.scope != "motion":
-            names = "".join(self.ref(ref) for ref in (symbol.of, symbol.to) if ref) + _pair(symbol)
-            above = f"^{{{kind.mark}}}" if kind.mark else ""
-            return f"{kind.letter or kind.name}{above}_{{{names + symbol.name.replace('-', '')}}}"
+            names = RichText(*(self.ref(ref) for ref in (symbol.of, symbol.to) if ref), _pair(symbol))
+            return sign(kind.letter or kind.name, names + symbol.name.replace("-", ""), kind.mark)
         if symbol.of is None:
-            return f"{kind.letter or (kind.name.upper() if us else kind.name)}_{{{_pair(symbol)}}}"
-        index = self.ref(symbol.of)
-        if symbol.to is not None:
-            index += ("/" if us else "") + self.ref(symbol.to)
-        index += symbol.axis
+            if kind.letter:
+                return rate(kind.name, _pair(symbol))
+            return sign(kind.name.upper() if us else kind.name, _pair(symbol))
+        of, to = self.ref(symbol.of) + symbol.axis, self.ref(symbol.to) if symbol.to else RichText()
         letter = symbol.kind[0].upper() if us else symbol.kind[0]
         marks = dict(zip(PARTS, _PARTS[self.convention], strict=True)).get(symbol.kind, "")
-        marks += f"({symbol.seen})" if symbol.seen else ""
-        return f"{letter}^{{{marks}}}_{{{index}}}" if marks else f"{letter}_{{{index}}}"
+        seen = f"({symbol.seen})" if symbol.seen else ""
+        meaning = symbol.kind, plain(of, ""), plain(to, ""), seen
+        return sign(letter, of + "/" + to if us and to else of + to, marks + seen, meaning)
 
-    def term(self, term: Term) -> str:
+    def term(self, term: Term) -> RichText:
         """A vector in an equation, of a force its part."""
         part = force_letters(self.convention, term.symbol, term.part) if term.part else self.vector(term.symbol)
-        return ("−" if term.turned else "") + as_vector(self.convention, part)
+        vector = as_vector(self.convention, part)
+        return sign("−") + vector if term.turned else vector
 
-    def end(self, diagram: DiagramName, ref: PointRef) -> str:
+    def end(self, diagram: DiagramName, ref: PointRef) -> RichText:
         """The end point of a vector from the pole: small letter, primed in the acceleration polygon; in the us
         convention the vector is named instead."""
         if self.convention == "us":
-            return ""
+            return RichText()
         letter, rest = _parted(ref.point)
         link = ref.link or self.blocks.get(ref.point, "")
-        if not rest and not link and letter.lower() == _POLES[self.convention][0]:
+        if not rest and not link and letter.lower() == str(_POLES[self.convention][0]):
             # the pole has this letter already; O of link 4 is not the point O4
             holders = self.holders[ref.point]
             link = next((name for name in holders if ref.point + name not in self.holders), holders[0])
         index = f"{rest},{link}" if rest and link else rest + link
-        prime = "'" if diagram == "acceleration" else ""
-        return letter.lower() + (f"_{{{index}}}" if index else "") + prime
+        name = sign(letter.lower(), index)
+        return name + sign("'") if diagram == "acceleration" else name
 
-    def foot(self, role: str, end: PointRef, number: int, link: str, alone: bool) -> str:
+    def foot(self, role: str, end: PointRef, number: int, link: Words, alone: bool) -> RichText:
         """The point between two components of one acceleration; "" where the convention names the vectors instead.
 
         ``number`` counts the feet on the path to an end point, ``link`` is the link of the component, ``alone`` marks
@@ -142,46 +150,44 @@ class Notation:
         """
         marks: dict[str, str] = dict(zip(PARTS.values(), _PARTS[self.convention], strict=True))
         if self.convention == "us" or role not in marks:
-            return ""
+            return RichText()
         if self.convention == "british":
             letter, rest = _parted(end.point)
             index = ",".join(filter(None, (rest, end.link or self.blocks.get(end.point, ""), str(number))))
-            return f"{letter.lower()}_{{{index}}}'"
+            return sign(letter.lower(), index) + sign("'")
         indexed = link and (not alone or (self.convention == "chinese" and role == "normal"))
-        return marks[role] + (f"_{{{link}}}" if indexed else "") + "'"
+        return sign(marks[role], link if indexed else "") + sign("'")
 
-    def direction(self, direction: Direction | None, frame: str) -> str:
+    def direction(self, direction: Direction | None, frame: str) -> RichText:
         """A direction in an equation row or at its line: ``⊥BC``, ``∥CB``, ``B→A``; "" if none is written."""
         if direction is None or not direction.names:
-            return ""
-        names = "".join(self.point(n) if len(direction.names) > 1 else self.guide(n, frame) for n in direction.names)
+            return RichText()
         if direction.relation == "towards":
-            return "→".join(self.point(n) for n in direction.names)
-        return ("∥" if direction.relation == "along" else "⊥") + names
+            first, second = map(self.point, direction.names)
+            return RichText(first, sign("→"), second)
+        only, *others = direction.names
+        names = self.bar(direction.names) if others else self.guide(only, frame)
+        return sign("∥" if direction.relation == "along" else "⊥") + names
 
-    def centre(self, pair: Sequence[str]) -> str:
+    def centre(self, pair: Sequence[str]) -> RichText:
         """The instant centre of two links in the order of counting: P in the chinese and russian convention, else I."""
         a, b = sorted(pair, key=in_counting_order)
         comma = "," if max(len(a), len(b)) > 1 else ""
-        return f"{'P' if self.convention in ('chinese', 'russian') else 'I'}_{{{a}{comma}{b}}}"
+        return sign("P" if self.convention in ("chinese", "russian") else "I", a + comma + b)
 
-    def guide(self, name: str, frame: str) -> str:
-        """A guide by its name; the frame's own axis is x."""
-        if name == f"x{frame}":
-            return "x"
-        if "-" in name:  # n-n, t-t of what touches
-            return name
-        letter, rest = _parted(name)
-        return f"{letter}_{{{rest}}}" if letter and rest else name
+    def guide(self, name: str, frame: str) -> RichText:
+        """A guide by its name; the frame's own axis is x, and n-n, t-t are those of what touches."""
+        letter, rest = _parted("x" if name == f"x{frame}" else name)
+        return sign(letter, rest) if letter and "-" not in name else sign(name)
 
-    def size(self, rule: Size) -> str:
-        """The rule that gives a size: ``ω_{1}^{2} l_{AB}``."""
+    def size(self, rule: Size) -> RichText:
+        """The rule that gives a size: ``ω_1^2 l_AB``."""
         factor = self.vector(rule.factor) if isinstance(rule.factor, Symbol) else self.length(rule.factor)
-        return rule.written(factor).replace("²", "^{2}").replace("·", " ").replace("/ρ", " / ρ")
+        return RichText(*rule.written(factor, " ", " / ").atoms)
 
-    def length(self, names: Sequence[str]) -> str:
-        """The length of a bar: ``l_{AB}``."""
-        return f"l_{{{''.join(names)}}}"
+    def length(self, names: Sequence[str]) -> RichText:
+        """The length of a bar: ``l_AB``."""
+        return sign("l", "".join(names), meaning=("length", " ".join(names)))
 
 
 def in_counting_order(link: str) -> tuple[bool, int, str]:
@@ -191,6 +197,7 @@ def in_counting_order(link: str) -> tuple[bool, int, str]:
 
 @lru_cache(maxsize=64)
 def _parted(name: str) -> tuple[str, str]:
+    """The letters of a name, and the rest of it; of another name "" and all."""
     match = _NAME.fullmatch(name)
     return (match[1], match[2]) if match else ("", name)
 
@@ -208,8 +215,8 @@ def notation_of(sheet: Sheet, convention: Convention) -> Notation:
     return Notation(convention, {point: min(links) for point, links in blocks.items() if len(links) == 1}, holders)
 
 
-def scale_statement(sheet: Sheet, convention: Convention, diagram: DiagramName) -> str:
-    """The scale of a figure, as words with symbols between dollar signs.
+def scale_statement(sheet: Sheet, convention: Convention, diagram: DiagramName) -> Words:
+    """The scale of a figure.
 
     >>> from graphkin.scene import mechanism_of
     >>> from graphkin.construction import draft
@@ -219,13 +226,13 @@ def scale_statement(sheet: Sheet, convention: Convention, diagram: DiagramName) 
     unit = unit_of(sheet, diagram)
     per = sheet.scales.of(diagram) / unit.si
     if convention == "us":
-        return f"1 mm = {_number(per)} {unit.written}"
+        return f"1 mm = {printed(f'{per:.10g}')} {unit.written}"
     if convention == "british":
-        return f"1 cm = {_number(10 * per)} {unit.written}"
+        return f"1 cm = {printed(f'{10 * per:.10g}')} {unit.written}"
     index = {"mechanism": "l", "velocity": "v", "acceleration": "a", "force": "F"}[diagram]
     over, _, under = unit.written.partition("/")
     shown = f"{over}/({under}·mm)" if under and convention == "russian" else per_mm(unit.written)
-    return f"$μ_{{{index}}}$ = {_number(per)} {shown}"
+    return sign("μ", index) + f" = {printed(f'{per:.10g}')} {shown}"
 
 
 def per_mm(unit: str) -> str:
@@ -238,26 +245,18 @@ def unit_of(sheet: Sheet, diagram: DiagramName) -> Unit:
     return sheet.scene.units.of("length" if diagram == "mechanism" else diagram)
 
 
-def _number(value: float) -> str:
-    text = f"{value:.10g}"
-    if "e" in text:
-        head, power = text.split("e")
-        return f"{head}·$10^{{{true_minus(str(int(power)))}}}$"
-    return text
-
-
 _INERTIA = {"chinese": ("F", "I"), "us": ("F", "i"), "british": ("F", "i"), "russian": ("Φ", "")}
 
 
-def force_letters(convention: Convention, symbol: Symbol, part: str = "") -> str:
-    r"""A force, moment, shift or arm as a symbol without dollar signs: ``F_{R56}``, ``F^{t}_{R45}``, ``M_{2}``.
+def force_letters(convention: Convention, symbol: Symbol, part: str = "") -> RichText:
+    """A force, moment, shift or arm as a symbol.
 
     >>> force_letters("chinese", Symbol.parse("F_4/5"), "t"), force_letters("russian", Symbol.parse("F_4/5+"))
-    ('F^{t}_{R45}', 'R^{+}_{45}')
+    ($F^{t}_{R45}$, $R^{+}_{45}$)
     """
     letter, index = _named(convention, symbol)
     above = ("τ" if part == "t" and convention == "russian" else part) + ("+" if symbol.plus else "")
-    return letter + (f"^{{{above}}}" if above else "") + (f"_{{{index}}}" if index else "")
+    return sign(letter, index, above)
 
 
 def _pair(symbol: Symbol) -> str:

@@ -1,20 +1,18 @@
-"""Symbols in words, for screen readers and titles: vectors by their meaning, and the symbols in the markup of a text
-(``v_{B3B2}`` is "velocity of B3 relative to B2")."""
+"""Symbols in words, for screen readers and titles: quantities by their meaning (``v_B3B2`` is "velocity of B3 relative
+to B2"), other symbols letter by letter."""
 
 from __future__ import annotations
 
-import re
+import string
 from collections.abc import Sequence
 
-from graphkin.account.notation import PART_MARKS
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, area, languages, say, word
-from graphkin.words.symbols import Atom, parsed
+from graphkin.words.symbols import Atom, Words, stretches
 
-_POINT = re.compile(r"[A-Z][a-z]*\d*")
-_RATES = {"ω": "omega", "α": "alpha", "ε": "alpha"}
-_POWERS = {"": "", "2": "²", "3": "³"}
-_PLAIN = re.compile(r"[A-Za-z0-9 .,()−+=:]*")
+_RATES = ("omega", "alpha")
+_POWERS = {"2": "²", "3": "³"}
+_PLAIN = frozenset(string.ascii_letters + string.digits + " .,()−+=:")
 
 
 def spoken_ref(ref: PointRef, language: str) -> str:
@@ -39,46 +37,39 @@ def _vector(kind: str, point: Phrase | str, reference: Phrase | str) -> Phrase:
     return Phrase(f"{kind} of", point=whose)
 
 
-def spoken_words(markup: str, language: str) -> str:
-    """Words with symbols between dollar signs, all in words.
+def spoken_words(text: Words, language: str) -> str:
+    """A text with its symbols in words.
 
-    >>> spoken_words("so $v_{B3B2}$ is found", "en")
-    'so velocity of B3 relative to B2 is found'
+    >>> from graphkin.words.symbols import rate
+    >>> spoken_words("so " + rate("omega", "3") + " is found", "en")
+    'so angular velocity of link 3 is found'
     """
-    parts = (part if isinstance(part, str) else spoken_symbol(part, language) or _flat(part) for part in parsed(markup))
-    return "".join(parts)
+    return "".join(
+        part if isinstance(part, str) else spoken_symbol(part, language) or _flat(part) for part in stretches(text)
+    )
 
 
 def spoken_symbol(atoms: Sequence[Atom], language: str) -> str:
     """A symbol in words; "" where a screen reader reads it rightly."""
-    if all(not a.sub and not a.sup and _PLAIN.fullmatch(a.text) for a in atoms):
+    if all(not a.sub and not a.sup and _PLAIN.issuperset(a.text) for a in atoms):
         return ""
     return " ".join(" ".join(_spoken(atom, language) for atom in atoms).split())
 
 
 def _spoken(atom: Atom, language: str) -> str:
-    sub, sup = _flat(atom.sub), _flat(atom.sup)
-    named = _quantity(atom.text, sub, sup)
-    if named is not None:
-        said, above = say(named[0], language), named[1]
+    above = _flat(atom.sup)
+    if not atom.meaning:
+        said = f"{_signs(atom.text, language)} {_signs(_flat(atom.sub), language)}"
     else:
-        said, above = f"{_signs(atom.text, language)} {_signs(sub, language)}", _POWERS.get(sup, sup)
-    return f"{said} {_signs(above, language)}"
-
-
-def _quantity(letter: str, index: str, above: str) -> tuple[Phrase, str] | None:
-    """A velocity, an acceleration, a rate or a length by its index, and by further marks above it; None for another
-    symbol."""
-    points = index.split("/") if "/" in index else _POINT.findall(index)
-    if letter in "vVaA" and index[:1].isupper():
-        part = PART_MARKS.get(above[:1], "") if letter in "aA" else ""
-        others = " ".join(points[1:])
-        return _vector(part or letter.lower(), points[0], others), above[1:] if part else _POWERS.get(above, above)
-    if letter in _RATES and index and above in _POWERS:
-        return Phrase(f"{_RATES[letter]} of", link=index), _POWERS[above]
-    if letter == "l" and index[:1].isupper():
-        return Phrase("length of", points=" ".join(points)), _POWERS.get(above, above)
-    return None
+        kind, of, *others = atom.meaning
+        to, above = others if others else ("", above)
+        if kind in _RATES:
+            said = say(Phrase(f"{kind} of", link=of), language)
+        elif kind == "length":
+            said = say(Phrase("length of", points=of), language)
+        else:
+            said = say(_vector(kind, of, to), language)
+    return f"{said} {_signs(_POWERS.get(above, above), language)}"
 
 
 def _flat(atoms: Sequence[Atom]) -> str:

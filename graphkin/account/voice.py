@@ -1,13 +1,11 @@
 """The account of a sheet in a school of notation: the telling of its steps, and the points of its polygons with their
 letters.
 
-Sentences hold symbols between dollar signs, in the notation of `graphkin.words.symbols`; sums are the same in every
-language.
+Sums are the same in every language.
 """
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -23,20 +21,19 @@ from graphkin.construction.board.steps import (
     DiagramName,
     Direction,
     Mark,
+    PointNames,
     Reason,
     Size,
     Step,
     Vector,
 )
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Markup, Neutral, Phrase, as_markup, filled, languages, rich_text, word
-from graphkin.words.written import in_markup
+from graphkin.words import Phrase, filled, languages, rich_text, word
+from graphkin.words.symbols import RichText, Words, spaced
 
 SAME = 0.02  # mm: nearer end points fall together on paper
 ZERO = 0.02  # mm: a shorter vector is drawn as a dot
 KNOWN = {"an": "normal", "ak": "coriolis"}  # components whose size and direction are known
-_POINT = r"[A-Z][a-z]*\d*"
-_POINT_NAMES = re.compile(f"(?:{_POINT})+")
 
 
 @dataclass(frozen=True)
@@ -49,7 +46,7 @@ class NamedPoint:
     """
 
     at: complex
-    letter: str = ""
+    letter: RichText = RichText()  # noqa: RUF009  a value
     ref: PointRef | None = None
     symbol: Symbol | None = None
     role: str = ""
@@ -111,7 +108,7 @@ class PolygonPoints:
                 between.append(foot)
         special = self.sheet.special_points
         per_role = Counter(foot.role for foot in between)
-        per_end: Counter[str] = Counter()
+        per_end: Counter[RichText] = Counter()
         feet: list[NamedPoint] = []
         written = {self.letters.end(self.diagram, ref) for refs in self.places.values() for ref in refs}
         for foot in between:
@@ -126,7 +123,7 @@ class PolygonPoints:
             letter = self.letters.foot(foot.role, of, per_end[end], link, per_role[foot.role] == 1)
             if letter in written:
                 per_end[end] += 1
-                index = self.letters.ref(of) + (self.letters.ref(to) if to else "")
+                index = RichText(*map(self.letters.ref, (of, to) if to else (of,)))
                 letter = self.letters.foot(foot.role, of, per_end[end], index, alone=False)
             written.add(letter)
             feet.append(replace(foot, letter=letter))
@@ -191,55 +188,44 @@ class Account:
     sheet: Sheet
     letters: Notation
 
-    def sentence(self, phrase: Phrase, language: str) -> str:
+    def sentence(self, phrase: Phrase, language: str) -> Words:
         """A phrase as a sentence with its full stop."""
         return whole_sentence(self.say(phrase, language), language)
 
-    def say(self, phrase: Phrase, language: str) -> str:
-        """A phrase with its symbols between dollar signs; symbols side by side are one."""
-        return as_markup(rich_text(phrase, language, lambda thing: self._show(thing, language)))
+    def say(self, phrase: Phrase, language: str) -> RichText:
+        """A phrase with its symbols."""
+        return rich_text(phrase, language, lambda thing: self._show(thing, language))
 
-    def _show(self, thing: object, language: str) -> str:
-        if isinstance(thing, Neutral | Markup):
+    def _show(self, thing: object, language: str) -> Words:
+        if isinstance(thing, str | RichText):
             return thing
         if isinstance(thing, Symbol):
-            return Markup(self.letters.vector(thing))
+            return self.letters.vector(thing)
         if isinstance(thing, PointRef):
-            return Markup(self.point(thing))
+            return self.letters.coincident(thing)
+        if isinstance(thing, PointNames):
+            return self.letters.bar(thing.names) if thing.bar else spaced(", ", map(self.letters.point, thing.names))
         if isinstance(thing, Direction):
-            return Markup(self.letters.direction(thing, self.sheet.scene.frame.name))
+            return self.letters.direction(thing, self.sheet.scene.frame.name)
         if isinstance(thing, Size):
-            return word("given", language).lower() if thing == GIVEN else Markup(self.letters.size(thing))
-        names = str(thing).split(", ")  # of points or bars: ``O4A, B``
-        if not all(map(_POINT_NAMES.fullmatch, names)):
-            return in_markup(str(thing))
-        lettered = ["".join(map(self.letters.point, re.findall(_POINT, bar))) for bar in names]
-        return Markup(lettered[0]) if len(lettered) == 1 else ", ".join(f"${bar}$" for bar in lettered)
+            return word("given", language).lower() if thing == GIVEN else self.letters.size(thing)
+        return str(thing)
 
-    def point(self, ref: PointRef) -> str:
-        """A point, with the link as a further index where coincident points are distinguished."""
-        link = ref.link or self.letters.blocks.get(ref.point, "")
-        base = self.letters.point(ref.point)
-        if not link:
-            return base
-        return f"{base[:-1]},{link}}}" if base.endswith("}") else f"{base}_{{{link}}}"
+    def symbol(self, symbol: Symbol) -> RichText:
+        """A vector or a rate."""
+        return self.letters.vector(symbol)
 
-    def symbol(self, symbol: Symbol) -> str:
-        """A vector or a rate, between dollar signs."""
-        return f"${self.letters.vector(symbol)}$"
-
-    def end_at(self, diagram: DiagramName, at: complex | None) -> Markup | None:
+    def end_at(self, diagram: DiagramName, at: complex | None) -> RichText | None:
         """The letter of a place of a polygon (mm from the pole); None where the convention names vectors instead."""
         named = self._named.get(diagram, ())
-        letter = next((p.letter for p in named if at is not None and abs(p.at - at) <= SAME), "")
-        return Markup(letter) if letter else None
+        return next((p.letter for p in named if at is not None and abs(p.at - at) <= SAME and p.letter), None)
 
-    def end_of(self, diagram: DiagramName, ref: PointRef) -> Markup | None:
+    def end_of(self, diagram: DiagramName, ref: PointRef) -> RichText | None:
         """The letter of an end point; for a point at rest the pole."""
         if ref.point in self.sheet.scene.frame.points and ref.link in ("", self.sheet.scene.frame.name):
-            return Markup(pole(self.letters.convention, diagram))
+            return pole(self.letters.convention, diagram)
         point = self.end_point(diagram, ref)
-        return None if point is None else Markup(point.letter)
+        return None if point is None else point.letter
 
     def end_point(self, diagram: DiagramName, ref: PointRef) -> NamedPoint | None:
         """An end point with its place and its letter."""
@@ -261,8 +247,8 @@ class Telling:
     account: Account
     step: Step
     sentences: ClassVar[Mapping[Reason, Any]] = {}
-    arithmetic: ClassVar[Mapping[Reason, Callable[[Any], Iterable[str]]]] = {}
-    lines: ClassVar[Mapping[Reason, Callable[[Any, str], Iterable[str | Phrase]]]] = {}
+    arithmetic: ClassVar[Mapping[Reason, Callable[[Any], Iterable[Words]]]] = {}
+    lines: ClassVar[Mapping[Reason, Callable[[Any, str], Iterable[Words | Phrase]]]] = {}
 
     @property
     def sheet(self) -> Sheet:
@@ -286,37 +272,40 @@ class Telling:
         return (keys(self) if callable(keys) else self.first(*keys)) or self.step.phrase
 
     @property
-    def work(self) -> tuple[str, ...]:
+    def work(self) -> tuple[Words, ...]:
         """Its sums, as lines of symbols and numbers."""
         return tuple(self.arithmetic.get(self.step.reason, type(self).measured)(self))
 
-    def measured(self) -> Iterable[str]:
+    def measured(self) -> Iterable[Words]:
         """Each measured vector of the step."""
         for vector in self.step.vectors:
             size = abs(vector.span)
             value = times_scale(self.sheet, self.step.diagram, size) if size else "0"
-            yield f"{self.account.symbol(vector.symbol)} = {value}"
+            yield self.account.symbol(vector.symbol) + f" = {value}"
 
-    def sentence(self, language: str) -> str:
+    def sentence(self, language: str) -> Words:
         """Its sentence in a language, with the letters of its first and last point."""
         return self.account.sentence(self.said, language)
 
-    def written(self, language: str) -> Iterator[str]:
-        """The lines to repeat it, of words and symbols."""
+    def written(self, language: str) -> Iterator[Words]:
+        """The lines to repeat it."""
         for line in self.lines[self.step.reason](self, language) if self.step.reason in self.lines else ():
             yield self.account.say(line, languages(language)[0]) if isinstance(line, Phrase) else line
 
 
-def whole_sentence(text: str, language: str) -> str:
+def whole_sentence(text: Words, language: str) -> RichText:
     """Words as a sentence, with its capital and its full stop."""
     stop = word("full stop", language)
-    return capital(text).rstrip(stop) + stop
+    return RichText(capital(text)).cut(stop)[0] + stop
 
 
-def capital(text: str) -> str:
+def capital(text: Words) -> Words:
     """Words with a capital; a symbol stays as it is.
 
     >>> capital("the rise"), capital("φ = 140°")
     ('The rise', 'φ = 140°')
     """
-    return text[:1].upper() + text[1:] if text[:1].isascii() else text
+    if isinstance(text, str):
+        return text[:1].upper() + text[1:] if text[:1].isascii() else text
+    first, *others = text.parts or ("",)
+    return RichText(capital(first), *others) if isinstance(first, str) else text

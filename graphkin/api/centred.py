@@ -27,7 +27,7 @@ from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import PointRef
 from graphkin.solver import solved_here
 from graphkin.structure import Structure
-from graphkin.words import Phrase, as_plain, languages, rich_text, say, word
+from graphkin.words import Phrase, languages, rich_text, say, word
 
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
@@ -59,7 +59,7 @@ def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str,
         how = say(how_found(centres, centre, name), language, name)
         rows.append((str(centre.number or ""), name(centre.pair), place, how))
     why = [say(c.why, language, str) for c in centres.indeterminate if c.why]
-    velocities = [as_plain(rich_text(said, language, name)) for said in velocity_sentences(centres)]
+    velocities = [rich_text(said, language, name).plain("") for said in velocity_sentences(centres)]
     wrong = [name(p) for p, distance in centred.compared.items() if distance is not None and distance[0] > distance[1]]
     wrong += [str(v.symbol) for v in centred.velocities if v.ok is False]
     near = [v.too_near(language) for v in centred.velocities if v.ok is None]

@@ -15,8 +15,7 @@ from graphkin.construction.board.sheet import Equation
 from graphkin.construction.board.steps import Term, plain_in
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import Mechanism
-from graphkin.words import Phrase, about, as_plain, links_named, rich_text, say, word
-from graphkin.words.symbols import plain_words
+from graphkin.words import Phrase, about, links_named, say, word
 from graphkin.words.written import MOST, amount
 
 if TYPE_CHECKING:
@@ -26,8 +25,8 @@ if TYPE_CHECKING:
 
 
 def plain_said(phrase: Phrase, language: str) -> str:
-    """A sentence in plain text, symbols without marks of markup: ω_32 = v_B/A / AB."""
-    return as_plain(rich_text(phrase, language, plain_in(language)), "_")
+    """A sentence in plain text: ω_32 = v_B/A / AB."""
+    return say(phrase, language, plain_in(language))
 
 
 def report_text(checked: Checked, language: str) -> str:
@@ -88,7 +87,7 @@ def _forces(checked: Checked, language: str) -> list[str]:
     account = ForceAccount(sheet, notation_of(sheet, sheet.scene.question.sheet.convention))
     per = f"1 mm = {checked.scales['force']:g} {sheet.scene.units.force}"
     lines = [word("forces", language), per]
-    lines += map(account.inertia, sheet.inertias.values())
+    lines += map(str, map(account.inertia, sheet.inertias.values()))
     for number, state in enumerate(sheet.forces):
         if len(sheet.forces) > 1:
             lines.append(word("force with load" if number else "force without load", language))
@@ -96,7 +95,7 @@ def _forces(checked: Checked, language: str) -> list[str]:
             lines.append(say(account.caption(group, count), language))
             steps = (s for s in account.of_group(state, group) if s.kind in ("moments", "system", "couples"))
             lines += [f"    {say(told, language)}" for step in steps for told in (step.why, *step.work)]
-    return [*map(plain_words, lines), ""]
+    return [*lines, ""]
 
 
 def lever_lines(checked: Checked, language: str) -> list[str]:

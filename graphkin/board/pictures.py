@@ -35,7 +35,6 @@ from graphkin.solver import Motion, driver_range, solved_here
 from graphkin.solver.path.driver_range import DriverRange
 from graphkin.structure import Structure, mobility_of
 from graphkin.words import Phrase, languages, say
-from graphkin.words.written import in_markup
 
 NEAR_END = 1e-6  # of the range: so far from its end the drawing is whole
 FAST = 1e3  # times a driver's own speed over the size: so fast is what stands beside a dead point
@@ -269,7 +268,7 @@ def _figures(drawn: Drawn) -> dict[str, str]:
             made = drawn_figure(drawn, name)
         except GraphkinError as error:
             spoken = _spoken(drawn.language, drawn.mechanism)
-            figures[name] = f"<p>{words_html(in_markup(_said(error, spoken)), spoken)}</p>"
+            figures[name] = f"<p>{words_html(_said(error, spoken), spoken)}</p>"
             continue
         if made is not None:
             figures[name] = svg_element(made, named=True)

@@ -197,7 +197,7 @@ def line_of(problem: Problem, text: str) -> int:
 def _keys_of(where: Wording) -> Iterable[str]:
     """The keys of the text at which the subject of a problem may stand."""
     if not isinstance(where, Phrase):
-        return (where,)
+        return (str(where),)
     names = {gap: _first(name) for gap, name in where.gaps.items()}
     return (key.format_map(names) for key in _PLACES.get(where.key, ()))
 

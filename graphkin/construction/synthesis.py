@@ -27,7 +27,8 @@ from graphkin.scene.designs import (
     LimitsTask,
     SliderCrankTask,
 )
-from graphkin.words import Markup, Phrase
+from graphkin.words import Phrase
+from graphkin.words.symbols import RichText, sign, spaced
 
 DECIMALS = range(2, 9)
 """Of lengths (mm) from which others are reckoned, until that is true as it is written."""
@@ -175,8 +176,8 @@ class DesignSheet:
     def told(self, *strokes: DesignStroke, **bars: tuple[complex, complex]) -> None:
         """A step in which bars are measured."""
         self.measure(**bars)
-        written = (f"{name if name == 'ram' else f'${name}$'} = {_mm(self.lengths[name])} mm" for name in bars)
-        self.do("design measured", *strokes, lengths=",  ".join(written))
+        written = ((name if name == "ram" else sign(name)) + f" = {_mm(self.lengths[name])} mm" for name in bars)
+        self.do("design measured", *strokes, lengths=spaced(",  ", written))
 
 
 # -- the tasks ---------------------------------------------------------------------------------------------------------
@@ -314,7 +315,7 @@ def _crank_from_limits(paper: DesignSheet, A: complex, far: complex, near: compl
     theta = math.degrees(math.atan2(abs(cross(*ends)), dot(*ends)))
     shown = [angle(A, *ends, theta, "θ")] if theta > SEEN else []
     paper.do("design halve", *shown, *fan("limit", A, far, near), circle(A, reach, on_far),
-             longer=Markup(f"AC_{{{i}}}"), shorter=Markup(f"AC_{{{j}}}"))  # fmt: skip
+             longer=sign("AC", str(i)), shorter=sign("AC", str(j)))  # fmt: skip
     out, back = paper.hand.point(A + crank * unit(far - A)), paper.hand.point(A - crank * unit(near - A))
     paper.do("design crank circle", circle(A, crank), *points(**{f"B{i}": out, f"B{j}": back}),
              line("limit", A, back), line("mechanism", A, out, far))  # fmt: skip
@@ -368,7 +369,7 @@ def _(task: BarPositionsTask, paper: DesignSheet) -> None:
     paper.do("design places", *lines, *points(**ends))
     (B, C), *_ = bars
     if task.A is None or task.D is None:
-        A, D = (_circle_centre(paper, name, [f"{of}_{{{i}}}" for i in (1, 2, 3)], on, pivots)
+        A, D = (_circle_centre(paper, name, [sign(of, i) for i in "123"], on, pivots)
                 for name, of, on in zip("AD", "BC", zip(*bars, strict=True), strict=True))  # fmt: skip
         _chain(paper, "CD", A=A, B=B, C=C, D=D)
         return
@@ -381,13 +382,13 @@ def _(task: BarPositionsTask, paper: DesignSheet) -> None:
         strokes: list[DesignStroke] = []
         for i, z in enumerate(turned[1:], 2):
             strokes += [*points(**{f"{name}{i}": z}), line("construction", B, z), line("construction", C, z)]
-        paper.do("design inverted", *strokes, pivot=Markup(name))
-        centres.append(_circle_centre(paper, new, [name, f"{name}_{{2}}", f"{name}_{{3}}"], turned, points))
+        paper.do("design inverted", *strokes, pivot=sign(name))
+        centres.append(_circle_centre(paper, new, [sign(name, i) for i in ("", "2", "3")], turned, points))
     _chain(paper, "DN", A=A, M=centres[0], N=centres[1], D=D)
 
 
 def _circle_centre(
-    paper: DesignSheet, name: str, of: Sequence[str], on: Sequence[complex],
+    paper: DesignSheet, name: str, of: Sequence[RichText], on: Sequence[complex],
     marked: Callable[..., list[DesignStroke]],
 ) -> complex:  # fmt: skip
     """The centre of the circle through three points named ``of``: the crossing of the perpendicular bisectors of two
@@ -400,8 +401,7 @@ def _circle_centre(
     at = paper.meet(name, p, d, q, e)
     paper.do("design bisectors", line("construction", on[i], on[j]), line("construction", on[k], on[m]),
              line("direction", p, at), line("direction", q, at), circle(at, abs(on[0] - at), *on),
-             *marked(**{name: at}), centre=Markup(name), first=Markup(of[i] + of[j]),
-             second=Markup(of[k] + of[m]))  # fmt: skip
+             *marked(**{name: at}), centre=sign(name), first=of[i] + of[j], second=of[k] + of[m])  # fmt: skip
     return at
 
 

@@ -1,7 +1,7 @@
 """Boxes of a page: content about its left upper corner that knows its size; set below each other, beside each other,
 and at last as a page with its heading and its foot.
 
-Every length is in mm, y down.  Text is markup, with symbols between dollar signs.
+Every length is in mm, y down.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from graphkin.drawing.text import SMALLEST, fitted, plain, rich, runs_width, wra
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up
 from graphkin.scene.scene_tables import Convention
-from graphkin.words import Phrase, Wording, as_markup, as_plain, in_all, languages, rich_text, word
-from graphkin.words.written import in_markup
+from graphkin.words import Phrase, Wording, in_all, languages, rich_text, word
+from graphkin.words.symbols import RichText, Words
 
 MARGIN = 8.0  # of a page
 INSIDE = 174.0  # width of a page between its margins, where a figure has none of its own
@@ -60,7 +60,7 @@ BARE = Block(Piece(), 0.0)
 
 
 def prose(
-    lines: Iterable[str], width: float, size: float = SIZE, *, bold: bool = False, line: float = 0.0,
+    lines: Iterable[Words], width: float, size: float = SIZE, *, bold: bool = False, line: float = 0.0,
     classes: tuple[str, ...] = (), step: int | None = None,
 ) -> Block:  # fmt: skip
     """Text in paragraphs of one line or more, ``line`` mm from line to line."""
@@ -71,7 +71,7 @@ def prose(
     return Block(Piece({"labels": texts} if texts else {}), height * len(rows), width)
 
 
-def line(text: str, width: float, size: float = SIZE) -> Block:
+def line(text: Words, width: float, size: float = SIZE) -> Block:
     """One line of text, smaller where it is wider than its width."""
     height = LEADING * size
     return Block(Piece({"labels": (Text(complex(0.0, BASE * height), fitted(text, size, width)),)}), height, width)
@@ -85,7 +85,7 @@ def numeral(number: int, width: float, size: float = SIZE, *, bold: bool = False
     return Block(Piece({"labels": (Text(at, runs, "end", classes=classes, step=step),)}), line, width)
 
 
-def numbered(number: int, text: str, width: float, size: float = SIZE, *, step: int | None = None) -> Block:
+def numbered(number: int, text: Words, width: float, size: float = SIZE, *, step: int | None = None) -> Block:
     """A paragraph after its number."""
     told = prose((text,), width - INDENT, size, classes=TOLD, step=step)
     return row(numeral(number, INDENT, size, bold=True, step=step, classes=TOLD), told)
@@ -150,7 +150,7 @@ def framed(block: Block) -> Block:
 
 
 def table(
-    heads: Sequence[Sequence[str]], rows: Sequence[Sequence[str]], widths: Sequence[float], *, size: float = SIZE,
+    heads: Sequence[Sequence[Words]], rows: Sequence[Sequence[Words]], widths: Sequence[float], *, size: float = SIZE,
     line: float = 0.0, layer: str = "labels",
 ) -> Block:  # fmt: skip
     """A table: lines of heads (one a language) over a rule, rows of cells, a thin rule below; the first column begins
@@ -178,7 +178,7 @@ def table(
     return Block(Piece({layer: tuple(drawn)}), low, edges[-1])
 
 
-def _wide_enough(rows: Sequence[Sequence[str]], widths: Sequence[float], size: float) -> Sequence[float]:
+def _wide_enough(rows: Sequence[Sequence[Words]], widths: Sequence[float], size: float) -> Sequence[float]:
     """Widths of columns (mm) in which no cell is wider in the smallest letters, as far as others can do with less."""
     least = [CELL_GAP] * len(widths)
     for cells in rows:
@@ -196,7 +196,7 @@ def _wide_enough(rows: Sequence[Sequence[str]], widths: Sequence[float], size: f
     return [width - taken * more + given * less for width, more, less in zip(widths, spare, short, strict=True)]
 
 
-def _fitting(text: str, size: float, width: float) -> float:
+def _fitting(text: Words, size: float, width: float) -> float:
     """The size, down to 2 mm, at which a head fits a width."""
     wide = runs_width(rich(text, size))
     return size if wide <= width else max(2.0, size * width / wide)
@@ -206,13 +206,13 @@ def _cell(runs: tuple[Run, ...], edges: Sequence[float], k: int, y: float) -> Te
     return Text(complex(edges[k], y), runs) if k == 0 else Text(complex(edges[k + 1] - 0.6, y), runs, "end")
 
 
-def heading(names: Iterable[str], below: str, width: float) -> Block:
+def heading(names: Iterable[str], below: Words, width: float) -> Block:
     """Titles, and below them lines on the content or the given data."""
     parts = [prose((text,), width, TITLE, bold=True, line=HEAD_LINE, classes=("heading",)) for text in names]
     return column(*parts, prose((below,) if below else (), width, GIVEN, line=HEAD_LINE, classes=("heading",)))
 
 
-def foot(scale: str, width: float, language: str, note: str = "") -> Block:
+def foot(scale: Words, width: float, language: str, note: Words = "") -> Block:
     """The scale, a bar that checks a print, and a small note below them."""
     base = 8.0j
     bar = check_bar(base + width - BAR, fitted(term("check bar", language, length="50 mm"), 2.5, BAR))
@@ -222,7 +222,7 @@ def foot(scale: str, width: float, language: str, note: str = "") -> Block:
 
 
 def page(
-    head: Block, body: Block, low: Block, *, title: str, said: str, language: str, metadata: Mapping[str, object],
+    head: Block, body: Block, low: Block, *, title: str, said: Words, language: str, metadata: Mapping[str, object],
     margin: float = MARGIN, height: float = 0.0,
 ) -> Drawing:  # fmt: skip
     """Heading, body and foot on a page of their own width and height, or of the height of its paper, the foot at its
@@ -230,7 +230,7 @@ def page(
 
     Parameters
     ----------
-    said : the figure in words, symbols between dollar signs, read aloud to those who do not see it
+    said : the figure in words, read aloud to those who do not see it
     language : "en", "zh" or "both"
     """
     top = margin + head.height + (GAP if head.height else 0.0)
@@ -249,8 +249,8 @@ def without_titles(children: tuple[Primitive, ...]) -> tuple[Primitive, ...]:
 
 
 def worked_page(
-    names: Iterable[str], given: str, drawn: Sequence[Block], steps: Sequence[Phrase], results: Block,
-    notes: Iterable[Wording], scale: str, *, title: str, said: str, language: str, metadata: Mapping[str, object],
+    names: Iterable[str], given: Words, drawn: Sequence[Block], steps: Sequence[Phrase], results: Block,
+    notes: Iterable[Wording], scale: Words, *, title: str, said: Words, language: str, metadata: Mapping[str, object],
 ) -> Drawing:  # fmt: skip
     """The page of a worked task, of the width `WORKED` inside: the given data, its drawings, its numbered steps in each
     language, the results, notes, and the foot.
@@ -260,12 +260,14 @@ def worked_page(
     names : of the task, in each language in which it has one
     title, said : of the figure as a key of the table of words, and the figure in words
     """
-    own, every = dict.fromkeys(map(in_markup, names)), languages(language)
+    own, every = dict.fromkeys(names), languages(language)
     told = [
-        column(*(numbered(number, as_markup(rich_text(step, each)), WORKED, STEP, step=number)
+        column(*(numbered(number, rich_text(step, each), WORKED, STEP, step=number)
                  for number, step in enumerate(steps, 1))) for each in every
     ]  # fmt: skip
-    lines = [line.replace(" -", " −") for note in notes for line in in_all(note, language)]
+    lines = [
+        line.with_words(lambda words: words.replace(" -", " −")) for note in notes for line in in_all(note, language)
+    ]
     return page(
         heading(own, given, WORKED), column(*drawn, *told, results, prose(lines, WORKED, STEP, classes=TOLD), gap=3.0),
         foot(scale, WORKED, language), said=said, language=language, metadata=metadata, margin=12.0,
@@ -276,11 +278,11 @@ def worked_page(
 def spoken(phrases: Iterable[Phrase], language: str) -> str:
     """Sentences in the first language of a figure, for readers who do not see it."""
     first = languages(language)[0]
-    sentences = (whole_sentence(as_plain(rich_text(phrase, first)), first) for phrase in phrases)
+    sentences = (whole_sentence(rich_text(phrase, first), first).plain("") for phrase in phrases)
     return word("between sentences", first).join(sentences)
 
 
-def picture(body: Block, title: str, language: str, metadata: Mapping[str, object], scale: str = "") -> Drawing:
+def picture(body: Block, title: str, language: str, metadata: Mapping[str, object], scale: Words = "") -> Drawing:
     """A block by itself, with its scale below it if it has one, for a paper with the other words."""
     told = word(title, languages(language)[0])
     low = foot(scale, WORKED, language) if scale else BARE
@@ -320,11 +322,11 @@ class FigurePage:
     def term(self, key: str) -> str:
         return term(key, self.language)
 
-    def at_drivers(self, name: str) -> str:
+    def at_drivers(self, name: str) -> RichText:
         """The name of a figure, and the values of the drivers: the line below its title."""
-        return f"{name}{punctuation('colon', self.language)}{drivers(self.sheet, self.letters)}"
+        return name + punctuation("colon", self.language) + drivers(self.sheet, self.letters)
 
-    def said(self, key: str, /, **gaps: object) -> tuple[str, ...]:
+    def said(self, key: str, /, **gaps: object) -> tuple[RichText, ...]:
         """A phrase in each language of the page, a single line if its formulas can stand once."""
         return in_all(Phrase(key, **gaps), self.language)
 
@@ -335,7 +337,7 @@ class FigurePage:
     def panel(self, height: float, draw: Callable[[Box], Piece]) -> Block:
         return panel(self.width, height, draw)
 
-    def scale(self, diagram: DiagramName, per_mm: float | None = None) -> str:
+    def scale(self, diagram: DiagramName, per_mm: float | None = None) -> Words:
         """The scale of a diagram in the form of the convention; ``per_mm`` (SI) in place of the sheet's own."""
         sheet = self.sheet
         if per_mm is not None:
@@ -343,13 +345,13 @@ class FigurePage:
             sheet = replace(sheet, scales=replace(sheet.scales, **{name: per_mm}))
         return scale_statement(sheet, self.convention, diagram)
 
-    def height_for(self, below: str, height: float) -> float:
+    def height_for(self, below: Words, height: float) -> float:
         """The height of the body on a paper of a height."""
         head = heading(titles(self.sheet, self.language), below, self.width)
         return height - MARGIN - head.height - 2 * GAP - foot("", self.width, self.language).height - BELOW
 
     def drawing(
-        self, below: str, body: Block, scale: str | None, *, title: str, said: str, note: str = "",
+        self, below: Words, body: Block, scale: Words | None, *, title: str, said: Words, note: Words = "",
         metadata: Mapping[str, object] | None = None, height: float = 0.0,
     ) -> Drawing:  # fmt: skip
         """The page with the titles of the scene.

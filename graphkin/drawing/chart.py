@@ -33,6 +33,7 @@ from graphkin.drawing.write.drawing import Kept
 from graphkin.drawing.write.pdf import CHINESE, MM_PER_INCH, SvgPage
 from graphkin.errors import CallError
 from graphkin.words import Phrase
+from graphkin.words.symbols import Words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes as Axes  # also for those who paint charts
@@ -188,9 +189,9 @@ def _used(svg: str) -> dict[Style, set[str]]:
     return used
 
 
-def add_panel(figure: Figure, box: Box, id: str, title: str = "", x_title: str = "") -> Axes:
+def add_panel(figure: Figure, box: Box, id: str, title: Words = "", x_title: Words = "") -> Axes:
     """Axes whose frame is a box of the page (mm): the title of the vertical axis stands over it, that of the horizontal
-    axis below its right end (markup of ``text.rich``)."""
+    axis below its right end."""
     width, height = _size(figure)
     shares = box.left / width, 1 - box.bottom / height, box.width / width, box.height / height
     axes = figure.add_axes(shares, gid=id)
@@ -293,14 +294,14 @@ def count_powers(axes: Axes, which: Literal["x", "y"], low: float, high: float, 
 
 
 def add_labels(
-    axes: Axes, labels: Sequence[tuple[str, ArrayLike]], sizes: Sequence[float] = (NUMBER,),
+    axes: Axes, labels: Sequence[tuple[Words, ArrayLike]], sizes: Sequence[float] = (NUMBER,),
     toward: Sequence[tuple[float, ...]] = (),
 ) -> None:  # fmt: skip
     """Words at points or stretches of the curves, in the panel and clear of its strokes and of each other.
 
     Parameters
     ----------
-    labels : markup of each, with a point (x, y) or the two ends of a stretch, shape (2, 2), in values of the axes
+    labels : the words of each, with a point (x, y) or the two ends of a stretch, shape (2, 2), in values of the axes
     sizes : of letters (mm); the largest with which all stand clear is taken
     toward : directions (rad) from each point in order of preference
     """

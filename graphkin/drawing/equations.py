@@ -17,8 +17,9 @@ from graphkin.drawing.boxes import Block
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Line, Primitive, Run, Text
 from graphkin.drawing.place.piece import Piece
-from graphkin.drawing.text import rich, run_box, runs_width, symbol, wrapped
+from graphkin.drawing.text import rich, run_box, runs_width, wrapped
 from graphkin.plane import added_up
+from graphkin.words.symbols import RichText, spaced
 from graphkin.words.written import MOST
 
 # mm, of the letters, and columns; the first that fits is taken: sums break in narrow columns
@@ -119,9 +120,9 @@ def _in_columns(blocks: Iterable[Block], wide: float, height: float, columns: in
     return placed
 
 
-def _sentence(markup: str, size: float, width: float) -> Block:
-    """Words with symbols, broken into lines."""
-    lines = wrapped(markup, size, width)
+def _sentence(text: RichText, size: float, width: float) -> Block:
+    """Words and symbols, broken into lines."""
+    lines = wrapped(text, size, width)
     texts = tuple(Text(complex(0, size * (1 + 1.5 * k)), runs) for k, runs in enumerate(lines))
     return Block(Piece({"labels": texts}), (0.4 + 1.5 * len(lines)) * size, max(map(runs_width, lines), default=0.0))
 
@@ -145,28 +146,28 @@ def write_sum(sheet: Sheet, terms: Sequence[Term], letters: Notation, language: 
     """Vectors whose sum is zero, with their rows of sizes and directions, at most ``width`` mm wide."""
     size = WAYS[0][0]
     cells = _cells(sheet, [terms], letters, size)
-    cells += [_Cell(symbol("=", size), is_term=False), _Cell(rich("0", size), is_term=True)]
+    cells += [_Cell(rich("=", size), is_term=False), _Cell(rich("0", size), is_term=True)]
     return _written_cells(cells, letters, language, width, size)
 
 
-def _short(sheet: Sheet, equation: Equation, letters: Notation) -> str | None:
+def _short(sheet: Sheet, equation: Equation, letters: Notation) -> RichText | None:
     """An equation that is only a rule, on one line: ``v_B = ω_1 l_AB = 1220 mm/s, ⊥AB``."""
     if not rule_alone(sheet, equation):
         return None
     only = equation.sides[-1][0]
     vector = sheet.vectors[equation.diagram][only.symbol]
-    parts = [f"${letters.vector(side[0].symbol)}$" for side in equation.sides]
+    parts = [letters.vector(side[0].symbol) for side in equation.sides]
     if only.size and only.size != GIVEN:
-        parts.append(f"${letters.size(only.size)}$")
+        parts.append(letters.size(only.size))
     found = bound(rule_sum(sheet, only.size, equation.diagram))  # the product of what is written
     if not found:
         laid_off = (s.mm for s in sheet.steps if s.verb == "lay off" and s.symbol == only.symbol)
         # what is given is not what a hand has made of it
         value = next(laid_off, abs(vector.span)) * scale_of(sheet, equation.diagram)
-        found = f"{number(value, MOST)}\u00a0{unit_of(sheet, equation.diagram).written}"
+        found = bound(f"{number(value, MOST)} {unit_of(sheet, equation.diagram).written}")
     parts.append(found)
     way = letters.direction(only.direction, sheet.scene.frame.name)
-    return " =\u00a0".join(parts) + (f",  ${way}$" if way else "")
+    return spaced(" =\u00a0", parts) + (",  " + way if way else "")
 
 
 def _cells(sheet: Sheet, sides: Sequence[Sequence[Term]], letters: Notation, size: float) -> list[_Cell]:
@@ -174,7 +175,7 @@ def _cells(sheet: Sheet, sides: Sequence[Sequence[Term]], letters: Notation, siz
     cells: list[_Cell] = []
     for k, one in (numbered for side in sides for numbered in enumerate(side)):
         if cells:
-            cells.append(_Cell(symbol("+" if k else "=", size), is_term=False))
+            cells.append(_Cell(rich("+" if k else "=", size), is_term=False))
         cells.append(_cell(sheet, one, letters, size))
     return cells
 
@@ -187,17 +188,17 @@ def _cell(sheet: Sheet, one: Term, letters: Notation, size: float) -> _Cell:
     """A term with its rows; if marks show what is known, the rows only give size and direction."""
     rows = rows_of(letters.convention)
     small = _row_size(size)
-    whole = symbol(letters.term(one), size)
+    whole = rich(letters.term(one), size)
     rule = letters.size(one.size) if one.size and one.size != GIVEN else ""
     way = letters.direction(one.direction, sheet.scene.frame.name)
-    told = symbol(rule, small) if rule else (), symbol(way, small) if way else ()
+    told = rich(rule, small) if rule else (), rich(way, small) if way else ()
     if rows == "over":
         marks = ("√" if one.size_known else "?") + ("√" if one.direction_known else "?")
-        return _Cell(whole, *told, over=symbol(marks, small))
+        return _Cell(whole, *told, over=rich(marks, small))
     if rows == "underlines":
         return _Cell(whole, *told, underlines=one.direction_known + one.size_known)
-    sized = told[0] or symbol("√" if one.size_known else "?", small)
-    return _Cell(whole, sized, told[1] or symbol("√" if one.direction_known else "?", small))
+    sized = told[0] or rich("√" if one.size_known else "?", small)
+    return _Cell(whole, sized, told[1] or rich("√" if one.direction_known else "?", small))
 
 
 def _heads(letters: Notation, language: str, size: float) -> tuple[tuple[Run, ...], ...]:

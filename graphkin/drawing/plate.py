@@ -13,7 +13,8 @@ from graphkin.drawing.ink.symbols import RESULTANT, ArrowKind, arrow
 from graphkin.drawing.place.labels import Label, Mark
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, cut_to, middle_of, moved_piece
-from graphkin.drawing.text import symbol
+from graphkin.drawing.text import rich
+from graphkin.words.symbols import RichText, Words
 
 
 @dataclass
@@ -46,7 +47,7 @@ class Plate:
 
     def name(
         self, runs: tuple[Run, ...], mark: Mark, id: str = "", *, colour: str = strokes.BLACK, rank: int = 0,
-        toward: tuple[float, ...] = (), step: int | None = None, between: str = "",
+        toward: tuple[float, ...] = (), step: int | None = None, between: Words = "",
     ) -> None:  # fmt: skip
         """A name of a point, or of the line between two; as `Label.of`."""
         text = Text(0j, runs, "start", colour, id, ("label",), step)
@@ -54,13 +55,13 @@ class Plate:
         self.labels.append(Label(text, here, toward, rank, between=between))
 
     def arrow(
-        self, layer: str, id: str, tail: complex, tip: complex, markup: str, size: float = 3.0, *,
+        self, layer: str, id: str, tail: complex, tip: complex, symbol: RichText, size: float = 3.0, *,
         kind: ArrowKind = RESULTANT, colour: str = strokes.BLACK, classes: tuple[str, ...] = (),
-        step: int | None = None, rank: int = 0, between: str = "",
+        step: int | None = None, rank: int = 0, between: Words = "",
     ) -> None:  # fmt: skip
         """A vector with its symbol."""
         self.put(layer, *arrow(on_page(tail), on_page(tip), kind, colour), id=id, classes=classes, step=step)
-        name = symbol(markup, size)
+        name = rich(symbol, size)
         self.name(name, (tail, tip), f"label-{id}", colour=colour, rank=rank, step=step, between=between)
 
 

@@ -15,7 +15,7 @@ from graphkin.account.given import (
     given_teeth,
     rolling_starts,
 )
-from graphkin.account.headings import remarks, term, written
+from graphkin.account.headings import remarks, term
 from graphkin.account.notation import Notation
 from graphkin.account.voice import Account
 from graphkin.checking.readings import read_off
@@ -26,6 +26,8 @@ from graphkin.drawing.boxes import Block, row, table
 from graphkin.drawing.ink.primitives import Primitive, Run, Text
 from graphkin.drawing.text import rich, runs_width, wrapped
 from graphkin.words import languages, word
+from graphkin.words.symbols import RichText, Words, rate
+from graphkin.words.written import printed
 
 ROW, LEAST_ROW, GUTTER = 4.2, 3.75, 4.0  # mm
 _LETTERS = {"v": 0, "omega": 1, "a": 2, "alpha": 4}
@@ -110,18 +112,18 @@ def _column(
                  [width * share for share in shares], size=2.4, line=line, layer="answers")  # fmt: skip
 
 
-def _texts(sheet: Sheet, row: TableRow, letters: Notation, language: str) -> list[str]:
+def _texts(sheet: Sheet, row: TableRow, letters: Notation, language: str) -> list[Words]:
     reading, compared = row.reading, row.compared
     unit, units = reading.symbol.unit(sheet.scene.units).written, sheet.scene.units
     name = letters.vector(reading.symbol)
     if row.more:
-        name = f"{name[0]}_{{{','.join((reading.symbol.link, *row.more))}}}"
-    texts = [f"${name}$, {unit}" if unit else f"${name}$", written(paper(reading, compared)),
-             written(measured(reading, units, compared))]  # fmt: skip
+        name = rate(reading.symbol.kind, ",".join((reading.symbol.link, *row.more)))
+    texts: list[Words] = [name + f", {unit}" if unit else name, printed(paper(reading, compared)),
+             printed(measured(reading, units, compared))]  # fmt: skip
     if compared is not None:
         agrees = compared.uncertainty is None and compared.ok
-        texts += [written(exact(compared, units)),
-                  term("agrees", language) if agrees else written(deviation(compared, units))]  # fmt: skip
+        texts += [printed(exact(compared, units)),
+                  term("agrees", language) if agrees else printed(deviation(compared, units))]  # fmt: skip
     return texts
 
 
@@ -131,11 +133,11 @@ def given_lines(sheet: Sheet, letters: Notation, language: str, width: float, si
     unit = scene.units.length
     items = given_drivers(sheet, letters) + rolling_starts(sheet)
     items += given_teeth(scene, language)
-    items += [f"${name}$ = {value} {unit}" for name, value in given_lengths(scene, letters)]
+    items += [name + f" = {value} {unit}" for name, value in given_lengths(scene, letters)]
     items += given_shapes(scene, letters, language)
-    fixed = [f"${name}$ {place} {unit}" for name, place in fixed_points(scene, letters)]
+    fixed = [name + f" {place} {unit}" for name, place in fixed_points(scene, letters)]
     guide = term("guide", language)
-    fixed += [f"{guide} ${name}$ {place} {unit}, {angle}°" for name, place, angle in fixed_guides(scene, letters)]
+    fixed += [guide + " " + name + f" {place} {unit}, {angle}°" for name, place, angle in fixed_guides(scene, letters)]
     lines = [line for group in (items, fixed) for line in _flowed(group, size, width)]
     for each in languages(language):
         notes = (Account(sheet, letters).sentence(note, each) for note in remarks(sheet))
@@ -162,11 +164,11 @@ def set_lines(lines: Sequence[tuple[Run, ...]], corner: complex) -> tuple[Primit
     return tuple(Text(corner + complex(0, size + i * 1.55 * size), runs) for i, runs in enumerate(lines))
 
 
-def _flowed(items: Sequence[str], size: float, width: float) -> list[tuple[Run, ...]]:
+def _flowed(items: Sequence[RichText], size: float, width: float) -> list[tuple[Run, ...]]:
     """Items in lines, each unbroken; an item longer than a line is broken."""
-    lines: list[str] = []
+    lines: list[RichText] = []
     for item in items:
-        joined = f"{lines[-1]};  {item}" if lines else item
+        joined = lines[-1] + ";  " + item if lines else item
         if lines and runs_width(rich(joined, size)) <= width:
             lines[-1] = joined
         else:

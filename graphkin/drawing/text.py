@@ -1,11 +1,9 @@
-r"""Texts as runs: plain words, and symbols with sub- and superscripts at places of their own; fitted to a width;
+"""Texts as runs: plain words, and symbols with sub- and superscripts at places of their own; fitted to a width;
 and the width and the ink of a text, from its glyphs.
 
-Between dollar signs stands a symbol, in the notation of TeX: ``"velocity $v_{B3}$ of the ram"``.
-Letters of symbols are italic, digits and signs upright, Chinese upright everywhere; ``_`` and ``^`` take one character
-or a group in braces; both after one letter stand above each other; an index may have an index (``$v_{B_3}$``); a prime
-is ``′`` or ``'``, and behind an index stands above it; ``\mathbf{v}`` is a vector, bold and upright, ``\vec{v}`` one
-with an arrow over its letter.  ``$$`` is a dollar sign.
+Letters of symbols are italic, digits and signs upright, Chinese upright everywhere; an index and a mark after one
+letter stand above each other; an index may have an index; a prime behind an index stands above it; a vector is bold
+and upright, or has an arrow over its letter.
 """
 
 from __future__ import annotations
@@ -20,60 +18,52 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.font import EM, Style, glyph, style_of
 from graphkin.drawing.ink.primitives import Run, Text
 from graphkin.plane import added_up
-from graphkin.words.symbols import Atom, in_turn
-from graphkin.words.symbols import symbol as atoms_of
+from graphkin.words.symbols import Atom, RichText, Words, stretches
 
 LETTER, INDEX, SMALLEST = 3.5, 2.5, 2.0  # mm
 _DROP, _DROP_STACKED, _RISE = 0.24, 0.30, 0.40  # of the size of the letter, after the usual practice of typesetting
 _GAP_SUB, _GAP_SUPER = 0.02, 0.06
 _LEADING = 1.4  # from line to line
 _UNBROKEN = re.compile("[顺逆]时针")  # Chinese words that stay whole, since they often stand last
+_BREAKS_AFTER = ("，", "。", "；", "：", "、")
 _ARROW = "→"
 _ARROW_SIZE, _ARROW_GAP, _SLANT = 0.57, 0.05, 0.04  # of the size of the letter under it
 
 
 def plain(text: str, size: float = LETTER, italic: bool = False, bold: bool = False) -> tuple[Run, ...]:
-    """Words without any notation; white space is folded to single spaces."""
+    """Words in one face; white space is folded to single spaces."""
     folded = " ".join(text.split())
     return (Run(folded, 0.0, 0.0, size, italic, bold),) if folded else ()
 
 
-def symbol(markup: str, size: float = LETTER) -> tuple[Run, ...]:
-    """A symbol set as runs from its notation without dollar signs: ``symbol("a^{n}_{C/B}")``.
-
-    Raises ValueError where a brace is not closed or an index follows no character.
-    """
-    return _symbol(markup, size)[0]
-
-
 @lru_cache(maxsize=1024)
-def rich(markup: str, size: float = LETTER, bold: bool = False) -> tuple[Run, ...]:
-    """Words with symbols between dollar signs, set as runs in order.  Raises ValueError as ``symbol``."""
+def rich(text: Words, size: float = LETTER, bold: bool = False) -> tuple[Run, ...]:
+    """Words and symbols set as runs in order."""
     runs: list[Run] = []
     x = 0.0
-    for index, part in enumerate(in_turn(markup)):
-        if index % 2:
+    for part in stretches(text):
+        if not isinstance(part, str):
             set_part, advance = _symbol(part, size)
             runs += [Run(r.text, r.x + x, r.y, r.size, r.italic, r.bold) for r in set_part]
             x += advance
-        elif part:
+        else:
             folded = " ".join(("_" + part + "_").split())[1:-1]
             runs += _trimmed(folded, x, 0.0, size, False, bold)
             x += width(folded, size, False, bold)
     return tuple(runs)
 
 
-def fitted(markup: str, size: float, width: float, bold: bool = False, least: float = SMALLEST) -> tuple[Run, ...]:
-    """Words with symbols as large as they fit a width (mm), at most ``size`` and at least ``least``."""
-    runs = rich(markup, size, bold)
+def fitted(text: Words, size: float, width: float, bold: bool = False, least: float = SMALLEST) -> tuple[Run, ...]:
+    """Words and symbols as large as they fit a width (mm), at most ``size`` and at least ``least``."""
+    runs = rich(text, size, bold)
     wide = runs_width(runs)
     if wide <= width:
         return runs
-    return rich(markup, max(least, size * width / wide * 0.995), bold)
+    return rich(text, max(least, size * width / wide * 0.995), bold)
 
 
 def cut_off(words: str, size: float, width: float, bold: bool = False) -> tuple[Run, ...]:
-    """Words without symbols set as `fitted`; what is too long for a width (mm) even so ends in dots.
+    """Words set as `fitted`; what is too long for a width (mm) even so ends in dots.
 
     >>> cut_off("a title", 3.0, 40.0)[0].text, cut_off("a long title", 3.0, 10.0)[0].text
     ('a title', 'a long title')
@@ -87,16 +77,16 @@ def cut_off(words: str, size: float, width: float, bold: bool = False) -> tuple[
     return runs
 
 
-def wrapped(markup: str, size: float, width: float, bold: bool = False) -> list[tuple[Run, ...]]:
-    """Words with symbols set in lines of a width (mm), broken at spaces, between Chinese characters and after
-    their commas."""
-    pieces = _pieces(markup)
+def wrapped(text: Words, size: float, width: float, bold: bool = False) -> list[tuple[Run, ...]]:
+    """Words and symbols set in lines of a width (mm), broken at spaces, between Chinese characters and after their
+    commas."""
+    pieces = _pieces(text)
     lines: list[tuple[Run, ...]] = []
     start = 0
     while start < len(pieces):
 
         def line(end: int, start: int = start) -> tuple[Run, ...]:
-            return rich("".join(pieces[start:end]).strip(), size, bold)
+            return rich(RichText(*pieces[start:end]).stripped(" \u00a0\u3000"), size, bold)
 
         end = len(pieces)
         if runs_width(line(end)) > width:
@@ -108,39 +98,41 @@ def wrapped(markup: str, size: float, width: float, bold: bool = False) -> list[
     return lines
 
 
-def stacked(lines: Sequence[str], size: float = LETTER) -> tuple[Run, ...]:
-    """Lines of words with symbols, below each other, as one text."""
+def stacked(lines: Sequence[Words], size: float = LETTER) -> tuple[Run, ...]:
+    """Lines of words and symbols, below each other, as one text."""
     return tuple(
         run._replace(y=run.y + _LEADING * size * i) for i, line in enumerate(lines) for run in rich(line, size)
     )
 
 
 @lru_cache(maxsize=1024)
-def _pieces(markup: str) -> Sequence[str]:
-    """Words with the space before them; symbols between dollar signs stay whole."""
-    pieces: list[str] = []
-    word, inside = "", False
-    inner = {i for found in _UNBROKEN.finditer(markup) for i in range(found.start() + 1, found.end())}
-    for i, character in enumerate(markup):
-        # no line begins with a mark that closes or ends with one that opens; after a comma of theirs it may break
-        closes, opened = character in "，。；：、）》”", word[-1:] in ("（", "《", "“")
-        wide = ord(character) > 0x2E7F and not closes and not opened
-        after = word[-1:] in ("，", "。", "；", "：", "、") and not closes
-        if not inside and i not in inner and (character == " " or wide or after):
-            if word:
-                pieces.append(word)
-            word = ""
-        if character == "$":
-            inside = not inside
-        word += character
-    if word:
-        pieces.append(word)
-    return pieces
+def _pieces(text: Words) -> Sequence[RichText]:
+    """Words with the space before them; symbols stay whole."""
+    pieces: list[list[str | Atom]] = [[]]
+    before = ""
+    for part in stretches(text):
+        if not isinstance(part, str):
+            if before in _BREAKS_AFTER:
+                pieces.append([])
+            pieces[-1] += part
+            before = "symbol"
+            continue
+        inner = {i for found in _UNBROKEN.finditer(part) for i in range(found.start() + 1, found.end())}
+        for i, character in enumerate(part):
+            # no line begins with a mark that closes or ends with one that opens; after a comma of theirs it may break
+            closes, opened = character in "，。；：、）》”", before in ("（", "《", "“")
+            wide = ord(character) > 0x2E7F and not closes and not opened
+            after = before in _BREAKS_AFTER and not closes
+            if i not in inner and (character == " " or wide or after):
+                pieces.append([])
+            pieces[-1].append(character)
+            before = character
+    return [RichText(*piece) for piece in pieces if piece]
 
 
 @lru_cache(maxsize=1024)
-def _symbol(markup: str, size: float) -> tuple[tuple[Run, ...], float]:
-    runs, advance = _set(atoms_of(markup), 0.0, 0.0, size, 0, size)
+def _symbol(atoms: tuple[Atom, ...], size: float) -> tuple[tuple[Run, ...], float]:
+    runs, advance = _set(atoms, 0.0, 0.0, size, 0, size)
     return tuple(runs), advance
 
 

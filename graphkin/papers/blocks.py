@@ -1,7 +1,7 @@
 """The blocks of a handout, whatever its format: headings, sentences, steps, figures, tables.
 
-Words are in one language or in several, below each other; symbols in them stand between dollar signs, in the notation
-of `graphkin.words.symbols`.  Words from a scene are cleaned: they cannot hide, turn or break a line of text.
+Words are in one language or in several, below each other.  Words from a scene are cleaned: they cannot hide, turn or
+break a line of text.
 """
 
 from __future__ import annotations
@@ -14,7 +14,8 @@ from typing import TypeAlias
 from graphkin.account.voice import capital, whole_sentence
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.paper import A4, Paper
-from graphkin.words import Phrase, languages, say, word
+from graphkin.words import Phrase, languages, rich_text, word
+from graphkin.words.symbols import Words, spaced
 
 # control characters, halves of surrogates, what no file may hold, and marks that turn the direction of writing
 _UNFIT = re.compile(
@@ -31,7 +32,7 @@ def clean(text: str) -> str:
     return _UNFIT.sub("", text)
 
 
-Said: TypeAlias = tuple[tuple[str, str], ...]  # (language, words) for each language
+Said: TypeAlias = tuple[tuple[str, Words], ...]  # (language, words) for each language
 
 
 @dataclass(frozen=True)
@@ -60,7 +61,7 @@ class StepItem:
 
     number: int
     words: Said
-    work: tuple[str, ...] = ()
+    work: tuple[Words, ...] = ()
     parted: bool = False
 
 
@@ -98,7 +99,7 @@ class TableBlock:
     """
 
     heads: tuple[Said, ...]
-    rows: tuple[tuple[str, ...], ...]
+    rows: tuple[tuple[Words, ...], ...]
     align: str
     bold: frozenset[int] = frozenset()
     roomy: bool = False
@@ -158,7 +159,7 @@ def laid_out(blocks: Iterable[Block]) -> Iterator[Leaf]:
 
 def said(key: str, language: str, /, **gaps: object) -> Said:
     """Words from the table of terms, in the languages of a sheet ("en", "zh" or "both")."""
-    return in_each(language, lambda each: say(Phrase(key, **gaps), each))
+    return in_each(language, lambda each: rich_text(Phrase(key, **gaps), each))
 
 
 def said_each(language: str, keys: Sequence[str]) -> tuple[Said, ...]:
@@ -167,7 +168,7 @@ def said_each(language: str, keys: Sequence[str]) -> tuple[Said, ...]:
 
 
 def table_of(
-    language: str, rows: Iterable[Mapping[str, str]], keys: Sequence[str], bold: Collection[int] = (),
+    language: str, rows: Iterable[Mapping[str, Words]], keys: Sequence[str], bold: Collection[int] = (),
     roomy: bool = False,
 ) -> TableBlock:  # fmt: skip
     """Rows of cells by the keys of their heads as a table of some of these columns; a missing cell is empty.  Names,
@@ -178,14 +179,14 @@ def table_of(
     return TableBlock(said_each(language, keys), cells, align, frozenset(bold), roomy)
 
 
-def in_each(language: str, words: Callable[[str], str]) -> Said:
+def in_each(language: str, words: Callable[[str], Words]) -> Said:
     """Words made for each language of a sheet."""
     return tuple((each, words(each)) for each in languages(language))
 
 
-def spoken(markup: str, language: str) -> Said:
+def once(words: Words, language: str) -> Said:
     """Words that are the same in every language, once."""
-    return ((languages(language)[0], markup),)
+    return ((languages(language)[0], words),)
 
 
 def finished(words: Said) -> Said:
@@ -196,14 +197,15 @@ def finished(words: Said) -> Said:
 def numbered(count: int, caption: Said) -> Said:
     """The caption of a figure after its number."""
     return tuple(
-        (each, say(Phrase("figure numbered", number=count, caption=capital(text)), each)) for each, text in caption
+        (each, rich_text(Phrase("figure numbered", number=count, caption=capital(text)), each))
+        for each, text in caption
     )
 
 
 def sentences(*several: Said) -> Said:
     """Sentences in order, by language."""
-    by_language: dict[str, list[str]] = {}
+    by_language: dict[str, list[Words]] = {}
     for one in several:
         for each, text in one:
             by_language.setdefault(each, []).append(text)
-    return tuple((each, word("between sentences", each).join(parts)) for each, parts in by_language.items())
+    return tuple((each, spaced(word("between sentences", each), parts)) for each, parts in by_language.items())

@@ -31,7 +31,7 @@ from graphkin.papers.paper import Paper, paper_of
 from graphkin.papers.pictures import bare_picture, mechanism_picture
 from graphkin.scene.symbol import Symbol
 from graphkin.words import languages, word
-from graphkin.words.written import in_markup
+from graphkin.words.symbols import Words, sign
 
 HEADED = 24.0  # mm of a page for the heading above a figure, and its caption
 MOST_VALUES = 7  # columns of values that a table has room for
@@ -77,7 +77,7 @@ def course_report(
         blocks.append(Together((Heading(said("course data", language)), *_data(data, student, language))))
     for name in ("structure", "positions"):
         blocks += _headed(f"course {name}", figures[name], language)
-    place = said("course position", language, position=in_markup(student.place)) if student.place else driver_value
+    place = said("course position", language, position=student.place) if student.place else driver_value
     heads = zip(said("course drawn", language), place, strict=True)
     blocks.append(Heading(tuple((each, text + word("colon", each) + more) for (each, text), (_, more) in heads)))
     blocks += [_lower(block) for block in solution_blocks(lesson)]
@@ -112,8 +112,7 @@ def class_document(lesson: Lesson, rows: Sequence[Placed], asked: Sequence[Symbo
         if any(column):
             keys.append(key)
             cells = [(*before, own or "–") for before, own in zip(cells, column, strict=True)]
-    plain = [tuple(in_markup(cell) for cell in line) for line in cells]
-    tables = _value_tables(lesson, said_each(language, keys), plain, [values for _, values in rows], asked, unit)
+    tables = _value_tables(lesson, said_each(language, keys), cells, [values for _, values in rows], asked, unit)
     blocks: tuple[Block, ...] = (
         Heading(scene_title(lesson), 1),
         Heading(said("course class", language)),
@@ -132,32 +131,32 @@ def _cover(lesson: Lesson, student: Student, place: Said) -> Iterable[Block]:
     yield Heading(scene_title(lesson), 2)
     blanks = []
     if student.name:
-        yield Paragraph(said("course student", language, name=in_markup(student.name)))
+        yield Paragraph(said("course student", language, name=student.name))
     else:
         blanks.append("name of student")
     if student.id:
-        yield Paragraph(said("course id", language, id=in_markup(student.id)))
+        yield Paragraph(said("course id", language, id=student.id))
     else:
         blanks.append("class of student")
     if student.scheme:
-        yield Paragraph(said("course scheme", language, scheme=in_markup(student.scheme)))
+        yield Paragraph(said("course scheme", language, scheme=student.scheme))
     if student.place:
-        yield Paragraph(said("course position", language, position=in_markup(student.place)))
+        yield Paragraph(said("course position", language, position=student.place))
     yield Paragraph(place)
     yield Fields(said_each(language, (*blanks, "course teacher", "date")))
     yield Picture(mechanism_picture(lesson))
 
 
-def _letters(head: str) -> str:
-    """The head of a column as markup, a letter with its index set as such.
+def _letters(head: str) -> Words:
+    """The head of a column, a letter with its index set as such.
 
     >>> _letters("l_O2A (mm)"), _letters("n2 (r/min)"), _letters("driver.angle")
-    ('$l_{O2A}$ (mm)', '$n_{2}$ (r/min)', 'driver.angle')
+    ($l_{O2A}$ (mm), $n_{2}$ (r/min), 'driver.angle')
     """
     parted = re.match(r"([^\W\d_])(?:_([^\W_]+)|(\d+))(?=\s|$)", head)
     if parted is None:
-        return in_markup(head)
-    return f"${parted[1]}_{{{parted[2] or parted[3]}}}${in_markup(head[parted.end():])}"
+        return head
+    return sign(parted[1], parted[2] or parted[3]) + head[parted.end() :]
 
 
 def _data(data: tuple[tuple[str, ...], ...], student: Student, language: str) -> Iterable[TableBlock]:
@@ -167,7 +166,7 @@ def _data(data: tuple[tuple[str, ...], ...], student: Student, language: str) ->
     for k in range(1, len(heads), MOST_VALUES):
         part = slice(k, k + MOST_VALUES)
         names = (said("course scheme head", language), *((("en", _letters(head)),) for head in heads[part]))
-        lines = tuple(tuple(map(in_markup, (row[0], *row[part]))) for row in rows)
+        lines = tuple((row[0], *row[part]) for row in rows)
         yield TableBlock(names, lines, "l" + "r" * len(heads[part]), bold)
 
 
@@ -199,7 +198,7 @@ def _value_tables(
     tables = []
     for k in range(0, len(asked), MOST_VALUES):
         part = asked[k : k + MOST_VALUES]
-        columns = tuple((("en", f"${lesson.letters.vector(s)}$ {lesson.unit(s)}"),) for s in part)
+        columns = tuple((("en", lesson.letters.vector(s) + f" {lesson.unit(s)}"),) for s in part)
         rows = tuple(
             (*named, number(place.driver, DIGITS),
              *(number(place.read[s], DIGITS) if s in place.read else "–" for s in part))

@@ -6,7 +6,7 @@ as CSV, and the table for a class.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from graphkin import table
@@ -24,7 +24,7 @@ from graphkin.account.given import (
     rolled_starts,
     rolling_starts,
 )
-from graphkin.account.headings import FIGURE_WORDS, number, titles, written
+from graphkin.account.headings import FIGURE_WORDS, number, titles
 from graphkin.account.notation import pole, scale_statement
 from graphkin.account.voice import whole_sentence
 from graphkin.checking.report import COVERAGE, Compared, exact, measured, paper
@@ -49,10 +49,10 @@ from graphkin.papers.blocks import (
     Together,
     in_each,
     numbered,
+    once,
     said,
     said_each,
     sentences,
-    spoken,
     table_of,
 )
 from graphkin.papers.lesson import Lesson, Stage
@@ -61,9 +61,9 @@ from graphkin.plane import added_up, degrees
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
-from graphkin.words import Phrase, about, languages, say, sense_of, word
-from graphkin.words.symbols import plain_words
-from graphkin.words.written import LEAST, amount, in_markup, pointing
+from graphkin.words import Phrase, about, languages, rich_text, say, sense_of, word
+from graphkin.words.symbols import RichText, Words, sign, spaced
+from graphkin.words.written import LEAST, amount, pointing, printed
 
 BOUND = "\u00a0"  # between a number and its unit no line ends
 RPM = 30.0 / math.pi
@@ -92,7 +92,7 @@ def problem(lesson: Lesson) -> Document:
     elif bare.width <= paper.narrow:
         first = (Beside(words, Picture(bare)),)
     asked = [
-        {"quantity": f"${lesson.letters.vector(s)}$", "unit": lesson.unit(s),
+        {"quantity": lesson.letters.vector(s), "unit": lesson.unit(s),
          "on paper": "" if s.is_vector or s.measure.is_length else "–"}
         for s in lesson.questions
     ]  # fmt: skip
@@ -132,7 +132,8 @@ def _polygon_pages(
     before: list[Block] = [Together((Heading(names[d]), *asked[d])) for d in drawn if asked[d] and not beside]
     if both is not None:
         title = in_each(
-            lesson.language, lambda each: word("list comma", each).join(dict(name)[each] for name in names.values())
+            lesson.language,
+            lambda each: spaced(word("list comma", each), (dict(name)[each] for name in names.values())),
         )
         return before, [Heading(title, fresh=True), Together((_poles(lesson, drawn), Picture(both)))]
     after: list[Block] = []
@@ -145,8 +146,8 @@ def _polygon_pages(
 
 def _poles(lesson: Lesson, diagrams: Sequence[DiagramName]) -> Paragraph:
     """The poles from which polygons are to be drawn."""
-    poles = [f"${pole(lesson.letters.convention, diagram)}$" for diagram in diagrams]
-    names = word("list comma", languages(lesson.language)[0]).join(poles)
+    poles = [pole(lesson.letters.convention, diagram) for diagram in diagrams]
+    names = spaced(word("list comma", languages(lesson.language)[0]), poles)
     return Paragraph(said("your polygon", lesson.language, poles=names), small=True)
 
 
@@ -192,14 +193,14 @@ def _forces(lesson: Lesson, bare: Drawing, paper: Paper) -> Iterator[Block]:
 def paper_title(lesson: Lesson, key: str) -> str:
     """The title of a paper, in the first language: the scene's title and the name of the paper."""
     first = languages(lesson.language)[0]
-    return plain_words(scene_title(lesson)[0][1]) + word("colon", first) + word(key, first)
+    return str(scene_title(lesson)[0][1]) + word("colon", first) + word(key, first)
 
 
 def scene_title(lesson: Lesson) -> Said:
     """The title of the scene in each language of the handout."""
     names = titles(lesson.sheet, lesson.language)
     both = tuple(zip(languages(lesson.language), names, strict=False))
-    return both if len(names) > 1 else spoken(names[0], lesson.language)
+    return both if len(names) > 1 else once(names[0], lesson.language)
 
 
 # -- what is given -----------------------------------------------------------------------------------------------------
@@ -209,8 +210,8 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     """The given data in sentences: lengths, fixed points, guides, drivers; then the question, and the source."""
     scene, letters, language = lesson.sheet.scene, lesson.letters, lesson.language
     unit = scene.units.length
-    lengths = [f"${name}$ = {value}{BOUND}{unit}" for name, value in given_lengths(scene, letters)]
-    fixed = [f"${name}$ {place}{BOUND}{unit}" for name, place in fixed_points(scene, letters)]
+    lengths = [name + f" = {value}{BOUND}{unit}" for name, value in given_lengths(scene, letters)]
+    fixed = [name + f" {place}{BOUND}{unit}" for name, place in fixed_points(scene, letters)]
     yield from _formulas(lesson, "lengths given", [*lengths, *given_teeth(scene, language)])
     yield from _formulas(lesson, "fixed points", fixed)
     yield from _clauses(lesson, "guides", {each: _guides(lesson, each) for each in languages(language)})
@@ -222,26 +223,26 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     starts = [*rolling_starts(lesson.sheet), *rolled_starts(lesson.sheet)]
     yield from _formulas(lesson, "rolling starts", starts)
     for load in given_loads(lesson.sheet, letters) if scene.loading else ():
-        yield Paragraph(tuple((each, whole_sentence(say(load, each), each)) for each in languages(language)))
-    yield from _formulas(lesson, "find", [f"${letters.vector(s)}$" for s in lesson.questions], "symbol comma")
+        yield Paragraph(tuple((each, whole_sentence(rich_text(load, each), each)) for each in languages(language)))
+    yield from _formulas(lesson, "find", [letters.vector(s) for s in lesson.questions], "symbol comma")
     yield from reach(lesson)
     names = languages(language)
-    sources = {each: in_markup(scene.question.source_in(each)) for each in names}
+    sources = {each: scene.question.source_in(each) for each in names}
     if len(set(sources.values())) > 1:
         told = ((each, word("source", each) + word("colon", each) + text) for each, text in sources.items() if text)
         yield Paragraph(tuple(told), small=True)
     elif sources[names[0]]:
         label = " ".join(word("source", each) for each in names) + word("colon", names[-1])
-        yield Paragraph(spoken(label + sources[names[0]], language), small=True)
+        yield Paragraph(once(label + sources[names[0]], language), small=True)
 
 
-def _guides(lesson: Lesson, language: str) -> list[str]:
+def _guides(lesson: Lesson, language: str) -> list[Words]:
     """Each named guide of the frame, by a point of it and its direction."""
-    scene, phrases = lesson.sheet.scene, []
+    scene, phrases = lesson.sheet.scene, list[Words]()
     for name, place, angle in fixed_guides(scene, lesson.letters):
         key = {"0": "guide level", "90": "guide upright"}.get(angle, "guide at")
-        phrase = Phrase(key, guide=f"${name}$", place=place, unit=scene.units.length, angle=angle)
-        phrases.append(say(phrase, language))
+        phrase = Phrase(key, guide=name, place=place, unit=scene.units.length, angle=angle)
+        phrases.append(rich_text(phrase, language))
     return phrases
 
 
@@ -250,13 +251,13 @@ def reach(lesson: Lesson) -> Iterator[Paragraph]:
     return (Paragraph(lesson.sentence(phrase)) for phrase in lesson.sheet.left_out)
 
 
-def _speeds(scene: Mechanism) -> Iterator[str]:
+def _speeds(scene: Mechanism) -> Iterator[RichText]:
     """Speeds of drivers in r/min, where these are round numbers."""
     for driver in scene.drivers:
         if driver.turns and driver.rate and driver.rpm is None:  # a given one stands there already
             rpm = float(f"{driver.rate * RPM:.9g}")
             if len(number(rpm)) < len(number(driver.rate)):
-                yield f"$n_{{{driver.link}}}$ = {number(rpm)}{BOUND}r/min"
+                yield sign("n", driver.link) + f" = {number(rpm)}{BOUND}r/min"
 
 
 def _senses(scene: Mechanism) -> Iterator[Phrase]:
@@ -270,26 +271,26 @@ def _senses(scene: Mechanism) -> Iterator[Phrase]:
             yield Phrase("driver turns", link=driver.link, sense=sense_of(driver.rate), base=on, law=law)
 
 
-def _formulas(lesson: Lesson, key: str, items: Sequence[str], between: str = "list comma") -> Iterator[Paragraph]:
+def _formulas(lesson: Lesson, key: str, items: Sequence[RichText], between: str = "list comma") -> Iterator[Paragraph]:
     """Formulas, if there are any, with their label; on papers of two languages once, with both labels."""
     first, *others = languages(lesson.language)
-    text = word(between, first).join(items)
+    text = spaced(word(between, first), items)
     if items and not others:
         yield Paragraph(((first, labelled(key, text, first)),))
     elif items:
         label = " ".join(word(key, each) for each in (first, *others)) + word("colon", first)
         whole = label + " " * (not label.endswith(" ")) + text + word("full stop", first)
-        yield Paragraph(spoken(whole, lesson.language))
+        yield Paragraph(once(whole, lesson.language))
 
 
-def _clauses(lesson: Lesson, key: str, clauses: dict[str, list[str]]) -> Iterator[Paragraph]:
+def _clauses(lesson: Lesson, key: str, clauses: Mapping[str, Sequence[Words]]) -> Iterator[Paragraph]:
     """Clauses in each language, if there are any, with their label."""
     if any(clauses.values()):
-        whole = {each: word("list semicolon", each).join(some) for each, some in clauses.items()}
+        whole = {each: spaced(word("list semicolon", each), some) for each, some in clauses.items()}
         yield Paragraph(in_each(lesson.language, lambda each: labelled(key, whole[each], each)))
 
 
-def labelled(key: str, text: str, language: str) -> str:
+def labelled(key: str, text: Words, language: str) -> Words:
     """A text behind a word of the table and a colon, as a sentence."""
     return word(key, language) + word("colon", language) + text + word("full stop", language)
 
@@ -334,7 +335,7 @@ def key_rows(lesson: Lesson) -> tuple[KeyRow, ...]:
     return tuple(rows)
 
 
-def result_cells(lesson: Lesson) -> Iterator[dict[str, str]]:
+def result_cells(lesson: Lesson) -> Iterator[dict[str, Words]]:
     """The cells of each result, by the keys of their heads."""
     units = lesson.sheet.scene.units
     for line, row in zip(key_rows(lesson), lesson.results, strict=True):
@@ -343,9 +344,9 @@ def result_cells(lesson: Lesson) -> Iterator[dict[str, str]]:
         read, right = measured(row.reading, units, row), exact(row, units)
         tolerance, accept = accepted(size, line.tolerance or 0.0, -math.inf if placed else 0.0)
         yield {
-            "quantity": f"${lesson.letters.vector(row.symbol)}$",
-            "on paper": written(paper(row.reading, row)) if is_length else "–",  # a rate has no length of its own
-            "measured": unsigned(row, written(read)), "exact": unsigned(row, written(right)), "value": number(size, 5),
+            "quantity": lesson.letters.vector(row.symbol),
+            "on paper": printed(paper(row.reading, row)) if is_length else "–",  # a rate has no length of its own
+            "measured": unsigned(row, printed(read)), "exact": unsigned(row, printed(right)), "value": number(size, 5),
             "course difference": f"{100 * abs(float(read) / float(right) - 1.0):.2f}" if float(right) else "–",
             "tolerance": tolerance, "accept": accept, "unit": line.unit, "sense": way(row, lesson.language),
         }  # fmt: skip
@@ -359,7 +360,7 @@ def accepted(value: float, tolerance: float, least: float) -> tuple[str, str]:
     places = 1 - math.floor(math.log10(tolerance))  # negative for tens and hundreds
 
     def told(number: float) -> str:
-        return written(f"{round(number, places):.{max(0, places)}f}")
+        return printed(f"{round(number, places):.{max(0, places)}f}")
 
     return f"± {told(tolerance)}", f"{told(max(value - tolerance, least))} … {told(value + tolerance)}"
 
@@ -519,13 +520,14 @@ def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
     sheet, language = lesson.sheet, lesson.language
     if not sheet.forces:
         return
-    statement = Paragraph(spoken(scale_statement(sheet, lesson.letters.convention, "force"), language))
+    statement = Paragraph(once(scale_statement(sheet, lesson.letters.convention, "force"), language))
     lead: tuple[Heading | Paragraph, ...] = (Heading(said("forces", language)), statement)
     lever = lever_figure(FigurePage(sheet, "lever", language, lesson.letters))
     for turn, (stage, load, steps) in enumerate(force_stages(lesson)):
         title = stage.heading(language)
         if load:
-            title = tuple((each, f"{name}  ({text})") for (each, name), (_, text) in zip(title, load, strict=True))
+            both = zip(title, load, strict=True)
+            title = tuple((each, name + "  (" + text + ")") for (each, name), (_, text) in both)
         count += bool(stage.group.links)
         yield Together((*lead, Heading(title, 3), *_force_pictures(lesson, stage, f"-{turn}", count), *steps))
         lead = ()
@@ -564,7 +566,7 @@ def results_blocks(lesson: Lesson) -> Iterator[Block]:
     how = sentences(*(said(key, language) for key in ("check words", "sense words")))
     yield Together((
         Heading(said("results", language)),
-        Paragraph(spoken(drivers(lesson.sheet, lesson.letters), language)),
+        Paragraph(once(drivers(lesson.sheet, lesson.letters), language)),
         results_table(lesson, "quantity", "on paper", "measured", "exact", "unit", "sense"),
         Paragraph(verdict),
         Paragraph(how, small=True),
@@ -607,7 +609,7 @@ def _told(lesson: Lesson, stage: Stage, count: int) -> Iterator[Heading | Paragr
     equation = stage.equation
     assert equation is not None
     where = dict(said("see figure", lesson.language, figure=count))
-    yield Heading(tuple((each, f"{title}{where[each]}") for each, title in stage_title(lesson, stage)))
+    yield Heading(tuple((each, title + where[each]) for each, title in stage_title(lesson, stage)))
     yield Picture(pictures.equation_picture(lesson, equation), joined=True)
     reasons = in_each(lesson.language, lambda each: why(lesson.account, equation, each))
     if any(text for _, text in reasons):

@@ -29,7 +29,6 @@ from graphkin.papers.pictures import mechanism_picture
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
 from graphkin.words import languages, say, word
-from graphkin.words.symbols import plain_words
 
 PLATFORMS = ("moodle", "gift", "prairielearn")
 BANKED = ("moodle.xml", "questions.gift")
@@ -94,13 +93,13 @@ def question_of(lesson: Lesson, planned: Plan, motion: Motion, name: str) -> Que
         if not row.asked or not row.tolerance or row.tolerance >= abs(row.exact):
             continue
         symbol = Symbol.parse(row.symbol)
-        markup = f"${lesson.letters.vector(symbol)}$"
+        letters = lesson.letters.vector(symbol)
         slips = tuple(_slips(lesson, evidence, symbol, row.exact, row.tolerance, first))
-        names = row.symbol, words_html(markup, first), plain_words(markup), row.unit
+        names = row.symbol, words_html(letters, first), str(letters), row.unit
         asked.append(AskedNumber(*names, row.exact, row.tolerance, slips))
     return Question(
         name,
-        clean(plain_words(scene_title(lesson)[0][1])),
+        clean(str(scene_title(lesson)[0][1])),
         "".join(said_html(words, "p") for words in paragraphs),
         drawing.content("png", DPI),
         clean(drawing.desc),
@@ -125,7 +124,7 @@ def _slips(
         if any(abs(value - other) <= 2 * tolerance for other in taken):
             continue
         taken.append(value)
-        said = say(suspect.phrase, language, lambda thing: str(thing).replace("{", "").replace("}", ""))
+        said = say(suspect.phrase, language)
         yield value, clean(said[:1].upper() + said[1:])
         if len(taken) > MOST_SLIPS:
             return

@@ -22,7 +22,7 @@ from graphkin.drawing.text import is_italic
 from graphkin.drawing.write.svg import svg_element
 from graphkin.papers.blocks import Block, Document, Said, clean
 from graphkin.words import word
-from graphkin.words.symbols import Atom, parsed
+from graphkin.words.symbols import Atom, Words, stretches
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -31,10 +31,10 @@ ALIGNED = {"l": "", "r": Markup(' class="right"'), "c": Markup(' class="middle"'
 PIXEL = 25.4 / 96  # mm
 
 
-def words_html(markup: str, language: str) -> str:
-    """Words with symbols between dollar signs, which screen readers read in words of a language."""
+def words_html(text: Words, language: str) -> str:
+    """Words and symbols, which screen readers read in words of a language."""
     parts = []
-    for part in parsed(markup):
+    for part in stretches(text):
         if isinstance(part, str):
             parts.append(escape(clean(part)))
         else:
@@ -58,7 +58,7 @@ def _atoms(atoms: tuple[Atom, ...]) -> str:
 def said_html(said: Said, tag: str = "span") -> str:
     """Words in each language, each in an element with its language."""
     return "".join(
-        f'<{tag} lang="{word("code in pages", each)}">{words_html(markup, each)}</{tag}>' for each, markup in said
+        f'<{tag} lang="{word("code in pages", each)}">{words_html(text, each)}</{tag}>' for each, text in said
     )
 
 
@@ -88,7 +88,7 @@ def _templates() -> Environment:
         "pixels": lambda mm: f"{mm / PIXEL:.0f}",
         "said": lambda said, tag="span": Markup(said_html(said, tag)),
         "svg": lambda drawing: Markup(svg_element(drawing)),
-        "words": lambda markup, language: Markup(words_html(markup, language)),
+        "words": lambda text, language: Markup(words_html(text, language)),
     }
     return made
 

@@ -46,7 +46,7 @@ from graphkin.papers.html import document_page
 from graphkin.papers.paper import BOTTOM, SIDE, TOP
 from graphkin.plane import added_up
 from graphkin.words import word
-from graphkin.words.symbols import Atom, parsed
+from graphkin.words.symbols import Atom, Words, stretches
 
 FORMATS = ("html", "pdf")
 """What papers are written as."""
@@ -136,12 +136,12 @@ def _row(row: Row) -> Data:
 
 
 def _said(said: Said) -> list[tuple[str, list[str | list[Data]]]]:
-    return [(language, _words(markup)) for language, markup in said]
+    return [(language, _words(text)) for language, text in said]
 
 
-def _words(markup: str) -> list[str | list[Data]]:
+def _words(text: Words) -> list[str | list[Data]]:
     """Stretches of words, and symbols as lists of atoms."""
-    return [clean(part) if isinstance(part, str) else _atoms(part) for part in parsed(markup)]
+    return [clean(part) if isinstance(part, str) else _atoms(part) for part in stretches(text)]
 
 
 def _atoms(atoms: tuple[Atom, ...]) -> list[Data]:

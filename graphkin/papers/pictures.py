@@ -22,13 +22,12 @@ from graphkin.drawing.place.dimensions import check_bar
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import ink_box, joined, layer_groups, moved_piece
 from graphkin.drawing.stepwise import so_far, stepped
-from graphkin.drawing.text import rich, runs_width, symbol
+from graphkin.drawing.text import rich, runs_width
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.paper import paper_of
 from graphkin.plane import added_up
 from graphkin.words import languages
-from graphkin.words.symbols import plain_words
 
 ROOM = 11.0  # mm around a figure, for names
 AROUND = 14.0  # mm around a polygon that is still to be drawn
@@ -136,7 +135,7 @@ def equation_picture(lesson: Lesson, equation: Equation) -> Drawing:
     """A vector equation over its rows of sizes and directions; on one line, ``v_B3 = v_B2 + v_B3B2``, for readers who
     do not see it."""
     sheet, letters = lesson.sheet, lesson.letters
-    sides = (" + ".join(plain_words(f"${letters.vector(t.symbol)}$") for t in side) for side in equation.sides)
+    sides = (" + ".join(str(letters.vector(t.symbol)) for t in side) for side in equation.sides)
     width = paper_of(sheet.scene).body.width - 4.0
     written = line_to_set(equation, sheet, letters, lesson.language)(width, 3.8)
     return _cropped(lesson, written.piece.drawn, " = ".join(sides), "")
@@ -191,9 +190,9 @@ def draw_frame(
         shift = Box(0.2, 0.2, wide - 0.2, tall).centre - content.centre
         at = complex(5.0 * round(shift.real / 5.0), 5.0 * round(shift.imag / 5.0))
         mark = pole(lesson.letters.convention, diagram)
-        title += punctuation("colon", language) + mark
+        title += punctuation("colon", language) + str(mark)
         marks += Circle(at, 0.9, fill=strokes.WHITE, stroke=strokes.OUTLINE), Circle(at, 0.3, fill=strokes.BLACK)
-        marks.append(Text(at + complex(1.6, -1.6), symbol(mark, 3.5)))
+        marks.append(Text(at + complex(1.6, -1.6), rich(mark, 3.5)))
     words, bar = _scale_foot(lesson, diagram)
     children = (
         Polygon(Box(0.2, 0.2, wide - 0.2, tall).corners, "", strokes.DIMENSION), *marks,

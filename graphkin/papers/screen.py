@@ -61,7 +61,7 @@ from graphkin.solver import Motion, solve
 from graphkin.solver.algebra.pose import Array
 from graphkin.solver.quantities import pole
 from graphkin.words import gaps_of, languages, links_named, word
-from graphkin.words.symbols import plain_words
+from graphkin.words.symbols import RichText, sign, spaced
 
 WIDE = 96.0  # mm of the sketch of a group, its polygon below
 LISTED = ("figures", "steps")
@@ -110,7 +110,7 @@ def handout_page(
     keys = said("keys", lesson.language)
     shown = said("positions words" if len(views) > 1 else "position words", lesson.language, count=len(views))
     hints = zip(keys, shown, said("print hint", lesson.language, paper=paper), strict=True)
-    hint = tuple((each, word("between sentences", each).join((a, b, c))) for (each, a), (_, b), (_, c) in hints)
+    hint = tuple((each, spaced(word("between sentences", each), (a, b, c))) for (each, a), (_, b), (_, c) in hints)
     body = rendered(
         "handout.html",
         title=scene_title(lesson),
@@ -139,7 +139,7 @@ SPOKEN = {
 
 
 def _side_by_side(words: Said) -> str:
-    return " / ".join(text for _, text in words)
+    return " / ".join(str(text) for _, text in words)
 
 
 def positions_data(views: Sequence[Lesson], progress: Progress | None) -> dict[str, object]:
@@ -207,13 +207,13 @@ def _position(
         stages.append(stage)
         for item, finds in items:
             work = "".join(f'<p class="work">{words_html(line, first)}</p>' for line in item.work)
-            aloud = " ".join(spoken_words(markup, each) for each, markup in item.words)
+            aloud = " ".join(spoken_words(text, each) for each, text in item.words)
             words = {"n": item.number, "html": said_html(item.words, "p") + work, "text": aloud}
             steps.append({"d": figure, "e": count, **words, **finds})
     driver = lesson.sheet.scene.drivers[0]
     at = lesson.sheet.scene.unit_of(driver).of(lesson.sheet.drivers[driver.key])
     return {
-        "name": plain_words(name),
+        "name": str(name),
         "label": words_html(name, first),
         "at": round(float(at), 3),
         "figures": [*figures, *cams],
@@ -249,14 +249,14 @@ def _figures(lesson: Lesson, piece: Piece, frames: Frames) -> Iterator[Figure]:
         is_stepped = name != "centres"
         children: tuple[Primitive, ...] = layer_groups(moved_piece(drawn, -panel.corners[0]))
         vectors = word("list semicolon", first).join(
-            f"{spoken_words(f'${letters.vector(row.symbol)}$', first)} "
+            f"{spoken_words(letters.vector(row.symbol), first)} "
             f"{number(lesson.in_unit(row.symbol, abs(row.true)), 4)} {lesson.unit(row.symbol)}, {way(row, first)}"
             for row in lesson.results if row.symbol.is_vector and row.symbol.measure.name == name
         )  # fmt: skip
         title = term(FIGURE_WORDS[name] if name != "centres" else name, lesson.language)
-        drawing = Drawing(panel.width, panel.height, stepped(children) if is_stepped else children, title,
-                          whole_sentence(spoken_words(at, first), first) + word("between sentences", first) + vectors,
-                          first)  # fmt: skip
+        told = whole_sentence(spoken_words(at, first), first) + word("between sentences", first) + vectors
+        shown = stepped(children) if is_stepped else children
+        drawing = Drawing(panel.width, panel.height, shown, title, str(told), first)
         scale = scale_statement(lesson.sheet, letters.convention, name if name != "centres" else "mechanism")
         yield _figure(name, drawing, words_html(title, first), words_html(scale, first), named=is_stepped)
 
@@ -333,12 +333,12 @@ def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
 # -- what a step finds, to be tried first ------------------------------------------------------------------------------
 
 
-def _find(lesson: Lesson, symbol: Symbol, name: str, value: complex | float) -> dict[str, Json]:
+def _find(lesson: Lesson, symbol: Symbol, name: RichText, value: complex | float) -> dict[str, Json]:
     """A quantity to find: symbol, name, size in its unit, and direction (degrees) or sense; none for a zero."""
     if not value:
         return {}
     size = float(f"{lesson.in_unit(symbol, abs(value)):.5g}")
-    named = words_html(f"${name}$", languages(lesson.language)[0])
+    named = words_html(name, languages(lesson.language)[0])
     find: dict[str, Json] = {"symbol": str(symbol), "name": named, "size": size, "unit": lesson.unit(symbol)}
     if isinstance(value, complex):
         return {"find": find | {"angle": round(math.degrees(cmath.phase(value)), 1)}}
@@ -365,10 +365,10 @@ def _force_found(lesson: Lesson, stage: ForceStage, step: ForceStep) -> dict[str
         return {}
     (symbol,) = step.found
     back = replace(symbol, link=symbol.other, other=symbol.link) if symbol.other else symbol
-    for side, sign in ((symbol, 1.0), (back, -1.0)):
+    for side, sense in ((symbol, 1.0), (back, -1.0)):
         value = stage.state.moments.get(side) or stage.state.vectors.get(side)
         if value:
-            return _find(lesson, symbol, lesson.letters.vector(symbol), sign * value)
+            return _find(lesson, symbol, lesson.letters.vector(symbol), sense * value)
     return {}
 
 
@@ -440,11 +440,11 @@ def motion_data(
     guides = dict.fromkeys((s.on, s.guide) for s in scene.slides)
     return {
         "at": [round(float(v) / unit, 3) for v in motion.values[rows, 0]],
-        "driver": plain_words(f"${'s' if '/' in driver.key else 'φ'}_{{{driver.key}}}$"),
+        "driver": str(sign("s" if "/" in driver.key else "φ", driver.key)),
         "unit": f" {scene.units.length}" if "/" in driver.key else "°",
         "bars": bars,
         "lines": [[place(end) for end in _guide(motion, on, guide, size, length)] for on, guide in guides],
-        "points": [[number, plain_words(f"${letters.point(p)}$")] for p, number in shared.items()],
+        "points": [[number, str(letters.point(p))] for p, number in shared.items()],
         "fixed": sorted(fixed.values()),
         "blocks": [[places.get((s.link, s.pin or ""), -1)] for s in scene.slidings if (s.link, s.pin or "") in places],
         "centres": list(_centres(motion, place, tracks, letters, size, length)),
@@ -480,7 +480,7 @@ def _centres(
         known = len(tracks)
         if np.isfinite(z).any() and (number := place(z)) == known:
             pair = (b, a) if a == scene.frame.name else (a, b)
-            yield [number, plain_words(f"${letters.centre(pair)}$")]
+            yield [number, str(letters.centre(pair))]
 
 
 def _vectors(motion: Motion, sheet: Sheet, letters: Notation, diagram: DiagramName, place: Place) -> dict[str, Json]:
@@ -504,7 +504,7 @@ def _vectors(motion: Motion, sheet: Sheet, letters: Notation, diagram: DiagramNa
         assert symbol.of is not None
         vectors.append((ends[symbol.to], ends[symbol.of]))
     named: list[list[Json]] = [
-        [number, plain_words(f"${letters.end(diagram, ref) or letters.vector(Symbol(kind, ref))}$")]
+        [number, str(letters.end(diagram, ref) or letters.vector(Symbol(kind, ref)))]
         for ref, number in ends.items()
     ]
     return {"vectors": [list(pair) for pair in dict.fromkeys(vectors)], "ends": named}

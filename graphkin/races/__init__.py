@@ -22,8 +22,9 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.study.equations import context
 from graphkin.table import Table
-from graphkin.words import Phrase, say, word
-from graphkin.words.written import in_markup
+from graphkin.words import Phrase, rich_text, say, word
+from graphkin.words.symbols import RichText, Words, rate, sign
+from graphkin.words.written import printed
 
 if TYPE_CHECKING:
     from mpmath import MPContext
@@ -187,8 +188,8 @@ def race_page(race: Race, language: str = "en") -> ChartPage:
         add_words(
             figure,
             Text(complex(LEFT - 12, 13.0), rich(title, 5.0, bold=True)),
-            Text(complex(LEFT - 12, 19.0), rich(in_markup(name), 3.5)),
-            *_lines([in_markup(facts)], 24.0, LETTERS, 3.3),
+            Text(complex(LEFT - 12, 19.0), rich(name, 3.5)),
+            *_lines([facts], 24.0, LETTERS, 3.3),
             *_lines(_lessons(race, language), HEIGHT - BOTTOM + 16.0, 2.8, 3.8),
         )
         for kind, left in (("velocity", LEFT), ("acceleration", LEFT + half + GAP)):
@@ -249,8 +250,8 @@ def _lessons(race: Race, language: str) -> list[str]:
 
 
 def _lines(paragraphs: Sequence[str], y: float, letters: float, step: float) -> list[Text]:
-    """Paragraphs (markup) over the width of the page, from a baseline down."""
-    lines = [runs for markup in paragraphs for runs in wrapped(markup, letters, WIDTH - LEFT - RIGHT + 12)]
+    """Paragraphs over the width of the page, from a baseline down."""
+    lines = [runs for text in paragraphs for runs in wrapped(text, letters, WIDTH - LEFT - RIGHT + 12)]
     return [Text(complex(LEFT - 12, y + k * step), runs) for k, runs in enumerate(lines)]
 
 
@@ -291,10 +292,11 @@ def _draw(figure: Figure, race: Race, kind: str, box: Box, language: str) -> Non
     add_labels(axes, [*((w, at) for w, at in named if w), (word("copying", language), stretch)], LETTERS_TRIED)
 
 
-def _words(race: Race, entry: Entry, points: Sequence[tuple[Entry, float, float]], language: str) -> str:
+def _words(race: Race, entry: Entry, points: Sequence[tuple[Entry, float, float]], language: str) -> Words:
     """The name of a method at its point; of a curve's points the first has the name, some have their numbers."""
     if entry.tag == "asked":
-        return say(Phrase("only asked", method=word(entry.key, language), quantity=_written(race.asked[0])), language)
+        asked = Phrase("only asked", method=word(entry.key, language), quantity=_written(race.asked[0]))
+        return rich_text(asked, language)
     if not entry.tag:
         return word(entry.key, language)
     name = word("differences of" if entry.key == "differences" else entry.key, language)
@@ -308,15 +310,15 @@ def _words(race: Race, entry: Entry, points: Sequence[tuple[Entry, float, float]
     return number if entry is last else ""
 
 
-def _written(symbol: Symbol) -> str:
-    """A symbol as markup: v_B@3 with B3 as its index."""
+def _written(symbol: Symbol) -> RichText:
+    """A symbol: v_B@3 with B3 as its index."""
     if symbol.link:
-        return f"${'ω' if symbol.kind == 'omega' else 'α'}_{{{symbol.link}}}$"
+        return rate(symbol.kind, symbol.link)
     parts = [f"{ref.point}{ref.link}" for ref in (symbol.of, symbol.to) if ref is not None]
-    return f"${symbol.kind[0]}_{{{'/'.join(parts)}}}$"
+    return sign(symbol.kind[0], "/".join(parts))
 
 
 def _number(tag: str) -> str:
     if "e-" in tag:
-        return f"$10^{{−{tag.partition('e-')[2]}}}$"
+        return printed(tag).removeprefix("1·")
     return {"0.25": "1/4", "0.5": "1/2"}.get(tag, tag)

@@ -24,8 +24,9 @@ from graphkin.solver import DriverRange, Motion
 from graphkin.study.extremes import Extreme
 from graphkin.study.quantities import Quantity
 from graphkin.study.turn import TurnStudy
-from graphkin.words import Phrase, say, word
-from graphkin.words.written import in_markup, true_minus
+from graphkin.words import Phrase, rich_text, say, word
+from graphkin.words.symbols import RichText, Words, sign, spaced
+from graphkin.words.written import printed
 
 Array = NDArray[np.float64]
 
@@ -51,22 +52,22 @@ EMPTY: Array = np.zeros((0, 2))
 
 
 def title_of(scene: Mechanism, language: str) -> str:
-    """The scene's title as markup."""
-    return in_markup(scene.question.title_in(language))
+    """The scene's title."""
+    return scene.question.title_in(language)
 
 
-def heading(scene: Mechanism, title: str, facts: Sequence[str], language: str) -> tuple[Text, ...]:
-    """Title (markup), title of the scene and facts, below each other."""
+def heading(scene: Mechanism, title: Words, facts: Sequence[Words], language: str) -> tuple[Text, ...]:
+    """Title, title of the scene and facts, below each other."""
     return (
         Text(complex(LEFT, 15.0), rich(title, 5.0, bold=True)),
         Text(complex(LEFT, 20.5), rich(title_of(scene, language), 3.5)),
-        Text(complex(LEFT, 25.5), rich(word("list semicolon", language).join(facts), 3.5)),
+        Text(complex(LEFT, 25.5), rich(spaced(word("list semicolon", language), facts), 3.5)),
     )
 
 
 def number(value: float, digits: int = 5) -> str:
-    """A number to ``digits`` digits, with a typographic minus sign."""
-    return true_minus(f"{value:.{digits}g}")
+    """A number to ``digits`` digits, for people."""
+    return printed(f"{value:.{digits}g}")
 
 
 # the axis
@@ -93,8 +94,8 @@ class Axis(ABC):
         """The step of its ticks."""
 
     @abstractmethod
-    def title(self, language: str) -> str:
-        """Its title as markup."""
+    def title(self, language: str) -> RichText:
+        """Its title."""
 
     @abstractmethod
     def at(self, places: Array) -> Array:
@@ -153,11 +154,11 @@ class DriverAxis(Axis):
         # a slide that its own place alone lets stand has no way
         return next_of_series((wide or self.scene.size / self.scene.units.metres) / 12)
 
-    def title(self, language: str) -> str:
+    def title(self, language: str) -> RichText:
         driver = self.reach.driver
-        name = driver.key.split("/")[0]
-        symbol = f"$φ_{{{name}}}$ (°)" if driver.turns else f"$s_{{{name}}}$ ({self.scene.units.length})"
-        return say(Phrase("of the driver", driver=symbol), language)
+        name, unit = driver.key.split("/")[0], "°" if driver.turns else self.scene.units.length
+        symbol = sign("φ" if driver.turns else "s", name) + f" ({unit})"
+        return rich_text(Phrase("of the driver", driver=symbol), language)
 
     @cached_property
     def first(self) -> float:
@@ -260,7 +261,7 @@ class Panel:
     """
 
     quantity: Quantity
-    title: str
+    title: Words
     curve: Array
     dots: Array
     extremes: tuple[tuple[Extreme, float, float], ...]
@@ -325,14 +326,14 @@ def motion_panel(
     return replace(panel, unbounded=traced is not None and traced.unbounded)
 
 
-def lettered(scene: Mechanism, symbol: Symbol) -> str:
-    """A quantity in the letters of the scene's convention, as markup without dollar signs."""
+def lettered(scene: Mechanism, symbol: Symbol) -> RichText:
+    """A quantity in the letters of the scene's convention."""
     return Notation(scene.question.sheet.convention).vector(symbol)
 
 
-def quantity_title(scene: Mechanism, quantity: Quantity) -> str:
-    """Symbol and unit of a quantity as markup."""
-    return f"${lettered(scene, quantity.symbol)}$ ({quantity.unit(scene).written})"
+def quantity_title(scene: Mechanism, quantity: Quantity) -> RichText:
+    """Symbol and unit of a quantity."""
+    return lettered(scene, quantity.symbol) + f" ({quantity.unit(scene).written})"
 
 
 def _allowed(quantity: Quantity, scene: Mechanism) -> tuple[tuple[float, float] | None, float | None]:
@@ -382,23 +383,23 @@ def figure_name(quantities: Sequence[Quantity]) -> str:
 
 
 def chart_page(
-    axis: Axis, panels: Sequence[Panel], facts: Sequence[str], language: str, limits: Sequence[float] = (),
-    title: str = "", **metadata: object,
+    axis: Axis, panels: Sequence[Panel], facts: Sequence[Words], language: str, limits: Sequence[float] = (),
+    title: Words = "", **metadata: object,
 ) -> chart.ChartPage:  # fmt: skip
     """A page with the panel of a quantity, or with those of an output and its rates below each other.
 
     Parameters
     ----------
     limits : places on the axis of limit positions
-    title : of a quantity (markup), if it is not the diagram of what its panel shows
+    title : of a quantity, if it is not the diagram of what its panel shows
     """
     scene, quantity = axis.scene, panels[0].quantity
     of, about = quantity.name, {"quantity": quantity.name}
-    title = title or say(Phrase("diagram of", quantity=panels[0].title), language)
+    title = title or rich_text(Phrase("diagram of", quantity=panels[0].title), language)
     if len(panels) > 1:
         mover = "link" if quantity.kind == "theta" else "slide"
         of = say(Phrase(f"motion of {mover}", **{mover: quantity.of.split("/")[0]}), language)
-        title, about = in_markup(of), {"output": quantity.of}
+        title, about = of, {"output": quantity.of}
     tall = THIRD if len(panels) > 1 else ALONE
 
     def paint(figure: chart.Figure) -> None:
@@ -409,15 +410,15 @@ def chart_page(
             top, last = TOP + k * (tall + GAP), k == len(panels) - 1
             name = panel.quantity.name.replace("/", "-")
             without = word("list comma", language) + word(panel.without_bound, language)
-            headed = panel.title + without * panel.unbounded
+            headed = panel.title + without if panel.unbounded else panel.title
             box = Box(LEFT, top, WIDTH - RIGHT, top + tall)
-            axes = chart.add_panel(figure, box, name, headed, axis.title(language) * last)
+            axes = chart.add_panel(figure, box, name, headed, axis.title(language) if last else "")
             draw_panel(axes, panel, axis, language, limits)
             axes.tick_params(labelbottom=last)
 
     return chart.ChartPage(
         WIDTH, TOP + len(panels) * (tall + GAP) - GAP + 20.0, paint, title=f"{of}: {title_of(scene, language)}",
-        desc=" ".join(facts) or of, lang=language,
+        desc=" ".join(map(str, facts)) or of, lang=language,
         metadata={"scene": scene.name, "units": scene.units.length, **about, **metadata},
     )  # fmt: skip
 

@@ -34,7 +34,8 @@ from graphkin.study.force_diagrams import flywheel_page, force_page, polar_page
 from graphkin.study.graphical import drawn, on_paper, ordinate_chains
 from graphkin.study.quantities import Quantity, rates_of
 from graphkin.study.turn import Output, TurnStudy
-from graphkin.words import Phrase, say, word
+from graphkin.words import Phrase, rich_text, say, word
+from graphkin.words.symbols import Words, sign
 
 LaidOver = Mapping[Quantity, Sequence[tuple[float, float]]]
 """Values measured elsewhere: offset of the driver's range and value (SI)."""
@@ -138,17 +139,17 @@ def _apart(turn: TurnStudy, quantity: Quantity, over: Sequence[tuple[float, floa
     return [say(Phrase("laid over apart", values=len(deviation), mean=mean, greatest=greatest), language)]
 
 
-def _facts(turn: TurnStudy, output: Output, language: str) -> list[str]:
+def _facts(turn: TurnStudy, output: Output, language: str) -> list[Words]:
     """Stroke, K and limit positions in words."""
     scene, quantity, stroke = turn.scene, output.quantity, output.stroke
     if stroke is None:
         return [word(output.without, language)]
     unit = quantity.unit(scene)
     kind = "swing" if quantity.kind == "theta" else "stroke"
-    facts = [say(Phrase(f"{kind} is", **{kind: _said(stroke, unit)}), language)]
+    facts: list[Words] = [say(Phrase(f"{kind} is", **{kind: _said(stroke, unit)}), language)]
     back = turn.quick_return(output)
     if back is not None:
-        facts.append(say(Phrase("K is", ratio=charts.number(back[0])), language).replace("K", "$K$", 1))
+        facts.append(rich_text(Phrase("K is", ratio=charts.number(back[0])), language))
     low, high = output.low, output.high
     assert low is not None
     assert high is not None
@@ -242,9 +243,9 @@ def curve_page(sheet: Sheet, axis: charts.DriverAxis, point: str, link: str, lan
     unit = "°" if reach.driver.turns else ""
     labels = tuple(Label.of(rich(f"{charts.number(n, 4)}{unit}", 2.5), z) for z, n in marks)
     line = Polyline(tuple(on_page(complex(z) * mm) for z in path), Stroke(0.5))
-    title = say(Phrase("curve of point", point=f"${point}$"), language)
+    title = rich_text(Phrase("curve of point", point=sign(point)), language)
     group = Group((line, *(Circle(z, DOT, strokes.BLACK, Stroke(0.25)) for z, _ in marks)), id=f"curve-{point}",
-                  classes=("curve",), title=title.replace("$", ""))  # fmt: skip
+                  classes=("curve",), title=title.plain())  # fmt: skip
     whole = joined((background(bare_mechanism(sheet, page.letters)), Piece({"answers": (group,)}, labels)))
     content = (ink_box(whole.drawn) or Box.around(line.points)).grown(8.0)
     page = page.wide_enough(content.width)

@@ -15,8 +15,9 @@ from graphkin.drawing import Box, Stroke, Text, chart
 from graphkin.drawing.text import rich, wrapped
 from graphkin.files import Json
 from graphkin.table import Table
-from graphkin.words import Phrase, say, word
-from graphkin.words.written import true_minus
+from graphkin.words import Phrase, rich_text, say, word
+from graphkin.words.symbols import Words
+from graphkin.words.written import printed, true_minus
 
 LOST = 0.03  # an error beyond this (relative, rad) is no longer of first order and tells no slope
 PER_DECADE = 2
@@ -172,18 +173,12 @@ def _binned(
 
 
 def in_powers(value: float) -> str:
-    """A measured number to two figures, as markup.
+    """A measured number to two figures.
 
     >>> in_powers(0.0123), in_powers(1.5e-8), in_powers(math.nan)
-    ('0.012', '1.5·$10^{−8}$', '–')
+    ('0.012', '1.5·10⁻⁸', '–')
     """
-    if not math.isfinite(value):
-        return "–"
-    text = f"{value:.2g}"
-    if "e" not in text:
-        return true_minus(text)
-    head, power = text.split("e")
-    return f"{head}·$10^{{{true_minus(str(int(power)))}}}$"
+    return printed(f"{value:.2g}") if math.isfinite(value) else "–"
 
 
 def laws_table(singularities: Sequence[Singularity]) -> Table:
@@ -202,7 +197,7 @@ def to_json(singularities: Sequence[Singularity], language: str = "en") -> dict[
     def of_law(law: ErrorLaw) -> dict[str, Json]:
         return {
             "law": law.key,
-            "says": word(law.key, language),
+            "says": say(Phrase(law.key), language),
             "slope": None if math.isnan(law.slope) else round(law.slope, 3),
             "theory": law.theory,
             "warns_from": law.warns_from,
@@ -216,7 +211,7 @@ def to_json(singularities: Sequence[Singularity], language: str = "en") -> dict[
                 "kind": s.key,
                 "distance": word(s.distance, language),
                 "laws": [of_law(law) for law in (*s.laws, *s.growth)],
-                "notes": [say(fate, language).replace("$", "") for fate in s.fates],
+                "notes": [say(fate, language) for fate in s.fates],
             }
             for s in singularities
         ]
@@ -372,11 +367,11 @@ def _dot(law: ErrorLaw) -> chart.Shape | None:
     return next((shape for part, shape in DOTS.items() if part in law.key), None)
 
 
-def _label(law: ErrorLaw, language: str) -> str:
+def _label(law: ErrorLaw, language: str) -> Words:
     """The name of a law with its slope, and in brackets the slope by theory."""
-    name = word(law.key, language)
+    name = rich_text(Phrase(law.key), language)
     if law.theory is None or math.isnan(law.slope):
         return name
     slope = true_minus(f"{law.slope + 0.0:.2f}".replace("-0.00", "0.00"))
     theory = {-0.5: "−1/2"}.get(law.theory, true_minus(f"{law.theory:g}"))
-    return f"{name}  {slope} ({theory})"
+    return name + f"  {slope} ({theory})"

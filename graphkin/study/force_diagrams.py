@@ -23,7 +23,8 @@ from graphkin.solver.values import FlywheelStudy, load_edges, needed_moment
 from graphkin.study import charts
 from graphkin.study.extremes import Extreme
 from graphkin.study.quantities import Quantity
-from graphkin.words import Phrase, say, word
+from graphkin.words import Phrase, rich_text, say, word
+from graphkin.words.symbols import Words, sign, spaced
 
 JUMP = 1e-8
 """Of the range: so far on both sides of where a load begins or ends its two values are taken."""
@@ -64,7 +65,7 @@ def force_page(reach: DriverRange, quantity: Quantity, language: str) -> chart.C
     """The diagram of a moment, or of the size of a force, over the driver."""
     axis = charts.DriverAxis(reach)
     panel = force_panel(axis, quantity, whole_turn(axis))
-    title = say(Phrase("diagram of", quantity=f"${charts.lettered(reach.scene, quantity.symbol)}$"), language)
+    title = rich_text(Phrase("diagram of", quantity=charts.lettered(reach.scene, quantity.symbol)), language)
     units = quantity.unit(reach.scene).written
     return charts.chart_page(axis, [panel], (), language, title=title, units=units)
 
@@ -152,10 +153,10 @@ def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> chart.C
     x, sizes = panel.curve.T
     vector = np.asarray(unit.of(quantity.whole(reach.motion(offsets))), dtype=complex)
     jumps = sorted({j for part in (vector.real, vector.imag) for j in jumps_of(np.stack([x, part], axis=1))})
-    name = f"${charts.lettered(scene, quantity.symbol)}$"
-    title = say(Phrase("polar diagram of", force=name), language)
+    name = charts.lettered(scene, quantity.symbol)
+    title = rich_text(Phrase("polar diagram of", force=name), language)
     mark = "°" if scene.drivers[0].turns else f" {scene.units.length}"
-    facts = [f"{name}{word('colon', language)}{word(panel.without_bound, language)}"]
+    facts: list[Words] = [name + word("colon", language) + word(panel.without_bound, language)]
     if not panel.unbounded:
         k = int(np.nanargmax(sizes))
         size, place = f"{charts.number(float(sizes[k]))} {unit.text}", f"{charts.number(float(x[k]), 4)}{mark}"
@@ -173,7 +174,7 @@ def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> chart.C
     def paint(figure: chart.Figure) -> None:
         chart.add_words(figure, *charts.heading(scene, title, facts, language))
         box = Box(charts.LEFT, charts.TOP - 4.0, charts.LEFT + side, charts.TOP - 4.0 + side)
-        axes = chart.add_panel(figure, box, quantity.name.replace("/", "-"), f"{name} ({unit.text})", f"({unit.text})")
+        axes = chart.add_panel(figure, box, quantity.name.replace("/", "-"), name + f" ({unit.text})", f"({unit.text})")
         axes.set_xlim(middle.real - span / 2, middle.real + span / 2)
         axes.set_ylim(middle.imag - span / 2, middle.imag + span / 2)
         chart.count_steps(axes.xaxis)
@@ -191,7 +192,8 @@ def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> chart.C
 
     return chart.ChartPage(
         charts.WIDTH, charts.TOP + side + 16.0, paint, title=f"{quantity.name}: {charts.title_of(scene, language)}",
-        desc=facts[0], lang=language, metadata={"scene": scene.name, "units": unit.text, "quantity": quantity.name},
+        desc=str(facts[0]), lang=language,
+        metadata={"scene": scene.name, "units": unit.text, "quantity": quantity.name},
     )  # fmt: skip
 
 
@@ -212,11 +214,11 @@ def flywheel_page(reach: DriverRange, study: FlywheelStudy, language: str) -> ch
     energy = np.concatenate([[0.0], np.cumsum(gain)])
     panel = charts.panel_of(axis, moments, curve, (), jumps=jumps_of(curve))
     title = word("moments and flywheel", language)
-    facts = [
+    facts: list[Words] = [
         say(Phrase("driving moment is", moment=f"{charts.number(driving)} {moment}"), language),
         say(Phrase("excess work is", work=f"{charts.number(study.excess / per)} {moment}"), language),
-        f"$δ$ = {charts.number(study.delta)}",
-        f"$J_{{F}}$ = {charts.number(study.inertia / scene.units.inertias)} {inertia}",
+        sign("δ") + f" = {charts.number(study.delta)}",
+        sign("J", "F") + f" = {charts.number(study.inertia / scene.units.inertias)} {inertia}",
     ]
 
     def paint(figure: chart.Figure) -> None:
@@ -225,7 +227,7 @@ def flywheel_page(reach: DriverRange, study: FlywheelStudy, language: str) -> ch
                    (chart.look(DRIVING), word("driving moment", language))]  # fmt: skip
         chart.add_legend(figure, complex(charts.LEFT, MOMENT_TOP - 9.5), entries)
         box = Box(charts.LEFT, MOMENT_TOP, charts.WIDTH - charts.RIGHT, MOMENT_TOP + MOMENT_TALL)
-        axes = chart.add_panel(figure, box, "moments", f"$M$ ({moment})")
+        axes = chart.add_panel(figure, box, "moments", sign("M") + f" ({moment})")
         charts.draw_panel(axes, panel, axis, language)
         low, high = panel.span
         room = charts.MARGIN * (high - low)
@@ -238,12 +240,11 @@ def flywheel_page(reach: DriverRange, study: FlywheelStudy, language: str) -> ch
         for (first, last), work in _joined(study.areas, reach.ends[1]).items():
             middle = float(axis.at(np.array([(first + last) / 2 % reach.ends[1]]))[0])
             near = float(np.interp(middle, x[growing], needed[growing]))
-            sign = "+" if work > 0 else ""
-            labels.append((f"{sign}{charts.number(work / per)}", (middle, (near + driving) / 2)))
+            labels.append(("+" * (work > 0) + charts.number(work / per), (middle, (near + driving) / 2)))
         chart.add_labels(axes, labels)
         top = MOMENT_TOP + MOMENT_TALL + ENERGY_GAP
         box = Box(charts.LEFT, top, charts.WIDTH - charts.RIGHT, top + ENERGY_LOW)
-        store = chart.add_panel(figure, box, "energy", f"$ΔE$ ({moment})", axis.title(language))
+        store = chart.add_panel(figure, box, "energy", sign("ΔE") + f" ({moment})", axis.title(language))
         store.set_xlim(*axis.ends)
         least, most = float(energy.min()), float(energy.max())
         room = 1.6 * charts.MARGIN * (most - least) or 0.5
@@ -255,13 +256,13 @@ def flywheel_page(reach: DriverRange, study: FlywheelStudy, language: str) -> ch
         names = []
         for k, letter in ((int(energy.argmax()), "max"), (int(energy.argmin()), "min")):
             store.plot([x[k]], [energy[k]], **chart.marker("up" if letter == "max" else "down"))
-            names.append((f"$ω$ {letter}", (float(x[k]), float(energy[k]))))
+            names.append((sign("ω") + f" {letter}", (float(x[k]), float(energy[k]))))
         chart.add_labels(store, names, toward=[(math.pi / 2,), (-math.pi / 2,)])
 
     return chart.ChartPage(
         charts.WIDTH, MOMENT_TOP + MOMENT_TALL + ENERGY_GAP + ENERGY_LOW + 20.0, paint,
         title=f"{title}: {charts.title_of(scene, language)}", lang=language,
-        desc=spoken_words(word("list semicolon", language).join(facts), language),
+        desc=spoken_words(spaced(word("list semicolon", language), facts), language),
         metadata={"scene": scene.name, "units": moment, "flywheel": study.link},
     )  # fmt: skip
 

@@ -23,7 +23,7 @@ from graphkin.construction.board.scales import next_of_series
 from graphkin.drawing import Box, Stroke, Text
 from graphkin.drawing.chart import ChartPage, add_legend, add_panel, add_words, look, marker
 from graphkin.drawing.place.dimensions import check_bar
-from graphkin.drawing.text import fitted, rich, symbol, wrapped
+from graphkin.drawing.text import fitted, rich, wrapped
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
@@ -31,7 +31,8 @@ from graphkin.solver import DriverRange
 from graphkin.study.charts import lettered, number, title_of
 from graphkin.study.quantities import Quantity
 from graphkin.table import Column, Table
-from graphkin.words import Phrase, say, word
+from graphkin.words import Phrase, rich_text, say, word
+from graphkin.words.symbols import Words, sign, spaced
 
 if TYPE_CHECKING:
     from graphkin.drawing.chart import Axes, Figure
@@ -235,14 +236,15 @@ def chords_page(chords: Chords, reach: DriverRange, language: str) -> ChartPage:
     scene = reach.scene
     of_given, of_result = scene.units.of(chords.given.measure), scene.units.of(chords.result.measure)
     given, result = lettered(scene, chords.given), lettered(scene, chords.result)
-    title = say(Phrase(f"graphical {chords.way}", result=f"${result}$", curve=f"${given}$"), language)
+    title = rich_text(Phrase(f"graphical {chords.way}", result=result, curve=given), language)
     per_y, per_found = of_given.of(chords.per_y), of_result.of(chords.per_found)
     scales = (
-        f"$μ_{{{given[0]}}}$ = {number(per_y)} {per_mm(of_given.written)}",
-        f"$μ_{{t}}$ = {number(chords.per_x)} s/mm", f"$H$ = {number(chords.pole)} mm",
-        f"$μ_{{{result[0]}}}$ = {number(per_found)} {per_mm(of_result.written)}",
+        sign("μ", str(given)[0]) + f" = {number(per_y)} {per_mm(of_given.written)}",
+        sign("μ", "t") + f" = {number(chords.per_x)} s/mm", sign("H") + f" = {number(chords.pole)} mm",
+        sign("μ", str(result)[0]) + f" = {number(per_found)} {per_mm(of_result.written)}",
     )  # fmt: skip
-    facts = [",  ".join(scales), say(Phrase(f"graphical {chords.way} off", error=f"{100 * chords.off:.2g}"), language)]
+    off = Phrase(f"graphical {chords.way} off", error=f"{100 * chords.off:.2g}")
+    facts: list[Words] = [spaced(",  ", scales), say(off, language)]
     lines = [runs for fact in facts for runs in wrapped(fact, 3.0, WIDTH - 2 * MARGIN)]
     exact = chords.exact / chords.per_found
     upper, lower = (
@@ -260,8 +262,8 @@ def chords_page(chords: Chords, reach: DriverRange, language: str) -> ChartPage:
             Text(complex(MARGIN, 20.5), fitted(title_of(scene, language), 3.2, WIDTH - 2 * MARGIN)),
             *(Text(complex(MARGIN, 22.0 + 4.4 * k), runs) for k, runs in enumerate(lines, 1)),
         )
-        above = _panel(figure, chords, top, upper, "given", f"${given}$ ({of_given.written})")
-        below = _panel(figure, chords, middle + GAP, lower, "result", f"${result}$ ({of_result.written})")
+        above = _panel(figure, chords, top, upper, "given", given + f" ({of_given.written})")
+        below = _panel(figure, chords, middle + GAP, lower, "result", result + f" ({of_result.written})")
         at_nodes, at_middles = (above, below) if chords.way == "derivative" else (below, above)
         # where the lines from the pole are, which are parallel to the chords
         origin = complex(MARGIN + LEFT, top + upper[1] if at_middles is above else end + lower[0])
@@ -287,8 +289,8 @@ def chords_page(chords: Chords, reach: DriverRange, language: str) -> ChartPage:
         add_words(figure, *bar)
 
     return ChartPage(
-        WIDTH, end + 22.0, paint, f"{title.replace('$', '')}: {title_of(scene, language)}",
-        spoken_words(" ".join(facts), language), language,
+        WIDTH, end + 22.0, paint, f"{title.plain()}: {title_of(scene, language)}",
+        spoken_words(spaced(" ", facts), language), language,
         {"scene": scene.name, "units": scene.units.length, "given": str(chords.given), "result": str(chords.result),
          "pole": chords.pole, "scales": {"given": per_y, "time": chords.per_x, "result": per_found}},
     )  # fmt: skip
@@ -309,10 +311,10 @@ def chords_table(chords: Chords, reach: DriverRange) -> bytes:
     return table.csv().encode("utf-8-sig")
 
 
-def _panel(figure: Figure, chords: Chords, top: float, span: tuple[float, float], id: str, title: str) -> Axes:
+def _panel(figure: Figure, chords: Chords, top: float, span: tuple[float, float], id: str, title: Words) -> Axes:
     """A panel whose values are mm on paper, with its two axes and the numbers of the nodes."""
     box = Box(MARGIN, top, MARGIN + LEFT + WIDE + RIGHT, top + span[1] - span[0])
-    axes = add_panel(figure, box, id, title, "$t$")
+    axes = add_panel(figure, box, id, title, sign("t"))
     n = len(chords.x) - 1
     step = next(k for k in (1, 2, 3, 4, 6, 12, 24, n) if WIDE / n * k >= STEP or k == n)
     axes.set(xlim=(-LEFT, WIDE + RIGHT), ylim=span, yticks=[], xticks=chords.x[::step])
@@ -333,8 +335,10 @@ def _pole(figure: Figure, chords: Chords, axes: Axes, origin: complex) -> None:
     axes.annotate("", (-chords.pole, level), (0.0, level), arrowprops=ends, annotation_clip=False)
     add_words(
         figure,
-        Text(origin - chords.pole - 1.8 + 1.0j, symbol("P", 3.5), "end", classes=("label",)),
-        Text(origin - chords.pole / 2 - 1j * (level + 1.0), rich(f"$H$ = {number(chords.pole)}", 2.4), "middle"),
+        Text(origin - chords.pole - 1.8 + 1.0j, rich(sign("P"), 3.5), "end", classes=("label",)),
+        Text(
+            origin - chords.pole / 2 - 1j * (level + 1.0), rich(sign("H") + f" = {number(chords.pole)}", 2.4), "middle"
+        ),
     )
 
 

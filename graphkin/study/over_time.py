@@ -20,7 +20,8 @@ from graphkin.study.charts import Axis, Panel, chart_page, figure_name, number, 
 from graphkin.study.extremes import Extreme
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
 from graphkin.study.turn import output_links, output_slides
-from graphkin.words import Phrase, say, word
+from graphkin.words import Phrase, rich_text, say, word
+from graphkin.words.symbols import RichText
 
 Array = NDArray[np.float64]
 POINTS = 361
@@ -60,8 +61,8 @@ class TimeAxis(Axis):
         low, high = self.ends
         return next_of_series((high - low) / 12)
 
-    def title(self, language: str) -> str:
-        return word("time axis", language)
+    def title(self, language: str) -> RichText:
+        return rich_text(Phrase("time axis"), language)
 
     def at(self, places: Array) -> Array:
         return places

@@ -4,10 +4,8 @@ A phrase is a key with its arguments; the sentence is made where it is shown, in
 The tables are the files of this folder, ``en.toml`` and ``zh.toml``: a further language is one more file with the same
 keys, and every command knows it.
 
-Rich text: a sentence as words and symbols, kept apart from the table of words to the page.
-
-Symbols are written in the notation of `graphkin.words.symbols`.  Words of a table hold theirs between dollar signs, or
-as a rate with its index (``ω_{2}``); those of the gaps are what ``show`` gives as `Markup`.
+A gap is filled with words, with a symbol (`graphkin.words.symbols`), or with both; ``{link:omega}`` in a table is the
+symbol with the value of the gap as its index, and words of a table hold further symbols between dollar signs.
 """
 
 from __future__ import annotations
@@ -20,13 +18,12 @@ from pathlib import Path
 from string import Formatter
 from typing import Any, TypeAlias
 
-from graphkin.words.symbols import plain, symbol
+from graphkin.words.symbols import RichText, Words, noted, plain, rate, sign
 
 __all__ = [
-    "BOTH", "LANGUAGES", "Markup", "Neutral", "Phrase", "RichText", "Wording", "about", "alternatives", "area",
-    "as_data", "as_markup", "as_plain", "class_of", "clause_of", "clauses", "filled", "from_data", "from_others",
-    "gaps_of", "has_words", "in_all", "in_turn", "joined", "languages", "links_named", "listed", "parts", "rich_text",
-    "say", "sense_of", "word",
+    "BOTH", "LANGUAGES", "Neutral", "Phrase", "Wording", "about", "alternatives", "area", "as_data", "class_of",
+    "clause_of", "clauses", "filled", "from_data", "from_others", "gaps_of", "has_words", "in_all", "in_turn", "joined",
+    "languages", "links_named", "listed", "parts", "rich_text", "say", "sense_of", "word",
 ]  # fmt: skip
 
 _TABLES = {path.stem: path for path in Path(__file__).parent.glob("*.toml")}
@@ -97,7 +94,7 @@ class Phrase:
         return hash(repr(self))
 
 
-Wording: TypeAlias = Phrase | str
+Wording: TypeAlias = Phrase | Words
 """What is said in the reader's language, or the same in every one: a name, a number, a line of a file."""
 
 
@@ -124,58 +121,97 @@ def from_data(kept: Any) -> Any:
     return Phrase(key, **{name: from_data(gap) for name, gap in gaps.items()})
 
 
-def say(phrase: Wording, language: str = "en", show: Callable[[object], str] = str) -> str:
-    """The sentence in a language.  ``show`` writes each argument (plain text, or markup of a convention).
+def say(phrase: Wording, language: str = "en", show: Callable[[object], Words] = str) -> str:
+    """The sentence in a language as plain text.  ``show`` writes each argument.
 
     >>> say(Phrase("points", link="2", points="B, C"))
     'mark B, C on link 2'
     """
-    return "".join(parts(phrase, language, show))
+    return rich_text(phrase, language, show).plain()
+
+
+def _as_it_is(gap: object) -> Words:
+    return gap if isinstance(gap, str | RichText) else str(gap)
+
+
+def rich_text(said: Wording, language: str, show: Callable[[object], Words] = _as_it_is) -> RichText:
+    """The sentence in a language with its symbols.  ``show`` writes each argument.
+
+    >>> rich_text(Phrase("by rate seen", **{"symbol": sign("v", "C"), "start.0": sign("B"), "seen": "3"}), "en")
+    from $B$ lay off what $ω_{3}$ gives: from the pole to there $v_{C}$
+    """
+    return RichText(*_closed_up(parts(said, language, show)))
+
+
+def _closed_up(parts: Iterable[Words]) -> list[Words]:
+    """Parts without a space where Chinese meets Chinese, as of a phrase in the gap of another."""
+    closed: list[Words] = []
+    for part in parts:
+        before = closed[-1] if closed else ""
+        if isinstance(part, str) and isinstance(before, str) and part and before:
+            if part[0] == " " and _is_chinese(before[-1]) and _is_chinese(part[1:2]):
+                part = part[1:]
+            elif before[-1] == " " and _is_chinese(before[-2:-1]) and _is_chinese(part[0]):
+                closed[-1] = before[:-1]
+        closed.append(part)
+    return closed
+
+
+def _is_chinese(character: str) -> bool:
+    return "\u4e00" <= character <= "\u9fff"
 
 
 def clause_of(said: Wording, gaps: Mapping[str, object]) -> Wording:
     """The sentence of a problem by its id, with the given gaps that its words have; a text that is no id stays as it
     is: a phrase, or a name, a number, a command that is the same in every language."""
-    if isinstance(said, Phrase) or said not in area("problems"):
+    if not isinstance(said, str) or said not in area("problems"):
         return said
-    return Phrase(said, **{gap: gaps[gap] for _, gap in _pieces(said, "en") if gap is not None})
+    return Phrase(said, **{gap: gaps[gap] for gap in gaps_of(said)})
 
 
-class Neutral(str):
+class Neutral(RichText):
     """A formula or a value with its unit: the same in every language, so that a sheet in two languages has it once."""
 
 
-def parts(said: Wording, language: str, show: Callable[[object], str] = str) -> Iterator[str]:
+def parts(said: Wording, language: str, show: Callable[[object], Words] = str) -> Iterator[Words]:
     """The parts of a sentence in their order: the words of the table, and each gap as ``show`` writes it.
 
     >>> list(parts(Phrase("points", link="2", points="B, C"), "en"))
     ['mark ', 'B, C', ' on link ', '2']
     """
-    if isinstance(said, str):
+    if not isinstance(said, Phrase):
         yield said
         return
-    for words, gap in _pieces(said.key, language):
+    for words, gap, of in _pieces(said.key, language):
         if words:
             yield words
-        if gap is not None:
-            fill = said.gaps[gap]
-            if isinstance(fill, Phrase):
-                yield from parts(fill, language, show)
-            else:
-                yield show(fill)
+        if gap is None:
+            continue
+        fill = said.gaps[gap]
+        if of:
+            index = plain(show(fill), "")
+            yield rate(of, index) if of in ("omega", "alpha") else sign(of, index)
+        elif isinstance(fill, Phrase):
+            yield from parts(fill, language, show)
+        else:
+            yield show(fill)
 
 
 @cache
-def _pieces(key: str, language: str) -> tuple[tuple[str, str | None], ...]:
-    """The words of a key, each with the name of the gap behind it."""
-    found: list[tuple[str, str | None]] = []
+def _pieces(key: str, language: str) -> tuple[tuple[Words, str | None, str], ...]:
+    """The words of a key, each with the name of the gap behind it, and the symbol of which that gap is the index."""
+    found: list[tuple[Words, str | None, str]] = []
     before = ""
-    for words, gap, _, _ in Formatter().parse(_table(language)[key]):
+    for words, gap, of, _ in Formatter().parse(_table(language)[key]):
         before += words
         if gap is not None:  # a brace that stands for itself parts the words too
-            found.append((before, gap))
+            found.append((_with_symbols(before), gap, of or ""))
             before = ""
-    return (*found, (before, None))
+    return (*found, (_with_symbols(before), None, ""))
+
+
+def _with_symbols(words: str) -> Words:
+    return noted(words) if "$" in words else words
 
 
 def has_words(key: str) -> bool:
@@ -189,7 +225,7 @@ def gaps_of(key: str) -> tuple[str, ...]:
     >>> gaps_of("points")
     ('points', 'link')
     """
-    return tuple(dict.fromkeys(name for _, name in _pieces(key, "en") if name))
+    return tuple(dict.fromkeys(name for _, name, _ in _pieces(key, "en") if name))
 
 
 def filled(keys: Iterable[str], gap: Callable[[str], object]) -> Phrase | None:
@@ -202,7 +238,7 @@ def filled(keys: Iterable[str], gap: Callable[[str], object]) -> Phrase | None:
 
     >>> symbol = {"bar": "BC", "kind": "omega", "seen": "3", "symbol": "v_C/B", "told": None}
     >>> str(filled(["{kind} turning", "{kind} zero"], symbol.get))
-    'ω_{3} = v_C/B / BC = 0'
+    'ω_3 = v_C/B / BC = 0'
     """
     for pattern in keys:
         variants = {name: gap(name) for _, name, _, _ in Formatter().parse(pattern) if name}
@@ -215,37 +251,34 @@ def filled(keys: Iterable[str], gap: Callable[[str], object]) -> Phrase | None:
     return None
 
 
-def in_all(said: Wording, language: str) -> tuple[str, ...]:
+def in_all(said: Wording, language: str) -> tuple[RichText, ...]:
     """A statement in every language of a sheet, as lines: one line where its `Neutral` parts stand in one order, with
     the words of both languages around them, else a line for each language.
 
-    >>> in_all(Phrase("force line shifted", force="$F$", distance="2", unit="mm"), "both")
-    ('The line of action of $F$ lies 2 mm off that point.', '$F$ 的作用线偏离该点 2 mm。')
-    >>> in_all(Phrase("given moment", size=Neutral("$M$ = 2 N·m"), link="3"), "both")
-    ('$M$ = 2 N·m on link 3 作用于构件 3',)
+    >>> in_all(Phrase("force line shifted", force=sign("F"), distance="2", unit="mm"), "both")
+    (The line of action of $F$ lies 2 mm off that point., $F$ 的作用线偏离该点 2 mm。)
+    >>> in_all(Phrase("given moment", size=Neutral(sign("M"), " = 2 N·m"), link="3"), "both")
+    ($M$ = 2 N·m on link 3 作用于构件 3,)
     """
     every = languages(language)
-    lines = tuple(dict.fromkeys("".join(parts(said, each)) for each in every))
+    lines = tuple(dict.fromkeys(rich_text(said, each) for each in every))
     if len(lines) == 1:
         return lines
     (ours, shared), (theirs, others) = (_around_neutral(said, each) for each in every)
     if not shared or shared != others:
         return lines
     around = [_both(one, other) for one, other in zip(ours, theirs, strict=True)]
-    return ("".join(a + b for a, b in zip(around, (*shared, ""), strict=True)).strip(),)
+    whole = RichText(*(part for pair in zip(around, (*shared, RichText()), strict=True) for part in pair))
+    return (whole.stripped(" "),)
 
 
-def _as_it_is(gap: object) -> str:
-    return gap if isinstance(gap, str) else str(gap)
-
-
-def _around_neutral(said: Wording, language: str) -> tuple[list[str], list[str]]:
+def _around_neutral(said: Wording, language: str) -> tuple[list[RichText], list[RichText]]:
     """The words around the neutral parts, and the neutral parts, which are one fewer."""
-    words, neutral = [""], list[str]()
+    words, neutral = [RichText()], list[RichText]()
     for part in parts(said, language, _as_it_is):
         if isinstance(part, Neutral):
             neutral.append(part)
-            words.append("")
+            words.append(RichText())
         else:
             words[-1] += part
     return words, neutral
@@ -254,13 +287,13 @@ def _around_neutral(said: Wording, language: str) -> tuple[list[str], list[str]]
 _MARKS = " ;:,.()；：，。、（）"
 
 
-def _both(one: str, other: str) -> str:
+def _both(one: RichText, other: RichText) -> RichText:
     """Words in both languages, with the marks of the first."""
-    more = other.strip(_MARKS)
-    if not more or more == one.strip(_MARKS):
+    more = other.stripped(_MARKS)
+    if not more or more == one.stripped(_MARKS):
         return one
-    head = one.rstrip(" :;,=")
-    return f"{head} {more}{one[len(head):] or ' '}" if head.strip(_MARKS) else f"{one or ' '}{more} "
+    head, marks = one.cut(" :;,=")
+    return head + " " + more + (marks or " ") if head.stripped(_MARKS) else (one or " ") + more + " "
 
 
 def about(key: str, names: Sequence[object]) -> str:
@@ -328,7 +361,7 @@ def from_others(sentence: Wording) -> Wording:
     >>> say(from_others("No such command 'drw'."), "zh")
     '没有命令“drw”'
     """
-    if isinstance(sentence, Phrase):
+    if not isinstance(sentence, str):
         return sentence
     for key, pattern in _sentences_of_others():
         if match := pattern.fullmatch(sentence):
@@ -372,67 +405,3 @@ def languages(language: str) -> tuple[str, ...]:
     (('en', 'zh'), ('zh',))
     """
     return ("en", "zh") if language == BOTH else (language,)
-
-
-# -- rich text --------------------------------------------------------------------------------------------------------
-
-
-_RATE = re.compile(r"([ωα]_\{[^{}]*(?:\}|$))")  # in the words of a table; open where its index is a gap
-
-
-class Markup(str):
-    """A symbol, or several side by side."""
-
-
-RichText = tuple[str, ...]
-"""Words, and symbols as `Markup`, in turn."""
-
-
-def rich_text(said: Wording, language: str, show: Callable[[object], str] = _as_it_is) -> RichText:
-    """A sentence in words and symbols; symbols side by side are one.
-
-    Parameters
-    ----------
-    show : writes the value of a gap, a symbol as `Markup`
-
-    >>> from graphkin.words import Phrase
-    >>> rich_text(Phrase("design trial", pair="2"), "en")[:2]
-    ('two trial cranks: turn ', 'B_{2}')
-    >>> rich_text(Phrase("by rate seen", **{"symbol": Markup("v_{C}"), "start.0": Markup("B"), "seen": "3"}), "en")
-    ('from ', 'B', ' lay off what ', 'ω_{3}', ' gives: from the pole to there ', 'v_{C}')
-    """
-    found: list[str] = []
-
-    def add(is_symbol: bool, text: str) -> None:
-        if found and isinstance(found[-1], Markup) == is_symbol:
-            text = found.pop() + text
-        found.append(Markup(text) if is_symbol else text)
-
-    inside = index_open = False  # between dollar signs; at a rate of the table that waits for its index
-    for part in parts(said, language, show):
-        if isinstance(part, Markup):
-            add(True, part)
-            continue
-        rest: str = part
-        if index_open:
-            index, closed, rest = rest.partition("}")
-            add(True, index + closed)
-            index_open = not closed
-        for i, text in enumerate(rest.replace("$$", "\0").split("$")):
-            inside ^= i > 0
-            for k, piece in enumerate([text] if inside else _RATE.split(text)):
-                if piece:
-                    add(inside or k % 2 == 1, piece.replace("\0", "$$"))
-                    index_open = index_open or (k % 2 == 1 and not piece.endswith("}"))
-    return tuple(found)
-
-
-def as_markup(text: RichText) -> str:
-    """The text with symbols between dollar signs, as figures and papers set it."""
-    return "".join(f"${part}$" if isinstance(part, Markup) else part for part in text)
-
-
-def as_plain(text: RichText, index: str = "") -> str:
-    """The text for a terminal and for screen readers: ``v_B2`` or ``vB2``, with ``index`` before an index."""
-    shown = (plain(symbol(part), index) if isinstance(part, Markup) else part.replace("$$", "$") for part in text)
-    return "".join(shown)

@@ -16,6 +16,7 @@ LEAST = 0.05  # mm; what is shorter is read where it is drawn larger
 ROUNDED = 1e-12  # mm on a sheet of some hundred: what the sixteenth digit leaves
 DIGITS = 40
 LONGEST = 9  # figures that somebody writes
+_RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 
 def on_paper(mm: float) -> str:
@@ -154,6 +155,16 @@ def true_minus(text: str) -> str:
     return text.replace("-", "−")
 
 
+def printed(text: str) -> str:
+    """A number for people: powers of ten as such, a typographic minus sign.
+
+    >>> printed("-2.5"), printed("1.2e-07")
+    ('−2.5', '1.2·10⁻⁷')
+    """
+    head, _, power = text.partition("e")
+    return true_minus(f"{head}·10{str(int(power)).translate(_RAISED)}" if power else head)
+
+
 def pointing(span: complex) -> str:
     """The direction of a vector in degrees, to a tenth, above -180 to 180.
 
@@ -175,11 +186,6 @@ def roman(number: int) -> str:
         count, number = divmod(number, value)
         text += count * letters
     return text
-
-
-def in_markup(text: str) -> str:
-    """A text as markup that shows it unchanged: its dollar signs begin no symbol."""
-    return text.replace("$", "$$")
 
 
 def _number(text: str) -> Decimal:

@@ -30,7 +30,7 @@ from graphkin.checking.readings import read_off
 from graphkin.checking.report import measured
 from graphkin.construction import draft, pencil
 from graphkin.construction.board.instruments import EXACT
-from graphkin.construction.board.sheet import Board
+from graphkin.construction.board.sheet import Board, Equation
 from graphkin.construction.board.steps import Direction, RateTrial, Size, Step, Superposed
 from graphkin.drawing.ink.primitives import Text, walk
 from graphkin.drawing.sheet_plan import sheet_room
@@ -49,7 +49,7 @@ def drawn(name):
 
 def test_a_length_that_is_not_given_stands_with_its_millimetres():
     assert ["$l_{CB}$ = 190.80 mm × 2 mm/mm = 381.6 mm"] == [
-        line for _, line in lengths_measured(*drawn("sixbar-guide-40deg"))
+        repr(line) for _, line in lengths_measured(*drawn("sixbar-guide-40deg"))
     ]
 
 
@@ -58,7 +58,7 @@ def test_nothing_is_measured_where_every_length_is_given():
 
 
 def test_the_sheet_tells_the_rate_in_numbers_once():
-    lines = [line for line in written_lines(*drawn("sixbar-guide-40deg"), "en") if isinstance(line, str)]
+    lines = [repr(line) for line in written_lines(*drawn("sixbar-guide-40deg"), "en") if not isinstance(line, Equation)]
     assert 1 == sum("1075.8\u00a0/\u00a0381.6 =\u00a02.819" in line for line in lines)
 
 
@@ -76,7 +76,7 @@ def test_trial_rates_are_divided_as_it_is_written(name):
 
 
 def test_the_sheet_tells_how_trials_are_divided():
-    lines = [line for line in written_lines(*drawn("contour-four-bars"), "en") if isinstance(line, str)]
+    lines = [repr(line) for line in written_lines(*drawn("contour-four-bars"), "en") if not isinstance(line, Equation)]
     told = [line.replace("\u00a0", " ") for line in lines if "no gap" in line]
     assert "no gap: $ω_{3}$ = −6 − 6.13 / (5.97 + 6.13) × 1.3 = −6.659 (−6.6584) rad/s" == told[0]
     assert 2 == len(told)
@@ -92,7 +92,7 @@ def test_every_sum_is_true_as_it_is_written(name):
             text = rule_sum(sheet, step.size, step.diagram)
         else:
             continue
-        if not text or "$" in text:
+        if not text or "·10" in text:
             continue
         sum_, told = text.split(" = ")
         value = eval(re.sub("²", "**2", sum_.replace("×", "*")))
@@ -209,8 +209,8 @@ def test_what_a_held_link_shows_is_laid_off_by_the_rates_as_the_other_vectors_ar
 
 def test_sizes_relative_to_a_held_link_stand_in_numbers():
     sheet, _ = seen_from_a_held_link()
-    lines = [line.replace("\u00a0", " ") for line in written_lines(sheet, notation_of(sheet, "chinese"), "en")
-             if isinstance(line, str)]  # fmt: skip
+    lines = [repr(line).replace("\u00a0", " ") for line in written_lines(sheet, notation_of(sheet, "chinese"), "en")
+             if not isinstance(line, Equation)]  # fmt: skip
     told = [part for line in lines for part in line.split(";  ")]
     by_rates = [line for line in told if "(4)}_{D3B3}" in line]
     assert ["3.33 × 27.861 = 92.777 mm/s,  $⊥DB$", "3.33² × 27.861 = 308.95 mm/s²,  $D→B$",
@@ -220,13 +220,13 @@ def test_sizes_relative_to_a_held_link_stand_in_numbers():
 
 
 def test_lengths_from_a_special_point_are_measured_before_they_are_used():
-    named = [line.split(" = ")[0] for _, line in lengths_measured(*drawn("single-flier"))]
+    named = [repr(line).split(" = ")[0] for _, line in lengths_measured(*drawn("single-flier"))]
     assert ["$l_{SH}$", "$l_{KS}$", "$l_{JS}$"] == named
 
 
 def test_what_a_cylinder_is_pushed_to_is_given_and_not_measured():
     assert ["$l_{CB}$ = $s_{23}$ = 520 mm"] == [
-        line for _, line in lengths_measured(*drawn("hydraulic-cylinder"))
+        repr(line) for _, line in lengths_measured(*drawn("hydraulic-cylinder"))
     ]
 
 
@@ -258,9 +258,10 @@ def drawn_by_hand(name, seed=1):
 @pytest.mark.parametrize("name", library())
 def test_with_a_pencil_each_product_and_quotient_follows_from_what_it_shows(name):
     sheet, _ = drawn_by_hand(name)
-    lines = [line for line in written_lines(sheet, notation_of(sheet, "chinese"), "en") if isinstance(line, str)]
-    lines += [line for _, line in lengths_measured(sheet, notation_of(sheet, "chinese"))]
-    whole = " ".join(lines).replace("\u00a0", " ").replace(" mm/mm", "")
+    letters = notation_of(sheet, "chinese")
+    lines = [line for line in written_lines(sheet, letters, "en") if not isinstance(line, Equation)]
+    lines += [line for _, line in lengths_measured(sheet, letters)]
+    whole = " ".join(map(repr, lines)).replace("\u00a0", " ").replace(" mm/mm", "")
     number, false = r"\d[\d.]*", []
     for sum_, told in re.findall(rf"((?:{number}²?(?: mm)? [×/] )+{number}²?) = ({number})(?![\d.·])", whole):
         value = eval(sum_.replace(" mm", "").replace("²", "**2").replace("×", "*"))
@@ -342,7 +343,7 @@ def test_trials_that_differ_by_less_than_a_ruler_shows_are_divided_by_what_they_
 def test_a_hand_writes_no_more_than_its_ruler_shows():
     hand = pencil(Tools(), 1)
     sheet = draft(mechanism_of("sixbar-guide-40deg"), instrument=hand)
-    measured = [told.split(" = ")[-1] for _, told in lengths_measured(sheet, notation_of(sheet, "chinese"))]
+    measured = [str(told).split(" = ")[-1] for _, told in lengths_measured(sheet, notation_of(sheet, "chinese"))]
     assert [] == [told for told in measured if "(" in told]
     sheet = draft(mechanism_of("contour-four-bars"), instrument=hand)
     steps = [step for step in sheet.steps if isinstance(step.data, Superposed)]
@@ -435,7 +436,7 @@ def test_quotients_come_to_what_was_measured_and_what_is_laid_off_to_its_length(
 def test_where_end_points_have_no_letters_the_vector_of_an_image_is_told(said, name, language):
     sheet, _ = drafted(name)
     lines = written_lines(sheet, notation_of(sheet, "us"), language)
-    assert said in [line.replace("\u00a0", " ") for line in lines if isinstance(line, str)]
+    assert said in [repr(line).replace("\u00a0", " ") for line in lines]
 
 
 @pytest.mark.parametrize("name", ["hydraulic-cylinder", "shaper-scheme-2", "sixbar-420rpm", "double-butterfly"])

@@ -8,7 +8,7 @@ from graphkin.account.notation import notation_of
 from graphkin.construction import draft
 from graphkin.drawing.ink.primitives import Text, walk
 from graphkin.scene import mechanism_of
-from graphkin.words import say
+from graphkin.words import rich_text
 
 OLDHAM = {
     "frame": {"name": "4", "points": {"A": [0, 0], "B": [30, 0]}},
@@ -64,7 +64,7 @@ SLANTED_SLOT = {
 
 def given(scene, language="en"):
     sheet = draft(mechanism_of(scene))
-    return given_shapes(sheet.scene, notation_of(sheet, "chinese"), language)
+    return [*map(repr, given_shapes(sheet.scene, notation_of(sheet, "chinese"), language))]
 
 
 @pytest.mark.parametrize(
@@ -133,7 +133,7 @@ def test_a_point_beside_its_guide_is_dimensioned_along_it_and_not_by_its_distanc
 )
 def test_a_driver_is_told_with_its_rate_even_at_rest(told, scene):
     sheet = draft(mechanism_of(scene))
-    assert told == given_drivers(sheet, notation_of(sheet, "chinese"))
+    assert told == [*map(repr, given_drivers(sheet, notation_of(sheet, "chinese")))]
 
 
 @pytest.mark.parametrize(
@@ -147,7 +147,7 @@ def test_a_driver_is_told_with_its_rate_even_at_rest(told, scene):
 )
 def test_a_problem_tells_how_wheels_stand_that_carry_further_points(name, starts):
     scene = mechanism_of(name)
-    assert starts == rolled_starts(draft(scene))
+    assert starts == [*map(repr, rolled_starts(draft(scene)))]
     if starts:
         problem = handout(name, formats=("html",), positions=1).files["problem.html"].decode()
         assert "Rolling starts at" in problem
@@ -179,7 +179,7 @@ PRESS = {
 def of_loads(**tables: object) -> list[str]:
     """The given masses and loads of the press."""
     sheet = draft(mechanism_of({**PRESS, **tables}))
-    return [say(phrase, "en") for phrase in given_loads(sheet, notation_of(sheet, "chinese"))]
+    return [repr(rich_text(phrase, "en")) for phrase in given_loads(sheet, notation_of(sheet, "chinese"))]
 
 
 def test_the_point_at_which_a_force_acts_is_given() -> None:

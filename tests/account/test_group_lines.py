@@ -19,6 +19,7 @@ from graphkin.drawing.sheet_plan import sheet_plan, with_less_mechanism, with_le
 from graphkin.drawing.text import runs_width, wrapped
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import PointRef
+from graphkin.words.symbols import sign
 from tests.construction.test_groups import BARE, HELD, UNBARRED, WELDED
 from tests.drawn import drafted
 
@@ -30,7 +31,7 @@ def told(name, language="en"):
     """The lines of a sheet in words, spaces plain."""
     sheet, _ = drafted(name)
     lines = written_lines(sheet, notation_of(sheet, "chinese"), language)
-    return [line.replace("\u00a0", " ") for line in lines if not isinstance(line, Equation)]
+    return [repr(line).replace("\u00a0", " ") for line in lines if not isinstance(line, Equation)]
 
 
 def test_trial_positions_are_told_from_point_to_point_with_what_is_missed():
@@ -104,7 +105,7 @@ def test_triangles_that_are_told_are_similar_in_one_sense(name, triangles):
 def _end(sheet, ends, diagram, letter):
     named = (PointRef(p, n) for p in sheet.scene.holders for n in ("", *sheet.structure.links))
     points = [ends.end_point(diagram, ref) for ref in (PointRef("S"), *named)]
-    return next(point.at for point in points if point is not None and point.letter == letter)
+    return next(point.at for point in points if point is not None and repr(point.letter) == f"${letter}$")
 
 
 def test_links_seen_from_a_held_one_are_told_with_the_rates_that_add_up():
@@ -129,7 +130,7 @@ def test_what_a_driver_between_links_of_a_group_adds_is_told_and_true(scene):
     account = Account(sheet, notation_of(sheet, "chinese"))
     for step in steps:
         (line,) = telling(account, step).written("en")
-        line = line.replace("\u00a0", " ")
+        line = repr(line).replace("\u00a0", " ")
         terms, value = re.fullmatch(r".*\$ = ([^=$]+) = (\S+)(?: \(\S+\))? rad/s²?", line).groups()
         value = float(value.replace("−", "-"))
         rates = sheet.rates[step.kind]
@@ -144,7 +145,7 @@ def test_what_a_driver_between_links_of_a_group_adds_is_told_and_true(scene):
 def test_what_is_missed_at_a_guide_is_told_with_the_guide(language, named):
     sheet = draft(mechanism_of(BARE))
     lines = written_lines(sheet, notation_of(sheet, "chinese"), language)
-    assert any(named in line for line in lines if isinstance(line, str))
+    assert any(named in repr(line) for line in lines)
 
 
 def test_what_is_carried_over_from_a_held_link_is_told_by_its_parts():
@@ -189,8 +190,8 @@ def test_an_open_end_on_a_block_is_told_by_its_letter():
     # a pin of link 5 in the block 7 of a guide on 6: the block has a letter, c7, that bears its index
     sheet, _ = drafted("loader-cylinder")
     ends = Account(sheet, notation_of(sheet, "chinese"))
-    assert "e_{7}" == ends.end_of("velocity", PointRef("E", "7")) == ends.end_of("velocity", PointRef("E"))
-    assert "e_{6}" == ends.end_of("velocity", PointRef("E", "6"))
+    assert sign("e", "7") == ends.end_of("velocity", PointRef("E", "7")) == ends.end_of("velocity", PointRef("E"))
+    assert sign("e", "6") == ends.end_of("velocity", PointRef("E", "6"))
 
 
 def test_chinese_lists_break_after_their_commas():
@@ -202,7 +203,8 @@ def test_chinese_lists_break_after_their_commas():
 def test_an_acceleration_as_seen_from_a_held_link_bears_its_mark():
     sheet, _ = drafted("scissor-lift")
     speaker = Account(sheet, notation_of(sheet, "chinese"))
-    said = " ".join(telling(speaker, step).sentence("en") for step in sheet.steps if step.diagram == "acceleration")
+    steps = [step for step in sheet.steps if step.diagram == "acceleration"]
+    said = " ".join(repr(telling(speaker, step).sentence("en")) for step in steps)
     assert "$a^{(3)}_{FF3}$" in said
     assert "$a_{FF3}$" not in said
 
@@ -214,6 +216,6 @@ def test_trial_polygons_say_that_a_link_is_left_out_not_an_equation():
 def test_a_moving_point_over_a_pivot_is_no_fixed_pivot():
     sheet, _ = drafted("scissor-lift")
     speaker = Account(sheet, notation_of(sheet, "chinese"))
-    said = " ".join(why(speaker, equation, "en") for equation in sheet.equations)
+    said = " ".join(repr(why(speaker, equation, "en")) for equation in sheet.equations)
     assert "fixed pivot $A_{3}$" not in said
     assert "$B$ and $A_{3}$ are points of the rigid link 3: the relative acceleration has a part" in said

@@ -16,8 +16,9 @@ from graphkin.scene.symbol import Symbol
     ("F_{R56}", "F_{56}", "F_5/6"),
 ])  # fmt: skip
 def test_a_quantity_is_written_in_the_letters_of_its_school(chinese: str, us: str, name: str):
-    assert (chinese, us) == (Notation("chinese").vector(Symbol.parse(name)), Notation("us").vector(Symbol.parse(name)))
+    schools = (Notation("chinese"), Notation("us"))
+    assert [f"${chinese}$", f"${us}$"] == [repr(school.vector(Symbol.parse(name))) for school in schools]
 
 
 def test_the_transmission_angle_of_a_group_has_the_letter_of_an_angle_between_links():
-    assert "γ_{45}" == Notation("chinese").vector(Symbol("transmission", name="4-5"))
+    assert "$γ_{45}$" == repr(Notation("chinese").vector(Symbol("transmission", name="4-5")))

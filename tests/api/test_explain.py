@@ -56,7 +56,7 @@ def test_a_group_without_a_link_of_the_file_is_solved_by_name(language: str, gro
 
 
 @pytest.mark.parametrize(
-    ("language", "group"), [("en", "Group of the blocks at P: "), ("zh", "由P 处各滑块 组成的杆组：")]
+    ("language", "group"), [("en", "Group of the blocks at P: "), ("zh", "由 P 处各滑块组成的杆组：")]
 )
 def test_a_group_without_a_link_of_the_file_stands_in_the_report(language: str, group: str) -> None:
     assert group in report_text(graphkin.check(str(CONTRACT / "pin-in-two-guides.toml")), language)

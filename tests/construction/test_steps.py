@@ -79,7 +79,8 @@ def test_the_table_of_sentences_tells_reasons_of_steps_with_words_of_the_table()
 
 def test_a_gap_of_a_sentence_is_filled_with_an_argument_of_the_step_by_its_name() -> None:
     step = Step("cross", "arcs", points=("A", "D"), point="C", radii=(12.5, 3.0))
-    assert ("D", "C", "12.50", "A, D") == tuple(map(step.gap, ("points.1", "point", "radii.0", "points")))
+    gaps = ("points.1", "point", "radii.0", "points")
+    assert ["D", "C", "12.50", "A, D"] == [str(step.gap(name)) for name in gaps]
     assert "an arc about A of 12.50 mm and one about D of 3.00 mm meet in C" == str(step.phrase)
 
 

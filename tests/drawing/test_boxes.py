@@ -18,6 +18,7 @@ from graphkin.drawing.place.piece import Piece, ink_box
 from graphkin.drawing.text import text_box, width
 from graphkin.scene.scene_tables import DIAGRAMS
 from graphkin.words import word
+from graphkin.words.symbols import sign
 
 LONG = "the velocity polygon turned by 90 degrees is a rigid lever about its pole " * 3
 
@@ -73,7 +74,7 @@ def test_prose_lies_within_its_width_and_height() -> None:
 
 @pytest.mark.parametrize("width", [20.0, 9.0])
 def test_no_cell_of_a_table_reaches_into_the_next(width: float) -> None:
-    made = table([["force", "N"], ["力", "N"]], [["$F_{I4}$", "−737440.25"], ["P", "3"]], [width, width])
+    made = table([["force", "N"], ["力", "N"]], [[sign("F", "I4"), "−737440.25"], ["P", "3"]], [width, width])
     boxes = [text_box(text) for text in texts(made)]
     assert [] == [pair for pair in combinations(boxes, 2) if pair[0].overlaps(pair[1])]
 
@@ -91,7 +92,7 @@ def test_a_column_too_narrow_for_its_cells_takes_room_from_the_others() -> None:
 
 
 def test_the_parts_of_a_cell_that_is_set_smaller_stand_clear_of_each_other() -> None:
-    made = table([["quantity", "mm"]], [["$A^{n}_{Coupling/Drum}$, mm/s²", "3"]], [14.0, 30.0])
+    made = table([["quantity", "mm"]], [[sign("A", "Coupling/Drum", "n") + ", mm/s²", "3"]], [14.0, 30.0])
     runs = texts(made)[2].runs
     index, unit = runs[-2], runs[-1]
     assert index.x + width(index.text, index.size, index.italic, index.bold) <= unit.x + 0.01

@@ -16,6 +16,7 @@ from graphkin.drawing.text import rich, width
 from graphkin.drawing.write.dxf import arcs_of_profile
 from graphkin.errors import CallError
 from graphkin.scene import mechanism_of
+from tests.notation import noted
 
 SVG = "{http://www.w3.org/2000/svg}"
 THIN = Stroke(0.18)
@@ -99,7 +100,7 @@ def test_without_the_extra_it_is_said_how_to_have_it(monkeypatch):
 
 
 def test_letters_as_outlines_are_paths_and_can_still_be_found():
-    page = Drawing(30.0, 20.0, (Text(5 + 8j, rich("ram $v_B$"), id="x"),))
+    page = Drawing(30.0, 20.0, (Text(5 + 8j, rich(noted("ram $v_B$")), id="x"),))
     root = ET.fromstring(page.content("svg", text="outlines"))
     group = root.find(f".//{SVG}g[@id='x']")
     path, text = group

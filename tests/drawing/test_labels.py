@@ -22,12 +22,13 @@ from graphkin.drawing.place.placement import Placement, place
 from graphkin.drawing.text import rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.drawing.write.svg import svg_bytes
+from tests.notation import noted
 
 PANEL = Box(5.0, 5.0, 155.0, 105.0)
 
 
 def label(markup: str, mark, *toward: float) -> Label:
-    return Label(Text(0j, rich(markup)), mark, toward)
+    return Label(Text(0j, rich(noted(markup))), mark, toward)
 
 
 def polygon(tips: list[complex], pole: complex = 30 + 70j):

@@ -20,9 +20,11 @@ from graphkin.drawing.text import plain, rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.drawing.write.pdf import SIGNS, MissingFont, faces
 from tests.drawing.pdf_page import painted, size
+from tests.notation import noted
 
-A4 = Drawing(210.0, 297.0, (vector_group("v_B", 1, 20 + 50j, 80 + 30j), Text(20 + 90j, rich("$v_{B_3}$ = 0"))), "Title")
-CHINESE = Drawing(60.0, 30.0, (Text(5 + 15j, rich("速度 $v_B$")),), lang="zh")
+NAME = Text(20 + 90j, rich(noted("$v_{B_3}$ = 0")))
+A4 = Drawing(210.0, 297.0, (vector_group("v_B", 1, 20 + 50j, 80 + 30j), NAME), "Title")
+CHINESE = Drawing(60.0, 30.0, (Text(5 + 15j, rich(noted("速度 $v_B$"))),), lang="zh")
 
 
 def ink(drawing: Drawing, dpi: float = 254.0):

@@ -177,9 +177,9 @@ def test_lengths_are_given_however_short_and_what_rounding_leaves_is_none():
                   "2": {"points": ["B", "C"], "length": 500, "at": {"E": [0.5, 0], "F": [1e-13, 0]}}},
         "driver": {"link": "1", "angle": 60, "omega": 10}, "sketch": {"C": [420, 290]},
     })  # fmt: skip
-    given = dict(given_lengths(scene, notation_of(draft(scene), "chinese")))
-    assert "0.5" == given["l_{BE}"]
-    assert {"l_{BF}"} == {f"l_{{{p}{q}}}" for p in "BC" for q in "EF"} - set(given)
+    given = {str(name): value for name, value in given_lengths(scene, notation_of(draft(scene), "chinese"))}
+    assert "0.5" == given["l_BE"]
+    assert {"l_BF"} == {f"l_{p}{q}" for p in "BC" for q in "EF"} - set(given)
 
 
 @pytest.mark.parametrize(("scene", "value"), [

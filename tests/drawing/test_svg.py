@@ -19,6 +19,7 @@ from graphkin.drawing.ink.symbols import vector_group
 from graphkin.drawing.text import plain, rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.drawing.write.svg import check_standard, number, svg_bytes, svg_element
+from tests.notation import noted
 
 pytestmark = pytest.mark.quick
 
@@ -49,7 +50,7 @@ EVERYTHING = (
         layer="velocity",
     ),
     Group(
-        (Text(10 + 10j, rich("速度 $a^n_{C/B}$"), classes=("label",)), Text(9 + 9j, plain("2"), "end")),
+        (Text(10 + 10j, rich(noted("速度 $a^n_{C/B}$")), classes=("label",)), Text(9 + 9j, plain("2"), "end")),
         layer="labels",
     ),
 )

@@ -111,7 +111,7 @@ def test_each_velocity_plan_stands_there_from_its_own_last_step_on():
 def test_every_velocity_plan_is_a_figure_of_the_solution_on_paper():
     lesson = handout(FOUND_LATER, positions=1, formats=("html",)).lesson
     figures = (block for block in laid_out(solution(lesson).blocks) if isinstance(block, Picture))
-    captions = [words for figure in figures for _, words in figure.caption]
+    captions = [str(words) for figure in figures for _, words in figure.caption]
     plans = ["Figure 2. Velocity plan", "Figure 4. Velocity plan",
              "Figure 5. Plan of tangential accelerations", "Figure 7. Plan of tangential accelerations"]  # fmt: skip
     assert plans == [caption for caption in captions if "lan" in caption]
@@ -127,9 +127,9 @@ def test_a_template_without_one_of_its_values_is_refused():
 
 
 def test_an_empty_step_and_a_plate_are_written_with_their_words_escaped():
-    from graphkin.papers.blocks import Plate, StepItem, spoken
+    from graphkin.papers.blocks import Plate, StepItem, once
     from graphkin.papers.html import blocks_html
 
-    page = blocks_html([StepItem(3, spoken("a<b", "en")), Plate("<svg/>", 254.0, 127.0, 'a "b" <c>')], "en")
+    page = blocks_html([StepItem(3, once("a<b", "en")), Plate("<svg/>", 254.0, 127.0, 'a "b" <c>')], "en")
     assert '<li value="3"><p lang="en">a&lt;b</p></li>' in page
     assert '<img alt="a &#34;b&#34; &lt;c&gt;" width="960" height="480" src="data:image/svg+xml;base64,PHN2' in page

@@ -63,8 +63,9 @@ def test_the_mechanism_of_the_problem_sheet_is_to_scale(shaper):
 @pytest.mark.parametrize("name", ["shaper-forces", "gears-epicyclic", "geared-five-bar"])
 def test_figures_of_a_solution_are_numbered_and_equations_name_theirs(name):
     blocks = list(laid_out(solution(handout(name, formats=("html",), positions=1).lesson).blocks))
-    captions = [b.caption[0][1] for b in blocks if isinstance(b, Picture) and b.caption]
-    named = [int(n) for b in blocks if isinstance(b, Heading) for n in re.findall(r"\(figure (\d+)\)", b.words[0][1])]
+    captions = [str(b.caption[0][1]) for b in blocks if isinstance(b, Picture) and b.caption]
+    heads = [str(b.words[0][1]) for b in blocks if isinstance(b, Heading)]
+    named = [int(n) for head in heads for n in re.findall(r"\(figure (\d+)\)", head)]
     assert [f"Figure {i}." for i in range(1, len(captions) + 1)] == [" ".join(c.split()[:2]) for c in captions]
     assert named
     assert set(named) <= set(range(1, len(captions) + 1))

@@ -6,7 +6,7 @@ import pytest
 
 from graphkin.drawing.ink.primitives import Line, Scan, Stroke
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.papers.blocks import Document, Heading, Paragraph, Picture, StepItem, spoken
+from graphkin.papers.blocks import Document, Heading, Paragraph, Picture, StepItem, once
 from graphkin.papers.pdf import FORMS, KEPT, Page, PageItem, balanced, fill_pages, pages_of
 
 HEIGHT = 260.0
@@ -109,7 +109,7 @@ def test_a_heading_goes_to_the_next_page_with_what_it_leads_to():
     def measure(questions):
         return [(100.0, heights[type(block)]) for block, _ in questions]
 
-    words = spoken("words", "en")
+    words = once("words", "en")
     steps = [StepItem(number, words) for number in (1, 2)]
     document = Document("title", ("en",), (Paragraph(words), Heading(words), *steps))
     shown = [[type(row.left[0].block) for row in half] for page in pages_of(document, measure) for half in page]

@@ -80,7 +80,7 @@ def test_a_pin_in_one_counts_as_a_higher_pair() -> None:
     ],
 )
 def test_it_is_among_the_given_data(scene: dict[str, Any], language: str, told: str) -> None:
-    assert told == given_shapes(mechanism_of(scene), Notation("chinese"), language)[-1]
+    assert told == repr(given_shapes(mechanism_of(scene), Notation("chinese"), language)[-1])
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,6 @@ from graphkin.drawing.figures.constructions import (
     cam_given,
     cam_pictures,
     construction_picture,
-    step_words,
 )
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.blocks import (
@@ -43,14 +42,13 @@ from graphkin.papers.documents import accepted, labelled
 from graphkin.papers.paper import Paper
 from graphkin.papers.pdf import papers_as
 from graphkin.papers.pictures import bare_picture
-from graphkin.words import languages, say, word
-from graphkin.words.symbols import plain_words
-from graphkin.words.written import in_markup
+from graphkin.words import languages, rich_text, say, word
+from graphkin.words.symbols import Words, sign, spaced
 
 MANY = 6  # steps that stand in two columns
 
-Result = Mapping[str, str]
-"""A result of a construction by the keys of heads: its name (markup), unit, as read off, the exact value, and what may
+Result = Mapping[str, Words]
+"""A result of a construction by the keys of heads: its name, unit, as read off, the exact value, and what may
 be accepted of a pencil drawing."""
 
 
@@ -73,7 +71,7 @@ def _papers(
 
     def document(key: str, *blocks: Block) -> Document:
         first = languages(language)[0]
-        name = plain_words(title[0][1]) + word("colon", first) + word(key, first)
+        name = str(title[0][1]) + word("colon", first) + word(key, first)
         return Document(name, languages(language), (Heading(title, 1), *blocks), paper)
 
     def results_in(heading: str, keys: Sequence[str], rows: Sequence[Result], roomy: bool = False) -> Together:
@@ -108,7 +106,7 @@ def _papers(
 
 
 def _result(
-    name: str, unit: str, read: str, exact: str, value: float, deviation: float, least: float = 0.0
+    name: Words, unit: str, read: str, exact: str, value: float, deviation: float, least: float = 0.0
 ) -> Result:  # fmt: skip
     """A result with its tolerance, the accepted number of standard deviations of a pencil drawing."""
     _, within = accepted(value, COVERAGE * deviation, least)
@@ -122,17 +120,17 @@ def design_papers(designed: Designed, formats: Sequence[str]) -> Mapping[str, by
     spread = predict_lengths(given.task, sheet.scale, "pencil", given.sheet.tools)
     results = []
     for row in designed.rows:
-        name = row.symbol if row.symbol == "ram" else f"${row.symbol}$"
+        name = row.symbol if row.symbol == "ram" else sign(row.symbol)
         deviation = spread.get(row.symbol, math.inf) * sheet.scale
         results.append(_result(name, unit, number(row.measured), number(row.exact), row.exact, deviation))
-    find = ", ".join(cells["quantity"] for cells in results)
+    find = spaced(", ", (cells["quantity"] for cells in results))
     return _papers(
-        title=in_each(language, lambda each: in_markup(given.title_in(each) or given.name)),
+        title=in_each(language, lambda each: given.title_in(each) or given.name),
         given=(in_each(language, lambda each: asked_words(given, each)),
                in_each(language, lambda each: labelled("find", find, each))),
         start=(construction_picture(given, sheet, language, 1),),
         whole={said("design figure", language): construction_picture(given, sheet, language)},
-        steps=[in_each(language, partial(step_words, phrase)) for phrase, _ in sheet.steps],
+        steps=[in_each(language, partial(rich_text, phrase)) for phrase, _ in sheet.steps],
         results=results,
         notes=_notes(designed, language),
         language=language,
@@ -173,7 +171,7 @@ def _notes(designed: Designed, language: str) -> list[Said]:
 
 def _by_sentence(spoken: Mapping[str, Sequence[str]]) -> list[Said]:
     """The sentences of each language, joined one by one."""
-    sentences = ([(each, in_markup(text)) for text in texts] for each, texts in spoken.items())
+    sentences = ([(each, text) for text in texts] for each, texts in spoken.items())
     return [tuple(pairs) for pairs in zip(*sentences, strict=True)]
 
 
@@ -186,7 +184,7 @@ def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str
     for k, (d, tolerance) in enumerate(zip(sheet.divisions, spread, strict=True)) if not cam.flat else ():
         angle = math.degrees(d.pressure)
         deviation = math.degrees(tolerance["pressure"])
-        results.append(_result(f"$α_{{{k}}}$", "°", f"{angle:.1f}", f"{angle:.3f}", angle, deviation))
+        results.append(_result(sign("α", str(k)), "°", f"{angle:.1f}", f"{angle:.3f}", angle, deviation))
     metres = scene.units.metres
     for k, (d, tolerance) in enumerate(zip(sheet.divisions, spread, strict=True)):
         lift = cam.law.at(d.degree).lift
@@ -194,16 +192,16 @@ def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str
         letter, unit = ("ψ", "°") if swings else ("s", scene.units.length)
         per = 1.0 if swings else sheet.scale / metres
         read = number(round(drawn / per, 2) * per)  # to 0.01 mm, as lengths on paper are told
-        results.append(_result(f"${letter}_{{{k}}}$", unit, read, number(value, 5), value, deviation, -math.inf))
+        results.append(_result(sign(letter, str(k)), unit, read, number(value, 5), value, deviation, -math.inf))
     spoken = {each: made.sentences(each) for each in languages(language)}
     captions = said("cam diagram", language), said("cam figure", language)
     return _papers(
-        title=in_each(language, lambda each: in_markup(scene.question.title_in(each) or scene.name)),
+        title=in_each(language, lambda each: scene.question.title_in(each) or scene.name),
         given=(in_each(language, lambda each: cam_given(scene, cam, each)),
                in_each(language, lambda each: labelled("find", word("cam find", each), each))),
         start=cam_pictures(scene, sheet, language, begun=True),
         whole=dict(zip(captions, cam_pictures(scene, sheet, language), strict=True)),
-        steps=[in_each(language, partial(say, phrase)) for phrase in sheet.steps],
+        steps=[in_each(language, partial(rich_text, phrase)) for phrase in sheet.steps],
         results=results,
         notes=_by_sentence(spoken),
         language=language,

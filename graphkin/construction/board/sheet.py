@@ -23,6 +23,7 @@ from graphkin.construction.board.steps import (
     DiagramName,
     Mark,
     OnPaper,
+    PointNames,
     Step,
     Term,
     Vector,
@@ -78,7 +79,7 @@ class Remark:
         reading a trial polygon's gap moves end points by a multiple of it; "parallel legs": two legs of a link leave it
         free along one direction, their special point lies at infinity; "at contact", "at pitch curve": a sliding
         contact is drawn at the contact itself, or as a pin on the pitch curve, not by its replacement
-    of : the thing found there, or its subject
+    of : the thing found there, or its subject; points by name
     size : the sine of the angle of a sharp crossing, the factor of magnification, else a length on paper (mm)
     finds : the quantity that a sharp crossing finds, of a place its velocity
     """
@@ -106,7 +107,8 @@ class Remark:
     @property
     def phrase(self) -> Phrase:
         """The remark as a phrase; of a crossing with its angle, arcsin of the size (deg), of others with their size."""
-        gaps: dict[str, object] = dict(zip(_GAPS[self.key], self.of, strict=True))
+        named = (PointNames((of,)) if isinstance(of, str) else of for of in self.of)
+        gaps: dict[str, object] = dict(zip(_GAPS[self.key], named, strict=True))
         if "size" in gaps_of(self.key):
             degrees = self.key == "sharp crossing"
             gaps["size"] = f"{math.degrees(math.asin(self.size)) if degrees else self.size:.2g}"

@@ -17,6 +17,7 @@ from graphkin.plane import Pose
 from graphkin.scene.scene_tables import Diagram
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, gaps_of, listed, sense_of, word
+from graphkin.words.symbols import RichText, Words, rate, sign, spaced
 from graphkin.words.written import MOST, amount, computed, figures, increase, on_paper, product, true_minus
 
 Order = Literal["velocity", "acceleration"]
@@ -67,13 +68,13 @@ class Size:
     radius : of curvature, or a combination of two outlines' radii (m)
 
     >>> str(Size("rate", ("3",), ("B", "C"), square=True))
-    'ω_{3}²·BC'
+    'ω_3²·BC'
     >>> str(Size("over radius", factor=Symbol.parse("v_B@2/B@1"), radius=0.05))
     '(v_B@2/B@1)²/ρ'
     >>> str(Size("slip on curves", ("2", "1"), Symbol.parse("v_K@2/K@1"), curves=("1",)))
-    '2ω_{21}·v_K@2/K@1 − ω_{21}²ρ_{1}'
+    '2ω_21·v_K@2/K@1 − ω_21²ρ_1'
     >>> str(Size("rolling curves", ("3",), curves=("2", "3"), radius=0.01))
-    'ω_{3}²·ρ_{2}ρ_{3}/(ρ_{2} + ρ_{3})'
+    'ω_3²·ρ_2ρ_3/(ρ_2 + ρ_3)'
     """
 
     rule: Literal["given", "rate", "over radius", "slip on curves", "rolling curves"]
@@ -87,26 +88,26 @@ class Size:
     radius: float = 0.0
 
     def __str__(self) -> str:
-        return self.written("".join(self.factor) if isinstance(self.factor, tuple) else str(self.factor))
+        return str(self.written("".join(self.factor) if isinstance(self.factor, tuple) else str(self.factor)))
 
-    def written(self, factor: str) -> str:
-        """The rule with its bar or vector as written in a text."""
-        turning = f"{'ω' if self.rate == 'omega' else 'α'}_{{{''.join(self.links)}}}"
-        rho = [f"ρ_{{{link}}}" for link in self.curves]
+    def written(self, factor: Words, times: str = "·", over: str = "/") -> RichText:
+        """The rule with its bar or vector as written in a text, and signs of multiplication and division."""
+        turning, squared = (rate(self.rate, "".join(self.links), above) for above in ("", "2"))
+        rho = [sign("ρ", link) for link in self.curves]
         match self.rule:
             case "rate":
-                return f"{'2' * self.twice}{turning}{'²' * self.square}·{factor}"
+                return RichText("2" * self.twice, squared if self.square else turning, times, factor)
             case "over radius":
-                return f"({factor})²/ρ"
+                return RichText("(", factor, sign(")", above="2"), over, "ρ")
             case "slip on curves" if len(rho) == 1:
-                return f"2{turning}·{factor} − {turning}²{rho[0]}"
+                return RichText("2", turning, times, factor, " − ", squared, rho[0])
             case "slip on curves":
-                parts = "".join(f"({turning}{radius} − {factor})" for radius in rho)
-                return f"{turning}·{factor} − {parts}/({rho[1]} − {rho[0]})"
+                parts = (RichText("(", turning, radius, " − ", factor, ")") for radius in rho)
+                return RichText(turning, times, factor, " − ", *parts, "/(", rho[1], " − ", rho[0], ")")
             case "rolling curves":
-                below = f"{rho[1]} − {rho[0]}" if self.hollow else f"{rho[0]} + {rho[1]}"
-                return f"{turning}²·{rho[0]}{rho[1]}/({below})"
-        return "given"
+                below = (rho[1], " − ", rho[0]) if self.hollow else (rho[0], " + ", rho[1])
+                return RichText(squared, times, *rho, "/(", *below, ")")
+        return RichText("given")
 
 
 GIVEN = Size("given")
@@ -122,9 +123,20 @@ def plain_in(language: str) -> Callable[[object], str]:
             return str(replace(thing, seen="")) + word("symbol seen", language).format(link=thing.seen)
         if isinstance(thing, Size) and isinstance(thing.factor, Symbol):
             thing = thing.written(written(thing.factor))
-        return str(thing).replace("{", "").replace("}", "")
+        return str(thing)
 
     return written
+
+
+@dataclass(frozen=True)
+class PointNames:
+    """Points of the mechanism in a sentence: a bar by its ends, or points in a list."""
+
+    names: tuple[str, ...]
+    bar: bool = False
+
+    def __str__(self) -> str:
+        return ("" if self.bar else ", ").join(self.names)
 
 
 Part = Literal["", "t", "n"]
@@ -338,7 +350,7 @@ class Step:
             case "linked":
                 return listed(self.links)
             case "bar":
-                return "".join(self.points)
+                return PointNames(self.points, bar=True)
             case "seen":
                 return self.link + self.held
             case "start.0" | "start.1":
@@ -351,6 +363,8 @@ class Step:
         value = getattr(self.data, part) if source == "data" else getattr(self, source or part)
         if source and source != "data":
             value = value[int(part)]
+        if source in ("point", "points") or name in ("point", "points", "data.point"):
+            return PointNames((value,) if isinstance(value, str) else value) if value else ""
         if isinstance(value, tuple) and not isinstance(value, PointRef):
             return ", ".join(value)
         return on_paper(value) if isinstance(value, float) else value or ""
@@ -383,9 +397,9 @@ class Step:
         assert isinstance(data, Superposed)
         open_at = ", ".join(f"{name} ({direction})" for name, direction in zip(data.closing, data.ways, strict=True))
         gaps = true_minus("; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in data.apart))
-        of_links = [(f"{'ω' if rate.kind == 'omega' else 'α'}_{{{rate.link}}}", value) for rate, value in data.found]
-        rates = true_minus(", ".join(f"{name} = {amount(value, 5)}" for name, value in of_links))
-        names = ", ".join(name for name, _ in of_links)
+        of_links = [(rate(found.kind, found.link), value) for found, value in data.found]
+        rates = spaced(", ", (name + f" = {true_minus(amount(value, 5))}" for name, value in of_links))
+        names = spaced(", ", (name for name, _ in of_links))
         return {"open_at": open_at, "apart": gaps, "names": names, "rates": rates, **_assumed(data.found)}
 
     @property

@@ -68,7 +68,8 @@ from graphkin.drawing.text import SMALLEST, plain, rich, runs_width, stacked, te
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Markup, Phrase, RichText, as_markup, as_plain, languages, rich_text, word
+from graphkin.words import Phrase, languages, rich_text, word
+from graphkin.words.symbols import RichText, Words, sign, spaced
 
 
 def id_of(pair: LinkPair) -> str:
@@ -162,11 +163,10 @@ def mark_of(centre: Centre, frame: str, at: complex) -> tuple[Primitive, ...]:
     return *(Line(at - 1.7 * w, at + 1.7 * w, strokes.OUTLINE) for w in across), Circle(at, 0.65, strokes.BLACK)
 
 
-def _lines_of(centre: Centre, letters: Notation) -> str:
+def _lines_of(centre: Centre, letters: Notation) -> RichText:
     """The lines that cross in a centre, by the centres on each, or as the normal of a pin in a slot."""
-    named = (line_through(line, letters.centre, lambda pin: "n_{" + pin.partition("/")[0] + "}")
-             for line in centre.lines)  # fmt: skip
-    return " × ".join(f"${line}$" for line in named)
+    named = (line_through(line, letters.centre, lambda pin: sign("n", pin.partition("/")[0])) for line in centre.lines)
+    return spaced(" × ", named)
 
 
 def near_box(centres: Centres, mechanism: Box, most: tuple[float, float]) -> Box:
@@ -244,26 +244,26 @@ def _one_way(a: Centre, b: Centre) -> bool:
     return a.direction is not None and b.direction is not None and abs(cross(a.direction, b.direction)) < 1e-9
 
 
-def _names(group: Sequence[Centre], letters: Notation, tail: str = "") -> list[str]:
+def _names(group: Sequence[Centre], letters: Notation, tail: str = "") -> list[RichText]:
     """The names of centres at one place, in lines."""
-    names = [f"${letters.centre(c.pair)}$" for c in group]
-    lines = [", ".join(names[i : i + IN_LINE]) for i in range(0, len(names), IN_LINE)]
+    names = [letters.centre(c.pair) for c in group]
+    lines = [spaced(", ", names[i : i + IN_LINE]) for i in range(0, len(names), IN_LINE)]
     return [*(line + "," for line in lines[:-1]), lines[-1] + tail]
 
 
 def _key(group: Sequence[Centre], letters: Notation) -> Text:
     """The name of the first of several centres, for all of them."""
-    return Text(0j, rich(f"${letters.centre(group[0].pair)}$" + ", …" * (len(group) > 1), 3.2))
+    return Text(0j, rich(letters.centre(group[0].pair) + ", …" * (len(group) > 1), 3.2))
 
 
-def _far_names(centres: Centres, group: Sequence[Centre], letters: Notation) -> list[str]:
+def _far_names(centres: Centres, group: Sequence[Centre], letters: Notation) -> list[RichText]:
     """Names of centres at infinity; for a far centre with its distance from a fixed pivot."""
     first, scene = group[0], centres.scene
     if first.point is None:
         return _names(group, letters, " → ∞")
     point = next(iter(scene.frame.points), None) or next(iter(scene.holders))
     far = abs(first.point - centres.point(point)) / centres.mm / scene.units.metres
-    return [f"${letters.point(point)}{letters.centre(first.pair)}$ = {number(far, 4)} {scene.units.length}"]
+    return [letters.point(point) + letters.centre(first.pair) + f" = {number(far, 4)} {scene.units.length}"]
 
 
 def _lines(centres: Centres, centre: Centre, panel: Box) -> Iterator[Line]:
@@ -383,7 +383,7 @@ def _side(centres: Centres, letters: Notation, language: str) -> Block:
         {"centres": (circle_diagram(centres, room.centre, radius),)}))
     title = prose((term("circle diagram", language),), SIDE, 3.2, bold=True, line=HEAD_LINE, classes=LEGEND)
     numbered = [centre for centre in centres.found if centre.number]
-    names = [f"${letters.centre(centre.pair)}$" for centre in numbered]
+    names = [letters.centre(centre.pair) for centre in numbered]
     wide = max([NAME, *(runs_width(rich(name, SIZE)) + 1.5 for name in names)])
     order = (
         row(numeral(centre.number, 7.0, classes=LEGEND), prose((name,), wide, classes=LEGEND),
@@ -408,20 +408,20 @@ def _legend(centres: Centres, language: str) -> Iterator[Block]:
             yield row(mark, prose((term(kind, language),), SIDE - 8.0, classes=LEGEND))
 
 
-def _how_found(centre: Centre, letters: Notation, language: str) -> str:
+def _how_found(centre: Centre, letters: Notation, language: str) -> Words:
     """The construction of a centre in short: the two lines that cross, or the name of another method."""
     return _lines_of(centre, letters) or term(f"way {centre.way or 'none'}", language)
 
 
 def _report(centres: Centres, letters: Notation, language: str, width: float) -> Block:
     """The centres that Kennedy's theorem does not give, with the reason, and the velocities by centres."""
-    lines: list[str] = []
+    lines: list[Words] = []
     for each in languages(language):
         for centre in centres.indeterminate:
             kept = ", ".join(centres.kept)
             by = Phrase(f"centre {centre.way}", centre=centre.pair, kept=kept) if centre.way else None
-            sentences = [as_markup(_rich(one, each, letters)) for one in (centre.why, by) if one is not None]
-            lines.append(word("sentence joint", each).join(sentences))
+            sentences = [_rich(one, each, letters) for one in (centre.why, by) if one is not None]
+            lines.append(spaced(word("sentence joint", each), sentences))
     spoken = velocity_sentences(centres)
     head = [term("velocities by centres", language)] if spoken else []
     velocities = [said for phrase in spoken for said in _in_all(phrase, language, letters)]
@@ -429,29 +429,24 @@ def _report(centres: Centres, letters: Notation, language: str, width: float) ->
                   prose(velocities, width, 3.0, classes=TOLD))  # fmt: skip
 
 
-def _in_all(phrase: Phrase, language: str, letters: Notation) -> tuple[str, ...]:
+def _in_all(phrase: Phrase, language: str, letters: Notation) -> tuple[RichText, ...]:
     """A sentence in each language of a sheet: its formulas and symbols once, with the further languages in brief."""
-    sentences = [as_markup(_rich(phrase, each, letters)) for each in languages(language)]
+    sentences = [_rich(phrase, each, letters) for each in languages(language)]
     brief = [word(f"{phrase.key} briefly", each, "") for each in languages(language)[1:]]
-    return (" ".join((sentences[0], *brief)),) if brief and all(brief) else tuple(dict.fromkeys(sentences))
+    return (spaced(" ", (sentences[0], *brief)),) if brief and all(brief) else tuple(dict.fromkeys(sentences))
 
 
 def _rich(phrase: Phrase, language: str, letters: Notation) -> RichText:
     """A sentence with its symbols in the letters of a convention."""
 
-    def show(argument: object) -> str:
+    def show(argument: object) -> Words:
         if isinstance(argument, Symbol):
-            return Markup(letters.vector(argument))
+            return letters.vector(argument)
         if isinstance(argument, PointRef):
-            return Markup(letters.point(argument.point))
-        return Markup(letters.centre(argument)) if isinstance(argument, tuple) else str(argument)
+            return letters.point(argument.point)
+        return letters.centre(argument) if isinstance(argument, tuple) else str(argument)
 
     return rich_text(phrase, language, show)
-
-
-def _bare(markup: str) -> str:
-    """Symbols as plain text."""
-    return markup.replace("$", "").replace("_{", "").replace("}", "")
 
 
 def _description(centres: Centres, letters: Notation, language: str) -> str:
@@ -463,8 +458,8 @@ def _description(centres: Centres, letters: Notation, language: str) -> str:
             if centre.point is not None:
                 place = f"({', '.join(f'{x:.4g}' for x in place_of(centres, centre) or ())})"
             how = _how_found(centre, letters, each) if centre.number else centre.joint
-            said.append(f"{_bare(letters.centre(centre.pair))} {place}: {_bare(how)}")
-        said += [as_plain(_rich(phrase, each, letters)) for phrase in velocity_sentences(centres)]
+            said.append(f"{letters.centre(centre.pair).plain('')} {place}: {RichText(how).plain('')}")
+        said += [_rich(phrase, each, letters).plain("") for phrase in velocity_sentences(centres)]
     return "\n".join(said)
 
 
@@ -532,8 +527,8 @@ def _centre_by_centre(
     for i in range(0, len(some), COLUMNS * ROWS):
         pictures, said = [], [figure_title(small.sheet, "lines of centres", language)]
         for centre in (small.of(*crowded.pair) for crowded in some[i : i + COLUMNS * ROWS]):
-            equation = f"${letters.centre(centre.pair)}$ = {_lines_of(centre, letters)}"
-            said.append(f"{centre.number}. {_bare(equation)}")
+            equation = letters.centre(centre.pair) + " = " + _lines_of(centre, letters)
+            said.append(f"{centre.number}. {equation.plain('')}")
             picture = panel(*PICTURE, partial(_picture, small, centre, behind, letters))
             pictures.append(column(numbered(centre.number, equation, PICTURE[0], LETTER), framed(picture), gap=0.6))
         yield page.drawing(

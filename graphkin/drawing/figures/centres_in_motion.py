@@ -24,6 +24,7 @@ from graphkin.drawing.plate import centred
 from graphkin.drawing.text import rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import Phrase, languages, say
+from graphkin.words.symbols import RichText
 
 ROOM, KEY = 8.0, 17.0  # mm around the figure, and of a line in the legend
 AROUND = 0.6  # of the mechanism's size: how far around it paths are shown
@@ -65,7 +66,7 @@ def centres_in_motion(
     links = [_moving(thing, origins, turned, points) for thing in bodies]
     drawn = [_path(pair, path, colour_of_link(sheet.scene, pair[0])) for pair, path in shown.items() if _moves(path)]
     for k, (pair, path) in enumerate(shown.items()):
-        drawn += _centre(centres, pair, path, f"${letters.centre(pair)}$", k)
+        drawn += _centre(centres, pair, path, letters.centre(pair), k)
     whole = Piece({"mechanism": tuple(links), "centres": tuple(drawn)})
     page = page.wide_enough(content.width + 2 * ROOM)
     figure = centred(content, page.width, content.height + 2 * ROOM, lambda around: whole, lambda piece, around: piece)
@@ -119,7 +120,7 @@ def _path(pair: LinkPair, path: Places, colour: str) -> Group:
     return Group(lines, id=id_of(pair).replace("centre", "path", 1), classes=("centre-path",))
 
 
-def _centre(centres: Centres, pair: LinkPair, path: Places, name: str, k: int) -> Iterator[Group]:
+def _centre(centres: Centres, pair: LinkPair, path: Places, name: RichText, k: int) -> Iterator[Group]:
     """A centre with its name, moving along its path."""
     good = np.flatnonzero(np.isfinite(path))
     if not len(good):
@@ -170,7 +171,7 @@ def centrodes_figure(
     groups = tuple(Group(lines, id=id, classes=("centrode",)) for id, lines in drawn.items() if lines)
     names: tuple[Label, ...] = ()
     if here is not None and content.distance(here) == 0.0:
-        names = (Label.of(rich(f"${letters.centre(centre.pair)}$"), here, classes=("centre",)),)
+        names = (Label.of(rich(letters.centre(centre.pair)), here, classes=("centre",)),)
         mark = Group(mark_of(centre, sheet.scene.frame.name, here), id=id_of(centre.pair))
         groups = (*groups, mark)
     page = page.wide_enough(content.width + 2 * ROOM)

@@ -9,13 +9,12 @@ from __future__ import annotations
 
 import cmath
 import math
-import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from graphkin.account.headings import number, term, written
+from graphkin.account.headings import number, term
 from graphkin.checking.closed_form import FoundLength
 from graphkin.construction.board.scales import extent_of, fitting_scale
 from graphkin.construction.cam_sheet import CamSheet, cam_sheet
@@ -42,7 +41,7 @@ from graphkin.drawing.ink.primitives import (
 )
 from graphkin.drawing.place.piece import Piece, cut_to, ink_box
 from graphkin.drawing.plate import Plate, centred
-from graphkin.drawing.text import plain, rich, runs_width, symbol
+from graphkin.drawing.text import plain, rich, runs_width
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import degrees
 from graphkin.scene.designs import BarPositionsTask, Design
@@ -50,8 +49,9 @@ from graphkin.scene.laws import TURN
 from graphkin.scene.model import Mechanism
 from graphkin.scene.pairs import LawCam, SlidingFollower, SwingingFollower
 from graphkin.version import __version__
-from graphkin.words import Phrase, as_markup, in_all, languages, rich_text, say, word
-from graphkin.words.written import amount, on_paper, product
+from graphkin.words import Phrase, in_all, languages, say, word
+from graphkin.words.symbols import RichText, Words, sign, spaced
+from graphkin.words.written import amount, on_paper, printed, product
 
 if TYPE_CHECKING:
     from graphkin.drawing.chart import Figure as Chart
@@ -65,7 +65,6 @@ _LINES: dict[str, Stroke] = {
     "given": strokes.LINK, "construction": strokes.CONSTRUCTION, "direction": strokes.DIRECTION,
     "limit": Stroke(0.35, (3.0, 1.0)), "mechanism": Stroke(0.7),
 }  # fmt: skip
-_NAME = re.compile(r"([A-Z])(\d+)")
 
 
 @dataclass(frozen=True)
@@ -141,21 +140,16 @@ def _design_facts(design: Design, sheet: DesignSheet) -> dict[str, object]:
     return {"figure": "design", "design": design.name, "scales": {"length": sheet.scale}, "graphkin": __version__}
 
 
-def step_words(phrase: Phrase, language: str) -> str:
-    """A step in words, its symbols between dollar signs."""
-    return as_markup(rich_text(phrase, language))
-
-
 def construction_picture(design: Design, sheet: DesignSheet, language: str, upto: int | None = None) -> Drawing:
     """The construction by itself, up to a step, on a figure of the size of the whole."""
     return picture(_construction(sheet, upto), "design figure", language, _design_facts(design, sheet),
                    _design_scale(design, sheet))  # fmt: skip
 
 
-def asked_words(design: Design, language: str) -> str:
+def asked_words(design: Design, language: str) -> RichText:
     """The questions of the file, in its names."""
     task, unit = design.task, design.units.length
-    parts = []
+    parts = list[Words]()
     for key, value in vars(task).items():
         if isinstance(value, float):
             size = {"K": "", "swing": "°"}.get(key, f" {unit}")
@@ -166,15 +160,16 @@ def asked_words(design: Design, language: str) -> str:
             parts.append(f"{number(value[0])}°, {number(value[1])}°")
         elif isinstance(task, BarPositionsTask) and key == "positions":
             for k, place in enumerate(task.positions, 1):
-                lies = f", {number(degrees(place.C - place.B))}°" if task.BC else f", $C_{{{k}}}$ {_at(place.C)}"
-                parts.append(f"$B_{{{k}}}$ {_at(place.B)}{lies}")
+                end = sign("C", str(k)) + f" {_at(place.C)}"
+                lies = f"{number(degrees(place.C - place.B))}°" if task.BC else end
+                parts.append(sign("B", str(k)) + f" {_at(place.B)}, " + lies)
         elif isinstance(value, complex):
             parts.append(f"{key} {_at(value)}")
     if not parts:
-        return term("design figure", language)
+        return RichText(term("design figure", language))
     last = languages(language)[-1] if len(languages(language)) == 1 else "en"
     mark = word("list semicolon" if getattr(task, "positions", None) else "list comma", last)
-    return f"{term('given wish', language)}{word('colon', last)}{mark.join(parts)}"
+    return term("given wish", language) + word("colon", last) + spaced(mark, parts)
 
 
 def _at(z: complex) -> str:
@@ -213,7 +208,7 @@ def _draw(plate: Plate, made: Sequence[DesignStroke], step: int, room: Box) -> N
             second += TURN * (second < first)
             radius, middle = min(12.0, 0.4 * abs(others[0] - at)), (first + second) / 2
             lines.append(Arc(on_page(at), radius, first, second, strokes.DIMENSION))
-            said = f"${stroke.name}$ = {number(stroke.size)}°" if stroke.name else f"{number(stroke.size)}°"
+            said = (sign(stroke.name) + " = " if stroke.name else "") + f"{number(stroke.size)}°"
             plate.name(rich(said, 2.8), at + (radius + 1.0) * cmath.rect(1.0, middle), toward=(middle,), rank=1)
         elif room.distance(on_page(at)) == 0.0:
             pivot, radius = stroke.kind == "pivot", 0.9 if stroke.name else 0.5
@@ -221,8 +216,7 @@ def _draw(plate: Plate, made: Sequence[DesignStroke], step: int, room: Box) -> N
             id = f"point-{stroke.name}" if stroke.name else ""
             plate.put("mechanism", *shape, id=id, classes=("point",), step=step)
             if id:
-                letter = _NAME.sub(r"\1_{\2}", stroke.name)
-                plate.name(rich(f"${letter}$"), at, f"label-{id}", step=step)
+                plate.name(rich(sign(stroke.name[0], stroke.name[1:])), at, f"label-{id}", step=step)
     if lines:
         plate.put("construction", *lines, classes=("strokes",), step=step)
 
@@ -257,8 +251,8 @@ def _tables(
     lengths = table(
         [[word("length found", each), word("on paper", each), f"{word('measured', each)} ({unit})",
           f"{word('exact', each)} ({unit})"] for each in every],
-        [[length.symbol if length.symbol == "ram" else f"${length.symbol}$", on_paper(length.on_paper),
-          written(product(on_paper(length.on_paper), per)), number(length.exact)] for length in rows],
+        [[length.symbol if length.symbol == "ram" else sign(length.symbol), on_paper(length.on_paper),
+          printed(product(on_paper(length.on_paper), per)), number(length.exact)] for length in rows],
         (26.0, 24.0, 28.0, 28.0), layer="answers",
     )  # fmt: skip
     if not confirmed:
@@ -367,8 +361,8 @@ def cam_figure(scene: Mechanism, sheet: CamSheet, notes: Sequence[Phrase], langu
     )  # fmt: skip
 
 
-def _scale(scene: Mechanism, sheet: CamSheet) -> str:
-    return f"$μ_{{l}}$ = {number(sheet.scale / scene.units.metres)} {scene.units.length}/mm"
+def _scale(scene: Mechanism, sheet: CamSheet) -> RichText:
+    return sign("μ", "l") + f" = {number(sheet.scale / scene.units.metres)} {scene.units.length}/mm"
 
 
 def _facts(scene: Mechanism, sheet: CamSheet) -> dict[str, object]:
@@ -382,7 +376,7 @@ def cam_pictures(scene: Mechanism, sheet: CamSheet, language: str, begun: bool =
             picture(_cam(scene, sheet, begun), "cam figure", language, facts, _scale(scene, sheet)))  # fmt: skip
 
 
-def cam_given(scene: Mechanism, cam: LawCam, language: str) -> str:
+def cam_given(scene: Mechanism, cam: LawCam, language: str) -> RichText:
     """The given data of a cam with the pieces of its law, in a language."""
     unit, pieces = _unit(scene, cam), []
     for piece in cam.law.pieces:
@@ -391,7 +385,7 @@ def cam_given(scene: Mechanism, cam: LawCam, language: str) -> str:
         pieces.append(f"{said} {_law(piece.by, language)}"
                       + (f" {'+' if lift > 0 else '−'}{number(abs(lift))}{unit}" if piece.by else ""))  # fmt: skip
     comma = word("list comma", language)
-    return f"{_given(scene, cam, language)}{'；' if comma == '，' else '; '}{comma.join(pieces)}"
+    return _given(scene, cam, language) + ("；" if comma == "，" else "; ") + comma.join(pieces)
 
 
 def _law(by: str, language: str) -> str:
@@ -399,19 +393,19 @@ def _law(by: str, language: str) -> str:
     return term(f"law {by}", language, by) if by else term("law dwell", language)
 
 
-def _given(scene: Mechanism, cam: LawCam, language: str) -> str:
+def _given(scene: Mechanism, cam: LawCam, language: str) -> RichText:
     """The given base circle, roller, offset, and law."""
-    lengths = {"r_{0}": cam.base, "r_{r}": cam.roller}
+    lengths = {sign("r", "0"): cam.base, sign("r", "r"): cam.roller}
     if isinstance(cam.motion, SlidingFollower):
-        lengths["e"] = cam.motion.offset
+        lengths[sign("e")] = cam.motion.offset
     else:
-        lengths |= {"l": cam.motion.arm, "a": abs(cam.axis - cam.motion.centre)}
-    parts = (f"${letter}$ = {number(length / scene.units.metres)} {scene.units.length}"
+        lengths |= {sign("l"): cam.motion.arm, sign("a"): abs(cam.axis - cam.motion.centre)}
+    parts = (letter + f" = {number(length / scene.units.metres)} {scene.units.length}"
              for letter, length in lengths.items() if length)  # fmt: skip
     kind = term("cam flat" if cam.flat else "cam roller" if cam.roller else "cam edge", language)
     sense = "counter-clockwise" if cam.sense > 0 else "clockwise"
-    turns = " ".join(in_all(Phrase("cam turns", sense=Phrase(sense)), language))
-    return f"{kind}; {',  '.join(parts)}; {turns}"
+    turns = spaced(" ", in_all(Phrase("cam turns", sense=Phrase(sense)), language))
+    return kind + "; " + spaced(",  ", parts) + "; " + turns
 
 
 def _lift(scene: Mechanism, cam: LawCam, lift: float) -> float:
@@ -461,13 +455,12 @@ def _diagram(scene: Mechanism, sheet: CamSheet, language: str, begun: bool = Fal
         fits = runs_width(text) <= (end - start).real - 2.0
         cell((start + end) / 2 + 1.0j, text if fits else rich(short, SMALL))
         drawn += [Line(z - 1.4j, z + 1.4j, THIN) for z in (start, end)]
-    unit, h, s = _unit(scene, cam), "h", "s"
-    if unit == "°":
-        h = s = "ψ"
-    scale = f"$μ_{{φ}}$ = {number(360.0 / LONG)}°/mm,  $μ_{{s}}$ = {number(per)}{unit}/mm"
-    scale += f",  ${h}$ = {number(span)}{unit}"
+    unit = _unit(scene, cam)
+    h, s = (sign("ψ" if unit == "°" else letter) for letter in "hs")
+    scale = sign("μ", "φ") + f" = {number(360.0 / LONG)}°/mm,  " + sign("μ", "s") + f" = {number(per)}{unit}/mm"
+    scale += ",  " + h + f" = {number(span)}{unit}"
     cell(origin + 13.0j, rich(scale, SMALL + 0.4), "start")
-    labels += [Text(top + (1.0 - 3.0j), symbol(s, STEP)), Text(origin + (LONG + 5.5 - 1.0j), symbol("φ", STEP))]
+    labels += [Text(top + (1.0 - 3.0j), rich(s, STEP)), Text(origin + (LONG + 5.5 - 1.0j), rich(sign("φ"), STEP))]
     if not begun:
         drawn.append(Polyline(tuple(curve), strokes.LINK))
     shape = Group(tuple(drawn), id="displacement", classes=("diagram",))
@@ -515,7 +508,7 @@ def _cam(scene: Mechanism, sheet: CamSheet, begun: bool = False) -> Block:
     if isinstance(cam.motion, SwingingFollower):
         named |= {cam.motion.pivot: start.line, cam.motion.tip: start.point}
     for name, z in named.items():
-        plate.name(symbol(name), z, f"label-point-{name}")
+        plate.name(rich(sign(name)), z, f"label-point-{name}")
     box = ink_box(plate.piece.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     box = box.joined(Box.around(map(on_page, sheet.profile))).grown(6.0)
     return centred(box, WORKED, box.height, lambda around: plate.piece)
@@ -556,7 +549,7 @@ def _ray(sheet: CamSheet, d: CamStation, far: float) -> tuple[list[Primitive], c
 def _table(scene: Mechanism, sheet: CamSheet, language: str) -> Block:
     """Number, cam degree, lift and pressure angle of each division, in columns beside each other."""
     unit = _unit(scene, sheet.cam).strip()
-    heads = ["", "$φ$ (°)", f"${'ψ' if unit == '°' else 's'}$ ({unit})", "$α$ (°)"]
+    heads: list[Words] = ["", sign("φ") + " (°)", sign("ψ" if unit == "°" else "s") + f" ({unit})", sign("α") + " (°)"]
     columns = -(-len(sheet.divisions) // ROWS)
     count = -(-len(sheet.divisions) // columns)
     cells = [[str(k), f"{math.degrees(d.degree):.2f}", f"{_lift(scene, sheet.cam, d.lift):.3f}",

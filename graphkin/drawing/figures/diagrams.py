@@ -20,7 +20,6 @@ from graphkin.account.headings import (
     punctuation,
     remarks,
     term,
-    written,
 )
 from graphkin.account.voice import Account
 from graphkin.checking.readings import read_off
@@ -47,6 +46,8 @@ from graphkin.drawing.write.drawing import Drawing
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene_tables import DIAGRAMS
 from graphkin.words import languages
+from graphkin.words.symbols import spaced
+from graphkin.words.written import printed
 
 ROOM = 12.0  # mm around the figure, for names
 
@@ -79,7 +80,7 @@ def diagram_figure(diagram: DiagramName, page: FigurePage) -> Drawing | None:
     unit = dimensions_in(sheet, spoken) if diagram == "mechanism" else ""
     return page.drawing(
         page.at_drivers(page.term(title)), column(told, page.panel(content.height + 2 * ROOM + strip, drawn), gap=GAP),
-        ",  ".join(filter(None, (page.scale(diagram), unit))), title=title, said=describe(sheet, (diagram,), spoken),
+        spaced(",  ", filter(None, (page.scale(diagram), unit))), title=title, said=describe(sheet, (diagram,), spoken),
         note="" if diagram == "mechanism" else term("step number", page.language, number="(9)"),
     )  # fmt: skip
 
@@ -173,7 +174,8 @@ def _page(
     colon = punctuation("colon", page.language)
     scales = [page.term(FIGURE_WORDS[diagram]) + colon + page.scale(diagram) for diagram in shown]
     return page.drawing(
-        ";  ".join(scales), row(*(_position(page, name, sheet, shown, size) for name, sheet in some), gap=GUTTER), "",
+        spaced(";  ", scales), row(*(_position(page, name, sheet, shown, size) for name, sheet in some), gap=GUTTER),
+        "",
         title="polygons", said=", ".join(name for name, _ in some), metadata={"positions": [name for name, _ in some]},
     )  # fmt: skip
 
@@ -194,11 +196,11 @@ def _position(
     named = sheet.scene.question.positions is not None and name in sheet.scene.question.positions.names
     head = (said + punctuation("colon", page.language)) * named + drivers(sheet, letters)
     found = [
-        f"${letters.vector(r.symbol)}$ = {written(measured(r, units))} {r.symbol.unit(units).written}"
+        letters.vector(r.symbol) + f" = {printed(measured(r, units))} {r.symbol.unit(units).written}"
         for r in read_off(sheet, [s for s in sheet.scene.question.find if s.scope == "motion" and not s.at])
     ] if sheet.scene.question.find else []  # fmt: skip
     panels = (framed(panel(*size, partial(polygon, diagram))) for diagram in shown)
-    return column(line(head, size[0], 3.2), column(*panels, prose((";  ".join(found),), size[0]), gap=GUTTER))
+    return column(line(head, size[0], 3.2), column(*panels, prose((spaced(";  ", found),), size[0]), gap=GUTTER))
 
 
 def _plain(name: str) -> str:

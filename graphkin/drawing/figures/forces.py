@@ -23,7 +23,7 @@ from graphkin.account.forces import (
     spots_of,
 )
 from graphkin.account.given import given_loads
-from graphkin.account.headings import figure_title, written
+from graphkin.account.headings import figure_title
 from graphkin.account.notation import Notation, as_vector, force_letters, pole
 from graphkin.account.voice import Account
 from graphkin.checking.report import Report
@@ -48,12 +48,13 @@ from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, m
 from graphkin.drawing.plate import Plate, cut_piece
 from graphkin.drawing.stepwise import tied
 from graphkin.drawing.tables import TableRow, readings_table
-from graphkin.drawing.text import symbol
+from graphkin.drawing.text import rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up, unit
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, languages, links_named, say, word
-from graphkin.words.written import amount, on_paper, product
+from graphkin.words.symbols import RichText, Words, sign, spaced
+from graphkin.words.written import amount, on_paper, printed, product
 
 SKETCH = 64.0  # mm, width of a sketch
 AROUND = 11.0  # mm of room around a polygon
@@ -146,7 +147,7 @@ def group_picture(page: FigurePage, stage: ForceStage, tag: str) -> Drawing:
     whole = column(*_pictures(page, stage, Counter(), tag), gap=CLOSE)
     parts = tied(layer_groups(whole.piece))  # leaders come with their names
     return Drawing(max(page.width, whole.width), whole.height, parts, figure_title(page.sheet, "forces", page.language),
-                   page.said("force described")[0], languages(page.language)[0])  # fmt: skip
+                   str(page.said("force described")[0]), languages(page.language)[0])  # fmt: skip
 
 
 def _pictures(
@@ -175,7 +176,7 @@ def _pictures(
     for polygon_apart in polygons:
         link, *_, box = polygon_apart
         drawn = polygon(polygon_apart, max(box.width, NARROW), max(box.height, SMALLEST))
-        said = (" / ".join(page.said("force on link", link=link)),) if link else ()
+        said = (spaced(" / ", page.said("force on link", link=link)),) if link else ()
         singles.append(column(prose(said, drawn.width, 2.4), drawn))
     yield from rows(singles, page.width, gap=2.0)
 
@@ -186,7 +187,7 @@ def _below(page: FigurePage, account: ForceAccount, stage: ForceStage) -> Block:
     if len(group.polygon) > 1 and group.way == "polygon":
         said.append(Phrase("force reason polygon", links=links_named(group.links)))
     equation = group_equation(page, group)
-    couples, read = stage.told("couples"), ";  ".join(account.read_off(stage.state, group).values())
+    couples, read = stage.told("couples"), spaced(";  ", account.read_off(stage.state, group).values())
     return column(
         page.prose(said),
         None if equation is None else Block(Piece({"labels": (Group(equation.children),)}), equation.height),
@@ -277,7 +278,7 @@ def _sketch(page: FigurePage, stage: ForceStage, times: float, tag: str) -> Piec
                 line = Line(on_page(at - 5.0 * along), on_page(at + ARROW * along), strokes.DIRECTION)
                 across = Line(on_page(centre), on_page(at), strokes.DIMENSION)
                 plate.put("construction", line, across, classes=("shifted",))
-                plate.name(symbol(f"h_{{{link}}}", 2.8), (centre, at), colour=strokes.GREY, rank=2)
+                plate.name(rich(sign("h", link), 2.8), (centre, at), colour=strokes.GREY, rank=2)
     plate.labels += (*labels, *marks.labels)
     return plate.piece
 
@@ -293,7 +294,7 @@ def _links(here: MechanismOnPaper, links: set[str]) -> tuple[list[Primitive], li
             joint = point in here.sheet.structure.hinges
             size, fill = (0.85, strokes.WHITE) if joint else (0.5, strokes.BLACK)
             parts.append(Circle(on_page(z), JOINT_RADIUS * size, fill=fill, stroke=strokes.OUTLINE))
-            labels.append(Label.of(symbol(here.letters.point(point), 3.0), on_page(z), rank=1))
+            labels.append(Label.of(rich(here.letters.point(point), 3.0), on_page(z), rank=1))
     return parts, labels
 
 
@@ -333,7 +334,7 @@ def _acting(plate: Plate, page: FigurePage, stage: ForceStage, times: float, tag
         arc = symbols.sense_arc(on_page(at), radius, 0.9, 1 if couple.moment > 0 else -1)
         name, step = f"acts-{tag}-{named.id}", stage.number_of("couples", named) or stage.known
         plate.put("forces", *arc, id=name, classes=("acting",), step=step)
-        letter = symbol("−" * couple.turned + force_letters(letters.convention, named), 3.0)
+        letter = rich("−" * couple.turned + force_letters(letters.convention, named), 3.0)
         plate.name(letter, at + radius * 0.7 * (1 + 1j), f"label-{name}", step=step)
 
 
@@ -351,10 +352,10 @@ def _colour(sheet: Sheet, vector: ForceVector) -> str:
     return strokes.colour_of_link(sheet.scene, next(moving, vector.link))
 
 
-def _letters_of(letters: Notation, vector: ForceVector) -> str:
-    r"""A force as a vector, with its part; ``−`` before the opposite of its symbol."""
-    markup = force_letters(letters.convention, vector.symbol, vector.part)
-    return ("−" if vector.turned else "") + as_vector(letters.convention, markup)
+def _letters_of(letters: Notation, vector: ForceVector) -> RichText:
+    """A force as a vector, with its part; ``−`` before the opposite of its symbol."""
+    force = force_letters(letters.convention, vector.symbol, vector.part)
+    return "−" * vector.turned + as_vector(letters.convention, force)
 
 
 def _middle(sheet: Sheet, link: str) -> complex:
@@ -421,7 +422,7 @@ def _drawn_polygon(
         names[name] += 1
         name += f"-again{names[name] - 1}" if names[name] > 1 else ""
         ends = [corner_at(stage.group, place) for place in (vector.tail, vector.tip)] if lettered else []
-        between = "→".join(ends) if len(set(ends)) > 1 else ""
+        between = spaced(sign("→"), map(sign, ends)) if len(set(ends)) > 1 else RichText()
         plate.arrow("forces", name, tail, tip, _letters_of(page.letters, vector), 3.2, kind=_kind(vector),
                     colour=_colour(sheet, vector), classes=("vector", "force"), step=step, rank=rank, between=between)
 
@@ -441,7 +442,7 @@ def _drawn_polygon(
     for letter, place, vector in lettered:
         names[f"corner-{letter}"] += 1
         name = f"label-corner-{letter}-{names[f'corner-{letter}']}{suffix}"
-        plate.name(symbol(letter, 3.0), place + shifts.get(_key(vector), 0j), name, rank=1,
+        plate.name(rich(sign(letter), 3.0), place + shifts.get(_key(vector), 0j), name, rank=1,
                    step=stage.in_polygon(vector, link))  # fmt: skip
     unknown = [v for v in vectors if not v.known]
     for vector in unknown:
@@ -485,7 +486,7 @@ def lever_figure(page: FigurePage, report: Report | None = None) -> Drawing | No
     if not shown:
         return None
     sheet, account = page.sheet, ForceAccount(page.sheet, page.letters)
-    why = [Phrase("lever reason", pole=f"${pole(page.convention, 'velocity')}$")]
+    why = [Phrase("lever reason", pole=pole(page.convention, "velocity"))]
     why += [Phrase("lever couple")] * any(row.pair for _, _, lever in shown for row in lever.rows)
     why += [Phrase("lever virtual")] * any(lever.virtual for _, _, lever in shown)
     body = [page.prose(why)]
@@ -519,7 +520,7 @@ def _lever(page: FigurePage, account: ForceAccount, state: ForceState, lever: Le
 def _drawn_lever(page: FigurePage, lever: Lever, per_mm: float, tag: str) -> Piece:
     """The turned polygon with the forces on it, at a scale (m/s for one mm)."""
     plate, letters, convention = Plate(), page.letters, page.convention
-    ends: dict[complex, list[str]] = {}
+    ends: dict[complex, list[RichText]] = {}
     for name, velocity in lever.ends.items():
         end = velocity / per_mm
         point, _, link = name.partition("@")
@@ -529,8 +530,8 @@ def _drawn_lever(page: FigurePage, lever: Lever, per_mm: float, tag: str) -> Pie
     for end, names in ends.items():
         plate.line("velocity", 0j, end, strokes.RELATIVE)
         plate.circle("velocity", end, 0.5, strokes.BLACK)
-        plate.name(symbol(", ".join(names[:3])), end, rank=1)
-    plate.name(symbol(pole(convention, "velocity")), 0j)
+        plate.name(rich(spaced(sign(", "), names[:3])), end, rank=1)
+    plate.name(rich(pole(convention, "velocity")), 0j)
     taken: list[tuple[complex, complex]] = []
     sought = lever.unknown.acting
     balance = replace(lever.unknown, acting=replace(sought, force=sought.force * (lever.value or 1.0)))
@@ -539,7 +540,7 @@ def _drawn_lever(page: FigurePage, lever: Lever, per_mm: float, tag: str) -> Pie
         acting = _forces_at(term, per_mm)
         letter = force_letters(convention, term.symbol)
         turned = term.acting.turned
-        named = ("−" * turned) + (as_vector(convention, letter) if term.pair is None else f"{letter}/l")
+        named = ("−" * turned) + (as_vector(convention, letter) if term.pair is None else letter + sign("/l"))
         for n, (at, along) in enumerate(acting, 1):
             stacked = sum(abs(at - z) < NEAR and abs(along - e) < 0.1 for z, e in taken)
             taken.append((at, along))
@@ -554,8 +555,9 @@ def _drawn_lever(page: FigurePage, lever: Lever, per_mm: float, tag: str) -> Pie
             if abs(foot - at) > SEEN:
                 lines.append(Line(on_page(foot), on_page(at), strokes.DIRECTION))
             plate.put("velocity", *lines, classes=("arm",))
-            arm = force_letters(convention, Symbol("arm", name=str(term.symbol))) + "'" * turned
-            plate.name(symbol(arm, 2.8), (0j, foot), colour=strokes.GREY, rank=2)
+            arm = force_letters(convention, Symbol("arm", name=str(term.symbol)))
+            arm += sign("'") if turned else ""
+            plate.name(rich(arm, 2.8), (0j, foot), colour=strokes.GREY, rank=2)
     plate.circle("velocity", 0j, 0.9, strokes.WHITE, strokes.OUTLINE)
     return plate.piece
 
@@ -571,14 +573,14 @@ def _forces_at(row: MomentTerm, per_mm: float) -> list[tuple[complex, complex]]:
     return [(tip, unit(force)), (tail, -unit(force))]
 
 
-def _row(row: MomentTerm, newtons: float, per_mm: float, letters: Notation) -> tuple[str, str, str, str]:
+def _row(row: MomentTerm, newtons: float, per_mm: float, letters: Notation) -> tuple[Words, str, str, str]:
     """A force with its arm and moment."""
     acting, arm = row.acting, on_paper(abs(row.arm or 0.0) / per_mm)
     size = amount(abs(acting.force) / newtons, DIGITS)
-    moment = f"{'−' * (row.moment < 0)}{written(product(size, arm, carried=DIGITS))}" if row.arm else "0"
-    name = f"{'−' * acting.turned}${force_letters(letters.convention, acting.symbol)}$"
-    name += " / $l$" * (row.pair is not None)
-    return name, written(size), written(arm), moment
+    moment = f"{'−' * (row.moment < 0)}{printed(product(size, arm, carried=DIGITS))}" if row.arm else "0"
+    name = "−" * acting.turned + force_letters(letters.convention, acting.symbol)
+    name += " / " + sign("l") if row.pair is not None else ""
+    return name, printed(size), printed(arm), moment
 
 
 FIGURES = (

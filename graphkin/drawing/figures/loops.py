@@ -25,11 +25,12 @@ from graphkin.drawing.ink.symbols import POINTER, arrowhead
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, moved_piece
 from graphkin.drawing.plate import Plate
-from graphkin.drawing.text import rich, runs_width, symbol
+from graphkin.drawing.text import rich, runs_width
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up
 from graphkin.structure.loops import Loop, LoopBlock, loops_in_numbers
 from graphkin.words import Neutral, Phrase, in_all, languages, say
+from graphkin.words.symbols import Words, sign, spaced
 
 PANEL = (84.0, 62.0)  # width and least height of a polygon's panel (mm)
 ROOM = 11.0  # around a polygon, for names
@@ -72,7 +73,7 @@ def _loop(page: FigurePage, block: LoopBlock, loop: Loop, scale: float) -> Block
     solved = [
         part for matrix in (matrices(block, page.sheet.scene) if loop is block.loops[-1] else ())
         for part in (prose((page.term(matrix.key),), width, bold=True), _matrix(matrix, width),
-                     prose((",  ".join(matrix.solution),), width))
+                     prose((spaced(",  ", matrix.solution),), width))
     ]  # fmt: skip
     return row(polygon, column(column(*lines), column(*solved, gap=1.2), gap=1.0), gap=BESIDE)
 
@@ -106,7 +107,7 @@ def _polygon(sheet: Sheet, loop: Loop, block: LoopBlock, scale: float) -> tuple[
         if abs(tip - tail) < 1e-6:
             continue
         unknown = ("travel", arrow.slide) in block.unknowns
-        plate.name(rich(f"${size_name(arrow)}$ ?") if unknown else symbol(size_name(arrow)), (tail, tip), colour=colour)
+        plate.name(rich(size_name(arrow) + " ?" * unknown), (tail, tip), colour=colour)
         along = (sheet.poses[arrow.link].axis.conjugate() * arrow.vector) / abs(arrow.vector)
         if arrow.link != sheet.scene.frame.name and abs(along.imag) < 1e-9:
             # the angle of the vector: the link's own, and half a turn more where the loop runs against it
@@ -114,11 +115,11 @@ def _polygon(sheet: Sheet, loop: Loop, block: LoopBlock, scale: float) -> tuple[
             turned = "" if along.real > 0 else " + 180°"
             mark = " ?" if ("angle", loop.ties[arrow.link]) in block.unknowns else ""
             middle = tail + cmath.rect(ARC + 0.5, cmath.phase(arrow.vector) % math.tau / 2)
-            plate.name(rich(f"$θ_{{{arrow.link}}}${turned}{mark}", 3.0), middle, colour=colour, rank=1)
+            plate.name(rich(sign("θ", arrow.link) + turned + mark, 3.0), middle, colour=colour, rank=1)
     for arrow, at in zip(loop.arrows, corners, strict=False):
         if arrow.names[0]:
             drawn.append(Circle(on_page(at), 0.55, fill=strokes.BLACK))
-            plate.name(symbol(notation_of(sheet, "chinese").point(arrow.names[0])), at, rank=1)
+            plate.name(rich(notation_of(sheet, "chinese").point(arrow.names[0])), at, rank=1)
     _as_printed(plate, sheet, loop, scale)
     plate.put("mechanism", *drawn, id=f"loop-{name}")
     marks = tuple(map(on_page, corners))
@@ -163,14 +164,14 @@ def _angle(tail: complex, vector: complex) -> list[Primitive]:
     return parts
 
 
-def _lines(page: FigurePage, loop: Loop, block: LoopBlock) -> Iterator[tuple[str, bool]]:
+def _lines(page: FigurePage, loop: Loop, block: LoopBlock) -> Iterator[tuple[Words, bool]]:
     """The lines of text of a loop, and whether each is bold."""
     scene = page.sheet.scene
     sum_ = Neutral(equation(loop, page.convention))
     head = Phrase("loop heading", loop=loop.name, links=", ".join(loop.links), equation=sum_)
     yield from ((text, True) for text in in_all(head, page.language))
     x, y = projections(loop, block, scene)
-    yield from ((f"x:  {x}", False), (f"y:  {y}", False))
+    yield from (("x:  " + x, False), ("y:  " + y, False))
     gap = _gap(page.sheet, loop)
     if gap is not None:
         size = Neutral(f"{number(gap / scene.units.metres, 4)} {scene.units.length}")
@@ -185,7 +186,7 @@ def _matrix(matrix: MatrixEquation, room: float) -> Block:
     size = SIZE
     while True:
         columns = [[rich(cells[k], size) for cells in matrix.rows] for k in range(len(matrix.unknowns))]
-        names, right = [symbol(n, size) for n in matrix.unknowns], [rich(r, size) for r in matrix.right]
+        names, right = [rich(n, size) for n in matrix.unknowns], [rich(r, size) for r in matrix.right]
         widths = [max(map(runs_width, cells)) for cells in columns]
         whole = added_up(widths) + 2.6 * len(widths) + max(map(runs_width, names)) + max(map(runs_width, right)) + 16.0
         if whole <= room or size <= 1.6:

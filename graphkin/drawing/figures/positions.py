@@ -48,6 +48,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Dyad, Structure
 from graphkin.structure.transmission import joint_of_dyad
 from graphkin.words import Neutral, Wording
+from graphkin.words.symbols import RichText, sign, spaced
 
 ROOM = 16.0  # mm around the figure, for names
 OFFSETS = tuple(side * far for far in (9.0, 12.5, 17.0, 22.0, 28.0, 35.0, 43.0, 52.0) for side in (-1.0, 1.0))  # mm
@@ -235,7 +236,7 @@ def positions_figure(page: FigurePage, shown: Shown) -> Drawing:
         box.height + 2 * ROOM, lambda room: with_labels(moved_piece(whole, room.centre - box.centre), room))
     return page.drawing(
         page.term("positions"), column(page.prose(lines, 3.0), figure, gap=GAP), page.scale("mechanism"),
-        title="positions", said=". ".join((page.term("positions"), *lines)),
+        title="positions", said=spaced(". ", (page.term("positions"), *lines)),
     )  # fmt: skip
 
 
@@ -348,7 +349,7 @@ def _crank(shown: Shown) -> Iterator[_Wanted]:
             yield name, True, _arcs(pivot, [size * radius for size in sizes], begin, begin + sense * swept, written)
     turn = math.remainder(cmath.phase(-second) - start, math.tau)
     if abs(turn) > 0.02:  # after the longer arcs, which could not go round its number
-        shown_lag = rich(f"$θ$ = {number(math.degrees(lag), 5)}°", 2.8)
+        shown_lag = rich(sign("θ") + f" = {number(math.degrees(lag), 5)}°", 2.8)
         yield "theta", True, _arcs(pivot, [size * radius for size in AROUND], start, start + turn, shown_lag)
 
 
@@ -359,7 +360,7 @@ def _strokes(shown: Shown) -> Iterator[_Wanted]:
         stroke = shown.measured.get(("stroke", pair))
         if "/" in pair and stroke is not None:
             a, b = (on_page(position.poses[pair.split("/")[0]].origin) for position in (low, high))
-            words = rich(f"$H$ = {number(stroke / metres, 6)} {unit}", 2.8)
+            words = rich(sign("H") + f" = {number(stroke / metres, 6)} {unit}", 2.8)
             if abs(b - a) > 1.0:
                 yield f"stroke-{pair.replace('/', '-')}", False, [dimension(a, b, offset, words) for offset in OFFSETS]
 
@@ -373,7 +374,7 @@ def _swings(shown: Shown) -> Iterator[_Wanted]:
         pivot = next((p for p in low.structure.links[pair].points if p in low.scene.frame.points), None)
         if pivot is not None:
             begin = cmath.phase(low.poses[pair].axis)
-            words = rich(f"$ψ$ = {number(math.degrees(swing), 5)}°", 2.8)
+            words = rich(sign("ψ") + f" = {number(math.degrees(swing), 5)}°", 2.8)
             yield f"swing-{pair}", True, _arcs(low.points[PointRef(pivot)], SWING_RADII, begin, begin + swing, words)
 
 
@@ -387,7 +388,7 @@ def _gamma(shown: Shown) -> Piece:
     if abs(math.remainder(end - start, math.tau)) > math.pi / 2:  # the acute one of the two
         start = cmath.phase(-first)
     turn = math.remainder(end - start, math.tau)
-    plate, words = Plate(), rich(rf"$γ_{{min}}$ = {number(math.degrees(gamma), 5)}°", 2.8)
+    plate, words = Plate(), rich(sign("γ", "min") + f" = {number(math.degrees(gamma), 5)}°", 2.8)
     lines = [Line(on_page(joint), on_page(joint + 11.0 * cmath.rect(1.0, angle)), strokes.DIRECTION)
              for angle in (start, start + turn)]  # fmt: skip
     arc = angle_dimension(on_page(joint), 8.0, start, start + turn, words)[:2]
@@ -396,22 +397,22 @@ def _gamma(shown: Shown) -> Piece:
     return plate.piece
 
 
-def _measured_lines(shown: Shown, page: FigurePage) -> list[str]:
+def _measured_lines(shown: Shown, page: FigurePage) -> list[RichText]:
     """The readings of the whole turn, in words."""
     metres, unit = shown.own.scene.units.metres, shown.own.scene.units.length
     kinds: dict[str, tuple[str, float, str]] = {
         "stroke": ("H", 1.0 / metres, f" {unit}"), "swing": ("ψ", math.degrees(1.0), "°"),
         "theta_lag": ("θ", math.degrees(1.0), "°"), "K": ("K", 1.0, ""),
     }  # fmt: skip
-    said: list[str] = []
+    said: list[RichText] = []
     for pair in shown.limits:
-        values = ",  ".join(
-            f"${letter}$ = {number(value * per, 7)}{after}" for kind, (letter, per, after) in kinds.items()
+        values = spaced(",  ", (
+            sign(letter) + f" = {number(value * per, 7)}{after}" for kind, (letter, per, after) in kinds.items()
             if (value := shown.measured.get((kind, pair))) is not None and (kind != "K" or "K" in shown.marks)
-        )  # fmt: skip
+        ))  # fmt: skip
         said += page.said("positions of", pair=Neutral(pair), values=Neutral(values))
     for symbol, why in shown.without.items():
-        said += page.said("no limits", output=Neutral(f"${page.letters.vector(symbol)}$"), reason=why)
+        said += page.said("no limits", output=Neutral(page.letters.vector(symbol)), reason=why)
     return said
 
 

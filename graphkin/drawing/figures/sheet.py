@@ -50,6 +50,7 @@ from graphkin.drawing.tables import TableRow, given_data, given_lines, readings_
 from graphkin.drawing.text import cut_off, fitted, plain, runs_width, wrapped
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import Phrase, about, languages, say, word
+from graphkin.words.symbols import RichText, Words, spaced
 
 GIVEN = (2.8, 2.5)  # mm, letters of the given data: usual, and where room is short
 NAMES = 7.0  # mm above and below a polygon that gives room to the equations
@@ -175,13 +176,13 @@ def _below(frame: Box, words: tuple[Run, ...], anchor: str = "start") -> Piece:
     return Piece({"labels": (Text(corner, words, anchor),)})
 
 
-def _caption(page: FigurePage, diagram: DiagramName) -> str:
+def _caption(page: FigurePage, diagram: DiagramName) -> RichText:
     unit = dimensions_in(page.sheet, page.language) if diagram == "mechanism" else ""
     parts = page.term(FIGURE_WORDS[diagram]), page.scale(diagram), unit
-    return punctuation("list comma", page.language).join(filter(None, parts))
+    return spaced(punctuation("list comma", page.language), filter(None, parts))
 
 
-def _panel(box: Box, caption: str) -> Piece:
+def _panel(box: Box, caption: Words) -> Piece:
     frame = Polygon(box.corners, "", strokes.DIMENSION)
     words = Text(complex(box.left, box.top - 1.6), fitted(caption, 3.2, box.width))
     return Piece({"construction": (Group((frame,), classes=("panel",)),), "labels": (words,)})

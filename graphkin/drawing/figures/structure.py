@@ -23,11 +23,12 @@ from graphkin.drawing.parts.touching import replacing_links
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, cut_to, ink_box, joined, moved_piece
-from graphkin.drawing.text import plain, rich, symbol
+from graphkin.drawing.text import plain, rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import dot
 from graphkin.structure import Driven, Dyad, Element, LargerGroup, Pair, Structure, replacement_told
-from graphkin.words import Phrase, class_of, languages, say
+from graphkin.words import Phrase, class_of, languages, rich_text, say
+from graphkin.words.symbols import RichText, Words, sign, spaced
 
 DIAGRAM = (96.0, 84.0)  # mm, room of the numbered diagram
 PART = (56.0, 46.0)  # of a group
@@ -53,7 +54,7 @@ def structure_figure(page: FigurePage, others: Sequence[Structure] = ()) -> Draw
     body = column(row(diagram, column(*told), gap=BESIDE), *groups, gap=4.0)
     return page.drawing(
         page.term("structure"), body, None, title="structure",
-        said=". ".join(text for text, _ in counted),
+        said=spaced(". ", (text for text, _ in counted)),
     )  # fmt: skip
 
 
@@ -83,7 +84,7 @@ def _diagram(sheet: Sheet, letters: Notation, spoken: str, panel: Box) -> Piece:
     pairs += [(c.name, c.name) for c in sheet.scene.contacts if c.carrier or not c.rolling]
     higher = [(name, here.places[point]) for name, point in pairs if point in here.places]
     for name, place in (*higher, *((cam.cam.link, cam.contact) for cam in here.cams)):
-        labels.append(Label.of(symbol("p_{H}", 3.0), on_page(place), f"badge-{name}", colour=strokes.GREY, rank=1))
+        labels.append(Label.of(rich(sign("p", "H"), 3.0), on_page(place), f"badge-{name}", colour=strokes.GREY, rank=1))
     for cam in here.cams:
         if cam.roller:
             labels.append(Label.of(plain(term("own turning", spoken), 2.4), on_page(cam.point),
@@ -97,12 +98,13 @@ def _diagram(sheet: Sheet, letters: Notation, spoken: str, panel: Box) -> Piece:
     return with_labels(moved_piece(whole, panel.centre - ink.centre), panel)
 
 
-def _counted(structure: Structure, spoken: str) -> list[tuple[str, bool]]:
+def _counted(structure: Structure, spoken: str) -> list[tuple[Words, bool]]:
     """The mobility with its numbers, its meaning, and the class of the mechanism."""
     m, drivers = structure.mobility, len(structure.scene.drivers)
     high = f" − {m.higher}" if m.higher else ""
-    lines = [
-        (f"$F$ = 3 $n$ − 2 $p_{{L}}$ − $p_{{H}}$ = 3 · {m.links} − 2 · {m.lower}{high} = {m.value}", True),
+    lines: list[tuple[Words, bool]] = [
+        (RichText(sign("F"), " = 3 ", sign("n"), " − 2 ", sign("p", "L"), " − ", sign("p", "H"),
+                  f" = 3 · {m.links} − 2 · {m.lower}{high} = {m.value}"), True),
     ]
     compound = {p: len([n for n in names if n in structure.scene.by_name]) for p, names in structure.hinges.items()}
     idle = [link.name for link in structure.scene.links if link.redundant]
@@ -113,7 +115,7 @@ def _counted(structure: Structure, spoken: str) -> list[tuple[str, bool]]:
             if count > 2:
                 hinge = Phrase("structure compound", point=point, links=count, pairs=count - 1)
                 lines.append((say(hinge, each), False))
-        lines += [(say(phrase, each), False) for phrase in replacement_told(structure)]
+        lines += [(rich_text(phrase, each), False) for phrase in replacement_told(structure)]
         if idle:
             lines.append((say(Phrase("structure redundant", links=", ".join(idle)), each), False))
         order = _class(structure)
@@ -265,7 +267,7 @@ def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[l
         if point in here.places:
             at = on_page(here.places[point])
             parts.append(Circle(at, JOINT_RADIUS * 0.85, fill=fill, stroke=strokes.OUTLINE))
-            labels.append(Label.of(symbol(here.letters.point(point), 3.0), at))
+            labels.append(Label.of(rich(here.letters.point(point), 3.0), at))
     return parts, labels
 
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from itertools import pairwise
 
-from graphkin.account.headings import number, written
+from graphkin.account.headings import number
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import Bar, Step
 from graphkin.construction.trains import CentreLine, TrainPlan
@@ -20,12 +20,13 @@ from graphkin.drawing.ink.symbols import COMPONENT, arrow, hatched_line
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece
 from graphkin.drawing.plate import Plate
-from graphkin.drawing.text import plain, rich, symbol
+from graphkin.drawing.text import plain, rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.scene.model import Mechanism
 from graphkin.scene.pairs import PlacedGear
 from graphkin.words import Phrase, languages, word
-from graphkin.words.written import amount, on_paper, product
+from graphkin.words.symbols import RichText, Words, rate, sign, spaced
+from graphkin.words.written import amount, on_paper, printed, product
 
 ROOM = 9.0  # mm above and below a line of centres
 SCHEME = 68.0
@@ -63,22 +64,22 @@ def _page(page: FigurePage, plan: TrainPlan) -> Drawing:
     body = column(page.prose(why), *lines, row(_table(page, plan), scale, gap=4.0), gap=GAP)
     size, speed = plan.length / sheet.scene.units.metres, plan.speed / sheet.scene.units.rates.metres
     scales = {"length": size, plan.order: speed, "omega" if velocity else "alpha": plan.turning}
-    sign, unit, _ = _rates(plan)
-    angular = f"$μ_{{{sign}}}$ = {number(plan.turning)} ({unit})/mm"
+    kind, unit, _ = _rates(plan)
+    angular: Words = sign("μ", rate(kind, "")) + f" = {number(plan.turning)} ({unit})/mm"
     if page.convention in ("us", "british"):
         times, head = (1, "1 mm") if page.convention == "us" else (10, "1 cm")
         angular = f"{head} = {number(times * plan.turning)} {unit}"
     written_scales = page.scale("mechanism", plan.length), page.scale(plan.order, plan.speed), angular
     return page.drawing(
-        page.at_drivers(page.term(name)), body, ",  ".join(written_scales), title=name,
+        page.at_drivers(page.term(name)), body, spaced(",  ", written_scales), title=name,
         said=page.said("plan described")[0],
         metadata={"scales": {key: float(f"{value:.12g}") for key, value in scales.items()}},
     )  # fmt: skip
 
 
 def _rates(plan: TrainPlan) -> tuple[str, str, str]:
-    """The sign of the rates of a plan, their unit, and the suffix of a length in the unit of its speeds."""
-    return ("ω", "rad/s", "/s") if plan.order == "velocity" else ("α", "rad/s²", "/s²")
+    """The kind of the rates of a plan, their unit, and the suffix of a length in the unit of its speeds."""
+    return ("omega", "rad/s", "/s") if plan.order == "velocity" else ("alpha", "rad/s²", "/s²")
 
 
 def _train(page: FigurePage, plan: TrainPlan, k: int) -> Block:
@@ -106,7 +107,7 @@ def _velocities(page: FigurePage, plan: TrainPlan, k: int, start: float) -> Piec
     heights = {s.name: s.height * mm for s in plan.on[k].spots}
     low, high = min(heights.values()), max(heights.values())
     plate.line("construction", complex(0.0, low - 4.0), complex(0.0, high + 4.0), strokes.OUTLINE)
-    names: dict[float, list[str]] = {}
+    names: dict[float, dict[str, RichText]] = {}
     for spot in plan.on[k].spots:
         x, h = plan.velocities.get((k, spot.name)), heights[spot.name]
         if x is None:
@@ -117,10 +118,12 @@ def _velocities(page: FigurePage, plan: TrainPlan, k: int, start: float) -> Piec
             shapes = arrow(on_page(foot), on_page(tip), COMPONENT)
             plate.put(plan.order, *shapes, id=f"plan-{spot.name}{tag}", classes=("speed",))
         plate.circle("construction", tip, 0.5, strokes.BLACK)
-        names.setdefault(round(h, 3), []).append(spot.name if spot.rolls else page.letters.point(spot.name))
+        names.setdefault(round(h, 3), {})[spot.name] = (
+            sign(spot.name) if spot.rolls else page.letters.point(spot.name)
+        )
     for h, some in names.items():
-        markup = symbol(", ".join(dict.fromkeys(some)), 3.0)
-        plate.name(markup, complex(0.0, h), f"label-plan-{'-'.join(some)}{tag}", rank=1)
+        words = rich(spaced(", ", dict.fromkeys(some.values())), 3.0)
+        plate.name(words, complex(0.0, h), f"label-plan-{'-'.join(some)}{tag}", rank=1)
     for link, bar in _bars(plan, k):
         if link in scene.by_name:
             colour, a, b = strokes.colour_of_link(scene, link), bar.a, bar.b
@@ -144,13 +147,13 @@ def foot(line: Step) -> float:
 
 def _rate_scale(sheet: Sheet, plan: TrainPlan) -> Piece:
     """Parallels to the lines through the pole, which stands at 0, down to the scale."""
-    plate, deep, (sign, *_) = Plate(), -1j * plan.pole, _rates(plan)
+    plate, deep, (kind, *_) = Plate(), -1j * plan.pole, _rates(plan)
     shown = _plan_lines(sheet, plan)
     feet = [0.0, *map(foot, shown)]
     plate.line("construction", min(feet) - 4.0 + deep, max(feet) + 4.0 + deep, strokes.OUTLINE)
     plate.line("construction", 0j, deep, strokes.DIRECTION)
     plate.circle("construction", 0j, 0.9, strokes.WHITE, strokes.OUTLINE)
-    plate.name(symbol("P", 3.2), 0j, toward=(1.57,))
+    plate.name(rich(sign("P"), 3.2), 0j, toward=(1.57,))
     marked: dict[float, list[str]] = {}
     for line in shown:
         at, colour = foot(line) + deep, strokes.colour_of_link(sheet.scene, line.link)
@@ -159,8 +162,8 @@ def _rate_scale(sheet: Sheet, plan: TrainPlan) -> Piece:
         plate.line("construction", at + 1.2j, at - 1.2j, strokes.OUTLINE)
         marked.setdefault(round(foot(line), 2), []).append(line.link)
     for x, links in marked.items():
-        markup = symbol(", ".join(f"{sign}_{{{n}}}" for n in links), 3.0)
-        plate.name(markup, x + deep - 1.2j, f"label-plan-rate-{'-'.join(links)}", toward=(-1.57,))
+        names = rich(spaced(", ", (rate(kind, link) for link in links)), 3.0)
+        plate.name(names, x + deep - 1.2j, f"label-plan-rate-{'-'.join(links)}", toward=(-1.57,))
     return plate.piece
 
 
@@ -173,18 +176,19 @@ def _plan_lines(sheet: Sheet, plan: TrainPlan) -> list[Step]:
 
 def _table(page: FigurePage, plan: TrainPlan) -> Block:
     """The readings of the rate scale: mm, and the rate."""
-    (sign, unit, tail), units, rows = _rates(plan), page.sheet.scene.units.rates, []
+    (kind, unit, tail), units, rows = _rates(plan), page.sheet.scene.units.rates, []
     tried = {symbol.link for symbol, _ in plan.trial.found} if plan.trial else ()
     for line in _plan_lines(page.sheet, plan):
         read = on_paper(line.mm)
-        size = written(product(read, amount(plan.turning, 12)))
-        rate = f"−{size}" if line.value < 0.0 and size != "0" else size
+        size = printed(product(read, amount(plan.turning, 12)))
+        turning = f"−{size}" if line.value < 0.0 and size != "0" else size
         if line.reason == "given on plan" and line.link not in tried:
-            rate = f"{number(line.value, 5)} {page.term('plan given')}"
-        rows.append((line.link, read, rate))
+            turning = f"{number(line.value, 5)} {page.term('plan given')}"
+        rows.append((line.link, read, turning))
     rows += [(key, on_paper(step.mm), f"{number(step.value / units.metres, 5)} {units.length}{tail}")
              for key, step in plan.travels.items()]  # fmt: skip
-    heads = [[word("plan link", each), "mm", f"${sign}$, {unit}"] for each in languages(page.language)]
+    rates = rate(kind, "") + f", {unit}"
+    heads: list[list[Words]] = [[word("plan link", each), "mm", rates] for each in languages(page.language)]
     return table(heads, rows, (0.2 * TABLE, 0.25 * TABLE, 0.55 * TABLE))
 
 

@@ -12,7 +12,7 @@ from itertools import pairwise, product
 from typing import TypeAlias
 
 from graphkin.account.given import along_its_guide, as_line, off_its_guide, slide_index, used_guides
-from graphkin.account.headings import number, written
+from graphkin.account.headings import number
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Line, Primitive, Run, on_page
@@ -32,7 +32,8 @@ from graphkin.drawing.place.piece import Piece, ink_box, obstacles_of
 from graphkin.drawing.text import rich
 from graphkin.plane import cross, cross_lines, dot
 from graphkin.scene.model import Mechanism, PlacedLink
-from graphkin.words.written import as_given
+from graphkin.words.symbols import sign
+from graphkin.words.written import as_given, printed
 
 LENGTHS = "dimensions"  # id of their group
 Dimensioner: TypeAlias = Callable[[MechanismOnPaper, DimensionClearance], Iterator[Parts | Label]]
@@ -124,7 +125,7 @@ def _bars(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts | 
                 continue
             ends = on_page(places[one]), on_page(places[other])
             value = abs(link.points[other] - link.points[one]) / here.scene.units.metres
-            runs = rich(written(as_given(value)), SIZE)
+            runs = rich(printed(as_given(value)), SIZE)
             long = abs(ends[1] - ends[0]) >= LEAST
             parts = room.take(dimension(*ends, offset, runs) for offset in OFFSETS) if long else None
             yield parts or Label.of(runs, ends, f"label-length-{one}{other}", rank=1, classes=("length",))
@@ -250,7 +251,7 @@ def _beside(
     within += [line for far in INSIDE for line in (low + far, high - far) if low < line < high]
     ways = (1j, 1 + 0j) if upright else (1 + 0j, 1j)
     given = [_given(here, level, upright) for level in levels]
-    values = [rich(written(as_given(high - low)), SIZE) for low, high in pairwise(given)]
+    values = [rich(printed(as_given(high - low)), SIZE) for low, high in pairwise(given)]
     for lines, over_lines in (*((lot, False) for lot in lots), (within, False), (within, True)):
         shares = SHARES[:3] if over_lines else SHARES[:1]
         drawn = (_on_line(spots, levels, line, *ways, values, share) for share in shares for line in lines)
@@ -299,7 +300,7 @@ def _angles(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts 
             yield found
             continue
         index = driver.link if driver.relative_to == here.scene.frame.name else driver.link + driver.relative_to
-        told = rich(f"$φ_{{{index}}}$ = {number(math.degrees(turns[0]), 5)}°", SIZE)
+        told = rich(sign("φ", index) + f" = {number(math.degrees(turns[0]), 5)}°", SIZE)
         yield driven_value(here, driver.key, told, at)
 
 
@@ -336,7 +337,7 @@ def travels(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts 
             key, pose = slider.slide.key, here.sheet.poses[slider.slide.b]
             value = here.sheet.drivers[key] / here.scene.units.metres
             start = pose.origin + pose.axis * slider.slide.guide.through / here.sheet.scales.length
-            runs = rich(f"$s_{{{slide_index(here.sheet, key)}}}$ = {written(as_given(value))}", SIZE)
+            runs = rich(sign("s", slide_index(here.sheet, key)) + f" = {printed(as_given(value))}", SIZE)
             parts = _apart(room, (start,), (slider.at,), slider.along, abs(value), runs)
             yield parts or driven_value(here, key, runs, (on_page(start), on_page(slider.at)))
 
@@ -460,7 +461,7 @@ def _apart(
         return None
     away = [dot(z, aside) for each in spots for z, _ in each]
     lines = [edge for far in FROM_GUIDE for edge in (max(away) + far, min(away) - far)]
-    written_ = [runs or rich(written(as_given(value)), SIZE)]
+    written_ = [runs or rich(printed(as_given(value)), SIZE)]
     drawn = (_on_line(spots, levels, line, along, aside, written_, also=also) for line in lines)
     return room.take((parts for parts in drawn if parts is not None), 2)
 

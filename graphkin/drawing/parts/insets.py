@@ -57,10 +57,11 @@ from graphkin.drawing.place.names import with_crowd, with_labels, without
 from graphkin.drawing.place.numbers import step_numbers
 from graphkin.drawing.place.obstacles import Obstacles, free_boxes
 from graphkin.drawing.place.piece import Piece, cut_to, dated, joined, middle_of, moved_piece, obstacles_of
-from graphkin.drawing.text import fitted, plain, runs_width, symbol, text_box
+from graphkin.drawing.text import fitted, plain, rich, runs_width, text_box
 from graphkin.plane import cross, unit
 from graphkin.scene.model import PlacedPicture
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.words.symbols import RichText, rate, spaced
 from graphkin.words.written import roman
 
 SMALL_INSET = 24.0, 21.0  # mm
@@ -187,7 +188,7 @@ def _detail_inset(
         if vector.symbol in own and clipped is not None:
             parts += arrow(clipped[0], tip, kind, colour)
             names[f"label-{vector.symbol.id}"] = Label.of(
-                symbol(letters.arrow(vector.symbol), 2.8), clipped, f"label-detail-{vector.symbol.id}", colour=colour,
+                rich(letters.arrow(vector.symbol), 2.8), clipped, f"label-detail-{vector.symbol.id}", colour=colour,
                 rank=1, step=detail.crowd,
             )
             continue
@@ -289,8 +290,8 @@ def _mechanism_detail(
     )
     inside = Piece({"mechanism": cut_to(map_tree(bare.layers["mechanism"], _plain), inner)}, names)
     named = with_labels(inside, inner)
-    letters_of_both = ", ".join(f"${letters.point(ref.point)}$" for ref in near)
-    words = fitted(f"{_enlarged(factor, language)}, {letters_of_both}", 2.6, box.width - 1.6)
+    letters_of_both = spaced(", ", (letters.point(ref.point) for ref in near))
+    words = fitted(_enlarged(factor, language) + ", " + letters_of_both, 2.6, box.width - 1.6)
     parts, classes = named.layers["mechanism"], ("inset", "detail")
     frame = _inset(box, "mechanism", parts, words, 1.6, "detail-mechanism", "label-detail-mechanism", classes)
     labels = tuple(
@@ -360,9 +361,9 @@ def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Notation, box: Box
     ]
     if links:
         middle = centre + 3.6 * on_page(slip + turned) / abs(slip + turned)
-        names.append(_label(f"ω_{{{links}}}", f"label-inset-omega-{id}", middle, phase(slip + turned), 1))
-    name = f"${letters.vector(vector.symbol)}$"
-    caption = fitted(f"{name} = ${letters.size(rule)}$" if rule else name, 2.8, box.width - 1.6)
+        names.append(_label(rate("omega", links), f"label-inset-omega-{id}", middle, phase(slip + turned), 1))
+    name = letters.vector(vector.symbol)
+    caption = fitted(name + " = " + letters.size(rule) if rule else name, 2.8, box.width - 1.6)
     if runs_width(caption) > box.width - 1.6:
         caption = fitted(name, 2.8, box.width - 1.6)
     piece = _inset(box, "acceleration", parts, caption, 2.3, f"sense-{id}", f"label-sense-{id}", ("inset",))
@@ -391,8 +392,8 @@ def inset_boxes(strip: Box, count: int) -> list[Box]:
     return [Box(x, y, x + INSET[0], y + INSET[1]) for x, y in corners]
 
 
-def _label(markup: str, id: str, at: complex, toward: float, rank: int = 0) -> Label:
-    return Label.of(symbol(markup, 2.8), at, id, toward=(toward,), rank=rank)
+def _label(name: RichText, id: str, at: complex, toward: float, rank: int = 0) -> Label:
+    return Label.of(rich(name, 2.8), at, id, toward=(toward,), rank=rank)
 
 
 READ = Stroke(0.3, (1.6, 0.8), "#c2006b")

@@ -50,10 +50,11 @@ from graphkin.drawing.parts.touching import (
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.obstacles import clearest_arc
 from graphkin.drawing.place.piece import Piece, cut_to, dated, ink_box, joined, kept_in, middle_of
-from graphkin.drawing.text import plain, symbol
+from graphkin.drawing.text import plain, rich
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.model import Driver
 from graphkin.scene.pairs import CircularSlot
+from graphkin.words.symbols import rate, sign
 
 AROUND_POINTS = 5.0  # mm for the symbols of points, which no edge cuts
 
@@ -250,7 +251,7 @@ def _joint(here: MechanismOnPaper, point: str) -> list[Primitive]:
 def _letter(here: MechanismOnPaper, point: str) -> Label:
     z = here.places[point]
     away = -added_up((w / abs(w) for w in here.ways(z)), 0j)
-    letter = symbol(here.letters.point(point))
+    letter = rich(here.letters.point(point))
     return Label.of(letter, on_page(z), f"label-point-{point}", toward=(phase(away),) if abs(away) > 0.1 else ())
 
 
@@ -328,7 +329,7 @@ def _guides(here: MechanismOnPaper, panel: Box | None) -> Iterator[Label]:
         if name in written:
             written.discard(name)
             edge = GUIDE_LENGTH / 2 if b.slide.b == here.ground else 7.0
-            letter = symbol(here.letters.guide(name, here.ground), 3.0)
+            letter = rich(here.letters.guide(name, here.ground), 3.0)
             text = Text(0j, letter, "start", strokes.BLACK, f"label-guide-{b.slide.b}-{name}", ("label",))
             ends = on_page(b.at), on_page(b.at + edge * b.along)
             inside = panel.grown(-0.5).clip(*ends) if panel is not None else ends
@@ -443,14 +444,15 @@ def rate_arrows(here: MechanismOnPaper) -> Piece:
     bars, joints, feet and each other."""
     around, pieces = [*_in_the_way(here)], [Piece({"mechanism": (), "answers": ()})]
 
-    def arc(layer: str, id: str, kind: str, link: str, other: str, rate: float, since: int | None) -> None:
+    def arc(layer: str, id: str, kind: str, link: str, other: str, turning: float, since: int | None) -> None:
         centres = [on_page(z) for z in _centres_of_turn(here, link, other)]
         (centre, radius, middle), taken = clearest_arc(centres, LEAST_RADII[layer], around)
         around.extend(taken)
-        sign, heads = ("ω", 1) if kind == "omega" else ("α", 2)
-        parts = symbols.sense_arc(centre, radius, middle, 1 if rate > 0 else -1, colour=here.colour(link), heads=heads)
+        heads = 1 if kind == "omega" else 2
+        sense, colour = 1 if turning > 0 else -1, here.colour(link)
+        parts = symbols.sense_arc(centre, radius, middle, sense, colour=colour, heads=heads)
         index = link if other == here.ground else link + other
-        letter, at = symbol(f"{sign}_{{{index}}}"), centre + radius * page_direction(middle)
+        letter, at = rich(rate(kind, index)), centre + radius * page_direction(middle)
         name = Label.of(letter, at, f"label-{id}", toward=(middle,))
         pieces.append(dated(Piece({layer: (Group(parts, id=id, classes=("sense",)),)}, (name,)), since))
 
@@ -466,9 +468,9 @@ def rate_arrows(here: MechanismOnPaper) -> Piece:
     found = {(step.kind, step.link): step.number for step in drawn}
     named = here.scene.whole.by_name  # not of bars that stand for cams
     for kind, rates in here.sheet.rates.items():
-        for link, rate in rates.items():
-            if rate.is_own and link in named and abs(rate.value) >= 1e-12:
-                arc("answers", f"{kind}-{link}", kind, link, here.ground, rate.value, found.get((kind, link)))
+        for link, turning in rates.items():
+            if turning.is_own and link in named and abs(turning.value) >= 1e-12:
+                arc("answers", f"{kind}-{link}", kind, link, here.ground, turning.value, found.get((kind, link)))
     return joined(pieces)
 
 
@@ -484,7 +486,7 @@ def _slide_arrow(here: MechanismOnPaper, driver: Driver) -> Piece:
     line = Line(tail, tip, Stroke(0.25, (), colour), covered=1.6)
     index = b.slide.a if b.slide.b == here.ground else b.slide.a + b.slide.b
     letter = "V" if here.letters.convention == "us" else "v"
-    text = Text(0j, symbol(f"{letter}_{{{index}}}"), "start", strokes.BLACK, f"label-{id}", ("label",))
+    text = Text(0j, rich(sign(letter, index)), "start", strokes.BLACK, f"label-{id}", ("label",))
     arrow = Group((line, head), id=id, classes=("driver",))
     piece = Piece({"mechanism": (arrow,)}, (Label(text, (tail, tip), (phase(side),)),))
     return dated(piece, here.since(driver.key.split("/")[0]))
@@ -577,7 +579,7 @@ def trial_marks_in_mechanism(sheet: Sheet) -> Piece:
             for number, z in enumerate(curve.at, 1):
                 parts += [Line(on_page(z + w), on_page(z - w), strokes.CONSTRUCTION) for w in (CROSS, 1j * CROSS)]
                 name = f"label-trial-{curve.point}-{number}"
-                numeral = symbol(str(number), 2.0)
+                numeral = rich(str(number), 2.0)
                 labels.append(Label.of(numeral, on_page(z), name, colour=strokes.GREY, rank=4, classes=("trial",),
                                        since=step.number))
             id = f"trial-curve-{curve.point}" + (f"-{curves}" if curves > 1 else "")

@@ -38,9 +38,10 @@ from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.numbers import BESIDE, LEAST_NUMBERED, beside_ring, step_number
 from graphkin.drawing.place.obstacles import Obstacles
 from graphkin.drawing.place.piece import Piece, dated, joined, obstacles_of
-from graphkin.drawing.text import LETTER, plain, rich, runs_width, symbol, text_box
+from graphkin.drawing.text import LETTER, plain, rich, runs_width, text_box
 from graphkin.plane import added_up, cross, dot
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.words.symbols import RichText, sign, spaced
 from graphkin.words.written import roman
 
 FAR = 60.0  # mm: construction further outside than this is cut off
@@ -282,8 +283,8 @@ def _ends(here: PolygonOnPage, places: Mapping[complex, Sequence[PointRef]]) -> 
             group = Group((dot,), id=id, classes=("end",), title=spoken_ref(ref, here.language))
             yield dated(Piece({here.diagram: (group,)}, (), (here.at(at),)), here.ends_since[ref])
         if order and moving:
-            markup = ", ".join(filter(None, (here.letters.end(here.diagram, ref) for ref in moving)))
-            names = _named(here, markup, at, f"label-{here.diagram}-{moving[0]}", 0, at)
+            letters = spaced(sign(", "), filter(None, (here.letters.end(here.diagram, ref) for ref in moving)))
+            names = _named(here, letters, at, f"label-{here.diagram}-{moving[0]}", 0, at)
             yield dated(Piece(labels=names), here.ends_since[moving[0]])
 
 
@@ -307,22 +308,22 @@ def _feet(here: PolygonOnPage, feet: Sequence[NamedPoint]) -> Iterator[Piece]:
 
 
 def _pole(here: PolygonOnPage, refs: Sequence[PointRef]) -> Piece:
-    shown = ", ".join(filter(None, (here.letters.end(here.diagram, ref) for ref in refs)))
+    shown = spaced(sign(", "), filter(None, (here.letters.end(here.diagram, ref) for ref in refs)))
     letter = pole(here.letters.convention, here.diagram)
-    markup = f"{letter} ({shown})" if shown and runs_width(symbol(shown)) < MOST_AT_POLE else letter
+    name = letter + sign(" (") + shown + sign(")") if shown and runs_width(rich(shown)) < MOST_AT_POLE else letter
     away = -added_up((v.span for _, v in here.vectors.values() if abs(v.tail) < SAME), 0j)
     shape = Circle(here.at(0j), POLE_RADIUS, fill=strokes.WHITE, stroke=strokes.OUTLINE)
     dot = Circle(here.at(0j), 0.3, fill=strokes.BLACK)
     group = Group((shape, dot), id=f"pole-{here.diagram}", classes=("pole",))
-    names = _named(here, markup, 0j, f"label-pole-{here.diagram}", 0, away)
-    if markup != letter:
-        names = tuple(replace(name, key=Text(0j, symbol(letter))) for name in names)
+    names = _named(here, name, 0j, f"label-pole-{here.diagram}", 0, away)
+    if name != letter:
+        names = tuple(replace(label, key=Text(0j, rich(letter))) for label in names)
     return dated(Piece({here.diagram: (group,)}, names), here.steps[0].number if here.steps else None)
 
 
-def _named(here: PolygonOnPage, markup: str, at: complex, id: str, rank: int, away: complex) -> tuple[Label, ...]:
+def _named(here: PolygonOnPage, name: RichText, at: complex, id: str, rank: int, away: complex) -> tuple[Label, ...]:
     toward = (phase(away),) if abs(away) > SAME else ()
-    return (Label.of(symbol(markup), here.at(at), id.replace("@", ""), toward=toward, rank=rank),) if markup else ()
+    return (Label.of(rich(name), here.at(at), id.replace("@", ""), toward=toward, rank=rank),) if name else ()
 
 
 SHADE, SHADED = 0.09, 12.0  # how much of its colour an image has within, from which size (mm) on
@@ -402,7 +403,7 @@ def _bars(here: PolygonOnPage) -> Iterator[Piece]:
                 head = min(POINTER.head_length, 0.7 * length)
                 parts.append(arrowhead(tip, clipped[1] - clipped[0], head, POINTER.head_width, strokes.BLACK))
             if carried and length > 4.0:
-                markup, id = symbol(here.letters.arrow(step.symbol), 3.0), f"label-carried-{step.symbol.id}"
+                markup, id = rich(here.letters.arrow(step.symbol), 3.0), f"label-carried-{step.symbol.id}"
                 names.append(Label.of(markup, clipped, id, colour=strokes.GREY, rank=3, key=step_number(step.number)))
             drawn = Group(tuple(parts), classes=("construction",), step=step.number)
             yield dated(Piece({"construction": (drawn,)}, tuple(names)), step.number)
@@ -410,7 +411,7 @@ def _bars(here: PolygonOnPage) -> Iterator[Piece]:
 
 def _rays(here: PolygonOnPage) -> Iterator[Piece]:
     """Lines known by direction only, each named once if several lead to one point."""
-    named: set[tuple[str, complex]] = set()
+    named: set[tuple[RichText, complex]] = set()
     for step in here.steps:
         for ray in (s for s in step.strokes if isinstance(s, Ray)):
             end = ray.to if ray.to is not None else ray.through
@@ -422,7 +423,7 @@ def _rays(here: PolygonOnPage) -> Iterator[Piece]:
                 if key not in named and abs(free[1] - free[0]) > 1.0:
                     named.add(key)
                     id = f"label-direction-{step.number:02d}"
-                    names.append(Label.of(symbol(markup, 3.0), free, id, colour=strokes.GREY, rank=4,
+                    names.append(Label.of(rich(markup, 3.0), free, id, colour=strokes.GREY, rank=4,
                                           classes=("direction",), key=step_number(step.number)))
             lines = (Line(*whole, strokes.DIRECTION),) if whole is not None else ()
             drawn = Group(lines, classes=("direction",), step=step.number)
@@ -477,7 +478,7 @@ MANY = 16  # in a polygon of more vectors names have no room for that
 
 
 def _name(
-    here: PolygonOnPage, length: float, vectors: Sequence[Vector], letters: Mapping[complex, str]
+    here: PolygonOnPage, length: float, vectors: Sequence[Vector], letters: Mapping[complex, RichText]
 ) -> Label | None:
     us = here.letters.convention == "us"
     if length < LEAST_DRAWN:
@@ -486,22 +487,28 @@ def _name(
         return None
     first = vectors[0]
     written = here.letters.vector if length < LEAST_DRAWN else here.letters.arrow
-    markup = " = ".join(written(v.symbol) for v in vectors)
+    name = spaced(sign(" = "), (written(v.symbol) for v in vectors))
     id, step = f"label-{first.symbol.id}", here.vectors[first.symbol][0]
     if length < LEAST_DRAWN:
         unit = unit_of(here.sheet, here.diagram)
         size = f"{number(length * here.sheet.scales.of(here.diagram) / unit.si, 4)} {unit.written}"
-        value = symbol(markup + " = 0") if length == 0.0 else rich(f"${markup}$ = {size}", LETTER)
+        value = rich(name + (sign(" = 0") if length == 0.0 else f" = {size}"), LETTER)
         return Label.of(value, here.at(first.tip), id, rank=3, since=step, key=step_number(step))
     resultants = all(v.role == "resultant" for v in vectors)
-    text = Text(0j, symbol(markup), "start", colour_of_vector(here.sheet, first.symbol), id, ("label",), since=step)
+    text = Text(0j, rich(name), "start", colour_of_vector(here.sheet, first.symbol), id, ("label",), since=step)
     key = step_number(step, text.colour)
     if LEAST_NUMBERED <= length < SHORT and len(here.vectors) <= MANY:
         by = runs_width(key.runs) + BESIDE
         text = text._replace(runs=(*key.runs, *(run._replace(x=run.x + by) for run in text.runs)), step=step)
-    ends = [letters.get(same_place(end), "") for end in (first.tail, first.tip)]
-    between = "→".join(ends) if all(ends) else ""
+    ends = [letters.get(same_place(end), RichText()) for end in (first.tail, first.tip)]
+    between = spaced(sign("→"), ends) if all(ends) else RichText()
     return Label(text, here.drawn(first), rank=2 if resultants and not us else 1, key=key, between=between)
+
+
+def _of_trial(letter: RichText, trial: int) -> RichText:
+    """The letter of an end point in a trial polygon, which bears its numeral."""
+    *before, last = letter.atoms
+    return RichText(*before, last._replace(sup=sign(roman(trial)).atoms))
 
 
 def trial_marks_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
@@ -527,7 +534,7 @@ def trial_marks_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
             of, to = aid.symbol.of, aid.symbol.to
             of_one_point = of is not None and to is not None and of.point == to.point
             if not trial and (of_one_point or aid.symbol.seen) and abs(clipped[1] - clipped[0]) > 4.0:
-                markup, id = symbol(here.letters.arrow(aid.symbol), 3.0), f"label-special-{aid.symbol.id}"
+                markup, id = rich(here.letters.arrow(aid.symbol), 3.0), f"label-special-{aid.symbol.id}"
                 rank = 3 if to and to.link in held else 4
                 labels.append(Label.of(markup, clipped, id, colour=strokes.GREY, rank=rank,
                                        key=step_number(step.number)))
@@ -536,7 +543,7 @@ def trial_marks_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
                 letter = here.letters.end(here.diagram, of)
                 if letter:
                     name = f"label-trial-{here.diagram}-{trial}-{aid.symbol.id}"
-                    labels.append(Label.of(symbol(f"{letter}^{{{roman(trial)}}}", 2.5), here.at(aid.tip), name,
+                    labels.append(Label.of(rich(_of_trial(letter, trial), 2.5), here.at(aid.tip), name,
                             colour=strokes.GREY, toward=(phase(clipped[1] - clipped[0]),), rank=5, classes=("trial",)))
         classes = (f"trial-{trial}",) if trial else ("special",)
         drawn = Group(tuple(parts), classes=classes, step=step.number)

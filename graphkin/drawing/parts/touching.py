@@ -15,8 +15,9 @@ from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive,
 from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.piece import Piece, dated
-from graphkin.drawing.text import symbol
+from graphkin.drawing.text import rich
 from graphkin.plane import added_up, unit
+from graphkin.words.symbols import sign
 
 NORMAL, TANGENT = 15.0, 12.0
 """mm of normal and tangent to either side of a contact."""
@@ -158,10 +159,10 @@ def _marks(places: Iterable[tuple[str, complex, complex]], tag: str = "") -> Pie
             lines.append(Line(on_page(ends[0]), on_page(ends[1]), AXIS))
             for k, (end, way) in enumerate(zip(ends, (-along, along), strict=True)):
                 mark = f"label-{letter}-{name}-{k + 1}{tag}"
-                names.append(Label.of(symbol(letter, 3.0), on_page(end), mark, toward=(phase(way),)))
+                names.append(Label.of(rich(sign(letter), 3.0), on_page(end), mark, toward=(phase(way),)))
         if tag:
             lines.append(Circle(on_page(at), 0.5, fill=strokes.BLACK))
-            names.append(Label.of(symbol(name, 3.0), on_page(at), rank=1))
+            names.append(Label.of(rich(sign(name), 3.0), on_page(at), rank=1))
         drawn.append(Group(tuple(lines), id=f"contact-{name}{tag}", classes=("contact",)))
     return Piece({"construction": tuple(drawn)}, tuple(names))
 

@@ -32,6 +32,7 @@ from graphkin.drawing.place.obstacles import (
     touching,
 )
 from graphkin.drawing.text import box_about
+from graphkin.words.symbols import Words
 
 Mark: TypeAlias = complex | Segment
 """What a label names: a point, or the line between two."""
@@ -87,13 +88,13 @@ class Label:
     toward: tuple[float, ...] = ()
     rank: int = 0
     key: Text | None = None
-    between: str = ""
+    between: Words = ""
 
     @classmethod
     def of(
         cls, runs: tuple[Run, ...], mark: Mark, id: str = "", *, colour: str = "#000000", rank: int = 0,
         toward: tuple[float, ...] = (), classes: tuple[str, ...] = (), step: int | None = None,
-        since: int | None = None, key: Text | None = None, between: str = "",
+        since: int | None = None, key: Text | None = None, between: Words = "",
     ) -> Label:  # fmt: skip
         """A label of some runs in the class "label" and further ones; ``id``, ``step`` and ``since`` are the text's."""
         text = Text(0j, runs, "start", colour, id, ("label", *classes), step, since)

@@ -18,6 +18,7 @@ from graphkin.drawing.place.piece import Piece, obstacles_of
 from graphkin.drawing.place.placement import Placed, Placement
 from graphkin.drawing.text import rich, runs_width, text_box
 from graphkin.plane import added_up
+from graphkin.words.symbols import Words
 
 POLYGONS = ("velocity", "acceleration", "forces")  # layers of vectors
 BEHIND = 1.0  # mm between a key and the name behind it
@@ -103,14 +104,14 @@ def _standing(placed: Iterable[Placed]) -> Obstacles:
     return Obstacles(solid=leaders, areas=boxes, writing=boxes)
 
 
-def _entry(name: Text, key: Text | None, between: str) -> Text:
+def _entry(name: Text, key: Text | None, between: Words) -> Text:
     """A key with its name, and the letters of its ends if neither stands at its vector; only the name without a key, or
     if the name begins with it."""
     runs = name.runs
     if key is not None and not name.string.startswith(key.string.rstrip("… ")):
         runs = _behind(key.runs, name.runs, BEHIND)
     if between:
-        runs = _behind(runs, rich(f": ${between}$"), 0.0)
+        runs = _behind(runs, rich(": " + between), 0.0)
     return Text(0j, runs, "start", name.colour, f"listed-{name.id}", (*name.classes, "listed"), since=name.since)
 
 
