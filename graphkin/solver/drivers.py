@@ -33,7 +33,7 @@ class GivenValues:
     def __len__(self) -> int:
         return len(self.values)
 
-    def __getitem__(self, part: slice) -> GivenValues:
+    def __getitem__(self, part: slice | Array) -> GivenValues:
         return GivenValues(self.values[part])
 
     @property
@@ -66,7 +66,9 @@ class UniformGrid:
     def __len__(self) -> int:
         return self.last - self.first
 
-    def __getitem__(self, part: slice) -> UniformGrid:
+    def __getitem__(self, part: slice | Array) -> UniformGrid | GivenValues:
+        if not isinstance(part, slice):
+            return GivenValues(self.start + self.step * (self.first + part))
         return UniformGrid(self.start, self.way, self.n, self.first + part.start, self.first + part.stop)
 
     @property

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
@@ -14,7 +14,6 @@ from graphkin.scene.model import Dimension, Mechanism, dimensions, force_of
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Measure, Units
 from graphkin.solver.algebra.bounds import error_bounds
-from graphkin.solver.algebra.dyads import DyadSolution
 from graphkin.solver.algebra.expressions import Code, Name, Real, Vec
 from graphkin.solver.algebra.pose import GIVEN, UNIT, Array, Drive, turned
 from graphkin.solver.compiled.engine import SINGULAR, State, positions
@@ -32,11 +31,10 @@ CHUNK = 16384  # positions in a piece, so that all columns of one stay in the ca
 PRODUCTS = 4
 """Roundings in the cosine and sine of an angle, those of many even steps included."""
 RESIDUE = 16 * UNIT  # of what moves: a few roundings
-CLEAR = 3.0
-"""Times the greatest turn of a link between two positions: a sine that is more than that at both is not zero between
-them, since the two lines whose sine it is turn by twice that at most."""
-FINER, FINEST = 16, 4
-"""Into so many parts, and so many times, is divided what lies between two positions that do not tell."""
+BESIDE = 1e-12
+"""A position as near to the end of the motion (rad) is looked at."""
+FEW = 1000
+"""So many positions are looked at one by one sooner than the parts of the range are found that need no look."""
 
 
 @dataclass(frozen=True)
@@ -103,42 +101,76 @@ class PreparedMechanism:
         return self.range.driver.turns
 
     @cached_property
-    def _even(self) -> bool:
-        """Whether every position of a turn is far from a singular one, so that none needs examination."""
-        ahead = self.range.ahead
-        if ahead.limit is not None or len(ahead.flips) or self.by_newton:
-            return False
-        t = ahead.nodes[None]
-        for _ in range(FINEST):
-            state = positions(self.structure, ahead.drive(t.ravel()), ahead.mode(t.ravel()), rates=False)
-            dyads = (g for g in state.groups.values() if isinstance(g, DyadSolution))
-            sine = np.min([np.abs(np.broadcast_to(g.sine, t.size)) for g in dyads] or [np.ones(t.size)], axis=0)
-            if not (sine > SINGULAR).all():
-                return False
-            axes = np.array([np.broadcast_to(pose.u, t.size) for pose in state.poses.values()]).reshape(-1, *t.shape)
-            turn = np.abs(np.angle(axes[..., 1:] / axes[..., :-1])).max(axis=0)
-            sine = sine.reshape(t.shape)
-            near = np.minimum(sine[:, 1:], sine[:, :-1]) <= CLEAR * turn
-            if not near.any():
-                return True
-            t = np.linspace(t[:, :-1][near], t[:, 1:][near], FINER + 1, axis=1)
-        return False
-
-    @cached_property
     def signs(self) -> dict[Name, float] | None:
         """The assembly of each group, if it is the same everywhere."""
         if len(self.range.ahead.flips) or len(self.range.behind.flips) or self.by_newton:
             return None
-        return {("sign", i): float(mode[0]) for i, mode in self.range.modes(np.zeros(1)).items() if mode.ndim == 1}
+        return self._signs(0.0)
 
-    def _reached(self, steps: GivenValues | UniformGrid) -> Array:
-        """Whether the motion reaches each position."""
-        reach = self.range
+    def _signs(self, offset: float) -> dict[Name, float]:
+        """The assembly of each group at an offset."""
+        modes = self.range.modes(np.array([offset / abs(self.range.wide)]))
+        return {("sign", i): float(mode[0]) for i, mode in modes.items() if mode.ndim == 1}
+
+    @cached_property
+    def _parts(self) -> Array:
+        """The parts of the range in which no position needs examination, as ``DriverRange.clear``."""
+        return np.zeros((0, 2)) if self.by_newton else self.range.clear
+
+    @cached_property
+    def _regular(self) -> bool:
+        """Whether no position of a whole turn needs examination."""
+        return self.whole and np.array_equal(self._parts, [[0.0, abs(self.range.wide)]])
+
+    @cached_property
+    def clear(self) -> bool:
+        """Whether no position needs examination: a whole turn of one assembly, far from every dead point."""
+        return self._regular and not self.loads and not self.bounded
+
+    @cached_property
+    def _of_table(self) -> list[tuple[float, float, int]]:
+        """The first and the last offset of a table in each clear part of the range, with its number, and in what the
+        motion does not reach, with -1; in increasing order."""
+        (low, high), turn = self.range.ends, 2 * math.pi
+        parts = [(begin, end, k) for k, (begin, end) in enumerate(self._parts.tolist())]
+        if self.turns and not self.whole:
+            again = not self.range.rolls_apart
+            parts += [(max(begin + turn, high), end + turn, k) for begin, end, k in parts if again]
+            parts.append((high + BESIDE, low + turn - BESIDE if again else math.inf, -1))
+        return sorted(parts)
+
+    def _divided(self, steps: GivenValues | UniformGrid) -> tuple[list[tuple[int, slice | Array]], list[slice], Array]:
+        """The positions in each clear part of the range, by its number; those that the motion does not reach; and
+        the others, which are looked at one by one."""
+        clear, away, careful, last = list[tuple[int, slice | Array]](), list[slice](), list[Array](), 0
         if not isinstance(steps, UniformGrid):
-            return reach.reaches(reach.offsets(steps.values))
+            offset = self.range.offsets(steps.values)
+            part_of = np.searchsorted(self._parts[:, 0], offset, "right") - 1
+            part_of[offset > np.append(self._parts[:, 1], -np.inf)[part_of]] = -1
+            return [(k, np.flatnonzero(part_of == k)) for k in range(len(self._parts))], [], np.flatnonzero(part_of < 0)
+        origin, step = self.range.table_step(steps.n)
+        for begin, end, part in self._of_table if step else ():
+            first = max(last, math.ceil((begin - origin) / step) - steps.first)
+            stop = math.floor(min((end - origin) / step, steps.last - 1)) + 1 - steps.first
+            if first >= stop:
+                continue
+            if first > last:
+                careful.append(np.arange(last, first))
+            if part < 0:
+                away.append(slice(first, stop))
+            else:
+                clear.append((part, slice(first, stop)))
+            last = stop
+        return clear, away, np.concatenate([*careful, np.arange(last, len(steps))])
+
+    def _reached(self, steps: GivenValues | UniformGrid, some: Array | None = None) -> Array:
+        """Whether the motion reaches all positions, or some."""
+        reach, some = self.range, np.arange(len(steps)) if some is None else some
+        if not isinstance(steps, UniformGrid):
+            return reach.reaches(reach.offsets(steps.values[some]))
         if not self.turns:
-            return np.ones(len(steps), dtype=bool)  # even steps of a travel lie inside the range
-        offset, (low, high) = reach.table_offsets(steps.n, steps.first, steps.last), reach.ends
+            return np.ones(len(some), dtype=bool)  # even steps of a travel lie inside the range
+        offset, (low, high) = reach.table_offsets(steps.n, steps.first + some), reach.ends
         ahead = offset <= high
         return ahead if reach.rolls_apart else np.asarray(ahead | (offset >= low + 2 * math.pi))
 
@@ -174,9 +206,13 @@ class PreparedMechanism:
 
     @cached_property
     def code(self) -> Code:
-        """The code of the asked formulas; after them the sines of groups, if positions must be examined."""
-        asked = self.asked if self.open or self._even else (*self.asked, *self._sines)
-        return Code(self.dimensioned.program.graph, asked, self.fixed, self.open)
+        """The code of the asked formulas for positions in one assembly that need no examination."""
+        return Code(self.dimensioned.program.graph, self.asked, self.fixed.keys() | self._signs(0.0).keys(), self.open)
+
+    @cached_property
+    def examined(self) -> Code:
+        """The code of the asked formulas, and after them of the sines of groups, for positions that are looked at."""
+        return Code(self.dimensioned.program.graph, (*self.asked, *self._sines), self.fixed)
 
     @cached_property
     def checks(self) -> Code:
@@ -239,7 +275,7 @@ class PreparedMechanism:
     def _one(self) -> Callable[[float], tuple[float, ...] | None]:
         if self.by_newton:
             return self._by_columns
-        code = Code(self.dimensioned.program.graph, (*self.asked, *self._sines), self.fixed)
+        code = self.examined
         function, params, names, count = code.floats, self.given(code), code.inputs, len(self.asked)
         everywhere, steady, around = self.whole, self.signs is not None, self.turns and not self.range.rolls_apart
         start, sense, (low, high) = float(self.range.start[0]), self.range.sense, self.range.ends
@@ -288,41 +324,25 @@ class PreparedMechanism:
         """The assembly of each group at values of the first driver, if it changes."""
         return {("sign", i): mode for i, mode in self._modes_at(value).items() if mode.ndim == 1}
 
-    def _from_larger_groups(self, value: Array, ok: Array) -> Mapping[Name, Array]:
-        """Inputs of the formulas that come from larger groups; positions that are in none of their assemblies are no
-        longer ok."""
-        # positions out of reach are computed at one that is not
-        state = self._state(np.where(ok, value, value[int(np.argmax(ok))]))
-        for _, dead in singular(self.structure, state, len(value)):
-            ok &= ~dead
-        return state.given
-
     # many
 
     @cached_property
-    def _numbers(self) -> Array:
-        """The inputs of compiled code: the params, then start and way of the driver over its range."""
+    def numbers(self) -> list[Array]:
+        """The inputs of compiled code in each clear part of the range: the params, then start and way of the driver
+        over its range."""
         grid = self.range.grid(1)
         assert isinstance(grid, UniformGrid)  # where the motion starts it is
-        return np.array([*self.given(self.code), grid.start, grid.way])
+        fixed = ({**self.fixed, **self._signs(float(part.mean()))} for part in self._parts)
+        return [np.array([*self.dimensioned.params(self.code.params, known), grid.start, grid.way]) for known in fixed]
 
     @cached_property
     def on_grid(self) -> Kernel:
         """The code at even steps; with open numbers for designs in turn."""
-        return Kernel(self.by_design if self.open else self.code, self.turns, True, len(self.asked), SINGULAR)
+        return Kernel(self.by_design if self.open else self.code, self.turns, True)
 
     @cached_property
     def _at_values(self) -> Kernel:
-        return Kernel(self.code, self.turns, False, len(self.asked), SINGULAR)
-
-    @cached_property
-    def clear(self) -> bool:
-        """Whether no position needs examination: a whole turn of one assembly, far from every dead point."""
-        return self._regular and not self.loads and not self.bounded
-
-    @cached_property
-    def _regular(self) -> bool:
-        return self.whole and self._even and self.signs is not None
+        return Kernel(self.code, self.turns, False)
 
     def columns(self, values: Array, out: Array | None = None, fast: bool = False) -> tuple[Array, Array]:
         """The asked quantities at many values of the first driver.
@@ -352,7 +372,7 @@ class PreparedMechanism:
         they are unknown; NaN where the position does not exist."""
         count, n = len(self.asked), len(steps)
         ok = self._formulas(steps, out[:count], fast) if count or not self.loads else self._reached(steps)
-        if self.clear:
+        if not (self.loads or self.bounded):
             return ok
         bounds = out[len(self.names) :]
         if self.loads:
@@ -370,30 +390,67 @@ class PreparedMechanism:
         return ok
 
     def _formulas(self, steps: GivenValues | UniformGrid, out: Array, fast: bool) -> Array:
-        """The columns of formulas, and whether the position exists; elsewhere they have no meaning."""
-        n, count, compiled = len(steps), len(self.asked), fast and not self.by_newton
-        if n > CHUNK and not compiled:
-            parts = [slice(k, min(k + CHUNK, n)) for k in range(0, n, CHUNK)]
-            return np.concatenate([self._formulas(steps[p], out[:, p], fast) for p in parts])
-        ok = _every(n) if self._regular else np.ones(n, dtype=bool) if self.whole else self._reached(steps)
-        if not ok.any():
-            return ok
-        given: dict[Name, Array] = {} if self.signs is not None else self.signs_at(steps.values)
-        if compiled:
-            kernel = self.on_grid if isinstance(steps, UniformGrid) else self._at_values
-            rows = [np.array([given[name] for name in kernel.signs])] if kernel.signs else []
-            kernel(n, self._numbers, *steps.given, *rows, out, *([ok] if kernel.checked else []))
-        else:
-            given |= self._from_larger_groups(steps.values, ok) if self.by_newton else {}
-            if self.turns:
-                given["cos", 0], given["sin", 0] = steps.turn
-            else:
-                given["travel", 0] = steps.values
-            sines = np.empty((len(self.code.asked) - count, n))
-            self.code.arrays(self.invariants(self.code), [given[name] for name in self.code.inputs], [*out, *sines])
-            for sine in sines:
-                ok &= np.abs(sine) >= SINGULAR
+        """The columns of formulas, and whether the position exists; NaN where it does not."""
+        n, compiled = len(steps), fast and not self.by_newton
+        if self._regular:
+            self._clear(0, steps, slice(0, n), out, compiled)
+            return _every(n)
+        clear, away, careful = self._divided(steps) if n > FEW else ([], [], np.arange(n))
+        ok = np.ones(n, dtype=bool)
+        for part, some in clear:
+            self._clear(part, steps, some, out, compiled)
+        for gap in away:
+            ok[gap], out[:, gap] = False, np.nan
+        for some in (careful[k : k + CHUNK] for k in range(0, len(careful), CHUNK)):
+            out[:, some], ok[some] = self._examined(steps, some)
         return ok
+
+    def _clear(
+        self, part: int, steps: GivenValues | UniformGrid, some: slice | Array, out: Array, compiled: bool
+    ) -> None:
+        """The columns at positions of a clear part of the range."""
+        numbers = self.numbers[part]
+        if not isinstance(some, slice):
+            columns = np.empty((len(out), len(some)))
+            self._clear(part, steps[some], slice(0, len(some)), columns, compiled)
+            out[:, some] = columns
+        elif compiled:
+            kernel = self.on_grid if isinstance(steps, UniformGrid) else self._at_values
+            kernel(some.start, some.stop, numbers, *steps.given, out)
+        else:
+            invariants = self.code.invariants(numbers[:-2].tolist())
+            for k in range(some.start, some.stop, CHUNK):
+                few = slice(k, min(k + CHUNK, some.stop))
+                given = self._driven(steps[few])
+                self.code.arrays(invariants, [given[name] for name in self.code.inputs], list(out[:, few]))
+
+    def _driven(self, steps: GivenValues | UniformGrid) -> dict[Name, Array]:
+        """The inputs of the formulas that the first driver gives."""
+        if not self.turns:
+            return {("travel", 0): steps.values}
+        cosine, sine = steps.turn
+        return {("cos", 0): cosine, ("sin", 0): sine}
+
+    def _examined(self, steps: GivenValues | UniformGrid, some: Array) -> tuple[Array, Array]:
+        """The columns at positions that are looked at one by one, and whether these exist; NaN where they do not."""
+        reached, count = self._reached(steps, some), len(self.asked)
+        columns, there = np.full((count, len(some)), np.nan), steps[some[reached]]
+        if not len(there):
+            return columns, reached
+        given, ok = self._driven(there), np.ones(len(there), dtype=bool)
+        given |= self.signs_at(there.values) if self.signs is None else {}
+        if self.by_newton:
+            state = self._state(there.values)
+            given |= state.given
+            for _, dead in singular(self.structure, state, len(there)):
+                ok &= ~dead
+        found = np.empty((len(self.examined.asked), len(there)))
+        inputs = [given[name] for name in self.examined.inputs]
+        self.examined.arrays(self.invariants(self.examined), inputs, list(found))
+        ok &= (np.abs(found[count:]) >= SINGULAR).all(axis=0)
+        found[:, ~ok] = np.nan
+        columns[:, reached], reached[reached] = found[:count], ok
+        return columns, reached
 
     def _bounds(self, value: Array, ok: Array, out: Array) -> None:
         """Bounds of the rounding errors of each name's columns, at the values that are ok."""
@@ -418,7 +475,7 @@ class PreparedMechanism:
         out = np.empty((self.rows, n)) if out is None else out
         if fast and n < LONG and self.clear:
             # nothing but the call: at some hundred positions each line here would be felt
-            self.on_grid.run(0, n, self._numbers, n, 0, out)
+            self.on_grid.run(0, n, self.numbers[0], n, 0, out)
             return out, _every(n)
         return out, self._all(self.range.grid(n), out, fast)
 

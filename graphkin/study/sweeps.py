@@ -107,7 +107,7 @@ class FollowedDesign:
         if times is not None:
             motion = over_time(self.structure, times)
         else:
-            motion = self.reach.motion(self.reach.table_offsets(n, first, last))
+            motion = self.reach.motion(self.reach.table_offsets(n, np.arange(first, last)))
         parts = tuple(w.parts(None if times is not None else self.reach, motion) for w in self.watched)
         if any(w.is_load for w in self.watched):
             motion = forces_of(motion).known_motion
@@ -128,7 +128,7 @@ class FollowedDesign:
         status, why = np.full(rows, "ok", object), np.full(rows, "", object)
         for some in (without[k : k + BLOCK] for k in range(0, len(without), BLOCK)):
             # why there is nothing there the solver says, and it has the last word on whether there is
-            motion = self.reach.motion(self.reach.table_offsets(n, first, last)[some])
+            motion = self.reach.motion(self.reach.table_offsets(n, first + some))
             for watched, components in zip(self.watched, parts, strict=True):
                 for component, solved in zip(components, watched.parts(self.reach, motion), strict=True):
                     component[some] = solved

@@ -22,8 +22,6 @@ import numpy as np
 import graphkin
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.scene import library
-from graphkin.solver.algebra.expressions import Code
-from graphkin.solver.compiled.engine import SINGULAR
 from graphkin.solver.compiled.kernel import Kernel, pays
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.prepared import prepare
@@ -65,17 +63,15 @@ def scenes(n: int = 10_000) -> None:
         moving = dict.fromkeys(p for link in scene.links for p in link.points if p not in scene.frame.points)
         asked = [f"{kind}{point}" for kind in ("", "v_", "a_") for point in list(moving)[-2:]]
         ready, public = prepare(structure, asked), graphkin.prepare(structure.scene, find=asked, fast=True)
-        code = Code(ready.dimensioned.program.graph, ready.asked, ready.fixed)
-        bare, grid = Kernel(code, ready.turns, True, len(ready.asked), SINGULAR), ready.range.grid(n)
-        numbers, out = np.array([*ready.given(code), *ready._numbers[-2:]]), np.empty((len(ready.asked), n))
-        signs = [np.array([ready.signs_at(grid.values)[name] for name in bare.signs])] if bare.signs else []
+        bare, given = Kernel(ready.code, ready.turns, True), ready.range.grid(n).given
+        out = np.empty((len(ready.asked), n))
         took = best({
-            "bare": one_thread(lambda b=bare, g=grid, rows=signs, x=numbers, o=out: b(n, x, *g.given, *rows, o)),
+            "bare": one_thread(lambda b=bare, g=given, x=ready.numbers[0], o=out: b(0, n, x, *g, o)),
             "sweep": one_thread(lambda p=public: p.sweep(n)),
         })  # fmt: skip
         ns = {what: seconds / n * 1e9 for what, seconds in took.items()}
         times = f"{ns['bare']:9.1f}{ns['sweep']:10.1f}{ns['sweep'] / ns['bare']:8.2f}x"
-        print(f"{name:30}{len(ready.asked):8}{times}  {'none' if ready.clear else 'all'}", flush=True)
+        print(f"{name:30}{len(ready.asked):8}{times}  {len(ready._divided(ready.range.grid(n))[2])}", flush=True)
 
 
 def tables(n: int = 100_000) -> None:

@@ -9,11 +9,13 @@ import pytest
 
 from graphkin.errors import CallError
 from graphkin.scene import mechanism_of, mechanism_of_text
+from graphkin.scene.model import Mechanism
 from graphkin.solver import solve
 from graphkin.solver.compiled.kernel import kernel_text
 from graphkin.solver.prepared import PreparedMechanism, prepare
 from tests import scenes
 
+NUMBA = pytest.mark.skipif(find_spec("numba") is None, reason="the extra fast is not installed")
 ASKED = ("C", "v_C", "a_C", "omega_3", "alpha_3")
 
 
@@ -68,7 +70,7 @@ def test_many_even_steps_are_as_exact_as_single_ones(n: int) -> None:
     assert np.abs(columns - single).max() < 2e-14 * np.abs(single).max()
 
 
-@pytest.mark.skipif(find_spec("numba") is None, reason="the extra fast is not installed")
+@NUMBA
 def test_compiled_columns_are_those_of_numpy() -> None:
     ready = prepare(mechanism_of_text(scenes.FOUR_BAR, "four-bar"), ("C", "v_C", "omega_3"))
     slow, _ = ready.sweep(200_000)
@@ -79,7 +81,7 @@ def test_compiled_columns_are_those_of_numpy() -> None:
 MANY = ("B", "C", "B@3", "v_B", "v_C", "a_B", "a_C", "v_C/B", "omega_2", "omega_3", "alpha_2", "alpha_3")
 
 
-@pytest.mark.skipif(find_spec("numba") is None, reason="the extra fast is not installed")
+@NUMBA
 def test_many_compiled_columns_are_those_of_numpy() -> None:
     ready = prepare(mechanism_of_text(scenes.FOUR_BAR, "four-bar"), MANY)
     slow, _ = ready.sweep(120_000)
@@ -89,8 +91,8 @@ def test_many_compiled_columns_are_those_of_numpy() -> None:
 
 def test_no_compiled_loop_fills_more_columns_than_can_be_told_apart() -> None:
     ready = prepare(mechanism_of_text(scenes.FOUR_BAR, "four-bar"), MANY)
-    loops = kernel_text(ready.code, True, True, len(ready.names), 1e-7).split("for k in range(m)")[1:]
-    assert [loop.count("[k] = ") - loop.count("good[k] = ") for loop in loops] == [14, 6]
+    loops = kernel_text(ready.code, True, True).split("for k in range(m)")[1:]
+    assert [loop.count("[k] = ") for loop in loops] == [14, 6]
 
 
 def test_positions_out_of_reach_are_marked() -> None:
@@ -117,6 +119,43 @@ def test_columns_hold_no_number_where_there_is_no_such_position_and_everywhere_e
     columns, ok = prepared.columns(np.radians([0, 90, 180]))
     assert [False, True, False] == ok.tolist()
     assert [[False, True, False]] * 3 == np.isfinite(columns).tolist()
+
+
+AE70, PARALLELOGRAM = mechanism_of("sixbar-AE70"), mechanism_of_text(scenes.PARALLELOGRAM, "p")
+
+
+def test_no_position_that_does_not_exist_is_computed_or_looked_at() -> None:
+    ready = prepare(AE70, ("v_C",))
+    _, away, careful = ready._divided(ready.range.grid(10_000))
+    _, ok = ready.columns(ready.range.grid(10_000).values)
+    assert (int((~ok).sum()), 0) == (sum(gap.stop - gap.start for gap in away), len(careful))
+
+
+def test_only_positions_at_change_points_are_looked_at() -> None:
+    ready = prepare(PARALLELOGRAM, ("v_C",))
+    _, _, careful = ready._divided(ready.range.grid(3000))
+    assert [1000, 2500] == careful.tolist()  # the driver begins at 60 degrees
+
+
+def test_a_position_between_what_is_clear_and_the_end_of_the_motion_is_there() -> None:
+    ready = prepare(AE70, ("v_C",))
+    clear, end = ready.range.clear[-1, 1], ready.range.ends[1]
+    steps = ((n, int(end / (2 * np.pi) * n)) for n in range(1001, 100_000))
+    n, last = next((n, k) for n, k in steps if clear < 2 * np.pi * k / n < end - 1e-9)
+    assert [True, False] == ready.sweep(n)[1][last : last + 2].tolist()
+
+
+@pytest.mark.parametrize("fast", [False, pytest.param(True, marks=NUMBA)])
+@pytest.mark.parametrize("scene", [AE70, PARALLELOGRAM])
+def test_many_positions_with_ends_or_change_points_are_those_of_few(scene: Mechanism, fast: bool) -> None:
+    ready = prepare(scene, ("v_C", "omega_3"))
+    for n in (1440, 3001):
+        values = ready.range.grid(n).values
+        few = [ready.columns(some) for some in np.array_split(values, 6)]
+        expected, there = (np.concatenate(parts, axis=-1) for parts in zip(*few, strict=True))
+        for columns, ok in (ready.sweep(n, fast=fast), ready.columns(values, fast=fast)):
+            assert there.tolist() == ok.tolist()
+            assert expected == pytest.approx(columns, rel=1e-9, abs=1e-12, nan_ok=True)
 
 
 def test_a_travel_is_that_of_solve() -> None:

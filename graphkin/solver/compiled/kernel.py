@@ -42,35 +42,29 @@ class Kernel:
     ----------
     turning : whether the first driver is an angle
     even : whether its values are at even steps, or given as an array
-    columns : the number of asked formulas; those after them are the sines of groups: a position with one below
-        ``singular`` is marked
 
     Raises
     ------
     CallError : numba is not installed
     """
 
-    def __init__(self, code: Code, turning: bool, even: bool, columns: int, singular: float) -> None:
-        self.text = kernel_text(code, turning, even, columns, singular)
-        self.signs = [name for name in code.inputs if name[0] == "sign"]
-        self.checked = len(code.asked) > columns
-        self.run = _compiled(self.text)
+    def __init__(self, code: Code, turning: bool, even: bool) -> None:
+        self.run = _compiled(kernel_text(code, turning, even))
 
-    def __call__(self, count: int, *given: object) -> None:
-        """Fill the columns at ``count`` positions.
+    def __call__(self, low: int, high: int, *given: object) -> None:
+        """Fill the columns at the positions from one to another, which is not included.
 
         Parameters
         ----------
         given : params p with the start and the whole way of the driver after them; at even steps the number of steps
-            of the whole way and that of the first position, else the values; where there are such: signs, shape
-            (signs, count); columns, shape (columns, count); marks, shape (count,)
+            of the whole way and that of the first position, else the values; columns, shape (columns, positions)
         """
-        if count < LONG:
-            self.run(0, count, *given)
+        if high - low < LONG:
+            self.run(low, high, *given)
             return
         import numba
 
-        bounds = np.linspace(0, count, numba.get_num_threads() + 1).astype(int).tolist()
+        bounds = np.linspace(low, high, numba.get_num_threads() + 1).astype(int).tolist()
         others = [Thread(target=self.run, args=(*part, *given)) for part in pairwise(bounds[1:])]
         for other in others:
             other.start()
@@ -84,18 +78,14 @@ def pays(count: int) -> bool:
     return count >= MANY and find_spec("numba") is not None
 
 
-def kernel_text(code: Code, turning: bool, even: bool, columns: int, singular: float) -> str:
+def kernel_text(code: Code, turning: bool, even: bool) -> str:
     """The text of the function that a ``Kernel`` runs."""
     code = _with_shared_divisions(code)
-    signs = [name for name in code.inputs if name[0] == "sign"]
-    checked = len(code.asked) > columns
     names: dict[Name, str] = {("cos", 0): "cosine[k]", ("sin", 0): "sine[k]"}
     names["travel", 0] = "start + step * (ahead + k)" if even else "travel[k]"
-    names |= {name: f"g{k}[k]" for k, name in enumerate(signs)}
     head, before = code.straight_invariants()
-    count = len(code.params)
-    given = ["low", "high", "p", *(["n", "first"] if even else ["v"]), *(["g"] if signs else []), "o"]
-    lines = [f"def made({', '.join([*given, *(['ok'] if checked else [])])}):", *head]
+    count, columns = len(code.params), len(code.asked)
+    lines = [f"def made(low, high, p, {'n, first' if even else 'v'}, o):", *head]
     if even:
         lines += [f"start, step = p[{count}], p[{count + 1}] / n"]
         lines += [] if turning else [f"start += 0.5 * (step - p[{count + 1}])"]
@@ -109,19 +99,12 @@ def kernel_text(code: Code, turning: bool, even: bool, columns: int, singular: f
         lines += ["    ahead = first + b"]
     else:
         lines += ["    travel = v[b:b + m]"]
-    lines += [f"    g{k} = g[{k}, b:b + m]" for k in range(len(signs))]
     lines += [f"    o{k} = o[{k}, b:b + m]" for k in range(columns)]
-    lines += ["    good = ok[b:b + m]"] if checked else []
-    reads = len(signs) + (2 if turning else not even)
-    each = _together(reads + checked)
+    each = _together(2 if turning else not even)
     for first in range(0, columns, each):
-        some = code.asked[first : min(first + each, columns)]
-        sines = code.asked[columns:] if first == 0 else []
-        body, made = code.straight_varying([*some, *sines], names, before)
+        some = code.asked[first : first + each]
+        body, made = code.straight_varying(some, names, before)
         lines += ["    for k in range(m):", *(f"        {x}" for x in body)]
-        if checked:
-            here = " and ".join(["good[k]", *(f"abs({made[at]}) >= {singular}" for at in sines)])
-            lines += [f"        here = {here}", *(["        good[k] = here"] if sines else [])]
         lines += [f"        o{k}[k] = {made[at]}" for k, at in enumerate(some, start=first)]
     return "\n    ".join(lines)
 

@@ -20,7 +20,7 @@ import numpy as np
 from graphkin.search import angles_between, last_true, places_between, resolve
 from graphkin.solver.algebra.dyads import DyadSolution
 from graphkin.solver.algebra.pose import Array, Drive
-from graphkin.solver.compiled.engine import ExtendedPrecision, discriminant_of, newton, positions, touch
+from graphkin.solver.compiled.engine import SINGULAR, ExtendedPrecision, discriminant_of, newton, positions, touch
 from graphkin.solver.drivers import meant_value, working
 from graphkin.solver.sentences import limit_why
 from graphkin.structure import Dyad, Structure
@@ -46,6 +46,11 @@ MOST_GROUPS = 7
 """Of so many groups all assemblies are tried."""
 OFF_FLIP = 1e-6
 """Of a path: what follows a group at a change point is watched this far beside it."""
+CLEAR = 3.0
+"""Times the greatest turn of a link in a step: a sine that is more than that at both its ends is not zero between them,
+since the two lines whose sine it is turn by twice that at most."""
+FINER, FINEST, MOST_STEPS = 16, 4, 20_000
+"""Into so many parts, and so many times, is divided a step that does not tell, as long as these are not more."""
 
 
 @dataclass(frozen=True)
@@ -201,6 +206,28 @@ class Path:
             u = np.nan_to_num(np.broadcast_to(pose.u, nodes.shape), nan=1.0)
             found[name] = np.angle(u[0]) + turning(u)
         return found
+
+    @cached_property
+    def clear(self) -> Array:
+        """The steps between nodes, or parts of them, in which every dyad keeps its assembly and stays away from its
+        dead points: the parameters at which each begins and ends, shape (steps, 2)."""
+        nodes, found = self.nodes[self.nodes <= self.reach], list[Array]()
+        begin, end = nodes[:-1], nodes[1:]
+        for _ in range(FINEST):
+            t = np.concatenate([begin, end])
+            solved = positions(self.structure, self.drive(t), self.mode(t), rates=False)
+            dyads = (group for group in solved.groups.values() if isinstance(group, DyadSolution))
+            sines = [np.abs(np.broadcast_to(dyad.sine, t.shape)) for dyad in dyads]
+            sine = np.min([np.ones(len(t)), *sines], axis=0).reshape(2, -1).min(axis=0)
+            axes = np.array([np.broadcast_to(pose.u, t.shape) for pose in solved.poses.values()])
+            turn = np.abs(np.angle(axes[:, len(end) :] / axes[:, : len(end)])).max(axis=0)
+            known = (sine > CLEAR * turn) & (sine > SINGULAR)
+            found.append(np.stack([begin[known], end[known]], axis=1))
+            finer = np.linspace(begin[~known], end[~known], FINER + 1)
+            begin, end = finer[:-1].ravel(), finer[1:].ravel()
+            if not 0 < len(end) <= MOST_STEPS:
+                break
+        return np.concatenate(found)
 
     def drive(self, t: Array) -> Drive:
         """The drivers with rates by the path parameter."""

@@ -250,14 +250,30 @@ class DriverRange:
         low, high = self.ends
         return np.asarray((offset >= low) & (offset <= high))
 
-    def table_offsets(self, n: int, first: int = 0, last: int | None = None) -> Array:
-        """Offsets of positions ``first`` to ``last`` (not included) of a table of n, in the sense of the driver: over a
-        turn from the start on, or evenly inside the range of travel."""
-        k = np.arange(first, n if last is None else last)
+    def table_offsets(self, n: int, some: Array | None = None) -> Array:
+        """Offsets of all positions of a table of n, or of some numbered from 0, in the sense of the driver: over a turn
+        from the start on, or evenly inside the range of travel."""
+        k = np.arange(n) if some is None else some
         if self.driver.turns:
             return np.asarray(2 * np.pi * k / n)
         low, high = self.ends
         return np.asarray(low + (k + 0.5) / n * (high - low))
+
+    def table_step(self, n: int) -> tuple[float, float]:
+        """The first of the offsets of a table of n, and the step from one to the next."""
+        (low, high), step = self.ends, 2 * math.pi / n
+        return (0.0, step) if self.driver.turns else (low + (high - low) / n / 2, (high - low) / n)
+
+    @cached_property
+    def clear(self) -> Array:
+        """The parts of the range in which every dyad keeps its assembly and stays away from its dead points: the
+        offsets at which each begins and ends, shape (parts, 2), in increasing order."""
+        sides = ((1.0, self.ahead),) if self.full else ((-1.0, self.behind), (1.0, self.ahead))
+        steps = np.concatenate([np.sort(side * abs(self.wide) * path.clear, axis=1) for side, path in sides])
+        low, high = steps[np.argsort(steps[:, 0])].T
+        begins = np.ones(len(low), dtype=bool)
+        begins[1:] = low[1:] > high[:-1]
+        return np.stack([low[begins], high[np.roll(begins, -1)]], axis=1)
 
     @cached_property
     def seams(self) -> Array:
@@ -293,7 +309,7 @@ class DriverRange:
         only from the other side, the value a turn less."""
         last, start = n if last is None else last, float(self.start[0])
         if self.rolls_apart:
-            offset = self.table_offsets(n, first, last)
+            offset = self.table_offsets(n, np.arange(first, last))
             reached = self._reached(offset)
             if not np.array_equal(reached, offset):
                 return GivenValues(self.value(reached))
