@@ -148,7 +148,7 @@ class ForceAccount:
             return
         first, *others = self.sheet.forces
         inertia = tuple(
-            ForceStep("inertia", Phrase("force step inertia", link=link), (self.inertia(pushed),),
+            ForceStep("inertia", _opposing(pushed), (self.inertia(pushed),),
                       (Symbol("Fi", link=link),))
             for link, pushed in self.sheet.inertias.items()
         )
@@ -397,6 +397,12 @@ class ForceAccount:
             Phrase("lever sum", sum=Neutral(lead, f" {rest} = 0")),
             Phrase("lever balance", lever=Neutral(name, f" = {by_lever}"), polygons=Neutral(by_polygons)),
         )
+
+
+def _opposing(pushed: Inertia) -> Phrase:
+    """The sense of an inertia force, and of its couple where the link has a moment of inertia."""
+    alone = "" if pushed.mass.inertia else " alone"
+    return Phrase(f"force step inertia{alone}", link=pushed.mass.link)
 
 
 def _links(names: Sequence[str]) -> Phrase:

@@ -24,7 +24,7 @@ from graphkin.scene.pairs import PlacedGuide, SlidingPair
 from graphkin.scene.scene_tables import LoadPhase
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Driven, RollingRelation
-from graphkin.words import Neutral, Phrase, Wording, languages, listed, rich_text
+from graphkin.words import Neutral, Phrase, Wording, languages, listed, rich_text, say
 from graphkin.words.symbols import RichText, Words, rate, sign, spaced
 from graphkin.words.written import as_given, printed
 
@@ -136,7 +136,9 @@ def given_teeth(scene: Mechanism, language: str) -> list[RichText]:
         for wheel, teeth in zip(gear.wheels, gear.teeth, strict=True):
             if teeth is None:
                 continue
-            said = sign("z", wheel) + f" = {number(abs(teeth))}" + f" ({term('internal', language)})" * (teeth < 0)
+            said = sign("z", wheel) + f" = {number(abs(teeth))}"
+            if teeth < 0:
+                said += say(Phrase("in brackets", words=term("internal", language)), languages(language)[0])
             if found.setdefault(wheel, said) != said:
                 found[f"{wheel} {gear.name}"] = said + f" ({gear.name})"
     return list(found.values())

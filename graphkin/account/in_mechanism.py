@@ -186,7 +186,7 @@ class InMechanism(Telling):
             return Phrase("in turn", first=self.plain, second=_divided_by_parts(table, told))
         unit = "°" if table.missed[0].angle else " mm"
         measured = "; ".join(misses).replace(unit, "") + unit
-        told = Phrase("trial table", moved=moved, values=", ".join(values), missed=missed, misses=measured)
+        told = Phrase("trial table", moved=moved, values=listed(values), missed=missed, misses=measured)
         if table.divided:
             before = table.before
             part, whole = (f"{abs(table.trials[i][1][0]):.2f}" for i in (before - 1, before))

@@ -28,8 +28,8 @@ from graphkin.construction.board.steps import (
     Vector,
 )
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase, filled, languages, rich_text, word
-from graphkin.words.symbols import RichText, Words, spaced
+from graphkin.words import Phrase, filled, languages, listed, rich_text, word
+from graphkin.words.symbols import RichText, Words
 
 SAME = 0.02  # mm: nearer end points fall together on paper
 ZERO = 0.02  # mm: a shorter vector is drawn as a dot
@@ -204,7 +204,8 @@ class Account:
         if isinstance(thing, PointRef):
             return self.letters.coincident(thing)
         if isinstance(thing, PointNames):
-            return self.letters.bar(thing.names) if thing.bar else spaced(", ", map(self.letters.point, thing.names))
+            points = [self.letters.point(name) for name in thing.names]
+            return RichText(*points) if thing.bar else rich_text(listed(points), language)
         if isinstance(thing, Direction):
             return self.letters.direction(thing, self.sheet.scene.frame.name)
         if isinstance(thing, Size):

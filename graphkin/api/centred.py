@@ -174,7 +174,7 @@ class Centred(OfScene, Result):
         if centre.number and centre.kind == "found":
             row["number"] = centre.number
         if centre.why:
-            row["why"] = say(centre.why, self.spoken)
+            row["why"] = say(centre.why)
         return row
 
     def _velocity(self, v: SpeedByCentres) -> dict[str, Json]:
@@ -184,7 +184,7 @@ class Centred(OfScene, Result):
         row: dict[str, Json] = {"by_centres": by_centres, "exact": exact, "chain": list(v.chain), "ok": v.ok}
         if v.ok and v.tolerance > 1.01 * TOLERANCE * v.largest:
             row["tolerance"] = v.tolerance / unit  # worse than everywhere else
-        return row if v.ok is not None else row | {"by_centres": None, "why": v.too_near(self.spoken)}
+        return row if v.ok is not None else row | {"by_centres": None, "why": v.too_near("en")}
 
     @cached_property
     def in_motion(self) -> Drawing:

@@ -21,7 +21,7 @@ from graphkin.scene.pairs import PlacedGuide, told
 from graphkin.scene.scene import SceneLike
 from graphkin.structure import LargerGroup, Structure, mobility_of
 from graphkin.table import Table
-from graphkin.words import Phrase, Wording, class_of, sense_of, word
+from graphkin.words import Phrase, Wording, about, class_of, listed, sense_of, word
 
 Sentence = tuple[str, Phrase]
 """What a sentence is about (a heading of the words' area ``explanation``), and the sentence."""
@@ -51,25 +51,25 @@ class Explained(OfScene, Result):
     def text(self) -> str:
         """The whole text, paragraph by paragraph."""
         lines, before = [self.mechanism.question.title_in(self.language)], ""
-        for about, phrase in self.sentences:
-            if about != before:
-                lines += ["", word(about, self.language)]
+        for subject, phrase in self.sentences:
+            if subject != before:
+                lines += ["", word(subject, self.language)]
             lines.append(f"  {plain_said(phrase, self.language)}")
-            before = about
+            before = subject
         return "\n".join(lines)
 
     @cached_property
     def table(self) -> Table:
         """A row for each sentence, with its subject."""
-        rows = [(word(about, self.language), plain_said(phrase, self.language)) for about, phrase in self.sentences]
-        return Table.of(("about", "sentence"), rows)
+        rows = [(word(subject, self.language), plain_said(phrase, self.language)) for subject, phrase in self.sentences]
+        return Table.of(("subject", "sentence"), rows)
 
     @cached_property
     def data(self) -> dict[str, Json]:
         """The sentences by subject, in English."""
         found: dict[str, list[str]] = {}
-        for about, phrase in self.sentences:
-            found.setdefault(about.removeprefix("explained "), []).append(plain_said(phrase, "en"))
+        for subject, phrase in self.sentences:
+            found.setdefault(subject.removeprefix("explained "), []).append(plain_said(phrase, "en"))
         why = {"why": str(self.why)} if self.why else {}
         return {"title": self.mechanism.question.title, "ok": self.ok, **found, **why}
 
@@ -112,12 +112,12 @@ def explain(scene: SceneLike, *, language: str | None = None) -> Explained:
         groups = [*_groups(structure_of(given), given)]
     except Unsolvable as error:
         why, status, exit_code = error.reason, error.status, error.exit_code
-    find = ", ".join(map(str, given.question.find))
+    find = given.question.find
     all_asked = Phrase("explained asked all with forces" if given.loading else "explained asked all")
     told: dict[str, Iterable[Phrase]] = {
         "units": _units(given), "links": _links(given), "joints": _joints(given), "mobility": [_mobility(given)],
         "drivers": [_driver(given, driver) for driver in given.drivers], "groups": groups, "loads": _loads(given),
-        "asked": [Phrase("explained asked for", quantities=find) if find else all_asked],
+        "asked": [Phrase("explained asked for", quantities=listed(find)) if find else all_asked],
     }  # fmt: skip
     sentences = tuple((f"explained {about}", phrase) for about, phrases in told.items() for phrase in phrases)
     return Explained(given, sentences, why, language or given.question.sheet.language, exit_code, status)
@@ -146,9 +146,9 @@ def _place(z: complex, scene: Mechanism) -> str:
 
 
 def _links(scene: Mechanism) -> Iterator[Phrase]:
-    fixed = ", ".join(f"{p} {_place(z, scene)}" for p, z in scene.frame.points.items())
-    bare = Phrase("explained bare frame", link=scene.frame.name)
-    yield Phrase("explained frame", link=scene.frame.name, points=fixed) if fixed else bare
+    name, fixed = scene.frame.name, [f"{p} {_place(z, scene)}" for p, z in scene.frame.points.items()]
+    framed = Phrase(about("explained frame", fixed), link=name, points=listed(fixed)) if fixed else None
+    yield framed or Phrase("explained bare frame", link=name)
     yield from _outlines(scene.frame, scene)
     blocks = {slot.bar: slot for slot in scene.slots if slot.block}
     replacing = {slot.bar for slot in scene.slots if not slot.block}
@@ -171,7 +171,7 @@ def _links(scene: Mechanism) -> Iterator[Phrase]:
         centre = {blocks[link.name].centre} if link.name in blocks else set()
         further = [f"{p} {_place(z, scene)}" for p, z in link.points.items() if p not in {*own, *centre}]
         if further:
-            yield Phrase("explained further", link=link.name, points=", ".join(further))
+            yield Phrase(about("explained further", further), link=link.name, points=listed(further))
         yield from _outlines(link, scene)
         if link.redundant:
             yield Phrase("explained redundant", link=link.name)
@@ -199,9 +199,9 @@ def _joints(scene: Mechanism) -> Iterator[Phrase]:
         own = [name for name in holders if name in counted and (name, point) not in curved]
         if len(own) > 1:
             if len(own) == 2:
-                yield Phrase("explained turning", point=point, links=", ".join(own))
+                yield Phrase("explained turning", point=point, links=listed(own))
             else:
-                yield Phrase("explained turnings", point=point, links=", ".join(own), number=len(own) - 1)
+                yield Phrase("explained turnings", point=point, links=listed(own), number=len(own) - 1)
     for pair in scene.slidings:
         guide = _guide_name(scene, pair.on, pair.guide)
         along = Phrase("explained sliding without point", link=pair.link, guide=guide, angle=_degrees(pair.turn))
@@ -259,7 +259,7 @@ def _groups(structure: Structure, scene: Mechanism) -> Iterator[Phrase]:
             yield Phrase("explained assembly", assembly=assembly[named])
     pointed = [p for p in structure.scene.sketch if p not in scene.sketch]
     if pointed:
-        yield Phrase("explained pointed", points=", ".join(pointed))
+        yield Phrase("explained pointed", points=listed(pointed))
 
 
 def _loads(scene: Mechanism) -> Iterator[Phrase]:

@@ -63,7 +63,9 @@ def report_text(checked: Checked, language: str) -> str:
     lines += _forces(checked, language)
     lines.append(word("readings", language))
     head = (word("quantity", language), word("on paper", language), word("measured", language), word("exact", language))
-    lines.append(f"{head[0]:<16}{head[1]:>12}{head[2]:>16}{head[3]:>16}")
+    first, *others = head
+    wide = (12, 16, 16)
+    lines.append(_left(first, 16) + "".join(" " * (w - _width(one)) + one for w, one in zip(wide, others, strict=True)))
     for symbol, length, read, true, own_unit, ok in reading_words(checked):
         mark = {True: "", False: "  !", None: "  ?"}[ok]
         lines.append(f"{symbol:<16}{length:>12}{read:>16}{true:>16} {own_unit}{mark}".rstrip())
@@ -181,8 +183,13 @@ def _rows(equation: Equation, language: str) -> list[str]:
             columns.append((plain(term.symbol), _size(term, plain), _direction(term, plain)))
     widths = [max(map(_width, column)) for column in columns]
     heads = ("", word("size", language), word("direction of", language))
-    rows = ([c[i] + " " * (w - _width(c[i])) for c, w in zip(columns, widths, strict=True)] for i in range(len(heads)))
-    return [f"{head:<11}" + "  ".join(row).rstrip() for head, row in zip(heads, rows, strict=True)]
+    rows = ([_left(c[i], w) for c, w in zip(columns, widths, strict=True)] for i in range(len(heads)))
+    return [_left(head, 11) + "  ".join(row).rstrip() for head, row in zip(heads, rows, strict=True)]
+
+
+def _left(text: str, width: int) -> str:
+    """A text at the left of a column of a terminal."""
+    return text + " " * (width - _width(text))
 
 
 def _width(text: str) -> int:

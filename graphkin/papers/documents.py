@@ -61,7 +61,7 @@ from graphkin.plane import added_up, degrees
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
-from graphkin.words import Phrase, about, languages, rich_text, say, sense_of, word
+from graphkin.words import Phrase, about, languages, listed, rich_text, say, sense_of, word
 from graphkin.words.symbols import RichText, Words, sign, spaced
 from graphkin.words.written import LEAST, amount, pointing, printed
 
@@ -133,7 +133,7 @@ def _polygon_pages(
     if both is not None:
         title = in_each(
             lesson.language,
-            lambda each: spaced(word("list comma", each), (dict(name)[each] for name in names.values())),
+            lambda each: spaced(word("symbol comma", each), (dict(name)[each] for name in names.values())),
         )
         return before, [Heading(title, fresh=True), Together((_poles(lesson, drawn), Picture(both)))]
     after: list[Block] = []
@@ -147,8 +147,7 @@ def _polygon_pages(
 def _poles(lesson: Lesson, diagrams: Sequence[DiagramName]) -> Paragraph:
     """The poles from which polygons are to be drawn."""
     poles = [pole(lesson.letters.convention, diagram) for diagram in diagrams]
-    names = spaced(word("list comma", languages(lesson.language)[0]), poles)
-    return Paragraph(said("your polygon", lesson.language, poles=names), small=True)
+    return Paragraph(said("your polygon", lesson.language, poles=listed(poles)), small=True)
 
 
 def _equations(lesson: Lesson, diagram: DiagramName, width: float) -> tuple[Paragraph | Picture, ...]:
@@ -223,6 +222,8 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     starts = [*rolling_starts(lesson.sheet), *rolled_starts(lesson.sheet)]
     yield from _formulas(lesson, "rolling starts", starts)
     for load in given_loads(lesson.sheet, letters) if scene.loading else ():
+        if load.key == "given balance" and scene.question.find:
+            continue  # what is asked for stands below
         yield Paragraph(tuple((each, whole_sentence(rich_text(load, each), each)) for each in languages(language)))
     yield from _formulas(lesson, "find", [letters.vector(s) for s in lesson.questions], "symbol comma")
     yield from reach(lesson)
@@ -548,7 +549,7 @@ def _force_pictures(lesson: Lesson, stage: ForceStage, tag: str, count: int) -> 
     if equation is not None:
         yield Picture(equation, joined=True)
     drawn = group_picture(page, stage, tag)
-    caption = said(about("figure of forces", group.links), language, links=", ".join(group.links))
+    caption = said(about("figure of forces", group.links), language, links=listed(group.links))
     yield Picture(drawn, numbered(count, caption))
 
 

@@ -217,9 +217,15 @@ class PlacedGear:
     @property
     def gaps(self) -> dict[str, object]:
         """The names in its sentences, and its numbers of teeth."""
-        first, second = (None if teeth is None else f"{teeth + 0.0:.6g}" for teeth in self.teeth)
+        first, second = (None if teeth is None else _counted(teeth) for teeth in self.teeth)
         return {"gear": self.name, "first": self.wheels[0], "second": self.wheels[1], "carrier": self.carrier,
                 "teeth_first": first, "teeth_second": second}  # fmt: skip
+
+
+def _counted(teeth: float) -> Phrase | str:
+    """A number of teeth; of internal ones, negative in the file, in words."""
+    number = f"{abs(teeth):.6g}"
+    return Phrase("internal teeth of number", number=number) if teeth < 0 else number
 
 
 # -- cams --------------------------------------------------------------------------------------------------------------

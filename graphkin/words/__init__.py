@@ -316,7 +316,7 @@ def in_turn(sentences: Sequence[Phrase]) -> Phrase:
     return said
 
 
-def listed(names: Sequence[object]) -> object:
+def listed(names: Sequence[object]) -> Any:
     """Names or phrases, at least one, as an argument of a sentence: a list with the marks of its language.
 
     >>> say(Phrase("points", link="2", points=listed(["B", "C", "D"])))

@@ -137,3 +137,8 @@ def test_centres_of_a_mechanism_at_rest_are_compared_with_those_of_any_motion(na
     rests = graphkin.centres({k: v for k, v in source.items() if k not in ("printed", "find")})
     assert rests.ok
     assert None not in [error for pair, error in rests.errors.items() if rests.centres.table[pair].place is not None]
+
+
+def test_data_of_centres_are_in_english_in_every_language() -> None:
+    one, other = (graphkin.centres("sixbar-coupler-2A", language=language).data for language in ("en", "zh"))
+    assert one == other

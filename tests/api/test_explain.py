@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -165,3 +166,43 @@ def test_all_that_is_wrong_stands_in_sentences_of_their_own() -> None:
     links = CIRCULAR["links"] | {"4": {"points": ["B"]}, "5": {"points": ["B"]}}
     why = str(graphkin.explain(CIRCULAR | {"links": links}).why)
     assert "as many drivers. links." in why
+
+
+def test_internal_teeth_are_counted_without_a_sign() -> None:
+    said = graphkin.explain("gears-epicyclic")
+    assert "mesh with 20 and 70 internal teeth" in said.text
+    assert "齿数 20 与 70（内齿）" in graphkin.explain("gears-epicyclic", language="zh").text
+
+
+@pytest.mark.parametrize(("scene", "told"), [
+    ("gears-epicyclic", "the frame, with the point A (0, 0)"), ("whitworth", "the frame, with the points "),
+    ("scissor-lift", "has the further point M (800, 0)"), ("scissor-lift", "has the further points M (800, 0), P"),
+])  # fmt: skip
+def test_one_point_is_a_point_and_several_are_points(scene: str, told: str) -> None:
+    assert told in graphkin.explain(scene).text
+
+
+def test_a_chinese_list_has_chinese_marks() -> None:
+    assert "A 连接构件 0、1、2：" in graphkin.explain("gears-epicyclic", language="zh").text
+    assert "固定点和导路：O2、O4" in report_text(graphkin.check("shaper-forces"), "zh")
+
+
+def test_a_rate_bears_its_letter_in_every_sentence_of_a_report() -> None:
+    lines = report_text(graphkin.check("contour-four-bars"), "en").split("\n")
+    steps = " ".join(line for line in lines if re.match(r" *\d+  ", line))
+    assert "ω_3 = −6 rad/s" in steps
+    assert "omega_" not in steps
+
+
+def test_the_columns_of_a_chinese_report_stand_under_each_other() -> None:
+    lines = [columns(line) for line in report_text(graphkin.check("four-bar-coupler-point"), "zh").split("\n")]
+    at = next(i for i, line in enumerate(lines) if "大" in line)
+    assert lines[at - 1].index("v_B") == lines[at].index("ω_1")
+    head = next(i for i, line in enumerate(lines) if line.startswith("量量 "))
+    ends = [[m.end() for m in re.finditer(r"\S+", line)][1:4] for line in lines[head : head + 2]]
+    assert ends[0] == ends[1]
+
+
+def columns(text: str) -> str:
+    """The text with Chinese characters twice, as wide as a terminal shows them."""
+    return "".join(c * 2 if ord(c) > 0x2E7F else c for c in text)

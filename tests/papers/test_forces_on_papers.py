@@ -11,6 +11,7 @@ import pytest
 
 import graphkin
 import tests.papers
+from graphkin.account.forces import ForceAccount
 
 ENGINE = "engine-gas-force"
 
@@ -109,3 +110,15 @@ def test_the_key_has_the_forces_with_what_to_accept(papers):
 
 def test_forces_are_questions_of_a_learning_platform(papers):
     assert "116.3" in "".join(text for name, text in papers.items() if "gift" in name)
+
+
+def test_a_problem_that_asks_for_some_forces_does_not_ask_for_all() -> None:
+    problem = graphkin.handout("shaper-forces", language="en", formats=("html",), positions=1).files["problem.html"]
+    assert "Find: " in problem.decode()
+    assert "all joint forces" not in problem.decode()
+
+
+def test_a_link_without_a_moment_of_inertia_is_told_without_its_couple() -> None:
+    lesson = graphkin.handout("shaper-forces", language="en", formats=("pdf",)).lesson
+    stage = next(ForceAccount(lesson.sheet, lesson.letters).stages())
+    assert [True, False] == ["couple" in str(step.words("en")[0][1]) for step in stage.steps]

@@ -16,7 +16,7 @@ from typing import Any, Literal, Self, TypeAlias, TypeVar
 from graphkin.plane import Pose
 from graphkin.scene.scene_tables import Diagram
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase, gaps_of, listed, sense_of, word
+from graphkin.words import Phrase, gaps_of, listed, say, sense_of, word
 from graphkin.words.symbols import RichText, Words, rate, sign, spaced
 from graphkin.words.written import MOST, amount, computed, figures, increase, on_paper, product, true_minus
 
@@ -119,6 +119,10 @@ def plain_in(language: str) -> Callable[[object], str]:
     def written(thing: object) -> str:
         if thing == GIVEN:
             return word("given size", language)
+        if isinstance(thing, PointNames) and not thing.bar:
+            return say(listed(thing.names), language)
+        if isinstance(thing, Symbol) and thing.kind in ("omega", "alpha") and not thing.at:
+            return str(rate(thing.kind, thing.link + thing.other))
         if isinstance(thing, Symbol) and thing.seen:
             return str(replace(thing, seen="")) + word("symbol seen", language).format(link=thing.seen)
         if isinstance(thing, Size) and isinstance(thing.factor, Symbol):
