@@ -14,7 +14,7 @@ from graphkin.account.in_polygon import InPolygon, alike
 from graphkin.account.notation import Notation
 from graphkin.account.voice import Account, Telling
 from graphkin.construction.board.sheet import Equation, Sheet
-from graphkin.construction.board.steps import PointNames, Reason, Step, Term, Vector
+from graphkin.construction.board.steps import PlaceStep, PointNames, Reason, Step, Term, Vector, VectorStep
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Pair
 from graphkin.words import Phrase, languages, sense_of, word
@@ -49,14 +49,14 @@ def written_lines(sheet: Sheet, letters: Notation, language: str) -> list[Writte
     lines: list[WrittenLine] = []
     written: set[int] = set()
     lengths = [*lengths_measured(sheet, letters)]
-    to_come = {s.point for s in sheet.steps if s.reason in TAKEN_FROM_THE_MECHANISM}
+    to_come = {s.point for s in sheet.placing(*TAKEN_FROM_THE_MECHANISM)}
     shared = False  # whether the next step may go on in the line of the one before
     for step in sheet.steps:
         if step.diagram != "mechanism":  # what is measured from the mechanism stands there by now
             ready = [one for one in lengths if to_come.isdisjoint(one[0])]
             lines += [bound(line) for _, line in ready]
             lengths = [one for one in lengths if one not in ready]
-        elif step.reason in TAKEN_FROM_THE_MECHANISM:
+        elif isinstance(step, PlaceStep) and step.reason in TAKEN_FROM_THE_MECHANISM:
             to_come.discard(step.point)
         if step.equation is not None and step.equation not in written:
             written.add(step.equation)
@@ -82,7 +82,7 @@ def _products(sheet: Sheet, equation: Equation, letters: Notation) -> list[RichT
     once; an equation that is only a rule contains its own."""
     if rule_alone(sheet, equation):
         return []
-    own = [s for s in sheet.steps if s.equation == equation.number]
+    own = [s for s in sheet.steps if s.equation == equation.number and isinstance(s, VectorStep)]
     laid_off = {s.symbol for s in own if s.reason == "before its turn" or (s.verb == "lay off" and s.mm)}
     arithmetic = {
         one.symbol: rule_sum(sheet, one.size, equation.diagram)
@@ -131,7 +131,7 @@ def _why(sheet: Sheet, equation: Equation, term: Term) -> Iterator[Phrase]:
         return
     coupled = {r.name for e in sheet.structure.elements for r in e.rolling}
     rolling = {c.name: c.links for c in sheet.scene.contacts if c.name in coupled}
-    rolling |= {s.point: (s.links[0], s.links[1]) for s in sheet.steps if s.reason == "pitch point"}
+    rolling |= {s.point: (s.links[0], s.links[1]) for s in sheet.placing("pitch point")}
     for ref in (of, to):
         if ref is not None and (links := rolling.get(ref.point)):
             pitch = PointNames((ref.point,))
@@ -162,9 +162,9 @@ def _why(sheet: Sheet, equation: Equation, term: Term) -> Iterator[Phrase]:
 def _found_before(sheet: Sheet, equation: Equation, term: Term) -> int:
     """The step that found a term with which an equation begins; 0 for a term that is drawn in it."""
     of, to = term.symbol.of, term.symbol.to
-    by_hand = of is not None and to is not None and of.point == to.point and any(
-        (s.reason == "special point" and s.point == of.point) or (s.reason == "seen from" and s.held == to.link)
-        for s in sheet.steps
+    by_hand = of is not None and to is not None and of.point == to.point and (
+        of.point in sheet.special_points
+        or any(s.reason == "seen from" and s.held == to.link for s in sheet.steps)
     )
     if term.size is not None or not (to is None or by_hand) or not (term.size_known and term.direction_known):
         return 0

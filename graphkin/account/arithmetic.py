@@ -15,7 +15,14 @@ from graphkin.account.headings import number
 from graphkin.account.notation import Notation, unit_of
 from graphkin.construction.board.instruments import EXACT
 from graphkin.construction.board.sheet import Sheet, either_way
-from graphkin.construction.board.steps import DiagramName, RateTrial, Size, Step, Superposed
+from graphkin.construction.board.steps import (
+    DiagramName,
+    RateStep,
+    RateTrial,
+    Size,
+    Superposed,
+    VectorStep,
+)
 from graphkin.construction.position.links_on_paper import pushed_by_driver
 from graphkin.plane import added_up
 from graphkin.scene.symbol import PointRef, Symbol
@@ -76,9 +83,10 @@ def lengths_measured(sheet: Sheet, letters: Notation) -> Iterator[tuple[tuple[st
     ``l_O4A = 38.31 mm × 10 mm/mm = 383.1 mm (383.14)``."""
     bars: dict[frozenset[str], tuple[str, str]] = {}
     for step in sheet.steps:
-        bar = (step.points[0], step.points[1]) if step.reason == "rate" else None
-        if step.size and step.size.rule == "rate" and not isinstance(step.size.factor, Symbol):
-            bar = step.size.factor
+        bar = (step.points[0], step.points[1]) if isinstance(step, RateStep) and step.reason == "rate" else None
+        size = step.size if isinstance(step, VectorStep) else None
+        if size and size.rule == "rate" and not isinstance(size.factor, Symbol):
+            bar = size.factor
         if bar is not None and not is_given(sheet, bar):
             bars.setdefault(frozenset(bar), bar)
     for one, other in bars.values():
@@ -104,7 +112,7 @@ def is_given(sheet: Sheet, bar: tuple[str, str]) -> bool:
 # -- rates -------------------------------------------------------------------------------------------------------------
 
 
-def rate_sum(sheet: Sheet, step: Step, units: bool = True) -> str:
+def rate_sum(sheet: Sheet, step: RateStep, units: bool = True) -> str:
     """``283.37 mm/s / 383.14 mm = 0.7396 rad/s``, or without units before the result; "" where there is no quotient."""
     divided = _divided(sheet, step)
     if divided is None:
@@ -115,7 +123,7 @@ def rate_sum(sheet: Sheet, step: Step, units: bool = True) -> str:
     return f"{size}{of} / {arm}{over} = {value} {RATE_UNITS[step.kind]}"
 
 
-def _divided(sheet: Sheet, step: Step) -> tuple[str, str, str] | None:
+def _divided(sheet: Sheet, step: RateStep) -> tuple[str, str, str] | None:
     """The numbers of a measured rate as they are written: size, length and quotient; None without them."""
     diagram = step.diagram
     if step.held:
@@ -139,7 +147,7 @@ def _divided(sheet: Sheet, step: Step) -> tuple[str, str, str] | None:
     return size, arm, quotient(size, arm, min(MOST - 1, carried))
 
 
-def plan_sum(step: Step) -> str:
+def plan_sum(step: RateStep) -> str:
     """``30.00 mm × 0.25 (rad/s)/mm = 7.5 rad/s``: a rate read from the plan of a train."""
     unit = RATE_UNITS[step.kind]
     length, scale = on_paper(step.mm), amount(step.per_mm, 12)
@@ -155,16 +163,15 @@ class Division:
     part: str
 
 
-def trials_of(sheet: Sheet, step: Step, divided: Superposed) -> list[RateTrial]:
+def trials_of(sheet: Sheet, divided: Superposed) -> list[RateTrial]:
     """The trial polygons whose gaps a step divides."""
-    trials = [s.data for s in sheet.before(step) if isinstance(s.data, RateTrial)]
-    return trials[-len(divided.apart) :]
+    return [step for step in sheet.before(divided) if isinstance(step, RateTrial)][-len(divided.apart) :]
 
 
-def divisions(sheet: Sheet, step: Step, divided: Superposed) -> list[Division]:
+def divisions(sheet: Sheet, divided: Superposed) -> list[Division]:
     """The division that gives each rate from its first assumed value and the step to its other trial: by the gaps of
     the two trials for a single assumed rate, else by the parts of the steps that close all gaps."""
-    trials = trials_of(sheet, step, divided)
+    trials = trials_of(sheet, divided)
     found = []
     for i, (_, rate) in enumerate(divided.found):
         low = trials[0].assumed[i][1]
@@ -243,7 +250,7 @@ def _rate_read(sheet: Sheet, rule: Size) -> str:
         return ""
     rate = sheet.rates[rule.rate][rule.links[0]]
     link = rate.same_as or rate.link
-    read = (s for s in sheet.steps if s.reason == "rate" and not s.held)
+    read = (s for s in sheet.steps if isinstance(s, RateStep) and s.reason == "rate" and not s.held)
     own = next((step for step in read if (step.kind, step.link) == (rule.rate, link)), None)
     divided = None if own is None or abs(own.value) != abs(rate.value) else _divided(sheet, own)
     return "" if divided is None else divided[2]

@@ -27,7 +27,9 @@ from graphkin.construction.board.sheet import Rate
 from graphkin.construction.board.steps import (
     GIVEN,
     Bar,
+    EndStep,
     PointNames,
+    RateStep,
     RateTrial,
     Ray,
     Reason,
@@ -36,6 +38,7 @@ from graphkin.construction.board.steps import (
     Superposed,
     Term,
     Vector,
+    VectorStep,
     end_of,
 )
 from graphkin.plane import dot
@@ -67,7 +70,7 @@ class InPolygon(Telling):
         return RichText(*letters) if len(letters) == len(names) else None
 
     def _letter(self, name: str) -> RichText | None:
-        refs = self.step.ref if name in "cC" else self.step.refs["abAB".index(name) % 2]
+        refs = self.of_end.ref if name in "cC" else self.of_end.refs["abAB".index(name) % 2]
         account = self.account
         return account.end_of(self.step.diagram, refs) if name.islower() else account.letters.point(refs.point)
 
@@ -145,20 +148,25 @@ class InPolygon(Telling):
     # -- vectors -------------------------------------------------------------------------------------------------------
 
     @property
+    def of_vector(self) -> VectorStep:
+        """The step, of a vector."""
+        return self.step_of(VectorStep)
+
+    @property
     def length(self) -> str | None:
         """The length of its vector (mm); None without a vector."""
-        return on_paper(self.step.mm) if self.step.mm and self.places is not None else None
+        return on_paper(self.of_vector.mm) if self.of_vector.mm and self.places is not None else None
 
     @property
     def rule(self) -> Phrase:
         """A vector with the rule of its size, where that is not just given."""
         key = {"normal": "as normal", "coriolis": "as Coriolis"}.get(self.step.reason, "as vector")
-        return Phrase(key, vector=_ruled(self.step.symbol, self.step.size))
+        return Phrase(key, vector=_ruled(self.step.symbol, self.of_vector.size))
 
     @property
     def way(self) -> object:
         """Its direction with its sense, unless its name contains it."""
-        direction = self.step.direction
+        direction = self.of_vector.direction
         if direction.relation == "towards" or self.places is None:
             return direction
         angle = pointing(self.places[1] - self.places[0])
@@ -192,14 +200,15 @@ class InPolygon(Telling):
     def _carried_over(self) -> Phrase | None:
         """The source of a vector between points of two links that is carried over from the motion seen from a held
         link; an acceleration with the Coriolis term of the held link's turning."""
-        step = self.step
+        step = self.of_vector
         of, to = step.symbol.of, step.symbol.to
         if step.size is not None or step.mm == 0.0 or of is None or step.direction.names:
             return None
         before = self.sheet.before(step)
         held = {s.held for s in before if s.reason == "seen from"}
         kind = step.symbol.kind[0]
-        gives = (s.symbol for s in reversed(before) if s.reason in ("vector", "pole to end") or (s.held and s.begins))
+        gives = (s.symbol for s in reversed(before)
+                 if s.reason in ("vector", "pole to end") or (isinstance(s, EndStep) and s.begins))  # fmt: skip
         seen = next((
             one for one in gives if one.kind == kind and one.of is not None and one.to is not None
             and one.to.link in held and one.of.point == one.to.point == of.point
@@ -219,7 +228,7 @@ class InPolygon(Telling):
 
     def _laid_sums(self) -> Iterable[Words]:
         """The rule of a vector in numbers, and its length on paper."""
-        step = self.step
+        step = self.of_vector
         if step.reason == "before its turn" and (step.size is None or not step.mm):
             return ()
         if self.places is None or not step.mm:
@@ -230,9 +239,14 @@ class InPolygon(Telling):
     # -- images --------------------------------------------------------------------------------------------------------
 
     @property
+    def of_end(self) -> EndStep:
+        """The step, of an end point."""
+        return self.step_of(EndStep)
+
+    @property
     def on_link(self) -> tuple[complex, complex, complex] | None:
         """The places on the link of an end point and of the points from which it is found (mm)."""
-        a, b, c = (self.sheet.points.get(PointRef(ref.point)) for ref in (*self.step.refs, self.step.ref))
+        a, b, c = (self.sheet.points.get(PointRef(ref.point)) for ref in (*self.of_end.refs, self.of_end.ref))
         return None if a is None or b is None or c is None or abs(b - a) < SAME else (a, b, c)
 
     @property
@@ -262,7 +276,7 @@ class InPolygon(Telling):
     @property
     def _one_place(self) -> bool:
         """Whether the image of a bar is one point, as of a link that does not turn."""
-        a, b = (self.sheet.ends[self.step.diagram].get(ref) for ref in self.step.refs)
+        a, b = (self.sheet.ends[self.step.diagram].get(ref) for ref in self.of_end.refs)
         return a is not None and b is not None and on_paper(abs(b - a)) == on_paper(0.0)
 
     def _image(self) -> Phrase | None:
@@ -277,7 +291,7 @@ class InPolygon(Telling):
     def _image_lines(self, language: str) -> Iterator[Words | Phrase]:
         """``△bce ∼ △BCE``, or ``pm : pd = AM : AD`` for a point between others; where a convention has no end points
         the vector with the similar figure of the link, none for a vector that is not drawn."""
-        step, on_line = self.step, self.step.reason == "division"
+        step, on_line = self.of_end, self.step.reason == "division"
         if step.held:
             yield Phrase("written image seen", vector=step.symbol, link=step.link)
         elif self._one_place and self._lettered("abc"):
@@ -301,13 +315,12 @@ class InPolygon(Telling):
     @property
     def parts(self) -> list[tuple[Term, complex]]:
         """The parts that the rates of a link give, each with its vector (mm)."""
-        data = self.step.data if isinstance(self.step.data, tuple) else ()
-        return [(part, part.span) for part in data if part.span is not None]
+        return [(part, part.span) for part in self.of_end.terms if part.span is not None]
 
     @property
     def laid(self) -> object:
         """The path to an end point from another of its link: the parts by the rates, laid off in order."""
-        start = end_of(self.step.begins[0]) if self.step.held else Phrase("the point", point=self.gap("a"))
+        start = end_of(self.of_end.begins[0]) if self.step.held else Phrase("the point", point=self.gap("a"))
         if not self.step.held and self.gap("a") is None:
             return None
         told = list[Phrase]()
@@ -343,19 +356,24 @@ class InPolygon(Telling):
     # -- rates ---------------------------------------------------------------------------------------------------------
 
     @property
+    def of_rate(self) -> RateStep:
+        """The step, of a rate."""
+        return self.step_of(RateStep)
+
+    @property
     def turning_links(self) -> tuple[str, ...]:
         """The links with the same rate, as its indices."""
-        step, rates = self.step, self.sheet.rates[self.step.kind]
+        step, rates = self.of_rate, self.sheet.rates[self.of_rate.kind]
         return (step.link + step.held,) if step.held else (step.link, *alike(rates.values(), rates[step.link]))
 
     def _rate_sums(self) -> Iterable[Words]:
-        step = self.step
+        step = self.of_rate
         value = rate_sum(self.sheet, step) or f"{number(abs(step.value), MOST)} {RATE_UNITS[step.kind]}"
         return (rate(step.kind, self.turning_links[0]) + f" = {value}",)
 
     def _rate_lines(self, language: str) -> Iterator[RichText]:
         """``ω_4 = ω_3 = v_A4 / l_AO4 = 0.74 rad/s, clockwise``: the quotient of a vector and a bar."""
-        step, rates = self.step, self.sheet.rates[self.step.kind]
+        step, rates = self.of_rate, self.sheet.rates[self.of_rate.kind]
         value = step.value if step.held else rates[step.link].value
         rule = self.account.symbol(step.symbol) + " / " + self.account.letters.length(step.points)
         shown = bound(rate_sum(self.sheet, step, units=False)) or f"{number(abs(value), 5)} {RATE_UNITS[step.kind]}"
@@ -364,14 +382,14 @@ class InPolygon(Telling):
 
     def _held_still_lines(self, language: str) -> Iterator[RichText]:
         """``ω_32 = 0.1437 rad/s, clockwise, drawn apart, with one link held still``."""
-        step = self.step
+        step = self.of_rate
         if step.kind in RATE_UNITS:
             value = f"{number(abs(step.value), 5)} {RATE_UNITS[step.kind]}{_turning(step.value, language)}"
             yield rate(step.kind, step.link + step.held) + f" = {value},  {term('held still', language)}"
 
     def _plan_lines(self, language: str) -> Iterator[RichText]:
         """``ω_3 = 30.00 mm × 0.25 (rad/s)/mm = 7.5 rad/s, clockwise``: read from the plan of a train."""
-        step = self.step
+        step = self.of_rate
         value = bound(plan_sum(step)) + _turning(step.value, language) if step.value else "0"
         yield rate(step.kind, step.link) + " = " + value
 
@@ -384,22 +402,21 @@ class InPolygon(Telling):
 
     def _trial(self) -> Phrase:
         """A trial polygon: its steps, and in the first one its reason."""
-        trial, step = self.step.data, self.step
-        assert isinstance(trial, RateTrial)
+        step = self.step_of(RateTrial)
         # the steps by which it is drawn like the true polygon
         assumed = {aid.symbol for aid in step.auxiliary}
         later = [s for s in self.sheet.steps[step.number :] if s.diagram == step.diagram]
         first = next(s.number for s in later if s.reason == "open ends") + 1
         own = (s for s in later if s.number >= first and any(getattr(x, "symbol", None) in assumed for x in s.strokes))
         last = max((s.number for s in own), default=first)
-        rates = self._rates(trial.assumed)
-        told = Phrase("trial lettered", trial=sign(roman(trial.number)), rates=rates, first=first, last=last)
-        if trial.number > 1:
+        rates = self._rates(step.assumed)
+        told = Phrase("trial lettered", trial=sign(roman(step.trial)), rates=rates, first=first, last=last)
+        if step.trial > 1:
             return told
-        if trial.far is None:
+        if step.far is None:
             return Phrase("superposed since none", reason=told)
-        angle, away = number(math.degrees(trial.far.crossing), 2), f"{trial.far.away / self.sheet.scales.length:.0f}"
-        first_link, second_link = trial.far.links
+        angle, away = number(math.degrees(step.far.crossing), 2), f"{step.far.away / self.sheet.scales.length:.0f}"
+        first_link, second_link = step.far.links
         crossing = {"first": first_link, "second": second_link, "angle": angle, "distance": away}
         return Phrase("superposed since far", reason=told, **crossing)
 
@@ -409,7 +426,7 @@ class InPolygon(Telling):
         rows = true_minus("; ".join(
             f"{roman(i)} " + ", ".join(on_paper(mm) for mm in row) for i, row in enumerate(divided.apart, 1)
         )) + " mm"  # fmt: skip
-        found, quotients = self._rates(divided.found), divisions(self.sheet, self.step, divided)
+        found, quotients = self._rates(divided.found), divisions(self.sheet, divided)
         if len(quotients) > 1:
             parts = ", ".join(one.part for one in quotients)
             return Phrase("superposed several", between=self._left_open(), open=rows, parts=parts, rates=found)
@@ -420,8 +437,8 @@ class InPolygon(Telling):
         division.
         """
         divided, symbol = self._divided, self.account.symbol
-        trials = trials_of(self.sheet, self.step, divided)
-        numerals = [sign(roman(trial.number)) for trial in trials]
+        trials = trials_of(self.sheet, divided)
+        numerals = [sign(roman(trial.trial)) for trial in trials]
         closing = listed([
             Phrase("open pair", pair=name) if "/" in name else Phrase("open link", link=name)
             for name in divided.closing
@@ -431,7 +448,7 @@ class InPolygon(Telling):
             rates = spaced(", ", (symbol(s) + f" = {number(v, 5)} {self._unit(s)}" for s, v in trial.assumed))
             gaps = ", ".join(printed(on_paper(mm)) for mm in row)
             yield Phrase("written trial polygon", trial=mark, rates=Neutral(rates), open=gaps)
-        quotients = divisions(self.sheet, self.step, divided)
+        quotients = divisions(self.sheet, divided)
         said = Neutral(spaced("; ", (
             bound(symbol(s) + f" = {one.terms} = {one.value} {self._unit(s)}")
             for (s, _), one in zip(divided.found, quotients, strict=True)
@@ -445,8 +462,7 @@ class InPolygon(Telling):
 
     @property
     def _divided(self) -> Superposed:
-        assert isinstance(self.step.data, Superposed)
-        return self.step.data
+        return self.step_of(Superposed)
 
     def _left_open(self) -> object:
         """The gaps, by their end points and directions."""
@@ -490,7 +506,7 @@ class InPolygon(Telling):
     }  # fmt: skip
     arithmetic: ClassVar[Mapping[Reason, Callable[[InPolygon], Iterable[Words]]]] = {
         **dict.fromkeys((*ROLES, "before its turn"), _laid_sums), "rates": _by_rates_sums, "rate": _rate_sums,
-        "plan": lambda told: [rate(told.step.kind, told.step.link) + f" = {plan_sum(told.step)}"],
+        "plan": lambda told: [rate(told.of_rate.kind, told.step.link) + f" = {plan_sum(told.of_rate)}"],
     }
     lines: ClassVar[Mapping[Reason, Callable[[InPolygon, str], Iterable[Words | Phrase]]]] = {
         **dict.fromkeys(ROLES, lambda told, language: filter(None, [told._carried_over()])),

@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
 from graphkin.account.arithmetic import times_scale
 from graphkin.account.notation import Notation, pole
@@ -240,6 +240,9 @@ class Account:
         return {diagram: PolygonPoints(self.sheet, diagram, self.letters).named for diagram in diagrams}
 
 
+KindOfStep = TypeVar("KindOfStep", bound=Step)
+
+
 @dataclass(frozen=True)
 class Telling:
     """The telling of a step: by its reason its ``sentences``, keys of the table of words from the fullest to the
@@ -255,6 +258,11 @@ class Telling:
     def sheet(self) -> Sheet:
         """The sheet of the step."""
         return self.account.sheet
+
+    def step_of(self, kind: type[KindOfStep]) -> KindOfStep:
+        """The step as one of its kind."""
+        assert isinstance(self.step, kind)
+        return self.step
 
     def gap(self, name: str) -> object:
         """The value of a gap by its name: a property of the telling, else an argument of the step; None without a

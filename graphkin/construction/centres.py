@@ -145,8 +145,8 @@ class Centres:
     def kept(self) -> tuple[str, ...]:
         """The constraints that superposed trial motions fulfil, if the motion was found by trial: the bars or sliding
         pairs that the trial polygons leave open."""
-        divided = (step.data for step in self.sheet.steps if isinstance(step.data, Superposed))
-        return tuple(dict.fromkeys(name for data in divided for name in data.closing))
+        divided = (step for step in self.sheet.steps if isinstance(step, Superposed))
+        return tuple(dict.fromkeys(name for step in divided for name in step.closing))
 
     @property
     def mm(self) -> float:

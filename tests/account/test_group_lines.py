@@ -51,7 +51,7 @@ def test_a_point_on_a_guide_is_told_with_the_name_of_the_guide():
 def test_every_point_of_a_group_placed_by_trial_is_told(name, language):
     sheet, _ = drafted(name)
     line = next(line for line in told(name, language) if "trial" in line or "试凑" in line)
-    (act,) = (step.data for step in sheet.steps if isinstance(step.data, TrialPositions))
+    (act,) = (step for step in sheet.steps if isinstance(step, TrialPositions))
     known = (link for name, link in sheet.structure.links.items() if name not in act.links)
     before = {p for link in (sheet.scene.frame, *known) for p in link.points}
     points = {p for link in act.links for p in sheet.structure.links[link].points} - before

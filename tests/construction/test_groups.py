@@ -315,7 +315,7 @@ def test_trial_polygons_are_drawn_and_divided() -> None:
     sheet = draft(mechanism_of("contour-four-bars"))
     trials = {aid.trial for step in sheet.steps for aid in step.auxiliary if aid.trial}
     assert {1, 2} == trials
-    (velocity, _) = (step.data for step in sheet.steps if isinstance(step.data, Superposed))
+    (velocity, _) = (step for step in sheet.steps if isinstance(step, Superposed))
     one, two = (row[0] for row in velocity.apart)
     assert one * two < 0
 
@@ -341,9 +341,9 @@ def _reach(ends: list[complex]) -> tuple[float, float]:
 
 def test_trial_rates_lie_on_either_side_of_the_true_one_in_few_figures() -> None:
     sheet = draft(mechanism_of("double-butterfly"))
-    for act in (step.data for step in sheet.steps if isinstance(step.data, Superposed)):
+    for act in (step for step in sheet.steps if isinstance(step, Superposed)):
         ((_, true),) = act.found
-        assumed = [s.data.assumed[0] for s in sheet.steps if isinstance(s.data, RateTrial)]
+        assumed = [s.assumed[0] for s in sheet.steps if isinstance(s, RateTrial)]
         low, high = (value for symbol, value in assumed if symbol == act.found[0][0])
         assert 0.0 > (low - true) * (high - true)
         assert [float(f"{value:.2g}") for value in (low, high)] == [low, high]
@@ -352,7 +352,7 @@ def test_trial_rates_lie_on_either_side_of_the_true_one_in_few_figures() -> None
 def test_the_sheet_says_along_which_direction_a_trial_is_left_open() -> None:
     result = graphkin.check("double-butterfly")
     at = {str(ref): z for ref, z in result.sheet.points.items()}
-    divided = next(step.data for step in result.sheet.steps if isinstance(step.data, Superposed))
+    divided = next(step for step in result.sheet.steps if isinstance(step, Superposed))
     assert ("8",) == divided.closing
     assert ["∥KD"] == [str(way) for way in divided.ways]
     steps = [step for step in result.sheet.steps if step.diagram == "velocity"]
@@ -376,7 +376,7 @@ def test_the_trial_curve_passes_the_place_found_between_its_trials() -> None:
 def test_the_arc_that_the_trial_curve_meets_has_the_bar_for_radius_about_its_other_end(name: str) -> None:
     sheet = draft(mechanism_of(name))
     ((curve, arc, table),) = (
-        (*step.strokes, step.data) for step in sheet.steps if isinstance(step.data, TrialPositions)
+        (*step.strokes, step) for step in sheet.steps if isinstance(step, TrialPositions)
     )
     at = {str(ref): z for ref, z in sheet.points.items()}
     (missed,) = table.missed
@@ -388,7 +388,7 @@ def test_the_arc_that_the_trial_curve_meets_has_the_bar_for_radius_about_its_oth
 @pytest.mark.parametrize(("name", "bar"), [("triad-slider", "BC"), ("double-butterfly", "DK")])
 def test_what_is_missed_in_trial_positions_is_divided_to_the_place_where_nothing_is(name: str, bar: str) -> None:
     sheet = draft(mechanism_of(name))
-    (table,) = (step.data for step in sheet.steps if isinstance(step.data, TrialPositions))
+    (table,) = (step for step in sheet.steps if isinstance(step, TrialPositions))
     (missed,), (moved,) = table.missed, table.moved
     assert ("bar", set(bar)) == (missed.kind, set(missed.names))
     at = {str(ref): z for ref, z in sheet.points.items()}
@@ -404,7 +404,7 @@ def test_what_is_missed_in_trial_positions_is_divided_to_the_place_where_nothing
 @pytest.mark.parametrize("scene", [BARE, UNBARRED], ids=["BARE", "UNBARRED"])
 def test_what_two_trial_drivers_miss_is_divided_to_the_place_where_nothing_is(scene: dict[str, Any]) -> None:
     sheet = draft(mechanism_of(scene))
-    (table,) = (step.data for step in sheet.steps if isinstance(step.data, TrialPositions))
+    (table,) = (step for step in sheet.steps if isinstance(step, TrialPositions))
     (a, one), (b, two), (c, three) = table.trials
     assert [0, 0] == [b[1] - a[1], c[0] - a[0]]
     p, q = table.parts
@@ -422,8 +422,8 @@ def test_what_two_trial_drivers_miss_is_divided_to_the_place_where_nothing_is(sc
 
 def test_why_trial_polygons_are_drawn_is_known() -> None:
     def why(name: str) -> list[tuple[str, ...] | None]:
-        trials = [step.data for step in draft(mechanism_of(name)).steps if isinstance(step.data, RateTrial)]
-        return [trial.far and trial.far.links for trial in trials if trial.number == 1]
+        trials = [step for step in draft(mechanism_of(name)).steps if isinstance(step, RateTrial)]
+        return [trial.far and trial.far.links for trial in trials if trial.trial == 1]
 
     assert [("4", "5")] * 2 == why("contour-four-bars")
     assert [None] * 2 == why("double-butterfly")
@@ -431,7 +431,7 @@ def test_why_trial_polygons_are_drawn_is_known() -> None:
 
 def test_what_is_known_of_the_end_left_open_is_taken_off_in_the_sense_in_which_it_is_measured() -> None:
     sheet = draft(mechanism_of("double-butterfly"))
-    act = [step.data for step in sheet.steps if isinstance(step.data, Superposed)][1]
+    act = [step for step in sheet.steps if isinstance(step, Superposed)][1]
     (((taken, mm),),) = act.less
     at = {str(ref): z for ref, z in sheet.points.items()}
     scales, omega = sheet.scales, sheet.rates["omega"]["8"].value

@@ -93,5 +93,5 @@ def test_in_a_parallelogram_lies_no_special_point_that_could_be_told_of(way: flo
     scene = {**CONTOUR, "links": links, "sketch": {p: [at[p].real, at[p].imag] for p in "CDEF"}}
     result = graphkin.check(scene)
     assert ("superposition", []) == (result.data["construction"], off(result))
-    trials = [step.data for step in result.sheet.steps if isinstance(step.data, RateTrial)]
-    assert [None, None] == [trial.far for trial in trials if trial.number == 1]
+    trials = [step for step in result.sheet.steps if isinstance(step, RateTrial)]
+    assert [None, None] == [trial.far for trial in trials if trial.trial == 1]

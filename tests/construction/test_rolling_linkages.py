@@ -30,7 +30,7 @@ def test_the_start_is_laid_off_as_given_and_other_positions_are_found_by_trial()
     scene = mechanism_of(wheel_at_its_rim())
     drawn = [draft(scene, at).steps for at in (None, {"1": 1.5})]
     assert [True, False] == [any(s.reason == "rolling" for s in steps) for steps in drawn]
-    trials = [[s.data for s in steps if isinstance(s.data, TrialPositions)] for steps in drawn]
+    trials = [[s for s in steps if isinstance(s, TrialPositions)] for steps in drawn]
     assert [(), ("K",)] == [next((trial.rolling for trial in tried), ()) for tried in trials]
 
 

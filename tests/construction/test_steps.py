@@ -13,11 +13,15 @@ from graphkin.construction.board.steps import (
     SENTENCES,
     CompassArc,
     Direction,
+    EndStep,
+    PlaceStep,
+    RateStep,
     Ray,
     Reason,
     Step,
     Stroke,
     TrialCurve,
+    VectorStep,
 )
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol
@@ -27,24 +31,34 @@ pytestmark = pytest.mark.quick
 NO_LENGTHS = {"value", "other", "plan", "per_mm", "number", "equation"}
 
 
+def in_turn(value: object) -> tuple[float, ...]:
+    return value if isinstance(value, tuple) else (value,)  # type: ignore[return-value]
+
+
 def reasons() -> set[str]:
     return {reason for group in get_args(Reason) for reason in get_args(group) or (group,)}
 
 
-def test_a_number_of_a_step_is_a_length_on_paper_that_a_scale_changes_or_is_known_to_be_none() -> None:
-    numbers = {f.name: f.type for f in fields(Step) if "float" in str(f.type) or "int" in str(f.type).split()}
-    filled = {name: (1.5, 2.5) if "tuple" in str(kind) else 1.5 for name, kind in numbers.items()}
-    step = Step("cross", "arcs", **{**filled, "per_mm": 0.0})  # type: ignore[arg-type]
+@pytest.mark.parametrize(("kind", "lengths"), [
+    (Step, set()), (PlaceStep, {"mm", "radii"}), (VectorStep, {"mm"}), (EndStep, set()), (RateStep, {"mm"}),
+])  # fmt: skip
+def test_a_number_of_a_step_is_a_length_on_paper_that_a_scale_changes_or_is_known_to_be_none(
+    kind: type[Step], lengths: set[str]
+) -> None:
+    numbers = {f.name: f.type for f in fields(kind) if "float" in str(f.type) or "int" in str(f.type).split()}
+    filled = {name: (1.5, 2.5) if "tuple" in str(of) else 1.5 for name, of in numbers.items()}
+    step = kind("cross", "arcs", **{**filled, "per_mm": 0.0} if "per_mm" in filled else filled)
     larger = step.scaled(2.0)
-    assert {"mm", "radii"} == numbers.keys() - NO_LENGTHS
-    assert {"mm", "radii"} == {name for name in numbers if getattr(larger, name) != getattr(step, name)}
-    assert (3.0, (3.0, 5.0)) == (larger.mm, larger.radii)
+    assert lengths == numbers.keys() - NO_LENGTHS
+    assert {name: [2 * mm for mm in in_turn(getattr(step, name))] for name in lengths} == {
+        name: [*in_turn(getattr(larger, name))] for name in numbers if getattr(larger, name) != getattr(step, name)
+    }
 
 
 def test_strokes_grow_with_their_step_and_a_plan_of_its_own_scale_stays() -> None:
     arc = CompassArc(1j, 2.0, 3j)
-    assert [CompassArc(2j, 4.0, 6j)] == [*Step("cross", "arcs", strokes=(arc,)).scaled(2.0).strokes]
-    assert 7.0 == Step("read", "plan", "velocity", mm=7.0, per_mm=0.25).scaled(2.0).mm
+    assert [CompassArc(2j, 4.0, 6j)] == [*PlaceStep("cross", "arcs", strokes=(arc,)).scaled(2.0).strokes]
+    assert 7.0 == RateStep("read", "plan", "velocity", mm=7.0, per_mm=0.25).scaled(2.0).mm
 
 
 def test_places_of_a_stroke_grow_and_its_direction_stays() -> None:
@@ -78,7 +92,7 @@ def test_the_table_of_sentences_tells_reasons_of_steps_with_words_of_the_table()
 
 
 def test_a_gap_of_a_sentence_is_filled_with_an_argument_of_the_step_by_its_name() -> None:
-    step = Step("cross", "arcs", points=("A", "D"), point="C", radii=(12.5, 3.0))
+    step = PlaceStep("cross", "arcs", points=("A", "D"), point="C", radii=(12.5, 3.0))
     gaps = ("points.1", "point", "radii.0", "points")
     assert ["D", "C", "12.50", "A, D"] == [str(step.gap(name)) for name in gaps]
     assert "an arc about A of 12.50 mm and one about D of 3.00 mm meet in C" == str(step.phrase)

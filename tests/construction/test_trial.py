@@ -88,12 +88,12 @@ def test_no_trial_driver_bears_the_name_of_a_real_one() -> None:
 
 def test_a_sheet_found_by_trial_shows_the_link_that_was_left_out() -> None:
     sheet = draft(mechanism_of("single-flier"))
-    assert {n for s in sheet.steps if isinstance(s.data, TrialPositions) for n in s.data.left_out} <= set(sheet.poses)
+    assert {n for s in sheet.steps if isinstance(s, TrialPositions) for n in s.left_out} <= set(sheet.poses)
 
 
 @pytest.mark.parametrize("name", ["triad-slider", "loader-cylinder", "scissor-lift"])
 def test_each_division_is_made_between_the_nearest_trials_on_either_side(name: str) -> None:
-    (table,) = (s.data for s in draft(mechanism_of(name)).steps if isinstance(s.data, TrialPositions))
+    (table,) = (s for s in draft(mechanism_of(name)).steps if isinstance(s, TrialPositions))
     (((a,), (one,)), ((b,), (two,))) = table.trials[table.before - 1 : table.before + 1]
     assert len(table.divided) > 1
     for (value,), (missed,) in table.divided:
@@ -104,7 +104,7 @@ def test_each_division_is_made_between_the_nearest_trials_on_either_side(name: s
 
 def test_why_another_link_is_driven_for_a_driven_block_left_out_is_told() -> None:
     sheet = graphkin.check(HELD).sheet
-    (act,) = (step.data for step in sheet.steps if isinstance(step.data, TrialPositions))
+    (act,) = (step for step in sheet.steps if isinstance(step, TrialPositions))
     driven = [d for d in sheet.scene.drivers if d.turns]
     assert act.instead
     for block, link, turned in act.instead:

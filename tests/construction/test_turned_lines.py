@@ -104,7 +104,7 @@ def test_check_fails_where_the_arc_that_trial_positions_meet_lies_a_tenth_of_a_d
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     steps = draft(mechanism_of(name)).steps
-    (arc,) = (step.data.missed[0] for step in steps if isinstance(step.data, TrialPositions) and step.data.missed)
+    (arc,) = (step.missed[0] for step in steps if isinstance(step, TrialPositions) and step.missed)
     assert "bar" == arc.kind
     hinges = RemovedConstraint._hinges
 

@@ -23,10 +23,14 @@ from graphkin.construction.board.steps import (
     DiagramName,
     Mark,
     OnPaper,
+    PlaceStep,
     PointNames,
+    RateStep,
+    Reason,
     Step,
     Term,
     Vector,
+    VectorStep,
 )
 from graphkin.construction.touching import Touching, outlines_on_paper
 from graphkin.errors import Problem, Unsolvable
@@ -302,13 +306,12 @@ class Sheet:
     @cached_property
     def special_points(self) -> dict[str, str]:
         """The special points of larger groups with their links."""
-        return {step.point: step.link for step in self.steps if step.reason == "special point"}
+        return {step.point: step.link for step in self.placing("special point")}
 
     @cached_property
     def serving(self) -> frozenset[str]:
         """The points of the construction only: special points of larger groups, pitch points."""
-        reasons = "special point", "pitch point"
-        return frozenset(step.point for step in self.steps if step.reason in reasons)
+        return frozenset(step.point for step in self.placing("special point", "pitch point"))
 
     @cached_property
     def drawn_in(self) -> dict[Symbol, int]:
@@ -338,6 +341,10 @@ class Sheet:
     def spans(self) -> Mapping[DiagramName, Mapping[Symbol, complex]]:
         """All vectors of each diagram by symbol, from their tails to their tips (mm)."""
         return {diagram: {s: v.span for s, v in vectors.items()} for diagram, vectors in self.vectors.items()}
+
+    def placing(self, *reasons: Reason) -> Iterator[PlaceStep]:
+        """The steps that place the mechanism for some reasons."""
+        return (step for step in self.steps if isinstance(step, PlaceStep) and step.reason in reasons)
 
     def before(self, step: Step) -> tuple[Step, ...]:
         """The steps before one of them."""
@@ -433,11 +440,11 @@ def without_residues(sheet: Sheet) -> Sheet:
         step = replace(step, strokes=tuple(
             replace(s, tip=s.tail) if isinstance(s, Vector) and s.symbol in zero else s for s in step.strokes
         ))
-        if step.reason == "sum of rates":
+        if isinstance(step, RateStep) and step.reason == "sum of rates":
             return replace(step, value=rates[step.kind][step.links[0]].value)
-        if step.symbol not in zero:
-            return step
-        return replace(step, value=0.0) if step.reason == "rate" else replace(step, mm=0.0)
+        if isinstance(step, RateStep):
+            return replace(step, value=0.0) if step.symbol in zero else step
+        return replace(step, mm=0.0) if isinstance(step, VectorStep) and step.symbol in zero else step
 
     noticed = (replace(r, size=0.0) if r.key == "zero vector" and r.of[0] in zero else r for r in sheet.noticed)
     return replace(sheet, steps=tuple(map(cleared, sheet.steps)), noticed=tuple(noticed), rates=rates)

@@ -151,8 +151,8 @@ Part = Literal["", "t", "n"]
 
 Value = TypeVar("Value")
 LENGTHS = {
-    "tail", "tip", "through", "to", "centre", "radius", "at", "a", "b", "curve", "corners", "mm", "apart", "origin",
-    "poses", "low", "high", "less", "span",
+    "tail", "tip", "through", "to", "centre", "radius", "at", "a", "b", "curve", "corners", "mm", "radii", "apart",
+    "origin", "poses", "low", "high", "less", "span", "strokes", "terms",
 }  # fmt: skip
 """Places and lengths on paper (mm), and what has such, which a scale changes; a direction stays."""
 
@@ -230,32 +230,22 @@ Reason = Role | Literal[
 ]  # fmt: skip
 FINDS_A_POINT: Collection[Reason] = ("arcs", "arc on path", "paths")
 """Reasons of steps by which a point of the mechanism is found, before it is marked on its link."""
-NO_SYMBOL, NO_POINT = Symbol(""), PointRef("")
+NO_SYMBOL, NO_POINT, NO_PHRASE = Symbol(""), PointRef(""), Phrase("")
 
 
 @dataclass(frozen=True)
-class Step:
-    """An action on the board; an argument that its verb does not have is empty.
+class Step(OnPaper):
+    """An action on the board: one verb with its reason and strokes; each kind of step has the arguments of its verbs,
+    of which one that a reason does not have is empty.
 
     Parameters
     ----------
     number : its number in the order, from 1; 0 before it is on a board
     equation : the number of the equation that it helps to draw
     symbol : the vector that it draws or finds, or by which it measures
-    ref, refs : the end point that it finds, and those from which it is found
-    begins : of a vector seen from a held link, the vectors at whose ends it begins; None for the pole
-    point, points : the point of the mechanism that it finds, and those from which it is found, or a bar; or the points
-        that it marks
-    link, links : the link that it places, turns or takes; and others
-    base : the reference link; "" for the x axis, or the frame
-    pairs : sliding pairs, by key
-    kind : the given or read quantity; "driven" for a special point with a driver in its leg
+    link : the link that it places, turns or takes
     held : the link held still, from which it is seen; "" for the frame
-    value, other : the given or read value (rad, m, rad/s, ...), and the value added to it
-    plan, per_mm : the velocity plan of wheels that it helps to draw, by its number from 1, and the scale of that plan,
-        whose lengths are constant; 0 on a diagram
-    mm, radii : lengths on paper; a scale changes these, and those in ``data``
-    data : of trials and their division, and the parts by a link's rates, laid off in order
+    plan : the velocity plan of wheels that it helps to draw, by its number from 1; 0 on a diagram
     """
 
     verb: Verb
@@ -265,26 +255,9 @@ class Step:
     equation: int | None = None
     number: int = 0
     symbol: Symbol = NO_SYMBOL
-    ref: PointRef = NO_POINT
-    refs: tuple[PointRef, ...] = ()
-    begins: tuple[Symbol | None, ...] = ()
-    point: str = ""
-    points: tuple[str, ...] = ()
     link: str = ""
-    links: tuple[str, ...] = ()
-    base: str = ""
-    pairs: tuple[str, ...] = ()
-    kind: str = ""
     held: str = ""
-    size: Size | None = None
-    direction: Direction = NO_DIRECTION
-    value: float = 0.0
-    other: float = 0.0
     plan: int = 0
-    per_mm: float = 0.0
-    mm: float = 0.0
-    radii: tuple[float, ...] = ()
-    data: TrialPositions | RateTrial | Superposed | tuple[Term, ...] | None = None
 
     @property
     def vectors(self) -> tuple[Vector, ...]:
@@ -300,29 +273,71 @@ class Step:
     def phrase(self) -> Phrase:
         """The step as a phrase, without the letters of any school."""
         key = self.sentence
-        phrase = Phrase(key, **{name: self.gap(name) for name in gaps_of(key)})
-        for block, link, turned in self.data.instead if isinstance(self.data, TrialPositions) else ():
-            angle = f"{math.degrees(turned) + 0.0:.6g}"
-            phrase = Phrase("driven in its stead", told=phrase, block=block, link=link, angle=angle)
-        return phrase
+        return Phrase(key, **{name: self.gap(name) for name in gaps_of(key)})
 
     @property
     def sentence(self) -> str:
         """The key of its sentence in the table of words."""
-        data = self.data
+        return SENTENCES.get(self.reason, self.reason)
+
+    def gap(self, name: str) -> object:
+        """The value of a gap in its sentence: an argument by its name, ``points.1`` the second of several, lengths on
+        paper as a ruler shows them; or a value that follows from its arguments."""
+        source, _, part = name.rpartition(".")
+        value = getattr(self, source or part)
+        if source:
+            value = value[int(part)] if isinstance(value, tuple) else getattr(value, part)
+        if (source or part) in ("point", "points"):
+            return PointNames((value,) if isinstance(value, str) else value) if value else ""
+        if isinstance(value, tuple) and not isinstance(value, PointRef):
+            return ", ".join(value)
+        return on_paper(value) if isinstance(value, float) else value or ""
+
+    @property
+    def seen(self) -> str:
+        """The link whose rate it takes, with the link held still."""
+        return self.link + self.held
+
+    @property
+    def finds_rate(self) -> bool:
+        """Whether it finds the rate of a link against the frame."""
+        return self.reason in ("rate", "sum of rates", "plan") and not self.held
+
+    @property
+    def links_drawn(self) -> tuple[str, ...]:
+        """The links of the mechanism that it places or draws."""
+        return ()
+
+
+@dataclass(frozen=True)
+class PlaceStep(Step):
+    """A step by which the mechanism is placed: a mark, a laid off value, a line, a crossing.
+
+    Parameters
+    ----------
+    point, points : the point that it finds, and those from which it is found; or the points that it marks
+    links : links that meet there
+    base : the reference link; "" for the x axis, or the frame
+    pairs : sliding pairs, by key
+    kind : "driven" for a special point with a driver in its leg
+    value : the given value (rad)
+    mm, radii : lengths on paper
+    """
+
+    point: str = ""
+    points: tuple[str, ...] = ()
+    links: tuple[str, ...] = ()
+    base: str = ""
+    pairs: tuple[str, ...] = ()
+    kind: str = ""
+    value: float = 0.0
+    mm: float = 0.0
+    radii: tuple[float, ...] = ()
+
+    @property
+    def sentence(self) -> str:
+        """The key of its sentence in the table of words."""
         match self.reason:
-            case _ if self.verb == "lay off" and self.symbol.kind:
-                if not self.mm:
-                    return "zero vector"
-                if not self.direction.names:  # it was found before
-                    return "lay off so long" if self.size else "lay off as found"
-                return {"normal": "lay off normal", "coriolis": "lay off coriolis"}.get(self.reason, "lay off")
-            case "vector":
-                return "found" if self.mm else "zero vector"
-            case "rates" if self.held:
-                return "by rate seen" if self.symbol.kind == "v" else "by rates seen"
-            case "similar" | "division" if self.held:
-                return "image seen" if self.reason == "similar" else "division seen"
             case "special point" if self.base:
                 return f"relative special point{' driven' * (self.kind == 'driven')}"
             case "angle" if self.base:
@@ -331,50 +346,150 @@ class Step:
                 return "guides of the frame"
             case "rolling":
                 return "rolling starts at angle" if self.link else "rolling starts at travel"
-            case "polygon" if isinstance(data, RateTrial) and not any(value for _, value in data.assumed):
-                return "trial polygon at rest"
-            case "positions" if isinstance(data, TrialPositions):
-                if data.rolling:
-                    return f"trial positions rolling{' and others' * bool(data.left_out)}"
-                return "trial positions" if data.point else "trial positions without curve"
-        turning = "turning" if self.value else "zero"
-        key = SENTENCES.get(self.reason, self.reason)
-        return key.format(kind=self.kind, turning=turning, diagram=self.diagram)
-
-    def gap(self, name: str) -> object:
-        """The value of a gap in its sentence: an argument by its name, ``points.1`` the second of several, lengths on
-        paper as a ruler shows them; or a value that follows from its arguments."""
-        match name:
-            case "degrees":
-                return f"{math.degrees(self.value):.6g}"
-            case "amount":
-                return f"{math.degrees(self.value) if self.kind == 'angle' else self.value:.6g}"
-            case "sense":
-                return sense_of(self.value)
-            case "linked":
-                return listed(self.links)
-            case "bar":
-                return PointNames(self.points, bar=True)
-            case "seen":
-                return self.link + self.held
-            case "start.0" | "start.1":
-                return end_of(self.begins[int(name[-1])])
-            case "known" | "sign" | "between" | "told" | "signed" | "per" | "product":
-                return self._rate_read[name]
-            case "open_at" | "apart" | "names" | "first" | "values" | "rates":
-                return self._tried[name]
-        source, _, part = name.rpartition(".")
-        value = getattr(self.data, part) if source == "data" else getattr(self, source or part)
-        if source and source != "data":
-            value = value[int(part)]
-        if source in ("point", "points") or name in ("point", "points", "data.point"):
-            return PointNames((value,) if isinstance(value, str) else value) if value else ""
-        if isinstance(value, tuple) and not isinstance(value, PointRef):
-            return ", ".join(value)
-        return on_paper(value) if isinstance(value, float) else value or ""
+        return super().sentence
 
     @property
-    def _rate_read(self) -> Mapping[str, str]:
+    def degrees(self) -> str:
+        """The given angle as it is written (degrees)."""
+        return f"{math.degrees(self.value):.6g}"
+
+    @property
+    def links_drawn(self) -> tuple[str, ...]:
+        """The links of the mechanism that it places or draws."""
+        if self.reason in ("frame", "points", "whole link", "angle"):
+            return (self.link,)
+        placed = self.verb in ("lay off", "line", "cross") and self.reason != "rolling"
+        return tuple(name for pair in self.pairs for name in pair.split("/")) if placed else ()
+
+
+@dataclass(frozen=True)
+class VectorStep(Step):
+    """A step that draws or finds a vector of a polygon, or a line along it.
+
+    Parameters
+    ----------
+    size, direction : of its term in the equation
+    mm : its length on paper
+    """
+
+    size: Size | None = None
+    direction: Direction = NO_DIRECTION
+    mm: float = 0.0
+
+    @property
+    def sentence(self) -> str:
+        """The key of its sentence in the table of words."""
+        if self.verb in ("lay off", "read"):
+            if not self.mm:
+                return "zero vector"
+            if self.verb == "read":
+                return "found"
+            if not self.direction.names:  # it was found before
+                return "lay off so long" if self.size else "lay off as found"
+            return {"normal": "lay off normal", "coriolis": "lay off coriolis"}.get(self.reason, "lay off")
+        return super().sentence
+
+
+@dataclass(frozen=True)
+class EndStep(Step):
+    """A step that finds or names an end point of a polygon.
+
+    Parameters
+    ----------
+    ref, refs : the end point, and those from which it is found
+    begins : of a vector seen from a held link, the vectors at whose ends it begins; None for the pole
+    points : its points, with that which it finds, as seen from a held link
+    terms : the parts by the rates of a link, laid off in order
+    """
+
+    ref: PointRef = NO_POINT
+    refs: tuple[PointRef, ...] = ()
+    begins: tuple[Symbol | None, ...] = ()
+    points: tuple[str, ...] = ()
+    terms: tuple[Term, ...] = ()
+
+    @property
+    def sentence(self) -> str:
+        """The key of its sentence in the table of words."""
+        match self.reason:
+            case "rates" if self.held:
+                return "by rate seen" if self.symbol.kind == "v" else "by rates seen"
+            case "similar" | "division" if self.held:
+                return "image seen" if self.reason == "similar" else "division seen"
+        return super().sentence
+
+    @property
+    def bar(self) -> PointNames:
+        """Its points, as the letters of a figure."""
+        return PointNames(self.points, bar=True)
+
+    @property
+    def start(self) -> tuple[Phrase, ...]:
+        """The ends of the vectors at which it begins."""
+        return tuple(map(end_of, self.begins))
+
+
+@dataclass(frozen=True)
+class RateStep(Step):
+    """A step that measures a rate or the speed of a sliding pair, adds two, or carries over the motion seen from a held
+    link.
+
+    Parameters
+    ----------
+    kind : the given or read quantity
+    links : the link of known rate and the base of the other rate; or links that are seen
+    points : the bar over which it measures, or the places on a plan
+    pairs : sliding pairs, by key
+    value, other : the given or read value (rad, m, rad/s, ...), and the value added to it
+    mm : the measured length on paper
+    per_mm : the scale of a plan, whose lengths are constant; 0 on a diagram
+    """
+
+    kind: str = ""
+    links: tuple[str, ...] = ()
+    points: tuple[str, ...] = ()
+    pairs: tuple[str, ...] = ()
+    value: float = 0.0
+    other: float = 0.0
+    mm: float = 0.0
+    per_mm: float = 0.0
+
+    def scaled(self, times: float) -> Self:
+        """The step with its lengths multiplied by ``times``, except those of a plan."""
+        return self if self.per_mm else super().scaled(times)
+
+    @property
+    def sentence(self) -> str:
+        """The key of its sentence in the table of words."""
+        turning = "turning" if self.value else "zero"
+        return super().sentence.format(kind=self.kind, turning=turning, diagram=self.diagram)
+
+    @property
+    def amount(self) -> str:
+        """The value as it is written: an angle in degrees, others in SI units."""
+        return f"{math.degrees(self.value) if self.kind == 'angle' else self.value:.6g}"
+
+    @property
+    def sense(self) -> object:
+        """The sense of turning."""
+        return sense_of(self.value)
+
+    @property
+    def linked(self) -> object:
+        """The links in a list."""
+        return listed(self.links)
+
+    @property
+    def bar(self) -> PointNames:
+        """The letters of the bar."""
+        return PointNames(self.points, bar=True)
+
+    def gap(self, name: str) -> object:
+        """The value of a gap in its sentence: an argument, or a rate in figures."""
+        return self._in_figures[name] if name in _IN_FIGURES else super().gap(name)
+
+    @property
+    def _in_figures(self) -> Mapping[str, str]:
         """A rate in figures: as measured, as the sum of two, or on the plan of a train."""
         match self.reason:
             case "sum of rates":
@@ -392,43 +507,8 @@ class Step:
         carried = min(MOST - 1, figures(on_paper(self.mm))) if self.mm else MOST - 1
         return {"told": computed(abs(self.value), carried)}
 
-    @property
-    def _tried(self) -> Mapping[str, object]:
-        """The rates of trials and their gaps; of several rates the first by its symbol, with its value."""
-        data = self.data
-        if isinstance(data, RateTrial):
-            return _assumed([pair for pair in data.assumed if pair[1]] or data.assumed)
-        assert isinstance(data, Superposed)
-        open_at = ", ".join(f"{name} ({direction})" for name, direction in zip(data.closing, data.ways, strict=True))
-        gaps = true_minus("; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in data.apart))
-        of_links = [(rate(found.kind, found.link), value) for found, value in data.found]
-        rates = spaced(", ", (name + f" = {true_minus(amount(value, 5))}" for name, value in of_links))
-        names = spaced(", ", (name for name, _ in of_links))
-        return {"open_at": open_at, "apart": gaps, "names": names, "rates": rates, **_assumed(data.found)}
 
-    @property
-    def finds_rate(self) -> bool:
-        """Whether it finds the rate of a link against the frame."""
-        return self.reason in ("rate", "sum of rates", "plan") and not self.held
-
-    def scaled(self, times: float) -> Step:
-        """The step with all its lengths on paper multiplied by ``times``."""
-        strokes = tuple(stroke.scaled(times) for stroke in self.strokes)
-        growth = 1.0 if self.per_mm else times
-        radii = tuple(radius * growth for radius in self.radii)
-        return _changed(self, strokes=strokes, data=_times(self.data, growth), mm=self.mm * growth, radii=radii)
-
-    @property
-    def links_drawn(self) -> tuple[str, ...]:
-        """The links of the mechanism that it places or draws."""
-        if self.diagram != "mechanism":
-            return ()
-        if isinstance(self.data, TrialPositions):
-            return self.data.links
-        if self.reason in ("frame", "points", "whole link") or (self.verb == "lay off" and self.reason == "angle"):
-            return (self.link,)
-        placed = self.verb in ("lay off", "line", "cross") and self.reason != "rolling"
-        return tuple(name for pair in self.pairs for name in pair.split("/")) if placed else ()
+_IN_FIGURES = {"known", "sign", "between", "told", "signed", "per", "product"}
 
 
 Cause: TypeAlias = Step | Phrase
@@ -540,27 +620,33 @@ TrialRow: TypeAlias = tuple[tuple[float, ...], tuple[float, ...]]
 
 
 @dataclass(frozen=True)
-class TrialPositions(OnPaper):
-    """A group of ``links``, ``group`` in words, placed by trial: ``driven`` names the moved quantities, ``left_out``
-    the link (or driver) left out until it fits, ``rolling`` the contacts or gears at which the rolling must fit that
-    since the scene's own position, ``point`` the free point whose trial curve is drawn ("" for none), in ``count``
-    trial positions. ``instead`` are left-out driven blocks, each with the link that is driven in its place and the
-    block's angle from it (rad).
+class TrialPositions(Step):
+    """A group placed by trial.
 
-    ``moved`` and ``missed`` are measured in the ``trials``: angles from a link ("" for the x axis) and travels, in
-    degrees and mm on paper; empty if none could be drawn.  ``divided`` are positions by proportional division, in
-    order, the last one without a gap.  With a single moved quantity the first lies between the trial number ``before``
-    (from 1) and the next; with several, each further trial differs from the first in one of them, ``parts`` of these
-    steps together make the first divided position, and each divided position replaces the trial of its number in
-    ``replaced`` (from 1).
+    Parameters
+    ----------
+    links, group : the links of the group, and the group in words
+    driven : the moved quantities
+    left_out : the link (or driver) left out until it fits
+    rolling : contacts or gears at which the rolling must fit that since the scene's own position
+    point, count : the free point whose trial curve is drawn ("" for none), and the number of trial positions
+    instead : left-out driven blocks, each with the link that is driven in its place and the block's angle from it (rad)
+    moved, missed, trials : what is moved, what is missed, and both as measured in each trial: angles from a link (""
+        for the x axis) and travels, in degrees and mm on paper; empty if none could be drawn
+    divided : positions by proportional division, in order, the last one without a gap
+    before : with a single moved quantity the number (from 1) of the trial between which and the next the first divided
+        position lies
+    parts, replaced : with several, each trial but the first differs from it in one of them: the parts of these steps
+        that together make the first divided position, and the number (from 1) of the trial that each divided position
+        replaces
     """
 
-    links: tuple[str, ...]
-    group: Phrase
-    driven: tuple[str, ...]
-    left_out: tuple[str, ...]
-    point: str
-    count: int
+    links: tuple[str, ...] = ()
+    group: Phrase = NO_PHRASE
+    driven: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = ()
+    point: str = ""
+    count: int = 0
     rolling: tuple[str, ...] = ()
     instead: tuple[tuple[str, str, float], ...] = ()
     moved: tuple[Symbol, ...] = ()
@@ -580,7 +666,28 @@ class TrialPositions(OnPaper):
             return tuple((tuple(map(mul, values, x)), tuple(map(mul, misses, y))) for values, misses in old)
 
         missed = tuple(replace(miss, length=miss.length * times) for miss in self.missed)
-        return replace(self, missed=missed, trials=rows(self.trials), divided=rows(self.divided))
+        return replace(super().scaled(times), missed=missed, trials=rows(self.trials), divided=rows(self.divided))
+
+    @property
+    def phrase(self) -> Phrase:
+        """The step as a phrase, without the letters of any school."""
+        phrase = super().phrase
+        for block, link, turned in self.instead:
+            angle = f"{math.degrees(turned) + 0.0:.6g}"
+            phrase = Phrase("driven in its stead", told=phrase, block=block, link=link, angle=angle)
+        return phrase
+
+    @property
+    def sentence(self) -> str:
+        """The key of its sentence in the table of words."""
+        if self.rolling:
+            return f"trial positions rolling{' and others' * bool(self.left_out)}"
+        return "trial positions" if self.point else "trial positions without curve"
+
+    @property
+    def links_drawn(self) -> tuple[str, ...]:
+        """The links of the mechanism that it places or draws."""
+        return self.links
 
 
 @dataclass(frozen=True)
@@ -594,27 +701,64 @@ class FarPoint:
 
 
 @dataclass(frozen=True)
-class RateTrial:
-    """A trial polygon by its number, with the assumed rates (rad/s, or the scene's units); ``far`` is the useless
-    special point that made it necessary."""
+class RateTrial(Step):
+    """A trial polygon.
 
-    number: int
-    assumed: tuple[tuple[Symbol, float], ...]
+    Parameters
+    ----------
+    trial : its number
+    assumed : the assumed rates (rad/s, or the scene's units)
+    far : the useless special point that made it necessary
+    """
+
+    trial: int = 0
+    assumed: tuple[tuple[Symbol, float], ...] = ()
     far: FarPoint | None = None
+
+    @property
+    def sentence(self) -> str:
+        """The key of its sentence in the table of words."""
+        return super().sentence if any(value for _, value in self.assumed) else "trial polygon at rest"
+
+    def gap(self, name: str) -> object:
+        """The value of a gap in its sentence: an argument, or of several rates the first by its symbol, with its
+        value."""
+        rates = _assumed([pair for pair in self.assumed if pair[1]] or self.assumed)
+        return rates[name] if name in rates else super().gap(name)
 
 
 @dataclass(frozen=True)
-class Superposed(OnPaper):
-    """The true rates by proportional division; ``apart`` (mm) are the gaps of each trial at ``closing``, along
-    ``ways``: from the end point of the first of ``between`` to that of the second, less the known vector between them,
-    ``less``, with its length in that direction; of plans of a train only the gaps."""
+class Superposed(Step):
+    """The true rates by proportional division of trial polygons, or of plans of a train.
 
-    found: tuple[tuple[Symbol, float], ...]
-    closing: tuple[str, ...]
-    apart: tuple[tuple[float, ...], ...]
+    Parameters
+    ----------
+    found : the true rates
+    closing, apart : the parts left open, and their gaps in each trial (mm); of plans only the gaps
+    ways, between : the directions of the gaps, from the end point of the first to that of the second
+    less : the known vectors between these, each with its length in that direction (mm)
+    """
+
+    found: tuple[tuple[Symbol, float], ...] = ()
+    closing: tuple[str, ...] = ()
+    apart: tuple[tuple[float, ...], ...] = ()
     ways: tuple[Direction, ...] = ()
     between: tuple[tuple[PointRef, PointRef], ...] = ()
     less: tuple[tuple[tuple[Term, float], ...], ...] = ()
+
+    def scaled(self, times: float) -> Self:
+        """The step with its lengths multiplied by ``times``, except those of plans."""
+        return self if self.plan else super().scaled(times)
+
+    def gap(self, name: str) -> object:
+        """The value of a gap in its sentence: the rates, or the gaps of the trials."""
+        open_at = ", ".join(f"{name} ({direction})" for name, direction in zip(self.closing, self.ways, strict=True))
+        gaps = true_minus("; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in self.apart))
+        of_links = [(rate(found.kind, found.link), value) for found, value in self.found]
+        rates = spaced(", ", (name + f" = {true_minus(amount(value, 5))}" for name, value in of_links))
+        names = spaced(", ", (name for name, _ in of_links))
+        told = {"open_at": open_at, "apart": gaps, "names": names, "rates": rates, **_assumed(self.found)}
+        return told[name]
 
 
 # -- in words ----------------------------------------------------------------------------------------------------------

@@ -23,13 +23,15 @@ from graphkin.construction.board.steps import (
     PARTS,
     Bar,
     Direction,
+    EndStep,
     Mark,
     Order,
+    RateStep,
     Ray,
     Size,
-    Step,
     Term,
     Vector,
+    VectorStep,
 )
 from graphkin.construction.polygons.polygons import RATE, Polygons, letter
 from graphkin.construction.polygons.vector_graph import (
@@ -118,8 +120,8 @@ def spread(plot: Polygons, order: Order, start: str, group: Dyad | LargerGroup) 
                         is_told = b in seen and not as_third
                     if isinstance(group, LargerGroup) and at != plot.ground and is_told:
                         value = plot.rates[order][at].value
-                        plot.do(Step("read", "sum of rates", order, kind=RATE[order], link=new, links=(at, b),
-                                     value=value, other=add))  # fmt: skip
+                        plot.do(RateStep("read", "sum of rates", order, kind=RATE[order], link=new, links=(at, b),
+                                         value=value, other=add))  # fmt: skip
                     queue.append(new)
 
 
@@ -237,7 +239,7 @@ def _cross(plot: Polygons, order: Order, end: PointRef, sides: Sequence[Side], e
     whole = plot.symbol(letter(order), end)
     intersection = _lines_meet(plot, order, whole, 0j, lines, equation)
     mark = Mark(plot.label(end), intersection)
-    plot.do(Step("cross", "lines", order, (mark,), equation, ref=mark.ref))
+    plot.do(EndStep("cross", "lines", order, (mark,), equation, ref=mark.ref))
     for side, (start, _), behind in zip(sides, lines, carried, strict=True):
         if len(_open(side)) == 1:
             _fill(plot, order, side, intersection - behind, start - behind, equation)
@@ -249,8 +251,8 @@ def _carry(plot: Polygons, order: Order, parts: Iterable[Term], at: complex, equ
     for part in parts:
         if part.span is not None:
             bar = Bar(at, at + part.span, "")
-            plot.do(Step("carry over", "before its turn", order, (bar,), equation, symbol=part.symbol, size=part.size,
-                         mm=abs(part.span), direction=part.direction))  # fmt: skip
+            plot.do(VectorStep("carry over", "before its turn", order, (bar,), equation, symbol=part.symbol,
+                               size=part.size, mm=abs(part.span), direction=part.direction))  # fmt: skip
             at += part.span
     return at
 
@@ -265,7 +267,7 @@ def _lines_meet(
     intersection = plot.own_values.found(symbol, tail, plot.board.cross(order, p, left, q, right, symbol))
     for through, part in lines:
         ray = Ray(through, part.along, intersection, part.direction, part.symbol)
-        plot.do(Step("line", "direction", order, (ray,), equation, symbol=part.symbol, direction=part.direction))
+        plot.do(VectorStep("line", "direction", order, (ray,), equation, symbol=part.symbol, direction=part.direction))
     return intersection
 
 
@@ -301,7 +303,7 @@ def _draw_vector(plot: Polygons, order: Order, group: LargerGroup, equation: Vec
     at = _lines_meet(plot, order, symbol, tail, lines, number)
     vector = Vector(symbol, tail, at, aid=True, trial=plot.trial)
     mm = plot.found_mm(symbol, vector.span)
-    plot.do(Step("read", "vector", order, (vector,), number, symbol=symbol, mm=mm))
+    plot.do(VectorStep("read", "vector", order, (vector,), number, symbol=symbol, mm=mm))
     if equation.base:
         plot.ties[order, equation.end.point] = vector.span
     else:
@@ -314,8 +316,8 @@ def _lay_off(plot: Polygons, order: Order, part: Term, at: complex, equation: in
     size, tip = abs(part.span), plot.board.instrument.laid_off(at, part.span)
     vector = Vector(part.symbol, at, tip, part.role)
     plot.board.notice(order, "zero vector", part.symbol, size=size)
-    plot.record(vector, Step("lay off", part.role, order, (), equation, symbol=part.symbol, size=part.size, mm=size,
-                             direction=part.direction))  # fmt: skip
+    plot.record(vector, VectorStep("lay off", part.role, order, (), equation, symbol=part.symbol, size=part.size,
+                                   mm=size, direction=part.direction))  # fmt: skip
     return tip
 
 
@@ -329,12 +331,12 @@ def _fill(plot: Polygons, order: Order, side: Side, tip: complex, tail: complex,
                 span = vector.tip - tail
                 plot.board.notice(order, "zero vector", part.symbol, size=abs(span))
                 mm = plot.found_mm(part.symbol, span)
-                plot.record(vector, Step("read", "vector", order, (), equation, symbol=part.symbol, mm=mm))
+                plot.record(vector, VectorStep("read", "vector", order, (), equation, symbol=part.symbol, mm=mm))
                 at = tip
             else:
                 if part.symbol not in plot.drawn[order]:
                     moved = Vector(part.symbol, at, at + part.span, part.role)
-                    plot.record(moved, Step("join", "put back", order, (), equation, symbol=part.symbol))
+                    plot.record(moved, VectorStep("join", "put back", order, (), equation, symbol=part.symbol))
                 at = plot.drawn[order][part.symbol].tip
         if edge is not side[-1][0]:
             plot.reach(order, edge.end, at, equation)
@@ -356,8 +358,8 @@ def _rate(plot: Polygons, order: Order, edge: RelativeMotion, vector: Vector, gr
         plot.believed.add((order, edge.link))
     source = symbol if symbol in plot.drawn[order] else None
     plot.rates[order][edge.link] = Rate(edge.link, value if believed is None else believed, source, read, abs(arm))
-    plot.do(Step("read", "rate", order, kind=rate, link=edge.link, symbol=symbol, points=bar, value=value, mm=read,
-                 held=plot.held))  # fmt: skip
+    plot.do(RateStep("read", "rate", order, kind=rate, link=edge.link, symbol=symbol, points=bar, value=value, mm=read,
+                     held=plot.held))  # fmt: skip
     assert not isinstance(group, Driven)
     spread(plot, order, edge.link, group)
 

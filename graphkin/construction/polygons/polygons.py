@@ -22,6 +22,7 @@ from graphkin.construction.board.steps import (
     PARTS,
     Bar,
     Direction,
+    EndStep,
     Image,
     Mark,
     Order,
@@ -30,6 +31,7 @@ from graphkin.construction.board.steps import (
     Step,
     Term,
     Vector,
+    VectorStep,
 )
 from graphkin.construction.polygons.group_plan import GroupPlan
 from graphkin.construction.polygons.vector_graph import VectorChain, node
@@ -253,9 +255,9 @@ class Polygons:
         symbol = self.symbol(letter(order), ref)
         if symbol in self.drawn[order]:
             if not self.held and not self.board.pricked(order, mark):
-                self.do(Step("mark", "letter", order, (mark,), equation, ref=mark.ref))
+                self.do(EndStep("mark", "letter", order, (mark,), equation, ref=mark.ref))
             return
-        step = Step("join", "pole to end", order, (mark,), equation, symbol=symbol)
+        step = VectorStep("join", "pole to end", order, (mark,), equation, symbol=symbol)
         self.record(Vector(symbol, 0j, at, "resultant"), step)
 
     def complete(self, order: Order, name: str) -> None:
@@ -280,11 +282,11 @@ class Polygons:
         here = self.places[ref.point]
         refs = [r for r in ends if self.on(r, name)]
         if name in self.still:
-            self._reach_by(ref, ends[refs[0]], Step("image", "translation", order, link=name))
+            self._reach_by(ref, ends[refs[0]], EndStep("image", "translation", order, link=name))
             return
         same = [r for r in refs if abs(self.places[r.point] - here) <= self.tiny]
         if same:
-            step = Step("image", "same place", order, refs=(self.label(same[0]),))
+            step = EndStep("image", "same place", order, refs=(self.label(same[0]),))
             self._reach_by(ref, ends[same[0]], step)
             return
         # a special point may lie far away: it serves where the link has no other two
@@ -300,7 +302,7 @@ class Polygons:
             start = refs[0]  # a fixed point, if the link has one
             parts = self._by_rates(order, start, ref, name)
             at = added_up((part.span for part in parts if part.span is not None), ends[start])
-            self._reach_by(ref, at, Step("image", "rates", order, refs=(self.label(start),), link=name, data=parts))
+            self._reach_by(ref, at, EndStep("image", "rates", order, refs=(self.label(start),), link=name, terms=parts))
             return
         points = self.links[name].points
         if {a.point, b.point, ref.point} <= points.keys():  # the shape of the link is given
@@ -312,23 +314,23 @@ class Polygons:
         lined = on_line or bool({a.point, b.point} & self.special)
         stroke = Bar(ends[a], at, name) if lined else Image(name, (ends[a], ends[b], at))
         reason: Literal["division", "similar"] = "division" if on_line else "similar"
-        step = Step("image", reason, order, (stroke,), refs=(self.label(a), self.label(b)), link=name)
+        step = EndStep("image", reason, order, (stroke,), refs=(self.label(a), self.label(b)), link=name)
         self._reach_by(ref, at, step)
 
-    def _reach_by(self, ref: PointRef, at: complex, step: Step) -> None:
+    def _reach_by(self, ref: PointRef, at: complex, image: EndStep) -> None:
         """Draw an end point that follows from others of its link."""
-        order: Order = "velocity" if step.diagram == "velocity" else "acceleration"
+        order: Order = "velocity" if image.diagram == "velocity" else "acceleration"
         symbol, label = self.symbol(letter(order), ref), self.label(ref)
         at = self.own_values.found(symbol, 0j, at)
         self.ends[order][ref] = at
         if not self.held:
-            step = replace(step, ref=label, strokes=(Mark(label, at), *step.strokes))
-        elif step.reason in ("same place", "translation"):
-            step = Step("join", "pole to end", order, symbol=symbol)
+            step: Step = replace(image, ref=label, strokes=(Mark(label, at), *image.strokes))
+        elif image.reason in ("same place", "translation"):
+            step = VectorStep("join", "pole to end", order, symbol=symbol)
         else:
-            begins = tuple(None if self.fixed(start) else self.symbol(letter(order), start) for start in step.refs)
-            corners = tuple(corner.point for corner in (*step.refs, label))
-            step = replace(step, ref=label, symbol=symbol, begins=begins, points=corners, held=self.held)
+            begins = tuple(None if self.fixed(start) else self.symbol(letter(order), start) for start in image.refs)
+            corners = tuple(corner.point for corner in (*image.refs, label))
+            step = replace(image, ref=label, symbol=symbol, begins=begins, points=corners, held=self.held)
         self.record(Vector(symbol, 0j, at, "resultant"), step)
 
     def on(self, ref: PointRef, name: str) -> bool:
@@ -398,7 +400,7 @@ def draw_asked(plot: Polygons, asked: Sequence[Symbol]) -> None:
         elif role in ("tangential", "sliding"):
             tail = corner
         vector = plot.drawn[order][symbol] = Vector(symbol, tail, tip, role)
-        plot.do(Step("join", "asked", order, (vector,), symbol=symbol))
+        plot.do(VectorStep("join", "asked", order, (vector,), symbol=symbol))
 
 
 def _holders(plot: Polygons, ref: PointRef) -> list[str]:

@@ -30,6 +30,7 @@ from graphkin.construction.board.steps import (
     Bar,
     CompassArc,
     MeasuredGap,
+    PlaceStep,
     Step,
     Stroke,
     TrialCurve,
@@ -107,9 +108,9 @@ def trial_steps(paper: PlacedLinks, so_far: PlacedLinks, reduced: ReducedMechani
     for driver in reduced.starts:
         if driver.turns:
             axis = cmath.phase(paper.poses[driver.link].axis)
-            steps.append(Step("lay off", "rolling", link=driver.link, value=axis))
+            steps.append(PlaceStep("lay off", "rolling", link=driver.link, value=axis))
         else:
-            steps.append(Step("lay off", "rolling", pairs=(driver.key,), mm=driver.values[0] * paper.mm))
+            steps.append(PlaceStep("lay off", "rolling", pairs=(driver.key,), mm=driver.values[0] * paper.mm))
     if reduced.trial:
         steps.append(_trial_positions(so_far, reduced, poses, values))
     board = replace(reduced.opened(so_far, [float(v) for v in values]), instrument=EXACT)
@@ -118,7 +119,8 @@ def trial_steps(paper: PlacedLinks, so_far: PlacedLinks, reduced: ReducedMechani
             pose, told_here = drive(board, element)
             axis = cmath.phase(pose.axis)  # found by trial, whatever it was tried against
             told_here = tuple(
-                replace(step, value=axis, base="") if step.reason == "angle" else step for step in told_here
+                replace(step, value=axis, base="") if isinstance(step, PlaceStep) and step.reason == "angle" else step
+                for step in told_here
             )
         else:
             intersection = meet(board, element)
@@ -212,10 +214,11 @@ def _trial_positions(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses
     )  # fmt: skip
     driven, left_out = tuple(d.key for d in reduced.trial), tuple(n for n in reduced.left_out if n not in rolling)
     group = reduced.group
-    positions = TrialPositions(group.links, group.named, driven, left_out, point, POINTS, rolling, instead)
-    if tried:
-        positions = _measured(positions, known, reduced, poses, tried[:: BETWEEN if alone else 1])
-    return Step("trial", "positions", strokes=strokes, data=positions)
+    positions = TrialPositions(
+        "trial", "positions", strokes=strokes, links=group.links, group=group.named, driven=driven, left_out=left_out,
+        point=point, count=POINTS, rolling=rolling, instead=instead,
+    )  # fmt: skip
+    return _measured(positions, known, reduced, poses, tried[:: BETWEEN if alone else 1]) if tried else positions
 
 
 def _trial_drawings(

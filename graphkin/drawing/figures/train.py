@@ -10,7 +10,7 @@ from itertools import pairwise
 
 from graphkin.account.headings import number
 from graphkin.construction.board.sheet import Sheet
-from graphkin.construction.board.steps import Bar, Step
+from graphkin.construction.board.steps import Bar, RateStep
 from graphkin.construction.trains import CentreLine, TrainPlan
 from graphkin.drawing.boxes import GAP, Block, FigurePage, column, panel, row, table
 from graphkin.drawing.figures import Figure
@@ -140,7 +140,7 @@ def _bars(plan: TrainPlan, k: int) -> Iterator[tuple[str, Bar]]:
         yield from ((link, bar) for bar in step.strokes if on == k and isinstance(bar, Bar))
 
 
-def foot(line: Step) -> float:
+def foot(line: RateStep) -> float:
     """The place where the parallel to a link's line cuts the rate scale (mm), counter-clockwise to the right."""
     return math.copysign(line.mm, line.value)
 
@@ -167,7 +167,7 @@ def _rate_scale(sheet: Sheet, plan: TrainPlan) -> Piece:
     return plate.piece
 
 
-def _plan_lines(sheet: Sheet, plan: TrainPlan) -> list[Step]:
+def _plan_lines(sheet: Sheet, plan: TrainPlan) -> list[RateStep]:
     """The line of each link of the scene from which its rate is read."""
     links = dict.fromkeys(link for _, link in plan.lines if link in sheet.scene.by_name)
     lines = (plan.line(link) for link in links if link != sheet.scene.frame.name)

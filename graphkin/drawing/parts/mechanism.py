@@ -13,7 +13,7 @@ from collections.abc import Collection, Iterator
 from graphkin.account.notation import Notation
 from graphkin.account.voice import SAME
 from graphkin.construction.board.sheet import Sheet
-from graphkin.construction.board.steps import Bar, CompassArc, TrialCurve
+from graphkin.construction.board.steps import Bar, CompassArc, PlaceStep, RateStep, TrialCurve
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import (
@@ -464,7 +464,8 @@ def rate_arrows(here: MechanismOnPaper) -> Piece:
             for kind, tail, value in (("omega", "", driver.rate), ("alpha", "-alpha", driver.second)):
                 if value:
                     arc("mechanism", f"driver-{link}{tail}", kind, link, driver.relative_to, value, here.since(link))
-    drawn = [step for step in here.sheet.steps if step.finds_rate or step.reason == "given on plan"]
+    drawn = [step for step in here.sheet.steps
+             if isinstance(step, RateStep) and (step.finds_rate or step.reason == "given on plan")]  # fmt: skip
     found = {(step.kind, step.link): step.number for step in drawn}
     named = here.scene.whole.by_name  # not of bars that stand for cams
     for kind, rates in here.sheet.rates.items():
@@ -567,7 +568,7 @@ def trial_marks_in_mechanism(sheet: Sheet) -> Piece:
     for step in sheet.steps:
         if step.diagram != "mechanism":
             continue
-        if step.reason == "special point":
+        if isinstance(step, PlaceStep) and step.reason == "special point":
             lines = tuple(
                 Line(on_page(s.a), on_page(s.b), strokes.DIRECTION)
                 for s in step.strokes if isinstance(s, Bar) and abs(s.b - s.a) > SAME
