@@ -20,6 +20,8 @@ from graphkin.construction.board.steps import (
     Reason,
     Step,
     Stroke,
+    Superposed,
+    Term,
     TrialCurve,
     VectorStep,
 )
@@ -59,6 +61,19 @@ def test_strokes_grow_with_their_step_and_a_plan_of_its_own_scale_stays() -> Non
     arc = CompassArc(1j, 2.0, 3j)
     assert [CompassArc(2j, 4.0, 6j)] == [*PlaceStep("cross", "arcs", strokes=(arc,)).scaled(2.0).strokes]
     assert 7.0 == RateStep("read", "plan", "velocity", mm=7.0, per_mm=0.25).scaled(2.0).mm
+
+
+TAKEN_OFF = Term(Symbol("v"), True, True)
+DIVIDED = Superposed("divide", "open ends", "velocity", apart=((2.0,),), less=(((TAKEN_OFF, 3.0),),))
+
+
+def test_gaps_of_trial_polygons_and_what_is_taken_off_them_grow_with_the_polygon() -> None:
+    larger = DIVIDED.scaled(2.0)
+    assert (((4.0,),), 6.0) == (larger.apart, larger.less[0][0][1])
+
+
+def test_gaps_of_plans_of_a_train_stay_as_the_plan_has_a_scale_of_its_own() -> None:
+    assert ((2.0,),) == replace(DIVIDED, plan=1).scaled(2.0).apart
 
 
 def test_places_of_a_stroke_grow_and_its_direction_stays() -> None:
