@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.account.centres import how_found, place_of, velocity_sentences
-from graphkin.account.notation import in_counting_order
+from graphkin.account.notation import Notation
 from graphkin.api.arguments import ON_SHEETS, At, as_scene, for_paper, known_words, own_folder, placed, write_files
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.centres import TOLERANCE, SpeedByCentres, centre_errors, velocities_by_centres
@@ -40,16 +40,12 @@ def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str,
     """All centres of a position in words, in the language of the result: heads and rows of the table, and sentences
     below it."""
     language, centres, scene = centred.spoken, centred.centres, centred.mechanism
-    convention = centred.convention or scene.question.sheet.convention
-    letter = "P" if convention in ("chinese", "russian") else "I"
+    letters = Notation(centred.convention or scene.question.sheet.convention)  # type: ignore[arg-type]
 
     def name(thing: object) -> str:
         if isinstance(thing, PointRef):
             return thing.point
-        if not isinstance(thing, tuple):
-            return str(thing)
-        a, b = sorted(thing, key=in_counting_order)
-        return f"{letter}{a}{',' if len(a + b) > 2 else ''}{b}"
+        return letters.centre(thing).plain("") if isinstance(thing, tuple) else str(thing)
 
     rows = []
     for centre in centres.found:

@@ -147,7 +147,7 @@ def _polygon_pages(
 def _poles(lesson: Lesson, diagrams: Sequence[DiagramName]) -> Paragraph:
     """The poles from which polygons are to be drawn."""
     poles = [pole(lesson.letters.convention, diagram) for diagram in diagrams]
-    return Paragraph(said("your polygon", lesson.language, poles=listed(poles)), small=True)
+    return Paragraph(said(about("your polygon", poles), lesson.language, poles=listed(poles)), small=True)
 
 
 def _equations(lesson: Lesson, diagram: DiagramName, width: float) -> tuple[Paragraph | Picture, ...]:

@@ -15,7 +15,7 @@ from graphkin.api.classroom.handouts import handout
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink.primitives import Line, Polygon, Text, walk
 from graphkin.papers.blocks import Heading, Picture, StepItem, TableBlock, laid_out
-from graphkin.papers.documents import accepted, answer_key, key_rows, problem, result_cells, solution
+from graphkin.papers.documents import accepted, answer_key, key_rows, problem, result_cells, solution, step_items
 from graphkin.papers.html import document_page
 from graphkin.papers.pictures import POLYGONS, mechanism_picture, workspace
 from graphkin.scene import library, mechanism_of
@@ -279,3 +279,19 @@ def test_the_mechanism_and_the_frames_of_both_polygons_stand_clear_of_each_other
     for frame in (one, two):
         assert bare.width < frame.left < frame.right <= page.width
         assert 0.0 <= frame.top < frame.bottom <= page.height
+
+
+@pytest.mark.parametrize(("name", "told"), [
+    ("wheel-on-rail", "Draw from the poles p, p′."), ("gears-epicyclic", "Draw from the pole p."),
+])  # fmt: skip
+def test_one_pole_is_a_pole_and_two_are_poles(name, told):
+    problem = handout(name, language="en", formats=("html",), positions=1).files["problem.html"].decode()
+    assert told in re.sub("<[^>]*>", "", problem)
+
+
+def test_a_travel_on_a_plan_of_accelerations_is_not_called_one_of_velocities():
+    lesson = handout("wheel-on-rail", language="zh", formats=("pdf",)).lesson
+    stages = [stage for stage in lesson.stages if stage.diagram == "acceleration"]
+    told = [str(words) for stage in stages for item in step_items(lesson, stage) for _, words in item.words]
+    assert any("C/0" in words for words in told)
+    assert [] == [words for words in told if "速度图" in words and "加速度图" not in words]
