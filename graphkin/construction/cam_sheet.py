@@ -27,6 +27,8 @@ FEWEST, MOST = 4, 12
 class CamSheet:
     """A cam on paper, at cam degree 0, about its axis, y up.
 
+    Parameters
+    ----------
     scale : m for one mm of paper
     divisions : of the displacement diagram, the follower turned back about the cam at each (mm)
     profile, pitch : closed curves (mm); the pitch curve is empty for a flat face
@@ -67,7 +69,12 @@ class CamSheet:
 
 
 def cam_sheet(cam: LawCam, scale: float) -> CamSheet:
-    """Draw a cam at a scale (m for one mm of paper)."""
+    """Draw a cam.
+
+    Parameters
+    ----------
+    scale : m for one mm of paper
+    """
     mm = 1.0 / scale
     # where arcs only touch, rounding may part them
     divided = tuple(division(cam, degree, mm) or station(cam, degree).scaled(mm) for degree in _degrees(cam))
@@ -93,7 +100,12 @@ ROUNDING = 1e-15  # rad: an angle that is less is none
 
 
 def division(cam: LawCam, degree: float, mm: float, hand: Instrument = EXACT) -> CamStation | None:
-    """Draw a division at a cam degree (rad), ``mm`` of paper for one m.
+    """Draw a division.
+
+    Parameters
+    ----------
+    degree : of the cam (rad)
+    mm : mm of paper for one m
 
     Returns
     -------

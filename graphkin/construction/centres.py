@@ -90,9 +90,12 @@ class Centre:
 class Turning:
     """The motion of a link by centres.
 
-    ``strength`` (1/s) belongs to the centre's homogeneous coordinates (`ProjectiveChart.velocity`), ``omega`` is the
-    angular velocity (rad/s).  ``chain`` names the links from the driver to this one, each measured from its
-    predecessor; ``error`` (1/s) bounds the strength's error, since centres near each other measure badly.
+    Parameters
+    ----------
+    strength : of the centre's homogeneous coordinates, as in `ProjectiveChart.velocity` (1/s)
+    omega : angular velocity (rad/s)
+    chain : the links from the driver to this one, each measured from its predecessor
+    error : bound of the strength's error (1/s), since centres near each other measure badly
     """
 
     link: str

@@ -486,9 +486,13 @@ def draft(
 
 @dataclass(frozen=True)
 class Inversion:
-    """A driven triangle with its held link as the frame, in one of its two assemblies (``branch``).
+    """A driven triangle with its held link as the frame; its result is the value of the equivalent driver at the common
+    pair of both links (rad, m).
 
-    Its result is the value of the equivalent driver at the common pair of both links (rad, m).
+    Parameters
+    ----------
+    structure : with the held link as the frame
+    branch : one of its two assemblies
     """
 
     triangle: DrivenTriangle

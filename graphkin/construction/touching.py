@@ -38,8 +38,13 @@ class Touch:
     centres: Mapping[str, tuple[str, complex]] = field(default_factory=dict)
 
     def curvatures(self, links: Sequence[str], mm: float) -> list[float]:
-        """The curvatures of the outlines of links (1/m; ``mm`` of paper for one m), positive where the centre of
-        curvature lies on the side of the normal; 0 for an outline that is not round."""
+        """The curvatures of the outlines of links (1/m), positive where the centre of curvature lies on the side of the
+        normal; 0 for an outline that is not round.
+
+        Parameters
+        ----------
+        mm : mm of paper for one m
+        """
         return [mm / dot(self.centres[n][1] - self.at, self.normal) if n in self.centres else 0.0 for n in links]
 
 
@@ -159,6 +164,8 @@ def _free(name: str, taken: set[str]) -> str:
 class CamStation(NamedTuple):
     """The follower turned back about the cam (inversion), in the cam's own axes from its axis (any unit of length).
 
+    Parameters
+    ----------
     degree, lift : of the cam (rad), and of the follower there (m, rad)
     line : a point of the follower's line (the foot), or of the bar (the pivot)
     base : its point at lift 0
@@ -197,11 +204,16 @@ class CamStation(NamedTuple):
 
 
 def station(cam: LawCam, degree: float, lift: Lift | None = None) -> CamStation:
-    """The follower at an angle of the law (rad), lengths in m; ``lift`` is given for one side of a seam.
+    """The follower at an angle of the law, lengths in m.
 
     The instant centre of cam and follower, through which the normal goes, lies ds/dphi beside the axis, square to the
     path of a sliding follower; that of a swinging one on the line of both pivots, at distances from the axis and from
     the pivot that are as dpsi/dphi to 1 (Norton, Cam Design and Manufacturing Handbook, ch. 7).
+
+    Parameters
+    ----------
+    degree : of the cam (rad)
+    lift : of one side of a seam; None for that of the law
     """
     lift = lift or cam.law.at(degree)
     back = cmath.rect(1.0, -cam.sense * degree)

@@ -76,10 +76,17 @@ class ProjectiveChart:
         return complex(x, y) * (sense / size)
 
     def pole(self, velocity: complex, omega: float) -> tuple[Place, float]:
-        """The pole of the motion that gives the middle a velocity (mm/s) and turns at ``omega`` (rad/s).  Returns the
-        place and the strength: 0 at rest (and then the place has no meaning).
+        """The pole of the motion with a velocity of the middle: the velocity of z is i omega (z - pole), with pole =
+        q / omega from the middle, q = i v there.
 
-        The velocity of z is i omega (z - pole): with pole = q / omega from the middle, q = i v there.
+        Parameters
+        ----------
+        velocity : of the middle (mm/s)
+        omega : angular velocity (rad/s)
+
+        Returns
+        -------
+        the place and the strength (1/s): 0 at rest, and then the place has no meaning
         """
         q = 1j * velocity / self.unit
         strength = math.hypot(abs(q), omega)

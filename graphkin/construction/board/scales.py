@@ -31,7 +31,13 @@ Rectangle = tuple[float, float]
 
 
 def extent_of(points: Iterable[complex], per_mm: float) -> Rectangle:
-    """The extent of points on paper (mm) at a scale (units for one mm); empty without points."""
+    """The extent of points; empty without points.
+
+    Parameters
+    ----------
+    points : on paper (mm)
+    per_mm : the scale (units for one mm)
+    """
     spots = list(points)
     if not spots:
         return 0.0, 0.0
@@ -40,12 +46,28 @@ def extent_of(points: Iterable[complex], per_mm: float) -> Rectangle:
 
 
 def least_scale(extent: Rectangle, room: Rectangle) -> float:
-    """The scale (m, m/s, m/s2 for one mm) at which an extent just fits a room (mm)."""
+    """The scale at which an extent just fits a room.
+
+    Parameters
+    ----------
+    extent : width and height of the content (m, m/s, m/s2, N)
+    room : width and height on paper (mm)
+
+    Returns
+    -------
+    the value of one mm of paper (m, m/s, m/s2, N)
+    """
     return max(extent[0] / room[0], extent[1] / room[1])
 
 
 def fitting_scale(extent: Rectangle, room: Rectangle, units: float) -> float:
-    """The finest scale of the series (units for one mm) at which an extent fits the room; 1 if it has no size."""
+    """The finest scale of the series at which an extent fits the room; 1 if it has no size.
+
+    Parameters
+    ----------
+    extent, room : as in `least_scale`
+    units : the number of units of the scale in one SI unit
+    """
     least = least_scale(extent, room) * units
     if not math.isfinite(least) or least <= 0.0:
         return 1.0
@@ -76,11 +98,14 @@ class Scales:
 
 @dataclass(frozen=True)
 class Room:
-    """Width and height (mm) that the mechanism and each polygon may fill.
+    """The room that a mechanism and its polygons may fill.
 
-    ``others`` are rooms that may be taken instead, if their scales are finer (in powers of ten, of all three figures
-    together) by more than their ``cost``; with ``keeps_wishes`` scales that the scene wishes for are kept in a room
-    that holds them.
+    Parameters
+    ----------
+    mechanism, polygon : width and height (mm) for the mechanism and for each polygon
+    others : rooms that may be taken instead, if their scales are finer by more than their cost
+    cost : of taking it, in powers of ten of the scales of all three figures together
+    keeps_wishes : whether scales that the scene wishes for are kept in a room that holds them
     """
 
     mechanism: Rectangle = (150.0, 150.0)

@@ -135,11 +135,15 @@ class Equation:
 
 @dataclass(frozen=True)
 class Rate:
-    """An angular velocity or acceleration measured on the drawing (rad/s, rad/s2; counter-clockwise positive).
+    """An angular velocity or acceleration measured on the drawing.
 
-    ``vector`` is the relative or tangential vector from which it comes (None for a given rate, or the rate of another
-    link: ``same_as``), ``mm`` its length on paper and ``arm_mm`` that of the bar; without a bar ``mm`` was read off the
-    rate scale of a velocity plan.
+    Parameters
+    ----------
+    value : rad/s, rad/s2; counter-clockwise positive
+    vector : the relative or tangential vector from which it comes; None for a given rate, or that of another link
+    mm, arm_mm : the lengths of the vector and of the bar on paper; without a bar ``mm`` was read off the rate scale of
+        a velocity plan
+    same_as : the other link whose rate it is
     """
 
     link: str
@@ -182,8 +186,14 @@ class Reading:
 
 @dataclass(frozen=True)
 class LimitPosition(OnPaper):
-    """The mechanism drawn once more, at a limit position of an output: the crank's value (rad) and the poses of links;
-    ``angle`` is that of the output (rad), to a few degrees and with whole turns, 0 of a slide."""
+    """The mechanism drawn once more, at a limit position of an output.
+
+    Parameters
+    ----------
+    value : of the crank (rad)
+    poses : of links, on paper (mm)
+    angle : of the output (rad), to a few degrees and with whole turns; 0 of a slide
+    """
 
     value: float
     poses: Mapping[str, Pose]
@@ -203,19 +213,30 @@ what is seen from a link held still and that link's motion."""
 class Sheet:
     """The whole drawing, in order.
 
-    It ``has_forces`` if forces can be drawn from it: there are masses or loads, and all that they need is drawn.
-    ``ends`` gives the end points in each polygon: ends["velocity"][PointRef("B", "3")] is b3.
-    ``rates`` hold the measured rates by kind, "omega" and "alpha", and by link.
-    ``noticed`` are possible remarks on the construction.  ``causes`` gives the source of the acts of the hand: (acts
-    made when it was done, source).  ``left_out`` are links that no asked quantity needs; ``held_still`` are steps drawn
-    separately, with one link as the frame.  ``asked`` are the asked quantities, if the drawing is limited to them;
-    ``limits`` are the limit positions drawn for it, by sliding pair or link. ``groups`` are those larger than a dyad,
-    with the construction of each.  ``acting`` tells of each load whether it acts here (None where it begins or ends
-    exactly here), if forces are drawn; ``growing`` are then, where the mechanism rests or has several drivers, drawings
-    with each driver's value alone growing at a unit rate. ``trains`` are the velocity plans of rolling links, at scales
-    of their own.  ``readings`` are the lengths (mm) that an erring hand has read for the construction, of vectors by
-    their symbols (`either_way`), of the mechanism by the two points.  ``forces`` are the drawn forces, in the scale of
-    their polygons: once, or twice if a load begins or ends exactly here; ``inertias`` are those of the links.
+    Parameters
+    ----------
+    instrument : the name of the hands
+    drivers : values by the driver's key (rad, m)
+    poses, points : of links and points, on paper (mm)
+    ends : the end points in each polygon (mm): ends["velocity"][PointRef("B", "3")] is b3
+    rates : measured rates by kind, "omega" and "alpha", and by link
+    assembly : the words for the assembly of each group by its name
+    noticed : possible remarks on the construction
+    causes : the sources of the acts of the hand, each with the number of acts made when it was done
+    left_out : links that no asked quantity needs
+    held_still : steps drawn separately, with one link as the frame
+    asked, limits : the asked quantities, if the drawing is limited to them, and the limit positions drawn for them, by
+        sliding pair or link
+    groups : those larger than a dyad, with the construction of each
+    acting : of each load whether it acts here, None where it begins or ends exactly here; if forces are drawn
+    growing : then, where the mechanism rests or has several drivers, drawings with each driver's value alone growing at
+        a unit rate
+    trains : the velocity plans of rolling links, at scales of their own
+    readings : the lengths (mm) that an erring hand has read for the construction, of vectors by their symbols
+        (`either_way`), of the mechanism by the two points
+    has_forces : whether forces can be drawn from it: there are masses or loads, and all that they need is drawn
+    inertias : inertia forces by link
+    forces : the drawn forces, once, or twice if a load begins or ends exactly here
     """
 
     scene: Mechanism
@@ -496,18 +517,22 @@ def _residues(sheet: Sheet) -> set[Symbol]:
 
 @dataclass
 class Board:
-    """Steps in order, and the readings; the only value in this room that grows.
+    """Steps in order, and the readings, as they grow.
 
-    ``readings`` are the lengths (mm) that erring hands have read, as in `Sheet`, for every later use; ``assembly`` are
-    the words for the assembly of each group by its name, and ``held_still`` the steps drawn separately with a link held
-    still.
+    Parameters
+    ----------
+    instrument : the hands that draw and read
+    causes : the sources of the acts of the hand, each with the number of acts made when it was done
+    readings : the lengths (mm) that erring hands have read, as in `Sheet`, for every later use
+    assembly : the words for the assembly of each group by its name
+    held_still : the steps drawn separately with a link held still
     """
 
     instrument: Instrument
     steps: list[Step] = field(default_factory=list)
     equations: list[Equation] = field(default_factory=list)
     noticed: list[Remark] = field(default_factory=list)
-    causes: list[tuple[int, Cause]] = field(default_factory=list)  # acts of the hand up to which each step reaches
+    causes: list[tuple[int, Cause]] = field(default_factory=list)
     readings: dict[Symbol | frozenset[str], float] = field(default_factory=dict)
     assembly: dict[Phrase, Phrase] = field(default_factory=dict)
     held_still: list[Step] = field(default_factory=list)

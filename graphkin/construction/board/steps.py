@@ -606,8 +606,14 @@ Stroke = Vector | TrialCurve | Ray | CompassArc | Bar | Mark | Image
 
 @dataclass(frozen=True)
 class MeasuredGap:
-    """The measured gap of a left-out part, with the ``names`` of its ends and the ``length`` of a bar (mm on paper):
-    degrees for an ``angle``, else mm."""
+    """The measured gap of a left-out part.
+
+    Parameters
+    ----------
+    names : of its ends
+    length : of a bar (mm on paper)
+    angle : whether it is measured in degrees, else in mm
+    """
 
     kind: Literal["bar", "guide", "turn", "travel", "guides", "rolled"]
     names: tuple[str, ...]
@@ -692,8 +698,13 @@ class TrialPositions(Step):
 
 @dataclass(frozen=True)
 class FarPoint:
-    """Two links whose special point cannot be used: its distance from the joints (m; in a vector graph in the unit of
-    its places), and the crossing angle (rad) of the legs' lines."""
+    """Two links whose special point cannot be used.
+
+    Parameters
+    ----------
+    away : its distance from the joints (m; in a vector graph in the unit of its places)
+    crossing : the crossing angle of the legs' lines (rad)
+    """
 
     links: tuple[str, str]
     away: float

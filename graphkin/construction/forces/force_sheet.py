@@ -82,8 +82,18 @@ class ForceVector:
 
 
 def shifted_line(force: complex, at: complex, couple: float, mm: float) -> tuple[complex, float]:
-    """The line of action of a force (N) at a place (mm) together with a couple (N m): a place of it (mm), and its shift
-    (m, counter-clockwise positive: the couple's sense), on paper with ``mm`` for one m."""
+    """The line of action of a force together with a couple.
+
+    Parameters
+    ----------
+    force, at : the force (N) at its place on paper (mm)
+    couple : N m
+    mm : mm of paper for one m
+
+    Returns
+    -------
+    a place of the line (mm), and its shift (m, counter-clockwise positive: the couple's sense)
+    """
     shift = couple / abs(force)
     return at - 1j * unit(force) * (shift * mm), shift
 
@@ -92,9 +102,12 @@ def shifted_line(force: complex, at: complex, couple: float, mm: float) -> tuple
 class Inertia:
     """Inertia force and couple of a link, from its drawn acceleration.
 
-    ``centre`` is the centre of mass (mm), ``push`` its acceleration as it was read (m/s2).  The force -m a_S and the
-    couple -J alpha together are the force alone, on the line through ``shifted`` (mm) at the distance ``h`` = M / F
-    (m); None where there is no force.
+    Parameters
+    ----------
+    centre, push : the centre of mass (mm), and its acceleration as it was read (m/s2)
+    force, moment : -m a_S (N), -J alpha (N m)
+    shifted, h : a place (mm) of the line on which the force alone is force and couple together, and its distance
+        M / F from the centre (m); None where there is no force
     """
 
     mass: LinkMass
@@ -108,12 +121,17 @@ class Inertia:
 
 @dataclass(frozen=True)
 class MomentTerm:
-    """The moment of an action on a link: of a force at its place ``about`` another (mm on the mechanism; on a lever m/s
-    from its pole), or of a couple.
+    """The moment of an action on a link: of a force about a place, or of a couple.
 
-    ``arm`` is the distance of its line, as measured (mm, m/s; positive where the force turns counter-clockwise; None
-    for a couple), ``moment`` its value (N m, W).  On a lever a couple is a ``pair`` of forces at two end points of an
-    image; its arm is their distance, its force the couple over the length of the bar.
+    Parameters
+    ----------
+    acting : the force at its place (mm on the mechanism; on a lever m/s from its pole), or the couple
+    arm : the distance of its line, as measured (mm, m/s; positive where the force turns counter-clockwise); None for a
+        couple
+    moment : its value (N m, W)
+    about : the place of the moments (mm, m/s)
+    pair : on a lever a couple is a pair of forces at these two end points of an image (m/s): its arm is their distance,
+        its force the couple over the length of the bar
     """
 
     acting: ForceVector
@@ -143,8 +161,11 @@ class MomentTerm:
 class MomentEquation:
     """The moments of all actions on some links about a point are in balance, which gives one unknown.
 
-    ``about`` is the letter of the point, or the name of the link at whose origin it lies; ``unknown`` is a force or a
-    couple of size 1, ``value`` (N, N m) its size.
+    Parameters
+    ----------
+    about : the letter of the point, or the name of the link at whose origin it lies
+    terms : the moments of the known actions
+    unknown, value : a force or a couple of size 1, and its size (N, N m)
     """
 
     links: tuple[str, ...]
@@ -197,11 +218,15 @@ class ForceGroup:
 @dataclass(frozen=True)
 class Lever:
     """Zhukovsky's lever of one driver: the velocity polygon turned by 90 degrees clockwise about its pole, so that the
-    moment of a force about the pole is its power.  Its places and arms are velocities (m/s), moments powers (W).
+    moment of a force about the pole is its power.
 
-    ``per_mm`` is m/s for one mm of the polygon; ``virtual`` if the mechanism rests (or has several drivers) and the
-    polygon belongs to a unit rate.  ``rows`` are the moments of the known forces, ``unknown`` that of a balancing load
-    of size 1, ``value`` (N m, or N along its line) the balancing load.
+    Parameters
+    ----------
+    per_mm : m/s for one mm of the polygon
+    virtual : whether the mechanism rests, or has several drivers, and the polygon belongs to a unit rate
+    ends : the end points (m/s)
+    rows : the moments of the known forces (W), with arms in m/s
+    unknown, value : the moment of a balancing load of size 1, and that load (N m, or N along its line)
     """
 
     per_mm: float

@@ -106,7 +106,12 @@ class DrawnPosition:
         return 1.0 / self.sheet.scales.length
 
     def place(self, link: str, at: complex) -> complex:
-        """A place of a link's own axes (m), on paper (mm)."""
+        """A place of a link on paper (mm).
+
+        Parameters
+        ----------
+        at : the place in the link's own axes (m)
+        """
         pose = self.sheet.poses[link]
         return pose.place(at * self.mm)
 

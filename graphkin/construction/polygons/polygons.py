@@ -53,10 +53,14 @@ class OwnValues:
     """Four places at which a person may take another value than the drawn one: a component left out, a value of their
     own.
 
-    A drawing with own values shows their consequences; the construction itself does not change.  ``term`` gets
-    each term of an equation before it is laid off; ``found`` each vector found (end points by image included) by tail
-    and tip, mm on paper, and returns its tip; ``rate`` each angular rate measured (rad/s, rad/s2), and returns None
-    where it stays; ``line`` the direction of each line along which a vector of unknown size is drawn.
+    A drawing with own values shows their consequences; the construction itself does not change.
+
+    Parameters
+    ----------
+    term : from each term of an equation before it is laid off
+    found : from each vector found (end points by image included) by tail and tip (mm) to its tip
+    rate : from each angular rate measured (rad/s, rad/s2); None where it stays
+    line : from the direction of each line along which a vector of unknown size is drawn
     """
 
     term: Callable[[Term], Term] = lambda part: part

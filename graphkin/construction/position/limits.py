@@ -47,7 +47,11 @@ class TurnOfCrank:
     """Positions over a whole turn of the first driver, each followed from the one before, on paper of the mechanism's
     size.
 
-    ``values`` are the driver values at the start (rad, m).
+    Parameters
+    ----------
+    placed : the elements of the mechanism
+    values : of the drivers at the start (rad, m)
+    positions : in the order of the crank's turning
     """
 
     placed: PlacedElements

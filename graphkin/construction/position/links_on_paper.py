@@ -103,7 +103,13 @@ class PlacedLinks:
 def start_board(
     structure: Structure, mm: float, values: Mapping[str, float], instrument: Instrument = EXACT
 ) -> PlacedLinks:
-    """The empty paper with the fixed points pricked, at driver values (rad, m); ``mm`` of paper for one m."""
+    """The empty paper with the fixed points pricked.
+
+    Parameters
+    ----------
+    mm : mm of paper for one m
+    values : of the drivers (rad, m)
+    """
     ground = structure.scene.frame.name
     values = structure.followed(values) if structure.followers else values
     paper = PlacedLinks(structure.links, mm, values, {ground: Pose(0j, 1 + 0j)}, instrument)
@@ -169,21 +175,39 @@ class RigidBody:
 
 
 def travel(slide: Pair, poses: Poses, mm: float) -> float:
-    """The travel of a sliding link along its guide, from the guide's origin to its own (mm); ``mm`` of paper for one m.
+    """The travel of a sliding link along its guide, from the guide's origin to its own (mm).
+
+    Parameters
+    ----------
+    poses : of the links on paper
+    mm : mm of paper for one m
     """
     start = poses[slide.b].place(slide.guide.through * mm)
     return dot(poses[slide.a].origin - start, slide.along(poses))
 
 
 def reading(structure: Structure, driver: Driver, poses: Poses, mm: float) -> float:
-    """The value of a driver read from the links' poses (rad, m); ``mm`` of paper for one m."""
+    """The value of a driver read from the links' poses (rad, m).
+
+    Parameters
+    ----------
+    poses : of the links on paper
+    mm : mm of paper for one m
+    """
     if driver.turns:
         return cmath.phase(poses[driver.link].axis / poses[driver.relative_to].axis)
     return travel(structure.slide(driver.slide), poses, mm) / mm
 
 
 def across(slide: Pair, link: str, other: Pose, travel: float, mm: float) -> Pose:
-    """Pose of one side of a sliding pair from the other and the travel (mm)."""
+    """Pose of one side of a sliding pair from the other.
+
+    Parameters
+    ----------
+    link, other : the link to be placed, and the pose of the other
+    travel : mm of paper
+    mm : mm of paper for one m
+    """
     g, start = slide.guide.direction, slide.guide.through * mm
     if link == slide.a:
         return Pose(other.place(start + travel * g), other.axis * g * slide.turn)
@@ -214,7 +238,14 @@ TURNS = 3
 
 def rolled_near(structure: Structure, paper: PlacedLinks, driver: RollingRelation, start: Poses, guess: Poses) -> float:
     """The value of a rolling link (rad, m) in a position under construction, by the motion of the links on which it
-    rolls from a position ``start`` within some turns; the value nearest to its expected place."""
+    rolls.
+
+    Parameters
+    ----------
+    paper : the position under construction
+    start : the poses from which it rolls, within some turns
+    guess : the poses that are expected: of several values the nearest is taken
+    """
     before, near = (replace(paper, poses=dict(poses)) for poses in (start, guess))
     value, turns = coordinate_on_paper(structure, before, driver.coordinate), [0.0]
     for coordinate, factor in driver.factors:

@@ -61,11 +61,14 @@ Array = NDArray[np.float64]
 class ReducedMechanism:
     """A mechanism with dyads in place of a larger group.
 
-    ``removed`` are its removed constraints, ``trial`` the trial drivers in their place, at value and rate 0;
-    ``elements`` place the links of the group, in the order of drawing.  ``since`` are angles and travels (rad, m) of
-    rolling links at a position within half a turn at which they fit, by their names.  ``held`` are drivers of left-out
-    blocks, acting on the links that turn with these: by their keys there, the driver's own key and the increase of the
-    angle (rad).
+    Parameters
+    ----------
+    removed : its removed constraints
+    trial : the trial drivers in their place, at value and rate 0
+    elements : they place the links of the group, in the order of drawing
+    since : angles and travels (rad, m) of rolling links at a position within half a turn at which they fit, by name
+    held : drivers of left-out blocks, acting on the links that turn with these: by their keys there, the driver's own
+        key and the increase of the angle (rad)
     """
 
     structure: Structure
