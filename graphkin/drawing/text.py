@@ -108,14 +108,14 @@ def stacked(lines: Sequence[Words], size: float = LETTER) -> tuple[Run, ...]:
 @lru_cache(maxsize=1024)
 def _pieces(text: Words) -> Sequence[RichText]:
     """Words with the space before them; symbols stay whole."""
-    pieces: list[list[str | Atom]] = [[]]
-    before = ""
+    pieces: list[RichText] = []
+    piece, word, before = RichText(), "", ""
     for part in stretches(text):
         if not isinstance(part, str):
             if before in _BREAKS_AFTER:
-                pieces.append([])
-            pieces[-1] += part
-            before = "symbol"
+                pieces.append(RichText(piece, word))
+                piece, word = RichText(), ""
+            piece, word, before = RichText(piece, word, *part), "", "symbol"
             continue
         inner = {i for found in _UNBROKEN.finditer(part) for i in range(found.start() + 1, found.end())}
         for i, character in enumerate(part):
@@ -124,10 +124,11 @@ def _pieces(text: Words) -> Sequence[RichText]:
             wide = ord(character) > 0x2E7F and not closes and not opened
             after = before in _BREAKS_AFTER and not closes
             if i not in inner and (character == " " or wide or after):
-                pieces.append([])
-            pieces[-1].append(character)
+                pieces.append(RichText(piece, word))
+                piece, word = RichText(), ""
+            word += character
             before = character
-    return [RichText(*piece) for piece in pieces if piece]
+    return [piece for piece in (*pieces, RichText(piece, word)) if piece]
 
 
 @lru_cache(maxsize=1024)

@@ -8,9 +8,14 @@ import re
 import pytest
 
 import tests.papers
+from graphkin.account.notation import Notation
 from graphkin.api.classroom.handouts import handout
 from graphkin.papers.blocks import Picture, laid_out
 from graphkin.papers.documents import solution
+from graphkin.papers.html import words_html
+from graphkin.papers.pdf import FORMS
+from graphkin.scene.symbol import Symbol
+from graphkin.words.symbols import sign
 from tests import EVERYTHING
 from tests.construction.test_trains import FOUND_LATER
 
@@ -133,3 +138,15 @@ def test_an_empty_step_and_a_plate_are_written_with_their_words_escaped():
     page = blocks_html([StepItem(3, once("a<b", "en")), Plate("<svg/>", 254.0, 127.0, 'a "b" <c>')], "en")
     assert '<li value="3"><p lang="en">a&lt;b</p></li>' in page
     assert '<img alt="a &#34;b&#34; &lt;c&gt;" width="960" height="480" src="data:image/svg+xml;base64,PHN2' in page
+
+
+def test_a_symbol_of_a_page_has_its_mark_above_its_index_and_is_read_by_its_meaning():
+    html = words_html(Notation("chinese").vector(Symbol.parse("an_C/B")), "en")
+    assert "<sup><i>n</i></sup><sub><i>C</i><i>B</i></sub>" in html
+    assert 'aria-label="normal acceleration of C relative to B"' in html
+
+
+def test_a_symbol_of_a_typeset_paper_has_its_mark_and_its_index():
+    ((words, symbol),) = FORMS["work"](("so " + sign("a", "C", "n"),))
+    (atom,) = symbol
+    assert ("so ", "a", "C", "n") == (words, atom["text"], atom["sub"][0]["text"], atom["sup"][0]["text"])
