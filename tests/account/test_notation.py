@@ -3,7 +3,7 @@
 import pytest
 
 from graphkin.account.notation import Notation
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import PointRef, Symbol
 
 
 @pytest.mark.parametrize(("chinese", "us", "name"), [
@@ -22,3 +22,9 @@ def test_a_quantity_is_written_in_the_letters_of_its_school(chinese: str, us: st
 
 def test_the_transmission_angle_of_a_group_has_the_letter_of_an_angle_between_links():
     assert "$γ_{45}$" == repr(Notation("chinese").vector(Symbol("transmission", name="4-5")))
+
+
+@pytest.mark.parametrize(("shown", "ref"), [("$O_{4,2}$", "O4@2"), ("$B_{2}$", "B@2"), ("$O_{4}$", "O4")])
+def test_a_point_of_a_link_bears_the_link_as_a_further_index(shown: str, ref: str):
+    point, _, link = ref.partition("@")
+    assert shown == repr(Notation("chinese").coincident(PointRef(point, link)))

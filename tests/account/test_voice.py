@@ -10,17 +10,20 @@ import pytest
 
 from graphkin import read
 from graphkin.account.account import telling, why
+from graphkin.account.arithmetic import bound
 from graphkin.account.in_mechanism import InMechanism
 from graphkin.account.in_polygon import InPolygon
 from graphkin.account.notation import notation_of
-from graphkin.account.voice import Account, PolygonPoints
+from graphkin.account.voice import Account, PolygonPoints, whole_sentence
 from graphkin.api.classroom.handouts import handout
 from graphkin.construction import draft
-from graphkin.construction.board.steps import Reason
+from graphkin.construction.board.sheet import Remark
+from graphkin.construction.board.steps import PointNames, Reason
 from graphkin.papers.lesson import stages
 from graphkin.papers.screen import motion_data
 from graphkin.scene import library, mechanism_of
 from graphkin.words import Phrase
+from graphkin.words.symbols import sign
 from tests.mechanisms import random_scene, redriven
 
 pytestmark = pytest.mark.quick
@@ -294,3 +297,28 @@ def test_no_two_places_of_a_polygon_bear_one_letter(name, old, new, convention):
     for point in named:
         places.setdefault(point.letter, []).append(point.at)
     assert {} == {letter: at for letter, at in places.items() if abs(max(at, key=abs) - min(at, key=abs)) > 1e-3}
+
+
+@pytest.mark.parametrize(("told", "text", "language"), [
+    ("So $v$ is found.", "so " + sign("v") + " is found", "en"), ("It ends.", "it ends.", "en"),
+    ("$v$ 已知。", sign("v") + " 已知。", "zh"), ("Found: $v$.", "found: " + sign("v"), "en"),
+])  # fmt: skip
+def test_a_sentence_has_its_capital_and_one_full_stop(told, text, language):
+    assert told == repr(whole_sentence(text, language))
+
+
+def test_a_sum_breaks_only_before_its_sign_of_equality():
+    assert "$v$ =\u00a02\u00a0×\u00a03 =\u00a06\u00a0mm" == repr(bound(sign("v") + " = 2 × 3 = 6 mm"))
+
+
+def test_a_contact_is_named_as_the_point_that_it_is():
+    sheet = draft(mechanism_of("cam-flat-face"))
+    account = Account(sheet, notation_of(sheet, "chinese"))
+    remark = Remark("acceleration", "at contact", ("K",)).phrase
+    assert repr(account.say(remark, "en")).startswith("contact $K$ is drawn at the contact itself")
+
+
+def test_a_link_that_is_named_like_a_point_is_no_point():
+    sheet = draft(mechanism_of("four-bar-coupler-point"))
+    account = Account(sheet, notation_of(sheet, "chinese"))
+    assert "mark $B$ on link Rod2" == repr(account.say(Phrase("points", link="Rod2", points=PointNames(("B",))), "en"))

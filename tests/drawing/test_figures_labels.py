@@ -7,10 +7,12 @@ from collections.abc import Callable
 
 import pytest
 
+import graphkin
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import compare
 from graphkin.construction import draft
 from graphkin.drawing import svg_bytes
+from graphkin.drawing.ink.primitives import Text, walk
 from graphkin.drawing.sheet_plan import sheet_room
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of
@@ -43,3 +45,9 @@ def test_no_label_is_overlapped_crossed_or_cut(
     convention = CONVENTIONS[turn % 4]
     drawn = figures(own, on_sheet, report, language, convention)
     assert {figure: [] for figure in drawn} == {figure: violations(svg_bytes(d)) for figure, d in drawn.items()}
+
+
+def test_the_letters_of_a_trial_polygon_bear_its_numeral():
+    figure = graphkin.draw("double-butterfly", figures=("acceleration",)).figures["acceleration"]
+    named = {thing.id: thing.string for thing in walk(figure.children) if isinstance(thing, Text)}
+    assert "j′II" == named["label-detail-trial-acceleration-2-a_J"]

@@ -5,7 +5,7 @@ import pytest
 from graphkin.account.notation import as_vector
 from graphkin.drawing.font import EM, glyph
 from graphkin.drawing.ink.primitives import Text
-from graphkin.drawing.text import plain, rich, run_box, runs_width, text_box, width
+from graphkin.drawing.text import plain, rich, run_box, runs_width, text_box, width, wrapped
 from graphkin.words import symbols
 from graphkin.words.symbols import sign
 from tests.notation import noted
@@ -143,3 +143,13 @@ def test_a_prime_behind_an_index_stands_above_it_at_the_letter():
     letter, index, prime = rich(noted("$d_5'$"))
     assert ("d", "5", "′") == (letter.text, index.text, prime.text)
     assert (prime.x, prime.y) == pytest.approx((width("d", 3.5, italic=True), letter.y))
+
+
+def test_a_line_may_break_between_a_chinese_comma_and_a_symbol():
+    first, second = wrapped("转动，" + sign("ω", "3"), 3.5, 12.0)
+    assert ("转动，", "ω") == ("".join(run.text for run in first), second[0].text)
+
+
+def test_a_symbol_is_never_broken():
+    first, second = wrapped(sign("v", "B3B2") + " found", 3.5, 2.0)
+    assert ("vB3B2", "found") == ("".join(run.text for run in first), "".join(run.text for run in second))
