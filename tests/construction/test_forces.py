@@ -527,3 +527,20 @@ def test_the_scale_of_a_group_stands_in_its_caption_and_with_the_readings():
     told = report_text(graphkin.check(PRESS), "en")
     assert "Link 1 (driven) cut free;  polygon at μ_F = 0.1 kN/mm" in told
     assert "F_6/1: read off the force polygon of link 1, at a scale of its own, 1 mm = 0.1 kN" in told
+
+
+BESIDE_A_MEGANEWTON = {
+    "frame": {"name": "0", "points": {"A": [0, 0], "D": [200, 0], "H": [-200, 0]}},
+    "links": {"1": {"points": ["A", "B"], "length": 50}, "2": {"points": ["B", "C"], "length": 180},
+              "3": {"points": ["C", "D"], "length": 120}, "4": {"points": ["B", "G"], "length": 180},
+              "5": {"points": ["G", "H"], "length": 120}},
+    "driver": {"link": "1", "angle": 40, "omega": 5}, "sketch": {"C": [150, 120], "G": [-150, 120]},
+    "loads": {"P": {"on": "3", "at": [60, 0], "force": 1e6, "angle": 200},
+              "Q": {"on": "5", "at": [60, 0], "force": 50, "angle": -20}},
+}  # fmt: skip
+
+
+def test_a_pencil_reads_fifty_newtons_beside_a_meganewton_to_a_few_in_a_hundred():
+    checked = graphkin.check(BESIDE_A_MEGANEWTON, instrument="pencil", seed=1)
+    assert checked.ok
+    assert checked["F_0/5"].uncertainty < 0.03 * abs(checked["F_0/5"].exact)
