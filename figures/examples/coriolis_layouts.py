@@ -112,7 +112,7 @@ def row(sheet, title, y, language):
     said = NONE[language]
     if terms:
         vector, _, rule = terms[0]
-        said = f"${letters.vector(vector.symbol)}$ = ${letters.size(rule)}$"
+        said = letters.vector(vector.symbol) + " = " + letters.size(rule)
     back = bare_mechanism(sheet, letters)
     pieces = [framed(back, complex(LEFT, y + HEAD), ink_box(back.drawn))]
     laid_off = [s for s in sheet.steps if s.verb == "lay off" or s.reason == "before its turn"]
@@ -124,7 +124,7 @@ def row(sheet, title, y, language):
         cell = framed(polygon, complex(LEFT + column * WIDE, y + HEAD), content)
         drawn = so_far(stepped(layer_groups(cell)), first, last)
         pieces.append(Piece({"stages": drawn if first else plainly(drawn)}))
-    head = Text(complex(LEFT, y + 3.4), rich(f"{title}{COLON[language]}{said}", 3.4))
+    head = Text(complex(LEFT, y + 3.4), rich(f"{title}{COLON[language]}" + said, 3.4))
     return [*(thing for piece in pieces for thing in layer_groups(piece) or piece.drawn), head], bool(terms)
 
 
