@@ -107,14 +107,14 @@ Coordinate = tuple[str, str]
 """("angle", link) or ("travel", sliding pair)."""
 
 
-def _named(links: Sequence[str], members: Sequence[str]) -> Phrase:
+def _named(group: Element) -> Phrase:
     """The members of a group in words: its links of the file, and what stands in it for pins in slots and for contacts:
     ``links 2, 3``, ``link 2 and the block at B``, ``the blocks at P``."""
-    blocks = [name.split("/")[0] for name in members if "/" in name]
-    parts = [links_named(links)] if links else []
+    blocks = [name.split("/")[0] for name in group.members if "/" in name]
+    parts = [links_named(group.links)] if group.links else []
     if blocks:
         parts.append(Phrase(about("blocks at points", blocks), points=listed([*dict.fromkeys(blocks)])))
-    bars = (name for name in members if name not in links and "/" not in name)
+    bars = (name for name in group.members if name not in group.links and "/" not in name)
     named: Phrase = joined("one and other", (*parts, *(Phrase("bar of name", bar=bar) for bar in bars)))
     return named
 
@@ -189,7 +189,7 @@ class Driven:
     rolled: RollingRelation | None = field(init=False, repr=False, compare=False)
     explicit: bool = field(init=False, repr=False, compare=False)
     outside: frozenset[str] = field(init=False, repr=False, compare=False)
-    named: Phrase = field(init=False, repr=False, compare=False)
+    named = cached_property(_named)
 
     def __post_init__(self) -> None:
         driver = self.driver
@@ -198,7 +198,6 @@ class Driven:
             drivers=(driver,) if isinstance(driver, Driver) else (),
             rolled=driver if isinstance(driver, RollingRelation) else None, explicit=driver.given,
             outside=frozenset((*self.pair.links, *driver.links, *driver.through)) - {self.link},
-            named=_named((self.link,), (self.link,)),
         )  # fmt: skip
 
 
@@ -242,9 +241,9 @@ class Dyad:
     joints: tuple[DrivenJoint, ...] = field(init=False, repr=False, compare=False)
     drivers: tuple[Driver, ...] = field(init=False, repr=False, compare=False)
     outside: frozenset[str] = field(init=False, repr=False, compare=False)
-    named: Phrase = field(init=False, repr=False, compare=False)
     is_two_lines: bool = field(init=False, repr=False, compare=False)
     is_slider_on_bar: bool = field(init=False, repr=False, compare=False)
+    named = cached_property(_named)
 
     def __post_init__(self) -> None:
         first, second, outer = self.first, self.second, (self.outer_first, self.outer_second)
@@ -254,7 +253,6 @@ class Dyad:
             bodies=(first, second), members=members, pairs=(outer[0], self.inner, outer[1]), outer=outer,
             joints=first.joints + second.joints, drivers=drivers, outside=frozenset(hung.difference(members)),
             is_two_lines=self.kind in ("PRP", "RPP"), is_slider_on_bar=self.kind == "RPR",
-            named=_named(self.links, members),
         )  # fmt: skip
 
 
@@ -297,7 +295,7 @@ class LargerGroup:
 
     kind: str = field(init=False, repr=False, compare=False)
     outside: frozenset[str] = field(init=False, repr=False, compare=False)
-    named: Phrase = field(init=False, repr=False, compare=False)
+    named = cached_property(_named)
 
     def __post_init__(self) -> None:
         names = {name for pair in self.pairs for name in pair.links}
@@ -305,8 +303,7 @@ class LargerGroup:
         names.update(name for relation in self.rolling for name in relation.links)
         self.__dict__.update(
             kind="group of " + ", ".join(self.links), outside=frozenset(names.difference(self.members)),
-            named=_named(self.links, self.members),
-        )  # fmt: skip
+        )
 
 
 Element = Driven | Dyad | LargerGroup
