@@ -15,9 +15,8 @@ from functools import singledispatch
 from typing import Literal
 
 from graphkin.construction.board.instruments import EXACT, Instrument
-from graphkin.construction.board.sheet import PARALLEL
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
+from graphkin.plane import cross, cross_arcs, cross_line_arc, direction, dot, unit
 from graphkin.scene.designs import (
     BarPositionsTask,
     CrankRockerTask,
@@ -152,10 +151,7 @@ class DesignSheet:
     def meet(self, what: str, p: complex, d: complex, q: complex, e: complex) -> complex:
         """The crossing of two lines, each through a point along a direction.  Raises Unsolvable where they are
         parallel."""
-        at = cross_lines(p, d, q, e)
-        if abs(cross(d, e)) < PARALLEL or at is None:
-            raise _not_drawn(what, "the lines that should find it are parallel", "other data")
-        return self.hand.point(at)
+        return self.hand.crossing(what, p, d, q, e, "not drawn", "other data")
 
     def cut(self, what: str, p: complex, d: complex, centre: complex, radius: float) -> tuple[complex, complex]:
         """The points where a line cuts a circle, the point farther along d first.  Raises Unsolvable where it does not

@@ -12,12 +12,16 @@ import random
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
+from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import cross, cross_lines
 from graphkin.scene.scene_tables import Tools
+from graphkin.words import Wording
 from graphkin.words.written import MOST, computed, figures, on_paper
 
 EXACT_NAME = "exact"  # of the instrument that errs nowhere
 LAST_PLACE = 0.01  # mm; of a length as it is written
 UNIFORM = math.sqrt(12)  # a value read to the nearest mark errs evenly within a mark: its width over sqrt(12)
+PARALLEL = 1e-12  # sine below which two lines have no crossing at all
 USUAL = Tools()
 ON_SCREEN = 0.01  # mm, degrees; what a drafting program shows
 
@@ -80,6 +84,26 @@ class Instrument:
             return at
         across = self.tools.line_width / 2
         return at + complex(self._error(across), self._error(across))
+
+    def crossing(
+        self, what: Wording, p: complex, d: complex, q: complex, e: complex, status: str = "dead point",
+        wanted: str = "move the driver off this position",
+    ) -> complex:  # fmt: skip
+        """Prick the place (mm) where two drawn lines meet, each through a point along a vector.
+
+        Parameters
+        ----------
+        what : the thing that is found there, as an error names it
+        status, wanted : of the error, and its remedy
+
+        Raises
+        ------
+        Unsolvable : ``status``: the lines are parallel and meet nowhere
+        """
+        at = cross_lines(p, d, q, e)
+        if at is None or abs(cross(d, e)) < PARALLEL * abs(d) * abs(e):
+            raise Unsolvable(status, Problem(what, "the two lines that should find it are", wanted))
+        return self.point(at)
 
     @property
     def reading_error(self) -> float:

@@ -33,8 +33,7 @@ from graphkin.construction.board.steps import (
     VectorStep,
 )
 from graphkin.construction.touching import Touching, outlines_on_paper
-from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import Pose, cross, cross_lines
+from graphkin.plane import Pose, cross
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene_tables import DIAGRAMS, Diagram
 from graphkin.scene.symbol import PointRef, Symbol
@@ -47,7 +46,6 @@ if TYPE_CHECKING:
     from graphkin.construction.forces.force_sheet import ForceState, Inertia
     from graphkin.construction.trains import TrainPlan
 
-PARALLEL = 1e-12  # sine below which two lines have no crossing at all
 REACH = 2000.0  # mm to either side: how far a construction line is drawn
 SHARP = math.sin(math.radians(15.0))
 SHORT = 3.0  # mm on paper; a direction drawn through two points nearer than this errs by a pencil's width in ten
@@ -586,12 +584,8 @@ class Board:
         Unsolvable : "dead point": the lines are parallel and meet nowhere
         """
         d, e = self.instrument.direction(d), self.instrument.direction(e)
-        sine = abs(cross(d, e))
-        at = cross_lines(p, d, q, e)
-        if sine < PARALLEL or at is None:
-            said = Phrase("the two lines that should find it are"), Phrase("move the driver off this position")
-            raise Unsolvable("dead point", Problem(str(what), *said))
+        at = self.instrument.crossing(str(what), p, d, q, e)
         finds = what if isinstance(what, Symbol) else Symbol("v", PointRef(what))
-        self.notice(diagram, "sharp crossing", what, size=sine, finds=finds)
+        self.notice(diagram, "sharp crossing", what, size=abs(cross(d, e)), finds=finds)
         self.notice(diagram, "off the sheet", what, size=max(abs(at - p), abs(at - q)))
-        return self.instrument.point(at)
+        return at

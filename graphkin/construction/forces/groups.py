@@ -20,13 +20,12 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from graphkin.construction.board.instruments import Instrument
-from graphkin.construction.board.sheet import PARALLEL
+from graphkin.construction.board.instruments import PARALLEL, Instrument
 from graphkin.construction.board.steps import NO_DIRECTION, Direction, Part
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceVector, MomentEquation, MomentTerm, shifted_line
 from graphkin.construction.forces.position import DrawnPosition
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import added_up, cross, cross_lines, dot, unit
+from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Driven, DrivenJoint, Dyad, LargerGroup, Pair
 from graphkin.words import links_named
@@ -38,7 +37,7 @@ SINGULAR = 1e-13
 
 
 def _dead_point(links: Sequence[str]) -> Unsolvable:
-    """The error for parallel lines that should close a polygon."""
+    """The error for moments without an arm, and for a system of forces, that tell nothing."""
     return Unsolvable("dead point", Problem(links_named(links),
                                             "the balance does no work in this position or",
                                             "move the driver off this position"))
@@ -210,7 +209,7 @@ class CutFree:
         """Lay off the known forces on some links."""
         self.lay(chain, *(load for load in self.on(links) if load.force))
 
-    def close(self, links: Sequence[str], chain: Chain, last: ForceVector, first: ForceVector | None = None) -> None:
+    def close(self, chain: Chain, last: ForceVector, first: ForceVector | None = None) -> None:
         """Close a polygon: by one force, or by two of known directions, the one before its first vector and the other
         behind its last.
 
@@ -221,10 +220,7 @@ class CutFree:
         end, corner = _end_of(chain), chain[0].tail if chain else 0j
         if first is not None:
             d, e = self.hand.direction(last.force), self.hand.direction(first.force)
-            met = cross_lines(end, d, corner, e) if abs(cross(d, e)) >= PARALLEL else None
-            if met is None:
-                raise _dead_point(links)
-            start, corner = corner, self.hand.point(met)
+            start, corner = corner, self.hand.crossing(str(last.symbol), end, d, corner, e)
             chain.insert(0, first.between(start - _gap(chain, corner, start), start))
             corner = chain[0].tail
         chain.append(last.between(end, end + _gap(chain, end, corner)))
@@ -303,7 +299,7 @@ def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, ForceVector]) -> Fo
     cut.lay_known(chain, dyad.first.links)
     cut.lay_known(chain, dyad.second.links)
     cut.lay(chain, *second)
-    cut.close(dyad.links, chain, tail, head)
+    cut.close(chain, tail, head)
     outer = cut.drawn_in(chain, at_first), cut.drawn_in(chain, at_second)
     for pair, force in zip(pairs, outer, strict=True):
         if pair.turns:
@@ -399,7 +395,7 @@ def _inner_force(
     else:
         square = 1j * cut.drawn.along(pair)
         on_first = replace(cut.at_pair(pair, links), force=square * dot(force, square))
-    cut.close(links, chain, on_first)
+    cut.close(chain, on_first)
     group.inner[on_first.link] = chain
     if pair.turns:
         return on_first, []
@@ -428,7 +424,7 @@ def _close_driven(
     """
     links = (on.link,)
     if pair.turns:
-        cut.close(links, chain, on)
+        cut.close(chain, on)
         on = cut.drawn_in(chain, on)
         if not push.moment:
             return [on, push]
@@ -438,7 +434,7 @@ def _close_driven(
     on = replace(on, force=1j * cut.drawn.along(pair), direction=_across(pair))
     aside = abs(cross(push.force, cut.drawn.along(pair))) > PARALLEL  # as the scene says
     push = replace(push, by="closing", direction=NO_DIRECTION if aside else _along(pair))
-    cut.close(links, chain, on, push)
+    cut.close(chain, on, push)
     on, push = cut.drawn_in(chain, on), cut.drawn_in(chain, push)
     return [on, push, _slide_found(cut, group, links, pair, on, on.at, _foot_name(pair), (*more, on, push), inside)]
 
