@@ -26,7 +26,7 @@ from graphkin.construction.board.steps import PARTS, Order, Term
 from graphkin.errors import GraphkinError
 from graphkin.plane import added_up, unit
 from graphkin.scene.model import LinkMass, Loading, LoadOn, Mechanism, PlacedLink
-from graphkin.scene.pairs import PlacedGear
+from graphkin.scene.pairs import HigherPair, PlacedGear
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.solver import Motion, solve
 from graphkin.solver.forces import forces_of
@@ -565,22 +565,23 @@ def _gear_slips(motion: Motion) -> Iterator[Alteration]:
         return
     scene, each = _standing_here(motion), 1.0 / len(motion.scene.gears)
 
-    def slip(key: str, gear: PlacedGear, share: float, gears: Iterable[PlacedGear]) -> Alteration:
-        return Phrase(key, name=gear.name), share * each, partial(_motions, replace(scene, gears=tuple(gears)))
+    def slip(key: str, gear: PlacedGear, share: float, instead: Mapping[HigherPair, PlacedGear]) -> Alteration:
+        pairs = tuple(instead.get(pair, pair) for pair in scene.higher_pairs)
+        return Phrase(key, name=gear.name), share * each, partial(_motions, replace(scene, higher_pairs=pairs))
 
     for gear in scene.gears:
         one, two = gear.teeth
         if two is not None:
             turned = replace(gear, teeth=(math.copysign(two, one), math.copysign(one, two)))
             outside = replace(gear, teeth=(one, -two))
-            yield slip("slip teeth exchanged", gear, 0.08, _instead(scene.gears, gear, turned))
-            yield slip("slip teeth sense", gear, 0.1, _instead(scene.gears, gear, outside))
+            yield slip("slip teeth exchanged", gear, 0.08, {gear: turned})
+            yield slip("slip teeth sense", gear, 0.1, {gear: outside})
         if scene.frame.name not in (gear.carrier, *gear.wheels):
             standing = replace(gear, carrier=scene.frame.name)
-            yield slip("slip carrier", gear, 0.1, _instead(scene.gears, gear, standing))
+            yield slip("slip carrier", gear, 0.1, {gear: standing})
         if two is not None and len(scene.gears) > 1:  # of the wheels themselves, where they mesh with others too
             swapped = {(gear.wheels[0], abs(one)): abs(two), (gear.wheels[1], abs(two)): abs(one)}
-            yield slip("slip teeth exchanged", gear, 0.08, (_with(g, swapped) for g in scene.gears))
+            yield slip("slip teeth exchanged", gear, 0.08, {g: _with(g, swapped) for g in scene.gears})
 
 
 def _motions(scene: Mechanism) -> Values:

@@ -184,9 +184,8 @@ class Centres:
 
     def point(self, name: str) -> complex:
         """A pin or a point of any link, or the point of a contact, on paper (mm)."""
-        contact = next((c for c in self.scene.contacts if c.name == name), None)
-        if contact is not None:
-            return self.touching.of(contact).at
+        if name in self.scene.contact_at:
+            return self.touching.of(self.scene.contact_at[name]).at
         holder = next(n for n in self.scene.holders[name] if n in self.poses)
         return self.touching.place(holder, name)
 
@@ -278,7 +277,7 @@ def find_centres(
     moving = _moving(scene)
     if sheet is None or moving is not scene or not set(sheet.structure.links) <= set(sheet.poses):
         sheet = draft(of if moving is scene else moving, at, (), instrument, near=None if near is None else near.sheet)
-    if scene.driving_cams:
+    if any(pair.by_law for pair in scene.acting):
         scene = sheet.scene  # with the pins on pitch curves and faces, which have normals
     return _with_table(_placed(scene, sheet), instrument)
 

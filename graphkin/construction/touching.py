@@ -13,12 +13,12 @@ from cmath import phase
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 from graphkin.plane import Pose, dot, unit
 from graphkin.scene.laws import TURN, Lift
 from graphkin.scene.model import Mechanism
-from graphkin.scene.pairs import LawCam, PlacedContact, PlacedGear, SlidingFollower
+from graphkin.scene.pairs import HigherPair, LawCam, Meeting, PlacedContact, PlacedGear, SlidingFollower
 
 POINTS = 180
 """Stations of a turn, those at the seams besides them."""
@@ -34,7 +34,7 @@ class Touch:
     links: tuple[str, str]
     at: complex
     normal: complex
-    means: Literal["slides", "rolls", "meshes"]
+    means: Meeting
     centres: Mapping[str, tuple[str, complex]] = field(default_factory=dict)
 
     def curvatures(self, links: Sequence[str], mm: float) -> list[float]:
@@ -50,7 +50,7 @@ class Touch:
 
 @dataclass(frozen=True)
 class Touching:
-    """The contacts and gears of links placed on paper; ``mm`` of paper for one m."""
+    """The higher pairs of links placed on paper; ``mm`` of paper for one m."""
 
     scene: Mechanism
     mm: float
@@ -60,24 +60,31 @@ class Touching:
         """A point of a link on paper (mm)."""
         return self.poses[link].place(self.scene.by_name[link].points[point] * self.mm)
 
-    def of(self, pair: PlacedContact | PlacedGear) -> Touch:
-        """The place of a contact, with its normal out of the face, or from the first centre to the second; or the pitch
-        point of a gear, with the line of centres as its normal, for a rack the normal of its pitch line."""
-        if isinstance(pair, PlacedContact):
-            means: Literal["slides", "rolls", "meshes"] = "slides"
-            if pair.rolling:
-                means = "meshes" if pair.carrier else "rolls"
-            centres = {link: (centre, self.place(link, centre))
-                       for link, centre in zip(pair.round_links, pair.centres, strict=True)}  # fmt: skip
-            first, *second = (place for _, place in centres.values())
-            if pair.flat:
-                guide = self.scene.by_name[pair.face].guides[pair.guide]
-                normal = self.poses[pair.face].axis * guide.direction * pair.normal_to_face
-                at = first - normal * pair.radii[0] * self.mm
-                return Touch(pair.name, pair.links, at, normal, means, centres)
-            line = second[0] - first
-            at = first + line * (pair.radii[0] / pair.apart)
-            return Touch(pair.name, pair.links, at, line / abs(line), means, centres)
+    def of(self, pair: HigherPair) -> Touch:
+        """The place of a contact, with its normal out of the face, or from the first centre to the second; the pitch
+        point of a gear, with the line of centres as its normal, for a rack the normal of its pitch line; or the place
+        of a cam, with its normal to the follower."""
+        if isinstance(pair, LawCam):
+            pose = self.poses[pair.link]
+            here = station(pair, pair.sense * phase(pose.axis))
+            at, normal = pose.origin + pose.axis * here.contact * self.mm, pose.axis * here.normal
+            return Touch("K", pair.bodies, at, normal, pair.means)
+        return self._contact(pair) if isinstance(pair, PlacedContact) else self._mesh(pair)
+
+    def _contact(self, pair: PlacedContact) -> Touch:
+        centres = {link: (centre, self.place(link, centre))
+                   for link, centre in zip(pair.round_links, pair.centres, strict=True)}  # fmt: skip
+        first, *second = (place for _, place in centres.values())
+        if pair.flat:
+            guide = self.scene.by_name[pair.face].guides[pair.guide]
+            normal = self.poses[pair.face].axis * guide.direction * pair.normal_to_face
+            at = first - normal * pair.radii[0] * self.mm
+            return Touch(pair.name, pair.links, at, normal, pair.means, centres)
+        line = second[0] - first
+        at = first + line * (pair.radii[0] / pair.apart)
+        return Touch(pair.name, pair.links, at, line / abs(line), pair.means, centres)
+
+    def _mesh(self, pair: PlacedGear) -> Touch:
         axes = zip(pair.wheels, pair.axes, strict=True)
         centres = {wheel: (letter, self.place(pair.carrier, letter)) for wheel, letter in axes if letter}
         wheel, other = pair.wheels
@@ -86,45 +93,42 @@ class Touching:
             rack, pose = self.scene.by_name[other].guides[pair.guide], self.poses[other]
             along, start = pose.axis * rack.direction, pose.place(rack.through * self.mm)
             at = start + along * dot(axis - start, along)
-            return Touch(pair.name, pair.wheels, at, 1j * along, "meshes", centres)
+            return Touch(pair.name, pair.wheels, at, 1j * along, pair.means, centres)
         line = centres[other][1] - axis
         held = self.scene.by_name[pair.carrier].points
         normal = self.poses[pair.carrier].axis * (held[pair.axes[1]] - held[pair.axes[0]])
         share = pair.teeth[0] / (pair.teeth[0] + teeth)
-        return Touch(pair.name, pair.wheels, axis + line * share, normal / abs(normal), "meshes", centres)
+        return Touch(pair.name, pair.wheels, axis + line * share, normal / abs(normal), pair.means, centres)
+
+    def each(self) -> Iterator[tuple[HigherPair, Touch]]:
+        """The higher pairs with all members on paper."""
+        return ((p, self.of(p)) for p in self.scene.higher_pairs if self.poses.keys() >= {*p.members})
 
     def contacts(self) -> Iterator[tuple[PlacedContact, Touch]]:
-        """The contacts with both links on paper."""
-        return ((c, self.of(c)) for c in self.scene.contacts if self.poses.keys() >= {*c.links})
+        """The contacts of outlines among them."""
+        return ((pair, touch) for pair, touch in self.each() if isinstance(pair, PlacedContact))
 
     def gears(self) -> Iterator[tuple[PlacedGear, Touch]]:
-        """The gears with wheels and carrier on paper."""
-        return ((g, self.of(g)) for g in self.scene.gears if self.poses.keys() >= {*g.wheels, g.carrier})
+        """The gears among them."""
+        return ((pair, touch) for pair, touch in self.each() if isinstance(pair, PlacedGear))
 
     def touches(self) -> Iterator[Touch]:
-        """All higher pairs: contacts, wheels, cams with their followers."""
-        contacts = [touch for _, touch in self.contacts()]
-        yield from contacts
-        taken = {*self.scene.holders, *(contact.name for contact in self.scene.contacts)}
-        for _, touch in self.gears():
-            yield replace(touch, name=_free(touch.name, taken))
-        for cam in self.scene.cams:
-            both = {cam.link, cam.follower}
-            if self.poses.keys() >= both and all(both != {*touch.links} for touch in contacts):
-                pose = self.poses[cam.link]
-                here = station(cam, cam.sense * phase(pose.axis))
-                at, normal = pose.origin + pose.axis * here.contact * self.mm, pose.axis * here.normal
-                yield Touch(_free("K", taken), (cam.link, cam.follower), at, normal, "slides")
+        """All of them, each with a letter of its own; a cam that a contact replaces is that contact."""
+        between = {frozenset(contact.links) for contact, _ in self.contacts()}
+        taken = {*self.scene.holders, *self.scene.contact_at}
+        for pair, touch in self.each():
+            if isinstance(pair, PlacedContact):
+                yield touch
+            elif not (pair.by_law and frozenset(pair.bodies) in between):
+                yield replace(touch, name=_free(touch.name, taken))
 
     def rolling(self) -> Iterator[Touch]:
         """The points of rolling, by the name of the contact or the gear."""
-        yield from (touch for contact, touch in self.contacts() if contact.rolling)
-        yield from (touch for _, touch in self.gears())
+        return (touch for pair, touch in self.each() if pair.rolling)
 
     def named(self, name: str) -> Touch:
         """The place of a contact, or of a mesh."""
-        pairs: tuple[PlacedContact | PlacedGear, ...] = (*self.scene.contacts, *self.scene.gears)
-        return next(self.of(pair) for pair in pairs if pair.name == name)
+        return next(self.of(pair) for pair in self.scene.higher_pairs if pair.letter == name)
 
     def pitch_circles(self) -> Iterator[tuple[str, complex, float]]:
         """Wheels with the centre and the radius (mm, negative for internal teeth) of each pitch circle."""

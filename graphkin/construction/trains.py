@@ -414,9 +414,7 @@ def rolled(
     """
     scene, links, (kind, name) = structure.scene, structure.links, wanted
     alike = structure.turning_with(name) if kind == "angle" else {name}
-    touching = [c for c in scene.contacts if {*c.links} <= links.keys()]
-    meshes = meshes_of(scene, touching, [g for g in scene.gears if {*g.wheels, g.carrier} <= links.keys()], links)
-    for train in trains(meshes, scene.frame.name):
+    for train in trains(meshes_of(scene, structure.touching, links), scene.frame.name):
         on = centre_lines(train, links, scene.frame.name)
         slides = [mesh.slide for mesh in train if mesh.slide]
         members = {n for line in on for n in line.links} if kind == "angle" else slides

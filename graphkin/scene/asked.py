@@ -86,7 +86,7 @@ def spelling_of(scene: Mechanism | Reading) -> Spelling:
     """The reader of a scene's quantities by names as people write them."""
     from graphkin.scene.spelling import Spelling
 
-    owners: dict[str, frozenset[str]] = dict.fromkeys(scene.contact_names, frozenset())
+    owners: dict[str, frozenset[str]] = dict.fromkeys(scene.contact_at, frozenset())
     for link, names in scene.points.items():
         for name in names:
             owners[name] = owners.get(name, frozenset()) | {link}

@@ -124,7 +124,7 @@ class Reading:
         return names
 
     @cached_property
-    def contact_names(self) -> frozenset[str]:
+    def contact_at(self) -> frozenset[str]:
         """The names of the points of contact."""
         return frozenset(self.file.contacts) | self.lost_names("contacts")
 
@@ -180,7 +180,7 @@ class Reading:
 
     def no_point(self, where: str, point: str) -> Problem | None:
         """The problem of a point that no link has."""
-        everywhere = {p for points in self.points.values() for p in points} | self.contact_names
+        everywhere = {p for points in self.points.values() for p in points} | self.contact_at
         if point in everywhere or "" in self.unsure:
             return None
         return Problem(where, "no link has a point", did_you_mean(point, everywhere), point=point)

@@ -338,7 +338,8 @@ class Mechanism:
     ``instead_of`` is the mechanism with cams that this one replaces: both have the same velocities and accelerations at
     this position.  ``starts`` give the start of rolling motions at the scene's own position: the angle of a link's own
     axis (rad), or the travel (m) of a sliding pair or of a contact by its block.
-    ``driving_cams`` move their followers by their law: none where links that replace them do.
+    ``higher_pairs`` are the ``contacts``, ``gears`` and ``cams``; those ``acting`` hold links: not the cams that links
+    replace.
     ``by_name`` has every link, the frame included; ``order`` the place of each in the file, the frame last; ``holders``
     for each point the links that have it, the frame first; ``size`` (m) is the largest distance given in the file.
     """
@@ -352,16 +353,18 @@ class Mechanism:
     sketch: Mapping[str, complex] = field(default_factory=dict)
     drawn: Mapping[str, complex] = field(default_factory=dict)
     loading: Loading = field(default_factory=Loading)
-    cams: tuple[LawCam, ...] = ()
+    higher_pairs: tuple[HigherPair, ...] = ()
     instead_of: Mechanism | None = None
-    contacts: tuple[PlacedContact, ...] = ()
-    gears: tuple[PlacedGear, ...] = ()
     starts: Mapping[str, float] = field(default_factory=dict)
     slots: tuple[CircularSlot, ...] = ()
     question: Question = field(default_factory=Question)
     slidings: tuple[SlidingPair, ...] = field(init=False, repr=False, compare=False)
     pins: tuple[SlidingPair, ...] = field(init=False, repr=False, compare=False)
-    driving_cams: tuple[LawCam, ...] = field(init=False, repr=False, compare=False)
+    contacts: tuple[PlacedContact, ...] = field(init=False, repr=False, compare=False)
+    gears: tuple[PlacedGear, ...] = field(init=False, repr=False, compare=False)
+    cams: tuple[LawCam, ...] = field(init=False, repr=False, compare=False)
+    acting: tuple[HigherPair, ...] = field(init=False, repr=False, compare=False)
+    contact_at: Mapping[str, PlacedContact] = field(init=False, repr=False, compare=False)
     by_name: Mapping[str, PlacedLink] = field(init=False, repr=False, compare=False)
     order: Mapping[str, int] = field(init=False, repr=False, compare=False)
     holders: Mapping[str, tuple[str, ...]] = field(init=False, repr=False, compare=False)
@@ -380,25 +383,18 @@ class Mechanism:
         """The bars that replace pins in circular slots, or cams at one position, with the path of each."""
         return {slot.bar: slot for slot in self.slots if not slot.block}
 
-    @property
-    def higher_pairs(self) -> tuple[HigherPair, ...]:
-        """The pairs of links that touch."""
-        return *self.contacts, *self.gears, *self.cams
+    def acting_between(self, links: Collection[str]) -> list[HigherPair]:
+        """The acting higher pairs all of whose members are among some links."""
+        return [pair for pair in self.acting if {*pair.members} <= {*links}]
 
     def keeping(self, kept: Callable[[HigherPair], object]) -> Mechanism:
         """This mechanism without the higher pairs that are not kept."""
-        pairs: dict[str, Any] = {part: tuple(filter(kept, getattr(self, part))) for part in _TOUCHING}
-        return replace(self, **pairs)
+        return replace(self, higher_pairs=tuple(filter(kept, self.higher_pairs)))
 
     @property
     def points(self) -> Mapping[str, tuple[str, ...]]:
         """The names of the points of each link, the frame's first."""
         return {link.name: tuple(link.points) for link in (self.frame, *self.links)}
-
-    @property
-    def contact_names(self) -> tuple[str, ...]:
-        """The names of the points of contact."""
-        return tuple(contact.name for contact in self.contacts)
 
     def no_link(self, where: str, name: str) -> Problem | None:
         """The problem of a link that does not exist, None if it does."""
@@ -408,7 +404,7 @@ class Mechanism:
 
     def no_point(self, where: str, name: str) -> Problem | None:
         """The problem of a point that no link has and in which nothing touches, None if there is one."""
-        known = (*self.holders, *self.contact_names)
+        known = (*self.holders, *self.contact_at)
         return None if name in known else Problem(where, "there is no point", did_you_mean(name, known), name=name)
 
     def no_position(self, where: str, name: str) -> Problem | None:
@@ -430,8 +426,13 @@ class Mechanism:
         for link in each:
             for point in link.points:
                 holders.setdefault(point, []).append(link.name)
+        contacts, gears, cams = (
+            tuple(pair for pair in self.higher_pairs if isinstance(pair, kind))
+            for kind in (PlacedContact, PlacedGear, LawCam)
+        )
         self.__dict__.update(
-            driving_cams=self.cams if self.instead_of is None else (),
+            contacts=contacts, gears=gears, cams=cams, contact_at={contact.name: contact for contact in contacts},
+            acting=tuple(p for p in self.higher_pairs if self.instead_of is None or not p.by_law),
             slidings=tuple(pair for pair in self.slides if not pair.of), pins=tuple(p for p in self.slides if p.of),
             by_name={link.name: link for link in each},
             order={link.name: i for i, link in enumerate((*self.links, self.frame))},
@@ -445,8 +446,7 @@ class Mechanism:
         spans += [abs(a - b) for i, a in enumerate(fixed) for b in fixed[:i]]
         spans += [abs(z - w) for z in self.drawn.values() for w in fixed]
         spans += [abs(d.value) for d in self.drivers if not d.turns]
-        spans += [cam.base for cam in self.cams]
-        spans += [abs(radius) for c in self.contacts for radius in c.radii]
+        spans += [length for pair in self.higher_pairs for length in pair.lengths]
         return max(spans, default=0.0) or self.units.metres
 
 
@@ -496,9 +496,7 @@ def with_dimensions(mechanism: Mechanism, changed: Mapping[Dimension, complex]) 
     )  # fmt: skip
 
 
-_TOUCHING = "contacts", "gears", "cams"
-"""The parts of a mechanism with its higher pairs."""
-_MOVING = ("frame", "links", "slides", "drivers", *_TOUCHING, "starts", "slots")
+_MOVING = "frame", "links", "slides", "drivers", "higher_pairs", "starts", "slots"
 """The parts of a mechanism on which its motion depends."""
 
 
@@ -506,8 +504,11 @@ def changed_beside(before: Mechanism, after: Mechanism) -> tuple[str, ...]:
     """The parts that move differently in two mechanisms for another reason than these numbers: the place of a cam, the
     radius of a disc, teeth."""
     numbers = dimensions(before)
-    alike = [with_dimensions(mechanism, numbers) for mechanism in (before, after)]
-    return tuple(part for part in _MOVING if getattr(alike[0], part) != getattr(alike[1], part))
+    one, other = (with_dimensions(mechanism, numbers) for mechanism in (before, after))
+    changed = [part for part in _MOVING if getattr(one, part) != getattr(other, part)]
+    touching = {pair.table: None for pair in (*one.higher_pairs, *other.higher_pairs)
+                if (pair in one.higher_pairs) != (pair in other.higher_pairs)}  # fmt: skip
+    return tuple(name for part in changed for name in (touching if part == "higher_pairs" else (part,)))
 
 
 def same_but_for_dimensions(before: Mechanism, after: Mechanism) -> bool:
@@ -522,21 +523,23 @@ def same_but_for_dimensions(before: Mechanism, after: Mechanism) -> bool:
 @dataclass(frozen=True)
 class ForceJoint:
     """A joint, with a force of link ``first`` on link ``second``: a turning pair or a pin in a slot at ``point``, a
-    sliding pair (``point`` is the sliding link's first point, or empty), a cam (``first``) with its follower, or a
-    contact or gear ``point``.  ``second`` slides, or has the pin.
+    sliding pair (``point`` is the sliding link's first point, or empty), or a higher pair (``point`` is its letter).
+    ``second`` slides, has the pin, or is the second body.
 
+    pair : the higher pair
     slide : the key of a sliding pair or a pin in a slot, "" of others
     couple : whether a couple goes through it too
     several : whether the two share further joints
     """
 
-    kind: Literal["turning", "sliding", "cam", "contact", "rolling", "gear"]
+    kind: Literal["turning", "sliding", "touching"]
     first: str
     second: str
     point: str
     slide: str = ""
     couple: bool = False
     several: bool = False
+    pair: HigherPair | None = None
 
     def symbol(self, kind: Literal["F", "M"]) -> Symbol:
         """The force or the couple that goes through it, ``F_5/6``, or ``F_5/6@C`` where the two share several."""
@@ -569,13 +572,7 @@ def joints(mechanism: Mechanism) -> tuple[ForceJoint, ...]:
         pairs += [ForceJoint("turning", hosts.get(name, first), name, point) for name in at_point if name != first]
     pairs += [ForceJoint("sliding", s.on, s.of or s.link, s.point, s.key, not s.of)
               for s in mechanism.slides if {s.on, s.of or s.link} <= here]
-    pairs += [ForceJoint("cam", c.link, c.follower, "") for c in mechanism.driving_cams if {c.link, c.follower} <= here]
-    for contact in mechanism.contacts:
-        if set(contact.links) <= here:
-            # where another link holds the centres apart only the force along the tangent is the contact's
-            kind = "contact" if not contact.rolling else "gear" if contact.carrier else "rolling"
-            pairs.append(ForceJoint(kind, *contact.links, contact.name))  # type: ignore[arg-type]
-    pairs += [ForceJoint("gear", *g.wheels, g.name) for g in mechanism.gears if {*g.wheels, g.carrier} <= here]
+    pairs += [ForceJoint("touching", *pair.bodies, pair.letter, pair=pair) for pair in mechanism.acting_between(here)]
     shared = Counter(frozenset((joint.first, joint.second)) for joint in pairs)
     several = (shared[frozenset((joint.first, joint.second))] > 1 and joint.point != "" for joint in pairs)
     return tuple(replace(joint, several=more) for joint, more in zip(pairs, several, strict=True))

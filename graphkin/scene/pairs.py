@@ -13,15 +13,19 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import ClassVar, NamedTuple, TypeAlias
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import ClassVar, Literal, NamedTuple, TypeAlias
 
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import Values
+from graphkin.plane import Values, cross
 from graphkin.scene.laws import FollowerLaw, Lift
 from graphkin.scene.tables import Units
 from graphkin.words import Phrase, gaps_of, has_words
+
+Meeting = Literal["slides", "rolls", "meshes"]
+"""Two bodies that touch slide on each other, and the force is along the common normal; or roll, with a force of any
+direction; or mesh, their centres held apart by another link, with a force along the tangent of the pitch circles."""
 
 # -- sliding pairs, slots, what touches --------------------------------------------------------------------------------
 
@@ -39,6 +43,12 @@ class PlacedGuide:
     through: complex
     direction: complex
     curvature: float = 0.0
+
+
+Points: TypeAlias = Mapping[str, Mapping[str, complex]]
+"""The points of each link, in its own axes (m)."""
+Guides: TypeAlias = Mapping[str, Mapping[str, PlacedGuide]]
+"""The guides of each link, in its own axes (m)."""
 
 
 @dataclass(frozen=True)
@@ -114,6 +124,8 @@ class PlacedContact:
     rolling: bool
     carrier: str = ""
     again: bool = False
+    table: ClassVar[str] = "contacts"
+    by_law: ClassVar[bool] = False
 
     @property
     def flat(self) -> bool:
@@ -153,9 +165,50 @@ class PlacedContact:
         return not self.rolling
 
     @property
+    def bodies(self) -> tuple[str, str]:
+        """The two links that touch."""
+        return self.links
+
+    @property
     def members(self) -> tuple[str, ...]:
         """The links without which it is none: the two that touch, and the carrier."""
         return (*self.links, *((self.carrier,) if self.carrier else ()))
+
+    @property
+    def letter(self) -> str:
+        """The letter of its point."""
+        return self.name
+
+    @property
+    def key(self) -> str:
+        """Its name among joints."""
+        return self.name
+
+    @property
+    def means(self) -> Meeting:
+        """Whether its bodies slide, roll or mesh."""
+        return "slides" if not self.rolling else "meshes" if self.carrier else "rolls"
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """Its lengths in the file (m)."""
+        return tuple(map(abs, self.radii))
+
+    @property
+    def unrolled(self) -> PlacedContact | None:
+        """The contact with sliding in place of rolling, None where a link holds the centres apart."""
+        return None if self.carrier else replace(self, rolling=False)
+
+    def mesh(self, slidings: Sequence[SlidingPair], points: Points, guides: Guides) -> PlacedGear | None:
+        """Rolling as a mesh of the bodies, as `PlacedGear.mesh`; None where they slide."""
+        if not self.rolling:
+            return None
+        if self.flat:
+            (centre,), (radius,) = self.centres, self.radii
+            wheels, height = (self.round_links[0], self.face), -radius if self.left else radius
+            return PlacedGear(self.name, wheels, (height, None), self.block, (centre, ""), slide=self.block, sense=-1)
+        (first, second), (radius, other) = self.centres, self.radii
+        return PlacedGear(self.name, self.links, (radius, other), self.carrier or self.block, (first, second))
 
     @property
     def kinds(self) -> tuple[str, ...]:
@@ -192,8 +245,14 @@ class PlacedGear:
     guide: str = ""
     slide: str = ""
     sense: int = 1
+    table: ClassVar[str] = "gears"
+    by_law: ClassVar[bool] = False
+    rolling: ClassVar[bool] = True
+    means: ClassVar[Meeting] = "meshes"
     replaced: ClassVar[bool] = False  # by links and lower pairs
     block: ClassVar[str] = ""  # no link replaces it
+    lengths: ClassVar[tuple[float, ...]] = ()
+    unrolled: ClassVar[None] = None
 
     @property
     def is_rack(self) -> bool:
@@ -205,9 +264,53 @@ class PlacedGear:
         return tuple(dict.fromkeys((*self.wheels, self.carrier)))
 
     @property
+    def bodies(self) -> tuple[str, str]:
+        """The two wheels, or the wheel and the rack."""
+        return self.wheels
+
+    @property
     def members(self) -> tuple[str, ...]:
         """The links without which it is none."""
         return self.links
+
+    @property
+    def letter(self) -> str:
+        """The name of its pitch point."""
+        return self.name
+
+    @property
+    def key(self) -> str:
+        """Its name among joints."""
+        return self.name
+
+    def mesh(self, slidings: Sequence[SlidingPair], points: Points, guides: Guides) -> PlacedGear:
+        """The mesh of wheels; of a rack with the signed distance (m) of its line from the wheel's axis as the first of
+        the ``teeth``, positive to the left of the guide of ``slide``.
+
+        Parameters
+        ----------
+        slidings : the sliding pairs of its mechanism
+        points, guides : of each link, in its own axes (m)
+        """
+        return replace(self, teeth=(self.rack_place(slidings, points, guides)[0], None)) if self.is_rack else self
+
+    def rack_place(
+        self, slidings: Sequence[SlidingPair], points: Points, guides: Guides
+    ) -> tuple[float, float, float]:
+        """The distance of a rack's pitch line to the left of the wheel's axis, seen along the guide of its slide (m);
+        the sine of its angle with the guide; and a length to compare with (m)."""
+        pair = next(s for s in slidings if s.key == self.slide)
+        rail = guides[pair.on][pair.guide]
+
+        def seen(link: str, z: complex) -> complex:
+            # in the axes of the guide, but for the travel along it
+            return z * pair.turn if link == pair.link else (z - rail.through) / rail.direction
+
+        rack, line = self.wheels[1], guides[self.wheels[1]][self.guide]
+        axis = seen(self.carrier, points[self.carrier][self.axes[0]])
+        at = seen(rack, line.through)
+        along = seen(rack, line.through + line.direction) - at
+        return (at - axis).imag, cross(1 + 0j, along), abs(axis) + abs(at)
 
     @property
     def kinds(self) -> tuple[str, ...]:
@@ -307,6 +410,13 @@ class LawCam:
     flat: bool
     motion: SlidingFollower | SwingingFollower
     allowed: tuple[float | None, float | None] = (None, None)
+    table: ClassVar[str] = "cams"
+    unrolled: ClassVar[None] = None
+    by_law: ClassVar[bool] = True
+    rolling: ClassVar[bool] = False
+    means: ClassVar[Meeting] = "slides"
+    letter: ClassVar[str] = ""
+    carrier: ClassVar[str] = ""
     # asked of whatever moves a link: it neither rolls, nor does the scene give its value
     rolls: ClassVar[bool] = False
     given: ClassVar[bool] = False
@@ -315,14 +425,29 @@ class LawCam:
     block: ClassVar[str] = ""
 
     @property
+    def name(self) -> str:
+        """Its name in the file, that of the cam's link."""
+        return self.link
+
+    @property
     def key(self) -> str:
         """The key by which it is distinguished from drivers."""
         return f"cam {self.link}"
 
     @property
+    def bodies(self) -> tuple[str, str]:
+        """The cam and its follower."""
+        return self.link, self.follower
+
+    @property
     def members(self) -> tuple[str, ...]:
         """The links without which it is none: the cam and its follower."""
-        return self.link, self.follower
+        return self.bodies
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """Its lengths in the file (m)."""
+        return (self.base,)
 
     @property
     def kinds(self) -> tuple[str, ...]:
@@ -334,6 +459,9 @@ class LawCam:
         """The names in its sentences, the kind of follower, and the number of pieces of its law."""
         kind = Phrase("cam flat" if self.flat else "cam roller" if self.roller else "cam edge")
         return {"cam": self.link, "follower": self.follower, "kind": kind, "pieces": str(len(self.law.pieces))}
+
+    def mesh(self, slidings: Sequence[SlidingPair], points: Points, guides: Guides) -> None:
+        """No mesh: its follower slides on it."""
 
     @property
     def turns(self) -> bool:
@@ -429,7 +557,11 @@ class LawCam:
 
 
 HigherPair: TypeAlias = PlacedContact | PlacedGear | LawCam
-"""Two links that touch: all have a name, the links that they need, and words."""
+"""Two links that touch.  Every kind has a ``name`` in its ``table`` of the file, a ``key`` among joints, the ``letter``
+of its point, two ``bodies`` and with them all its ``members``.  It ``means`` that they slide, roll or mesh, ``rolling``
+perhaps with their centres held apart by a ``carrier``; or moves its follower ``by_law``.  A ``block`` stands for a pair
+that is ``replaced``, a sliding one for a pair that is ``unrolled``, a ``mesh`` for all that rolls.  ``lengths`` (m) are
+those in the file, ``kinds`` and ``gaps`` its words."""
 
 
 def told(pair: HigherPair, about: str) -> Phrase:

@@ -314,7 +314,7 @@ def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[Sce
         name=folder, frame=bodies[0], links=tuple(bodies[1:]), slides=reading.slides, drivers=tuple(drivers),
         units=file.units,
         sketch={p: complex(*place) * reading.metres for p, place in file.sketch.items()}, drawn=position.drawn,
-        loading=loading, cams=cams, contacts=contacts, gears=gears,
+        loading=loading, higher_pairs=(*contacts, *gears, *cams),
         starts=places.starts_of(position, contacts) if contacts or gears else {}, slots=reading.slots,
         question=question,
     )  # fmt: skip
@@ -373,7 +373,7 @@ def _link(scene: Mechanism, link: PlacedLink, table: Link) -> Link:
     """The table of a link with all its places in its own axes; of a rolling link with its start."""
     pairs = [pair for pair in scene.slidings if pair.link == link.name]
     start, angle_on = table.start, table.angle_on
-    if scene.gears or any(contact.rolling for contact in scene.contacts):
+    if any(pair.rolling for pair in scene.higher_pairs):
         begun = scene.starts.get(pairs[0].key if pairs else link.name)
         start = None if begun is None else tidy(scene.units.of("length" if pairs else "angle").of(begun))
     if angle_on is None and len(pairs) == 1 and pairs[0].turn != 1.0:  # as it was drawn

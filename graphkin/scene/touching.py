@@ -18,7 +18,6 @@ from graphkin.scene.pairs import (
     PlacedGear,
     PlacedGuide,
     SlidingFollower,
-    SlidingPair,
     SwingingFollower,
 )
 from graphkin.scene.scene_tables import Cam, Contact, Disc, Gear, LawPiece
@@ -254,33 +253,12 @@ def wrong_distances(
             if abs(carried[g.axes[1]] - carried[g.axes[0]]) == 0:
                 reading.say(where, "both axes lie at the same place", "two wheels have axes apart")
             continue
-        height, tilt, far = rack_place(g, reading.slides, points, guides)
+        height, tilt, far = g.rack_place(reading.slides, points, guides)
         if abs(tilt) > AGREE:
             reading.say(where, "the pitch line is not parallel to the", "name a guide of link along which it",
                         slide=g.slide, wheels=g.wheels[1])
         elif abs(height) <= AGREE * max(far, 1e-300):
             reading.say(where, "the wheel's axis lies on the pitch line", "the distance of the two is the radius")
-
-
-def rack_place(
-    gear: PlacedGear, slidings: tuple[SlidingPair, ...],
-    points: Mapping[str, Mapping[str, complex]], guides: Mapping[str, Mapping[str, PlacedGuide]],
-) -> tuple[float, float, float]:
-    """The distance of a rack's pitch line to the left of the wheel's axis, seen along the guide of its slide (m); the
-    sine of its angle with the guide; and a length to compare with (m)."""
-    pair = next(s for s in slidings if s.key == gear.slide)
-    rail = guides[pair.on][pair.guide]
-
-    def seen(link: str, z: complex) -> complex:
-        # in the axes of the guide, but for the travel along it
-        return z * pair.turn if link == pair.link else (z - rail.through) / rail.direction
-
-    rack, line = gear.wheels[1], guides[gear.wheels[1]][gear.guide]
-    axis = seen(gear.carrier, points[gear.carrier][gear.axes[0]])
-    at = seen(rack, line.through)
-    along = seen(rack, line.through + line.direction) - at
-    far = abs(axis) + abs(at)
-    return (at - axis).imag, cross(1 + 0j, along), far
 
 
 # -- cams --------------------------------------------------------------------------------------------------------------

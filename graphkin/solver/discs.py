@@ -14,8 +14,8 @@ from graphkin.scene.pairs import PlacedContact
 from graphkin.scene.symbol import Symbol
 from graphkin.search import resolve
 from graphkin.solver.algebra.pose import Array
-from graphkin.solver.motion import angle_between, contact_normal, contact_pressure
 from graphkin.solver.path.driver_range import DriverRange, range_of
+from graphkin.solver.touching import angle_between, contact_normal, contact_pressure
 from graphkin.structure import Structure
 
 
@@ -121,7 +121,7 @@ def disc_course(structure: Structure, disc: DiscCam, angle: Array) -> tuple[Arra
     pressure : pressure angle (rad)
     """
     scene, reach = structure.scene, range_of(structure)
-    contact = next(c for c in scene.contacts if c.name == disc.contact)
+    contact = scene.contact_at[disc.contact]
     sides = _sides(scene, contact)
     assert sides is not None
     side, of = sides

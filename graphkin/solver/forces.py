@@ -19,11 +19,12 @@ import numpy as np
 from graphkin.errors import Unsolvable
 from graphkin.plane import cross
 from graphkin.scene.model import EDGE, ForceJoint, LoadOn, SpringOn, joints
+from graphkin.scene.pairs import Meeting
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.algebra.constraints import solve_all
 from graphkin.solver.algebra.pose import Array, known_where
-from graphkin.solver.cams import cam_angle, cam_at
-from graphkin.solver.motion import SLIGHT, Motion, contact_normal, pitch_point
+from graphkin.solver.motion import SLIGHT, Motion
+from graphkin.solver.touching import touch_of
 from graphkin.structure import Pair
 from graphkin.words import Phrase, Wording
 
@@ -61,26 +62,16 @@ def pair_forces(motion: Motion) -> list[PairForce]:
 def _lines(motion: Motion, joint: ForceJoint) -> tuple[Sequence[complex | Array], Array]:
     """The directions and the place of a joint's forces: the normal of a sliding contact, the tangent of pitch circles
     whose centres another link holds apart, both components for a turning pair or other rolling."""
-    scene, both = motion.scene, (1 + 0j, 1j)
+    both = 1 + 0j, 1j
     if joint.kind == "turning":
         return both, motion.position(joint.point)
     if joint.kind == "sliding":
         slide = motion.structure.slide(joint.slide)
         return [_square(motion, slide)], _foot(motion, slide)
-    if joint.kind == "cam":
-        cam = next(c for c in scene.cams if c.link == joint.first)
-        touching = cam_at(cam, cam_angle(cam, motion.poses[joint.first].u))
-        return [touching.normal], np.asarray(cam.axis + touching.contact)
-    contact = next((c for c in scene.contacts if c.name == joint.point), None)
-    if contact is None:
-        gear = next(g for g in scene.gears if g.name == joint.point)
-        at, _ = pitch_point(motion, gear)
-        way = at - motion.position(gear.axes[0], gear.carrier)
-        return [np.asarray(1j * way / np.abs(way))], at
-    if joint.kind == "rolling":
-        return both, motion.position(contact.name)
-    normal = contact_normal(motion, contact)
-    return [normal * (1j if joint.kind == "gear" else 1.0)], motion.position(contact.name)
+    assert joint.pair is not None
+    at, normal = touch_of(motion, joint.pair)
+    ways: Mapping[Meeting, Sequence[complex | Array]] = {"slides": [normal], "rolls": both, "meshes": [1j * normal]}
+    return ways[joint.pair.means], at
 
 
 def balances(motion: Motion) -> list[PairForce]:

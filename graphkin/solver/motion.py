@@ -1,5 +1,5 @@
 """The solved motion: position, velocity and acceleration of every link, point and sliding pair, by name and by symbol;
-with the status of each position and its reason; the motion at contacts and pitch points.
+with the status of each position and its reason.
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ import numpy as np
 
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Mechanism, PlacedLink
-from graphkin.scene.pairs import PlacedContact, PlacedGear
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Measure
 from graphkin.solver.algebra.bounds import BLOCK, FEW, Accuracy
@@ -268,62 +267,6 @@ class Motion:
         Raises CallError where the symbol names nothing here.
         """
         return value_of_symbol(self.posed, symbol)
-
-STANDS = 1e-12
-"""A point stands that is slower than this beside the other of the two, or beside the drivers' rate times the size."""
-ROUNDED = 1e-12
-"""An angle (rad) between a normal and a way that fall together."""
-
-
-def contact_normal(motion: Motion, contact: PlacedContact) -> Array:
-    """The normal of a contact, out of its first body, unit complex, shape (n,)."""
-    radius, link = contact.radii[0], contact.round_links[0]
-    arm = motion.position(contact.name) - motion.position(contact.centres[0], link)
-    normal = arm / (radius if link == contact.links[0] else -radius)
-    with np.errstate(invalid="ignore"):  # of positions that are none
-        return np.asarray(normal / np.abs(normal))
-
-
-def contact_slip(motion: Motion, contact: PlacedContact) -> Array:
-    """The velocity of the first body's point at a contact minus that of the second's, complex, shape (n,) (m/s)."""
-    one, two = (motion.velocity(contact.name, link) for link in contact.links)
-    return np.asarray(one - two)
-
-
-def contact_pressure(motion: Motion, contact: PlacedContact) -> dict[str, Array]:
-    """For each moving body of a contact the angle between the normal and the velocity of its point there, 0 .. pi/2
-    (rad), NaN where it rests, shape (n,)."""
-    normal = contact_normal(motion, contact)
-    velocities = {link: motion.velocity(contact.name, link) for link in contact.links}
-    rates = max((abs(d.values[1]) for d in motion.scene.drivers), default=0.0)
-    fast = np.maximum(*map(np.abs, velocities.values())) + rates * motion.scene.size
-    velocities.pop(motion.scene.frame.name, None)
-    return {link: np.where(np.abs(velocity) > STANDS * fast, angle_between(normal, velocity), np.nan)
-            for link, velocity in velocities.items()}  # fmt: skip
-
-
-def angle_between(normal: Array, way: Array) -> Array:
-    """The angle between the lines of a normal and of a direction (rad), 0 .. pi/2; 0 where it is rounding alone."""
-    across = np.conj(normal) * way
-    angle = np.arctan2(np.abs(across.imag), np.abs(across.real))
-    return np.where(angle > ROUNDED, angle, 0.0)
-
-
-def pitch_point(motion: Motion, gear: PlacedGear) -> tuple[Array, tuple[float, float | None]]:
-    """The pitch point of a gear, complex, shape (n,) (m), and the radii of the pitch circles with the signs of the
-    teeth (m; None for a rack)."""
-    axis = motion.position(gear.axes[0], gear.carrier)
-    if gear.is_rack:
-        rack = motion.link(gear.wheels[1])
-        line = motion.poses[rack.name].fixed(rack.guides[gear.guide].through, rack.guides[gear.guide].direction)
-        foot = line.z + line.u * ((axis - line.z) * np.conj(line.u)).real
-        return np.asarray(foot), (float(np.abs(foot - axis).flat[0]), None)
-    z1, z2 = gear.teeth
-    assert z2 is not None
-    way = motion.position(gear.axes[1], gear.carrier) - axis
-    held = motion.link(gear.carrier).points
-    far = abs(held[gear.axes[1]] - held[gear.axes[0]]) / abs(z1 + z2)
-    return np.asarray(axis + way * (z1 / (z1 + z2))), (far * z1, far * z2)
 
 
 # -- centrodes ---------------------------------------------------------------------------------------------------------

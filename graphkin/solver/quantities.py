@@ -73,7 +73,7 @@ class Posed(Generic[V, R]):
             return min(scene.holders[point], key=lambda name: self._order.get(name, len(self._order)))
         block = next((name for name, link in self.structure.links.items() if point in link.points), None)
         if block is None:
-            known = did_you_mean(point, [*scene.holders, *(c.name for c in scene.contacts)])
+            known = did_you_mean(point, [*scene.holders, *scene.contact_at])
             raise CallError.of(Phrase("point of point", point=point), "there is no such point", known)
         return block
 
@@ -190,7 +190,7 @@ def _place(posed: Posed, symbol: Symbol, name: str) -> Array:
     scene = posed.structure.scene
     if name in scene.holders:
         return np.asarray(posed.point(PointRef(name)).z)
-    contact = next((c for c in scene.contacts if c.name == name), None)
+    contact = scene.contact_at.get(name)
     if contact is not None:
         return np.asarray(posed.point(PointRef(name, contact.carrier or contact.block)).z)
     pair = centre_links(name, scene.by_name)
@@ -255,7 +255,7 @@ def _path(posed: Posed, kind: str, of: PointRef, to: PointRef) -> tuple[str, Arr
     slide = next((s for s in curved if s.b in (of.link, to.link)), None)
     if slide is not None and kind != "at":
         return slide.b, np.asarray(1j * posed.poses[slide.b].u * slide.guide.direction)
-    contact = next((c for c in posed.structure.scene.contacts if c.name == of.point), None)
+    contact = posed.structure.scene.contact_at.get(of.point)
     if contact is not None and {of.link, to.link} == set(contact.links):
         # the centre of a disc lies on the normal
         which = 1 if contact.radii[0] == 0.0 and not contact.flat else 0

@@ -26,21 +26,12 @@ from graphkin.scene.scene_tables import LoadPhase
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.search import changes
 from graphkin.solver.algebra.pose import Array, Pose, aimed
-from graphkin.solver.cams import cam_angle, cam_at, slip_of
 from graphkin.solver.forces import Action, Forces, actions, balances, forces_of, without_line
 from graphkin.solver.mobility import structure_of
-from graphkin.solver.motion import (
-    SLIGHT,
-    Motion,
-    contact_normal,
-    contact_pressure,
-    contact_slip,
-    listed_points,
-    own_slides,
-    pitch_point,
-)
+from graphkin.solver.motion import SLIGHT, Motion, listed_points, own_slides
 from graphkin.solver.path.driver_range import DriverRange, range_of
 from graphkin.solver.quantities import value_of_symbol
+from graphkin.solver.touching import Measure, measured
 from graphkin.structure import Dyad, LargerGroup, Structure, links_for, part_of
 from graphkin.words import Phrase, Wording, say
 
@@ -513,8 +504,8 @@ def _of_motion(motion: Motion, angles: Mapping[str, Array]) -> Columns:
     metres, fast = scene.units.metres, scene.units.rates.metres
     found: Columns = {"links": {}, "points": {}, "slides": {}}
 
-    def put(part: str, of: str, **values: Array) -> None:
-        found.setdefault(part, {})[of] = {what: _plain(value) for what, value in values.items()}
+    def put(part: str, of: str, **values: Measure) -> None:
+        found.setdefault(part, {})[of] = {what: _column(value) for what, value in values.items()}
 
     for name, angle in angles.items():
         put("links", name, angle=angle, omega=motion.omega(name), alpha=motion.alpha(name))
@@ -526,24 +517,16 @@ def _of_motion(motion: Motion, angles: Mapping[str, Array]) -> Columns:
         travel, *rates = motion.slide(pair.key)
         velocity, acceleration, coriolis = (rate / fast for rate in rates)
         put("slides", pair.key, travel=travel / metres, velocity=velocity, acceleration=acceleration, coriolis=coriolis)
-    for cam in scene.cams:
-        turn = motion.poses[cam.link]
-        touching = cam_at(cam, cam_angle(cam, turn.u))
-        put("cams", cam.link, lift=touching.lift / (1.0 if cam.turns else metres),
-            contact=(cam.axis + touching.contact) / metres, normal=touching.normal,
-            slip=slip_of(cam, touching, np.asarray(turn.omega)) / fast, pressure=touching.pressure)  # fmt: skip
-    for contact in scene.contacts:
-        put("contacts", contact.name, position=motion.position(contact.name) / metres,
-            normal=contact_normal(motion, contact), slip=contact_slip(motion, contact) / fast)  # fmt: skip
-        own, angles_there = found["contacts"][contact.name], contact_pressure(motion, contact)
-        pressure = {link: _plain(angle, np.isfinite(angle)) for link, angle in angles_there.items()}
-        kind = ["rolling" if contact.rolling else "sliding"] * BLOCK
-        found["contacts"][contact.name] = {"kind": kind, **own, "pressure": pressure}
-    for gear in scene.gears:
-        place, radii = pitch_point(motion, gear)
-        put("gears", gear.name, pitch_point=place / metres)
-        found["gears"][gear.name]["radii"] = [[None if r is None else r / metres for r in radii]] * BLOCK
+    for touching in scene.higher_pairs:
+        put(touching.table, touching.name, **measured(motion, touching))
     return found
+
+
+def _column(measure: Measure) -> Any:
+    """A measure as a column; with a column for each link, only where there is a value."""
+    if isinstance(measure, Mapping):
+        return {link: _plain(values, np.isfinite(values)) for link, values in measure.items()}
+    return _plain(measure) if isinstance(measure, np.ndarray) else [measure] * BLOCK
 
 
 def _of_forces(scene: Mechanism, forces: Forces, some: slice) -> Columns:

@@ -92,30 +92,28 @@ def _placed(scene: Mechanism) -> Structure:
             if s.of:
                 links[s.link] = PlacedLink(s.link, {s.point: 0j}, (s.point,), OWN_AXIS)
             slides.append(slide_pair(scene, s))
-    contacts = [c for c in scene.contacts if {*c.links, c.carrier} - {""} <= links.keys()]
-    gears = [g for g in scene.gears if {*g.wheels, g.carrier} <= links.keys()]
-    cams = [c for c in scene.driving_cams if {c.link, c.follower} <= links.keys()]
-    for contact in contacts:
-        link, slide = replacing_link(contact, links)
-        links[link.name] = link
-        slides += [slide] if slide else []
+    pins, touching = sum(s.higher for s in slides), scene.acting_between(links)
+    for pair in touching:
+        if (instead := replacing_link(pair, links)) is not None:
+            link, slide = instead
+            links[link.name] = link
+            slides += [slide] if slide else []
     hinges: dict[str, list[str]] = {}
     for link in links.values():
         for point in link.points:
             hinges.setdefault(point, []).append(link.name)
-    relations = relations_of(scene, meshes_of(scene, contacts, gears, links)) if contacts or gears else ()
+    relations = relations_of(scene, meshes_of(scene, touching, links)) if touching else ()
     followers, relations = followers_of(scene, relations, links, slides) if relations else ((), ())
     # F counts no blocks, nor bars that stand for pins in slots; what rolls has two constraints, as a lower pair
     bars = scene.replacing.keys() & links.keys()
     real = {name for name in links if name in scene.by_name and name not in bars}
-    rolling = sum(c.rolling and not c.carrier for c in contacts)
+    rolling = sum(pair.means == "rolls" for pair in touching)
     turns = (len(real.intersection(names)) for names in hinges.values())
     lower = sum(n - 1 for n in turns if n) + sum(not s.higher for s in slides) + rolling
-    blocks = sum(s.higher for s in slides) - sum(c.flat for c in contacts)
-    higher = blocks + len(bars) + len(contacts) - rolling + len(gears) + len(cams)
+    higher = pins + len(bars) + len(touching) - rolling
     mobility = Mobility(len(real - {scene.frame.name}), lower, higher)
     shared = {p: tuple(names) for p, names in hinges.items() if len(names) > 1}
-    return Structure(scene, links, tuple(slides), shared, mobility, (), followers, relations, tuple(cams))
+    return Structure(scene, links, tuple(slides), shared, mobility, (), followers, relations, tuple(touching))
 
 
 def _nodes(structure: Structure) -> list[Node]:
@@ -598,9 +596,7 @@ def _loose_ends(structure: Structure) -> Iterator[Problem]:
     for link in moving:
         joints = [p for p, names in hinges.items() if link.name in names]
         joints += [s.key for s in structure.slides if link.name in s.links]
-        joints += [cam.key for cam in structure.cams if link.name in (cam.link, cam.follower)]
-        joints += [contact.name for contact in scene.contacts if contact.rolling and link.name in contact.links]
-        joints += [gear.name for gear in scene.gears if link.name in (*gear.wheels, gear.carrier)]
+        joints += [p.key for p in structure.touching if (p.rolling or p.by_law) and link.name in p.members]
         where, ends = f"links.{link.name}", free[link.name]
         if len(joints) >= 2:
             continue

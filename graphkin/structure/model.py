@@ -15,7 +15,7 @@ from typing import Any, ClassVar, Literal, TypeVar
 from graphkin.errors import CallError, did_you_mean
 from graphkin.plane import Poses, added_up
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
-from graphkin.scene.pairs import LawCam, PlacedGuide, SlidingPair
+from graphkin.scene.pairs import HigherPair, LawCam, PlacedGuide, SlidingPair
 from graphkin.scene.symbol import Symbol, centre_links
 from graphkin.words import Phrase, about, joined, links_named, listed
 
@@ -328,8 +328,8 @@ class Structure:
 
     ``links`` holds every link that takes part, the frame and the blocks of pins included, redundant links left out;
     ``hinges`` maps each point shared by links to those links.  ``followers`` are the drivers of links that follow the
-    scene's drivers by rolling, ``relations`` the other rolling relations, ``cams`` the cams that move a follower by
-    their law.
+    scene's drivers by rolling, ``relations`` the other rolling relations, ``touching`` the higher pairs, among them the
+    ``cams`` that move a follower by their law.
 
     From these follow all ``drivers``, those of the scene first; the Assur ``groups`` in the order of solution, among
     them the ``dyads`` by their places in it and the ``larger_groups`` that are solved as a whole; the ``driven`` links,
@@ -346,8 +346,9 @@ class Structure:
     elements: tuple[Element, ...]
     followers: tuple[Driver, ...] = ()
     relations: tuple[RollingRelation, ...] = ()
-    cams: tuple[LawCam, ...] = ()
+    touching: tuple[HigherPair, ...] = ()
 
+    cams: tuple[LawCam, ...] = field(init=False, repr=False, compare=False)
     drivers: tuple[Driver, ...] = field(init=False, repr=False, compare=False)
     groups: tuple[Dyad | LargerGroup, ...] = field(init=False, repr=False, compare=False)
     driven: tuple[Driven, ...] = field(init=False, repr=False, compare=False)
@@ -359,6 +360,7 @@ class Structure:
     def __post_init__(self) -> None:
         elements = self.elements
         self.__dict__.update(
+            cams=tuple(pair for pair in self.touching if isinstance(pair, LawCam)),
             drivers=(*self.scene.drivers, *self.followers), kept={},
             groups=tuple(e for e in elements if not isinstance(e, Driven)),
             driven=tuple(e for e in elements if isinstance(e, Driven)),
@@ -389,9 +391,9 @@ class Structure:
         """For each element the indices of all elements that it depends on, directly or through others, and its own; the
         link that replaces a contact needs both links of it, and a rolling link may depend on later links."""
         outside = [element.outside for element in self.elements]
-        for contact in self.scene.contacts:
-            if (place := self.place_of.get(contact.block)) is not None:
-                outside[place] |= {*contact.links}
+        for pair in self.touching:
+            if (place := self.place_of.get(pair.block)) is not None:
+                outside[place] |= {*pair.bodies}
         before = [[self.place_of[n] for n in names if n in self.place_of] for names in outside]
         return tuple(frozenset(reached([place], before.__getitem__)) for place in range(len(before)))
 
@@ -418,9 +420,9 @@ def named_with_contact(structure: Structure, dyad: Dyad) -> Phrase:
     """The links and blocks of a group in words; where one of them replaces a contact, that: ``contact K of links 1,
     2``."""
     inside = {n for body in dyad.bodies for n in body.links}
-    contact = next((c for c in structure.scene.contacts if not c.carrier and c.block in inside), None)
-    if contact is not None:
-        return Phrase("contact of links", contact=contact.name, links=', '.join(contact.links))
+    pair = next((pair for pair in structure.touching if pair.block in inside and not pair.carrier), None)
+    if pair is not None:
+        return Phrase("contact of links", contact=pair.name, links=', '.join(pair.bodies))
     return dyad.named
 
 

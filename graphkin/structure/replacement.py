@@ -21,14 +21,17 @@ from dataclasses import replace
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Poses, cross, unit
 from graphkin.scene.model import Mechanism, PlacedLink
-from graphkin.scene.pairs import CircularSlot, PlacedContact, PlacedGuide, SlidingPair, told
+from graphkin.scene.pairs import CircularSlot, HigherPair, PlacedContact, PlacedGuide, SlidingPair, told
 from graphkin.structure.model import OWN_AXIS, Mobility, Pair, Structure
 from graphkin.words import Phrase
 
 
-def replacing_link(contact: PlacedContact, links: Mapping[str, PlacedLink]) -> tuple[PlacedLink, Pair | None]:
-    """The link that replaces a contact, and for a flat face the sliding pair.  The point of contact is a point of it.
-    Where another link holds both centres of a rolling pair, that link gets the point of contact."""
+def replacing_link(contact: HigherPair, links: Mapping[str, PlacedLink]) -> tuple[PlacedLink, Pair | None] | None:
+    """The link that replaces a contact, and for a flat face the sliding pair; None for wheels and cams.  The point of
+    contact is a point of it.  Where another link holds both centres of a rolling pair, that link gets the point of
+    contact."""
+    if not isinstance(contact, PlacedContact):
+        return None
     centre, radius = contact.centres[0], contact.radii[0]
     if contact.flat:
         face = links[contact.face].guides[contact.guide]
@@ -171,7 +174,7 @@ def cams_replaced(scene: Mechanism, poses: Poses, values: Mapping[str, float], b
     here = _standing(scene, poses, values)
     return replace(
         here, links=(*(links[link.name] for link in scene.links), *made.values()), slides=(*scene.slides, *pins),
-        slots=(*scene.slots, *slots), contacts=(*scene.contacts, *contacts), sketch={**here.sketch, **places},
+        slots=(*scene.slots, *slots), higher_pairs=(*scene.higher_pairs, *contacts), sketch={**here.sketch, **places},
         instead_of=scene,
     )  # fmt: skip
 
@@ -185,5 +188,5 @@ def _guide(link: PlacedLink, name: str, through: complex, direction: complex, cu
 
 def _free_names(scene: Mechanism, *first: str) -> Iterator[str]:
     """Letters that no point and no contact has: free single letters, then the first of them with numbers."""
-    taken = {*scene.holders, *(contact.name for contact in scene.contacts)}
+    taken = {*scene.holders, *scene.contact_at}
     return (name for name in (*first, *(f"{first[0]}{k}" for k in range(1, 1000))) if name not in taken)

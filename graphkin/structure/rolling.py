@@ -20,34 +20,18 @@ from itertools import chain, islice, product
 
 from graphkin.plane import added_up
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
-from graphkin.scene.pairs import PlacedContact, PlacedGear
-from graphkin.scene.touching import rack_place
+from graphkin.scene.pairs import HigherPair, PlacedGear
 from graphkin.structure.model import Coordinate, LargerGroup, Pair, RollingRelation, Structure
 
 
 def meshes_of(
-    scene: Mechanism, contacts: Iterable[PlacedContact], gears: Iterable[PlacedGear], links: Mapping[str, PlacedLink]
+    scene: Mechanism, pairs: Iterable[HigherPair], links: Mapping[str, PlacedLink]
 ) -> tuple[PlacedGear, ...]:
     """All pairs of bodies that roll on each other; a rack or a flat face with the signed distance (m) of its line from
     the wheel's axis as the first of the ``teeth``, positive to the left of the guide of ``slide``."""
-    meshes = []
-    for contact in contacts:
-        if contact.rolling and contact.flat:
-            (centre,), (radius,) = contact.centres, contact.radii
-            wheels, height = (contact.round_links[0], contact.face), -radius if contact.left else radius
-            meshes.append(PlacedGear(contact.name, wheels, (height, None), contact.block, (centre, ""),
-                                     slide=contact.block, sense=-1))  # fmt: skip
-        elif contact.rolling:
-            (first, second), (radius, other) = contact.centres, contact.radii
-            carrier = contact.carrier or contact.block
-            meshes.append(PlacedGear(contact.name, contact.links, (radius, other), carrier, (first, second)))
     points, guides = ({name: getattr(link, of) for name, link in links.items()} for of in ("points", "guides"))
-    for gear in gears:
-        if gear.is_rack:
-            height, _, _ = rack_place(gear, scene.slidings, points, guides)
-            gear = replace(gear, teeth=(height, None))
-        meshes.append(gear)
-    return tuple(meshes)
+    meshes = (pair.mesh(scene.slidings, points, guides) for pair in pairs)
+    return tuple(mesh for mesh in meshes if mesh is not None)
 
 
 def relations_of(scene: Mechanism, meshes: Iterable[PlacedGear]) -> tuple[RollingRelation, ...]:
@@ -171,12 +155,8 @@ MOST = 200  # choices that are looked at
 
 def unrolled(scene: Mechanism, names: Sequence[str]) -> Mechanism:
     """The scene with sliding contacts in place of some rolling ones, and without the mesh of some wheels."""
-    contacts = (replace(c, rolling=False) if c.name in names else c for c in scene.contacts)
-    return replace(
-        scene,
-        contacts=tuple(c for c in contacts if c.rolling or not c.carrier),
-        gears=tuple(g for g in scene.gears if g.name not in names),
-    )
+    pairs = (pair.unrolled if pair.rolling and pair.name in names else pair for pair in scene.higher_pairs)
+    return replace(scene, higher_pairs=tuple(filter(None, pairs)))
 
 
 def start_drivers(structure: Structure, groups: Sequence[LargerGroup]) -> Iterator[tuple[Driver, ...]]:

@@ -6,7 +6,7 @@ import pytest
 from graphkin import check, read, solve, solver, sweep
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
-from graphkin.solver.motion import contact_normal
+from graphkin.solver.touching import contact_normal
 from graphkin.structure import analyse
 
 

@@ -16,7 +16,7 @@ import graphkin
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.cams import cam_angle, cam_at
-from graphkin.solver.motion import pitch_point
+from graphkin.solver.touching import pitch_point
 from tests import with_tables
 from tests.command import run
 from tests.mechanisms import KINDS, random_scene

@@ -398,7 +398,7 @@ class Sheet:
         """Width and height of the mechanism and of both polygons, poles included, by which scales are chosen: without
         special points, with vectors seen from held links, with trial polygons and carried vectors slightly smaller."""
         places = [z for ref, z in self.points.items() if ref.point not in self.serving]
-        if self.scene.cams or self.scene.gears or any(link.discs for link in (self.scene.frame, *self.scene.links)):
+        if self.scene.higher_pairs or any(link.discs for link in (self.scene.frame, *self.scene.links)):
             per = 1.0 / self.scales.length
             places += (z for outline in outlines_on_paper(self.scene, self.poses, per).values() for z in outline)
             places += Touching(self.scene, per, self.poses).outermost()
@@ -495,7 +495,7 @@ def _residues(sheet: Sheet) -> set[Symbol]:
 
     zero = {s for s, mm in velocity.items() if 0.0 < mm <= lost(sharp_before[s]) * fastest[s]}
     still = zero | {symbol for symbol, mm in velocity.items() if mm == 0.0}
-    fixed, touching = sheet.scene.frame.points, {c.name for c in sheet.scene.contacts}
+    fixed, touching = sheet.scene.frame.points, {*sheet.scene.contact_at}
     for symbol, mm in acceleration.items():
         squared: list[Symbol] = []
         # the velocity whose square a normal component is: relative, or from the pole where its start is fixed; at a

@@ -312,7 +312,7 @@ def _rolling_points(plot: Polygons, group: LargerGroup) -> dict[str, tuple[str, 
     """The points of rolling between links of a group, by the contact or the gear, with the links: contacts by their
     name, pitch points by a free letter, marked on the mechanism."""
     scene = plot.structure.scene
-    between = {c.name: c.links for c in scene.contacts} | {g.name: g.wheels for g in scene.gears}
+    between = {pair.name: pair.bodies for pair in scene.higher_pairs if pair.rolling}
     points = {}
     for name in (relation.name for relation in group.rolling):
         if name not in plot.touching and name not in plot.pitch_points:

@@ -98,7 +98,7 @@ class Polygons:
         self.places = {point: paper.point(name, point) for name in paper.poses for point in self.links[name].points}
         size = max((abs(z - w) for z in self.places.values() for w in self.places.values()), default=1.0)
         self.tiny = 1e-11 * size
-        self.touching = {c.name for c in structure.scene.contacts}
+        self.touching = {*structure.scene.contact_at}
         self.held = ""  # the link that is held still, and the group whose it is
         self.part_of: LargerGroup | None = None
         self.begin(structure.scene.frame.name)
@@ -415,7 +415,8 @@ def _holders(plot: Polygons, ref: PointRef) -> list[str]:
 def _joining(plot: Polygons, symbol: Symbol, of: PointRef, to: PointRef) -> complex:
     """The direction of the bar between two points, or of the normal at a rolling contact."""
     arm = plot.places[of.point] - plot.places[to.point]
-    if any(c.rolling and c.name == of.point == to.point for c in plot.structure.scene.contacts):
+    contact = plot.structure.scene.contact_at.get(of.point)
+    if contact is not None and contact.rolling and of.point == to.point:
         return plot.touch(of.point).normal
     if abs(arm) > plot.tiny:
         return unit(arm)

@@ -259,7 +259,7 @@ def cams_in_place(
     moving = leading(structure, [cam.link for cam in scene.cams])
     elements = [e for i, e in enumerate(structure.elements) if i in moving or e in needed(structure, asked)]
     poses = poses_at(PlacedElements(structure, elements), values)
-    rolling = {n for g in scene.gears for n in g.wheels} | {n for c in scene.contacts if c.rolling for n in c.links}
+    rolling = {name for pair in scene.higher_pairs if pair.rolling for name in pair.bodies}
     starts = {**scene.starts, **{name: cmath.phase(poses[name].axis) for name in rolling & poses.keys()}}
     starts |= {s.key: travel(s, poses, mm) / mm for s in structure.slides if rolling and poses.keys() >= {*s.links}}
     in_metres = {name: pose.scaled(scene.size) for name, pose in poses.items()}

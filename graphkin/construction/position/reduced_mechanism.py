@@ -172,8 +172,7 @@ def _reduced(structure: Structure, group: LargerGroup, known: set[str], count: i
 def _removable(structure: Structure, group: LargerGroup, driven: set[str]) -> Iterator[RemovedConstraint]:
     """The removable parts of a group: bars with two hinges, links with a hinge and a guide or two guides, drivers."""
     scene = structure.scene
-    touching = {n for c in scene.contacts for n in (*c.links, *((c.block, c.carrier) if c.rolling else ()))}
-    touching |= {n for g in scene.gears for n in (*g.wheels, g.carrier)}
+    touching = {n for pair in scene.acting for n in (*pair.members, *((pair.block,) if pair.rolling else ()))}
     touching |= {n for pin in scene.pins for n in (pin.of, pin.on)}
     keys = {d.key for d in scene.drivers}
     for name in group.members:

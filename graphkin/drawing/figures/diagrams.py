@@ -98,7 +98,7 @@ def contacts_figure(page: FigurePage) -> Drawing:
 
 
 def _touches(scene: Mechanism) -> bool:
-    return any(not c.rolling for c in scene.contacts) or bool(scene.cams) or bool(scene.replacing)
+    return any(pair.replaced for pair in scene.higher_pairs) or bool(scene.replacing)
 
 
 MOVING = 20.0  # mm around what is drawn while a hand moves it

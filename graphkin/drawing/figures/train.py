@@ -313,6 +313,6 @@ def _shafts(
 
 
 FIGURES = (
-    Figure("plan", train_figure, by_itself=lambda scene: bool(scene.gears) or any(c.rolling for c in scene.contacts),
+    Figure("plan", train_figure, by_itself=lambda scene: any(pair.rolling for pair in scene.higher_pairs),
            of_all=True, place=11),
 )

@@ -240,7 +240,7 @@ def _joint(here: MechanismOnPaper, point: str) -> list[Primitive]:
         return [*(_over_block(here, z) if on_block else ()), *circle, *_through(here, z, held)]
     if moving:
         return [*symbols.pin(on_page(z), here.colour(moving[0]))]
-    if any(c.name == point for c in here.scene.contacts):
+    if point in here.scene.contact_at:
         return [Circle(on_page(z), 0.5, fill=strokes.BLACK)]
     if any(p.point == point for p in here.scene.pins):
         return [*symbols.pin(on_page(z), strokes.BLACK)]
