@@ -143,7 +143,8 @@ class Swept(OfScene, Result):
 
         if self.over.designs.keys or moves_by_law(self.over.scene):
             return None
-        return study_turn(self.over.base.reach, [q for q in self.over.asked if q.kind != "place" and not q.is_load])
+        base = self.over.base
+        return study_turn(base.reach, [q for q in base.asked if q.kind != "place" and not q.is_load])
 
     @cached_property
     def time(self) -> TimeStudy | None:
@@ -158,8 +159,8 @@ class Swept(OfScene, Result):
     def _wished(self) -> list[Quantity]:
         """The quantities asked besides the scene's own wishes: only these are drawn."""
         by_scene = [str(s) for s in self.over.scene.question.find]
-        wished = [q for q in self.over.asked if q.kind != "place"]
-        return wished if [q.name for q in self.over.asked] != by_scene else []
+        wished = [q for q in self.over.base.asked if q.kind != "place"]
+        return wished if [q.name for q in self.over.base.asked] != by_scene else []
 
     @cached_property
     def data(self) -> dict[str, Json]:
@@ -339,7 +340,7 @@ def sweep(
     """
     from graphkin.solver import structure_of
     from graphkin.study.designs import designs_of
-    from graphkin.study.sweeps import Sweep, at_once, collect, write_tables
+    from graphkin.study.sweeps import FollowedDesign, Sweep, at_once, collect, write_tables
 
     known_words(formats, language, text=text, known_formats=CHART_FORMATS)
     require_callable("progress", progress)
@@ -384,7 +385,8 @@ def sweep(
     elsewhere = {} if measured is None else _elsewhere(given, measured)
     if find is None and elsewhere:
         find = [quantity.symbol for quantity in elsewhere]
-    over = Sweep(source, name or given.name, made, positions, _asked(given, find), tuple(sorted(start.items())))
+    base = FollowedDesign(given, _asked(given, find), tuple(sorted(start.items())))
+    over = Sweep(base, name or given.name, positions, made, source if isinstance(source, Mapping) else None)
     spoken = language or given.question.sheet.language
     if out is None:
         if over.numbers > IN_MEMORY:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
 from itertools import groupby
 from pathlib import Path
@@ -56,8 +56,12 @@ class FollowedDesign:
     """
 
     scene: Mechanism
-    asked: tuple[Quantity, ...]
-    at: tuple[tuple[str, float], ...]
+    asked: tuple[Quantity, ...] = ()
+    at: tuple[tuple[str, float], ...] = ()
+
+    def __getstate__(self) -> dict[str, object]:
+        # its range goes with it to other processes; functions of formulas are made anew there
+        return {name: value for name, value in self.__dict__.items() if name != "engine"}
 
     @cached_property
     def structure(self) -> Structure:
@@ -174,22 +178,17 @@ class Outcome:
 class Sweep:
     """A sweep: positions of one mechanism, or of many designs of it; a piece of it is a sweep again.
 
-    source : the scene, or the mapping of its file if designs replace numbers in it
-    asked, at : as for a `FollowedDesign`
+    base : the scene itself as a design, without replaced values; all pieces share it
+    source : the mapping of its file, if designs replace numbers in it
     some : first and last position (not included) of each design; None for all
     """
 
-    source: Mechanism | Tables
+    base: FollowedDesign
     name: str
-    designs: Designs
     positions: int
-    asked: tuple[Quantity, ...] = ()
-    at: tuple[tuple[str, float], ...] = ()
+    designs: Designs = field(default_factory=Designs)
+    source: Tables | None = None
     some: tuple[int, int] | None = None
-
-    def __getstate__(self) -> dict[str, object]:
-        # what is pickled is what was asked: compiled functions are made anew
-        return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @property
     def rows(self) -> int:
@@ -207,12 +206,6 @@ class Sweep:
         return self.base.scene
 
     @cached_property
-    def base(self) -> FollowedDesign:
-        """The scene itself as a design."""
-        scene = self.source if isinstance(self.source, Mechanism) else standing(mechanism_of(self.source))
-        return _same(FollowedDesign(scene, self.asked, self.at))
-
-    @cached_property
     def head(self) -> Table:
         """The table without rows.  Raises Unsolvable for a wrong mobility."""
         values = ["" if word else 0.0 for word in self.designs.worded]
@@ -221,8 +214,8 @@ class Sweep:
     @cached_property
     def key(self) -> str:
         """A key that two sweeps share only if they give the same results."""
-        source = repr(self.source) if isinstance(self.source, Mechanism) else dict(self.source)
-        return key_of(BLOCK, source, self.name, repr(self.designs), self.positions, repr(self.asked), self.at)
+        base, source = self.base, repr(self.scene) if self.source is None else dict(self.source)
+        return key_of(BLOCK, source, self.name, repr(self.designs), self.positions, repr(base.asked), base.at)
 
     @property
     def long(self) -> bool:
@@ -248,19 +241,6 @@ class Sweep:
         some = block * BLOCK, min((block + 1) * BLOCK, self.positions)
         # the values of all other designs stay at home
         return replace(self, designs=self.designs.part(group * together, (group + 1) * together), some=some)
-
-
-_BASE: list[FollowedDesign] = []
-"""The scene that was swept last: to sweep it again, it need not be prepared again."""
-
-
-def _same(design: FollowedDesign) -> FollowedDesign:
-    """The design, or the last swept design if it is the same."""
-    for latest in _BASE:
-        if latest == design:
-            return latest
-    _BASE[:] = [design]  # another thread may put its own here
-    return design
 
 
 def made(sweep: Sweep) -> tuple[Table, list[Outcome]]:
@@ -341,11 +321,10 @@ def _outcome(number: int, table: Table, cells: Mapping[str, float | str | None])
 def _followed(sweep: Sweep, values: tuple[Value, ...]) -> FollowedDesign | tuple[str, str]:
     """A design with its path, or the status and the reason why it has none."""
     try:
-        if isinstance(sweep.source, Mechanism):
-            design = sweep.base
-        else:
+        design = sweep.base
+        if sweep.source is not None:
             scene = standing(mechanism_of(applied(sweep.source, sweep.designs.keys, values)))
-            design = FollowedDesign(scene, sweep.asked, sweep.at)
+            design = replace(design, scene=scene)
         _ = design.reach
         return design
     except Unsolvable as error:

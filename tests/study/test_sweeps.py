@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -27,7 +28,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.study import sweeps
 from graphkin.study.designs import designs_of
 from graphkin.study.quantities import Quantity
-from graphkin.study.sweeps import Outcome, Sweep, collect, write_tables
+from graphkin.study.sweeps import FollowedDesign, Outcome, Sweep, collect, write_tables
 
 
 @pytest.fixture
@@ -56,7 +57,8 @@ def new_plan() -> Sweep:
     source = tomllib.loads(library_text("fourbar-150-500-300-400"))
     # some of them cannot turn fully, the last cannot be assembled at all
     designs = designs_of({"links.1.length": "100,150,250,1000", "driver.omega": "5,-5"})
-    return Sweep(source, "four-bar", designs, 20, (watched("omega_3"), watched("v_C")))
+    base = FollowedDesign(mechanism_of(source), (watched("omega_3"), watched("v_C")))
+    return Sweep(base, "four-bar", 20, designs, source)
 
 
 def prints(folder: Path) -> dict[str, str]:
@@ -182,7 +184,7 @@ def test_a_finished_sweep_leaves_nothing_behind(whole: Path) -> None:
 def test_positions_of_a_long_turn_are_the_same_in_one_chunk_or_many(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    long = Sweep(mechanism_of("slider-crank-offset"), "x", designs_of(None), 100)
+    long = Sweep(FollowedDesign(mechanism_of("slider-crank-offset")), "x", 100)
     run(long, tmp_path / "a")
     monkeypatch.setattr(sweeps, "BLOCK", 64)
     run(replace(long), tmp_path / "b")
@@ -190,7 +192,7 @@ def test_positions_of_a_long_turn_are_the_same_in_one_chunk_or_many(
 
 
 def test_a_position_out_of_reach_has_its_reason(tmp_path: Path) -> None:
-    run(Sweep(mechanism_of("sixbar-AE70"), "x", designs_of(None), 12), tmp_path)
+    run(Sweep(FollowedDesign(mechanism_of("sixbar-AE70")), "x", 12), tmp_path)
     rows = (tmp_path / "table.csv").read_text().splitlines()[1:]
     away = [r for r in rows if "not assembled" in r]
     assert len(away) == 8
@@ -219,12 +221,24 @@ def test_a_dask_cluster_that_loses_a_worker_gives_the_same_bytes(plan: Sweep, wh
     assert prints(whole) == prints(tmp_path / "b")
 
 
-
-
 def test_a_sweep_in_memory_is_the_one_in_the_file(plan: Sweep, whole: Path) -> None:
     with Workers() as workers:
         table = collect(plan, workers)[0]
     assert (whole / "table.csv").read_text() == table.csv()
+
+
+@pytest.mark.parametrize("name", ["fourbar-150-500-300-400", "sixbar-AE70", "wheel-on-rail", "triad-slider"])
+def test_a_design_takes_its_range_to_another_process(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = mechanism_of(name)
+    here = FollowedDesign(scene, (watched(f"omega_{scene.links[-1].name}"),))
+    _ = here.reach, here.engine
+    there = pickle.loads(pickle.dumps(here))
+    monkeypatch.delattr(sweeps, "driver_range")  # it is not followed again
+    assert here.table(24, 0, 24) == there.table(24, 0, 24)
+
+
+def test_all_pieces_in_one_process_share_the_scene_that_is_followed(plan: Sweep) -> None:
+    assert {id(plan.base)} == {id(plan.piece(number).base) for number in range(plan.pieces)}
 
 
 LONG = 114_688  # seven pieces
@@ -233,7 +247,7 @@ LONG = 114_688  # seven pieces
 @pytest.fixture(scope="module")
 def uninterrupted(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     folder, name = tmp_path_factory.mktemp("whole"), "fourbar-150-500-300-400"
-    run(Sweep(mechanism_of(name), name, designs_of(None), LONG, (watched("v_C"),)), folder, parquet=True)
+    run(Sweep(FollowedDesign(mechanism_of(name), (watched("v_C"),)), name, LONG), folder, parquet=True)
     return prints(folder)
 
 

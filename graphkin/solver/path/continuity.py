@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from operator import itemgetter
 
 import numpy as np
@@ -36,15 +37,15 @@ NARROW = 1e-6
 At = Callable[[float, Array], tuple[GroupSolved, Array]]
 
 
-def _interpolated(nodes: Array, values: Array) -> Callable[[Array], Array]:
-    """The function of path parameters to values that are linear between those at the nodes, shape (nodes, ...)."""
-    flat = values.reshape(len(nodes), -1)
+def _interpolated(nodes: Array, values: Array, t: Array) -> Array:
+    """The values at path parameters: linear between those at the nodes, shape (nodes, ...)."""
+    columns = [np.interp(t, nodes, column) for column in values.reshape(len(nodes), -1).T]
+    return np.stack(columns, axis=1).reshape(len(t), *values.shape[1:])
 
-    def at(t: Array) -> Array:
-        columns = [np.interp(t, nodes, column) for column in flat.T]
-        return np.stack(columns, axis=1).reshape(len(t), *values.shape[1:])
 
-    return at
+def _flipped(sign: float, flips: Array, t: Array) -> Array:
+    """The assembly mode of a dyad at path parameters, which changes at each change point."""
+    return sign * np.where(np.searchsorted(flips, t) % 2, -1.0, 1.0)
 
 
 def _walk_group(
@@ -251,11 +252,7 @@ def _follow_dyad(path: Path, i: int, dyad: Dyad, sign: float) -> Path:
     limit, flips = first.high if first.ends[1] else None, np.array(first.touches)
     if dyad.is_two_lines and len(flips):
         limit, flips = float(flips[0]), flips[:0]
-
-    def mode(t: Array) -> Array:
-        return sign * np.where(np.searchsorted(flips, t) % 2, -1.0, 1.0)
-
-    return _passed_by(path, i, mode, flips, limit)
+    return _passed_by(path, i, partial(_flipped, sign, flips), flips, limit)
 
 
 def _passed_by(path: Path, i: int, mode: Callable[[Array], Array], flips: Array, limit: float | None) -> Path:
@@ -289,7 +286,7 @@ def _follow_group(path: Path, i: int, place: Array) -> Path:
     steps = _steps(path.structure, np.abs(path.end - path.start))
     most = min(0.125, GROUP_STEP / TURN_STEP / steps)
     nodes, places, end, flips = _walk_group(solved, place, path.structure.scene.size, path.reach, most)
-    return _passed_by(path, i, _interpolated(nodes, places), np.array(flips), end)
+    return _passed_by(path, i, partial(_interpolated, nodes, places), np.array(flips), end)
 
 
 def _follow_rolled(path: Path, i: int, rolled: RollingRelation, mode: Array, grid: Array) -> Path:
@@ -304,4 +301,4 @@ def _follow_rolled(path: Path, i: int, rolled: RollingRelation, mode: Array, gri
             columns.append(mode[2 * k + 1] + turning(u))
         else:
             columns.append(np.full(len(grid), mode[2 * k + 1]))
-    return replace(path, modes={**path.modes, i: _interpolated(grid, np.stack(columns, axis=1))})
+    return replace(path, modes={**path.modes, i: partial(_interpolated, grid, np.stack(columns, axis=1))})

@@ -13,7 +13,7 @@ import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -53,6 +53,14 @@ FINER, FINEST, MOST_STEPS = 16, 4, 20_000
 """Into so many parts, and so many times, is divided a step that does not tell, as long as these are not more."""
 
 
+def _scaled(mode: Callable[[Array], Array], by: float, t: Array) -> Array:
+    return mode(np.asarray(t) * by)
+
+
+def _steady(mode: Array, _: Array) -> Array:
+    return mode
+
+
 @dataclass(frozen=True)
 class Path:
     """A straight path of driver values, parameter 0 .. 1, with the assembly mode of each group along it.
@@ -90,7 +98,7 @@ class Path:
 
     def rescaled(self, by: float) -> Path:
         """The path with its end moved by a factor: nearer where the motion continues, farther where it has ended."""
-        modes = {i: lambda t, mode=mode: mode(np.asarray(t) * by) for i, mode in self.modes.items()}
+        modes = {i: partial(_scaled, mode, by) for i, mode in self.modes.items()}
         nodes, flips = self.nodes / by, self.flips / by
         return replace(
             self,
@@ -108,8 +116,7 @@ class Path:
 
     def with_sign(self, i: int, sign: float) -> Path:
         """The path with a dyad in one of its assemblies."""
-        mode = np.asarray(sign)
-        return replace(self, modes={**self.modes, i: lambda _: mode})
+        return replace(self, modes={**self.modes, i: partial(_steady, np.asarray(sign))})
 
     def off_flips(self, t: Array) -> Array:
         """Parameters, those at a change point moved slightly off it, since a group has no mode there."""
@@ -125,14 +132,17 @@ class Path:
         return np.broadcast_to(solved.discriminant, t.shape)
 
     @cached_property
-    def _meant(self) -> Callable[[Decimal], list[Decimal]]:
-        """The function of a parameter to the driver values in fifty digits."""
+    def _spans(self) -> list[tuple[Decimal, Decimal]]:
+        """The start of each driver and its way to the end, in fifty digits."""
         drivers = self.structure.scene.drivers
         with working():
-            ends = ([meant_value(d, x) for d, x in zip(drivers, values.tolist(), strict=True)]
-                    for values in (self.start, self.end))  # fmt: skip
-            spans = [(start, end - start) for start, end in zip(*ends, strict=True)]
-        return lambda t: [start + t * span for start, span in spans]
+            starts, ends = ([meant_value(d, x) for d, x in zip(drivers, values.tolist(), strict=True)]
+                            for values in (self.start, self.end))  # fmt: skip
+            return [(start, end - start) for start, end in zip(starts, ends, strict=True)]
+
+    def _meant(self, t: Decimal) -> list[Decimal]:
+        """The driver values at a parameter, in fifty digits."""
+        return [start + t * span for start, span in self._spans]
 
     def _exactly(self, i: int, t: float) -> ExtendedPrecision:
         """The discriminant of a dyad in fifty digits, with the modes at a parameter."""
