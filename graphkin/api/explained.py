@@ -152,6 +152,7 @@ def _links(scene: Mechanism) -> Iterator[Phrase]:
     yield from _outlines(scene.frame, scene)
     blocks = {slot.bar: slot for slot in scene.slots if slot.block}
     replacing = {slot.bar for slot in scene.slots if not slot.block}
+    roles = {name: role for pair in scene.higher_pairs for name, role in pair.roles.items()}
     for link in (link for link in scene.links if link.name not in replacing):
         own = link.bar
         if len(own) == 2:
@@ -160,10 +161,8 @@ def _links(scene: Mechanism) -> Iterator[Phrase]:
         elif link.name in blocks or any(s.link == link.name for s in scene.slidings):
             block = Phrase("explained block without point", link=link.name)
             yield Phrase("explained block", link=link.name, point=own[0]) if own else block
-        elif own and any(cam.link == link.name for cam in scene.cams):
-            yield Phrase("explained cam link", link=link.name, point=own[0])
-        elif own and any(link.name in gear.wheels for gear in scene.gears):
-            yield Phrase("explained wheel", link=link.name, point=own[0])
+        elif own and link.name in roles:
+            yield Phrase(f"explained {roles[link.name]}", link=link.name, point=own[0])
         elif own and link.discs:
             yield Phrase("explained disc link", link=link.name, point=own[0])
         else:

@@ -361,9 +361,8 @@ def _normals(links: Centres) -> Iterator[CentreRelation]:
             at, start = links.touching.place(pin.of, pin.point), poses[pin.on].place(guide.through * links.mm)
             line = links.chart.line(start + along * dot(at - start, along), 1j * along)
             yield CentreRelation(links.pair(pin.of, pin.on), line, ROUNDING, (pin.key,))
-    for contact in scene.contacts:
-        if not contact.rolling and set(contact.links) <= poses.keys():
-            touch = links.touching.of(contact)
+    for contact, touch in links.touching.contacts():
+        if not contact.rolling:
             line = links.chart.line(touch.at, touch.normal)
             yield CentreRelation(links.pair(*contact.links), line, ROUNDING, (contact.name,))
 

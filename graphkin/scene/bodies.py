@@ -20,6 +20,7 @@ from graphkin.errors import Problem, SceneError, did_you_mean
 from graphkin.plane import direction
 from graphkin.scene.pairs import CircularSlot, SlidingPair
 from graphkin.scene.scene_tables import (
+    TOUCHING,
     Compass,
     DrivenSlide,
     Driver,
@@ -393,8 +394,8 @@ def _pin_problem(
 def check_rolling(reading: Reading) -> None:
     """Note starts of rolling in a file in which nothing rolls."""
     started = [name for name, link in reading.links.items() if link.start is not None]
-    rolls = reading.file.gears or any(contact.rolling for contact in reading.file.contacts.values())
-    if started and not rolls and not reading.lost_under("gears") and not reading.lost_under("contacts"):
+    rolls = any(pair.rolling for pair in reading.file.touching)
+    if started and not rolls and not any(map(reading.lost_under, TOUCHING)):
         for name in started:
             reading.say(f"links.{name}.start", "nothing rolls here", "leave start out the driver")
 
@@ -402,7 +403,7 @@ def check_rolling(reading: Reading) -> None:
 def check_held(reading: Reading) -> None:
     """Note the links that no joint connects with the frame, except where a joint may have been taken out, and links
     with a problem of their own."""
-    lost = any(map(reading.lost_under, ("pins", "contacts", "gears"))) or any(p[2:] == ("on",) for p in reading.lost)
+    lost = any(map(reading.lost_under, ("pins", *TOUCHING))) or any(p[2:] == ("on",) for p in reading.lost)
     if reading.unsure or lost:
         return
     bare = {problem.where for problem in reading.problems}
@@ -424,8 +425,7 @@ def islands(reading: Reading) -> list[tuple[str, ...]]:
     """
     slides = [(name, ref) for name, link in reading.links.items() for ref in listed(link.on)]
     slides += [(pin.of, ref) for pin in reading.pins.values() for ref in listed(pin.slots)]
-    touching = [contact.between for contact in reading.file.contacts.values()]
-    touching += [gear.between for gear in reading.file.gears.values()]
+    touching = [pair.between for pair in reading.file.touching]
     sides = [tuple(ref.partition(".")[0] for ref in pair) for pair in (*slides, *touching)]
     known = reading.points
     meant = {n: n if n in known else "".join(get_close_matches(n, known, n=1)) for pair in sides for n in pair}

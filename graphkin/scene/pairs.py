@@ -125,6 +125,7 @@ class PlacedContact:
     carrier: str = ""
     again: bool = False
     table: ClassVar[str] = "contacts"
+    roles: ClassVar[Mapping[str, str]] = {}
     by_law: ClassVar[bool] = False
 
     @property
@@ -272,6 +273,11 @@ class PlacedGear:
     def members(self) -> tuple[str, ...]:
         """The links without which it is none."""
         return self.links
+
+    @property
+    def roles(self) -> Mapping[str, str]:
+        """The words for its wheels."""
+        return dict.fromkeys(self.wheels, "wheel")
 
     @property
     def letter(self) -> str:
@@ -445,6 +451,11 @@ class LawCam:
         return self.bodies
 
     @property
+    def roles(self) -> Mapping[str, str]:
+        """The word for the cam's link."""
+        return {self.link: "cam link"}
+
+    @property
     def lengths(self) -> tuple[float, ...]:
         """Its lengths in the file (m)."""
         return (self.base,)
@@ -561,7 +572,7 @@ HigherPair: TypeAlias = PlacedContact | PlacedGear | LawCam
 of its point, two ``bodies`` and with them all its ``members``.  It ``means`` that they slide, roll or mesh, ``rolling``
 perhaps with their centres held apart by a ``carrier``; or moves its follower ``by_law``.  A ``block`` stands for a pair
 that is ``replaced``, a sliding one for a pair that is ``unrolled``, a ``mesh`` for all that rolls.  ``lengths`` (m) are
-those in the file, ``kinds`` and ``gaps`` its words."""
+those in the file; ``kinds`` and ``gaps`` its words, ``roles`` the words for links that are more than bars."""
 
 
 def told(pair: HigherPair, about: str) -> Phrase:

@@ -16,7 +16,7 @@ from graphkin.errors import Problem, did_you_mean
 from graphkin.plane import cross, cross_arcs, degrees, direction, dot
 from graphkin.scene.bodies import Reading, references
 from graphkin.scene.model import Driver, PlacedLink
-from graphkin.scene.pairs import PlacedContact, PlacedGuide, SlidingPair
+from graphkin.scene.pairs import HigherPair, PlacedContact, PlacedGuide, SlidingPair
 from graphkin.scene.scene_tables import Compass, Disc, Guide, Link, Polar
 from graphkin.scene.tables import in_si
 from graphkin.words import Phrase, joined
@@ -484,15 +484,15 @@ def check_starts(position: StatedPosition) -> None:
                              "one of the two is wrong leave start", start=f"{link.start:.10g}", value=seen)
 
 
-def starts_of(position: StatedPosition, contacts: Iterable[PlacedContact]) -> dict[str, float]:
+def starts_of(position: StatedPosition, touching: Iterable[HigherPair]) -> dict[str, float]:
     """The start of rolling motions: angles of links (rad), travels of sliding pairs and of contacts with a face (m),
     from the file or its drawn points."""
     slides, bodies = [pair for pair in position.reading.slides if not pair.of], position.bodies
     turns = {name: bodies[name].turn for name, link in position.reading.links.items() if link.start is None}
     seen = {name: cmath.phase(turn) for name, turn in turns.items() if turn is not None}
     travels = {pair.key: position.travel_of(pair.key) for pair in slides}
-    for contact in contacts:
-        if contact.flat:
+    for contact in touching:
+        if isinstance(contact, PlacedContact) and contact.flat:
             place = position.places.get(contact.centres[0])
             travels[contact.block] = _along(bodies[contact.face], contact.guide, place)
     starts = dict[str, float]()
@@ -609,26 +609,3 @@ def _check_points(position: StatedPosition, body: Placement) -> None:
             position.reading.say(Phrase("point", point=point), "link puts it at but it is given",
                                  "one of the two is wrong", body=body.name, pair=position.pair(place),
                                  other=position.pair(given[point]))
-
-
-def check_contacts(contacts: Iterable[PlacedContact], position: StatedPosition) -> None:
-    """Note outlines that do not touch where given places put them: centres too far apart, or not a radius off the face,
-    on its side."""
-    for c in contacts:
-        known = [z for centre in c.centres if (z := position.places.get(centre)) is not None]
-        if len(known) < len(c.centres):
-            continue
-        if not c.flat:
-            distance, wanted = abs(known[1] - known[0]), abs(c.apart)
-            key = "puts the centres apart"
-        else:
-            body, guide = position.bodies[c.face], position.bodies[c.face].guides.get(c.guide)
-            local = body.in_own_axes(known[0])
-            if guide is None or local is None:
-                continue
-            distance, wanted = dot(local - guide.through, guide.direction * c.normal_to_face), c.radii[0]
-            key = "puts the centre to the left of the face" if c.left else "puts the centre to the right of the face"
-        if abs(distance - wanted) > position.tolerance:
-            drawn = Phrase(key, distance=position.number(distance), given=position.number(wanted))
-            position.reading.say(f"contacts.{c.name}", "what is drawn", "correct a place a radius or the side",
-                                 value=drawn)

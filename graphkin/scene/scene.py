@@ -41,11 +41,10 @@ from graphkin.scene.bodies import (
 from graphkin.scene.drivers import drives, placed_driver, stated_driver
 from graphkin.scene.loads import loading_of
 from graphkin.scene.model import Mechanism, PlacedLink, Question, no_force
-from graphkin.scene.pairs import LawCam
 from graphkin.scene.pictures import background_of, scans_of
 from graphkin.scene.scene_tables import SCENE, Guide, Link, SceneTables
 from graphkin.scene.tables import file_table_by_name, path_name, path_of_key, plain, tidy, value_at
-from graphkin.scene.touching import cams_of, contacts_of, discs_of, gears_of, wrong_distances
+from graphkin.scene.touching import cams_of, check_contacts, check_distances, discs_of, touching_of
 from graphkin.words import Phrase, Wording, from_others
 
 # -- files -------------------------------------------------------------------------------------------------------------
@@ -267,8 +266,7 @@ def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[Sce
     reading = replace(reading, slides=sliding_pairs(reading))
     reading = replace(reading, slides=(*reading.slides, *pins_in_slots(reading)))
     discs = discs_of(reading) if any(body.discs for _, _, body in reading.bodies) else {}
-    contacts = contacts_of(reading, discs) if file.contacts else ()
-    gears = gears_of(reading) if file.gears else ()
+    touching = touching_of(reading, discs)
     for table in ("sketch", "drawn"):
         reading.wrong(*(reading.no_point(f"{table}.{point}", point) for point in getattr(file, table)))
     check_references(reading)
@@ -285,14 +283,14 @@ def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[Sce
         places.check_starts(position)
     if not problems and position.drawn:
         places.check_agreement(position)
-        places.check_contacts(contacts, position)
+        check_contacts(touching, position)
     if not problems:
         places.check_all_found(position)
         places.check_distances(position)
     reading = replace(reading, places={name: body.local for name, body in position.bodies.items()})
-    cams = _cams(reading, position) if file.cams else ()
-    if (contacts or gears) and not problems:
-        wrong_distances(contacts, gears, {n: b.guides for n, b in position.bodies.items()}, reading)
+    cams = cams_of(reading, position) if file.cams else ()
+    if not problems:
+        check_distances(touching, position)
     values = [position.value_of(driver) for driver in driven.values()]
     tables = () if problems else ((reading.frame.name, None), *reading.links.items())
     bodies = [position.placed(link_name, discs, link) for link_name, link in tables]
@@ -314,8 +312,8 @@ def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[Sce
         name=folder, frame=bodies[0], links=tuple(bodies[1:]), slides=reading.slides, drivers=tuple(drivers),
         units=file.units,
         sketch={p: complex(*place) * reading.metres for p, place in file.sketch.items()}, drawn=position.drawn,
-        loading=loading, higher_pairs=(*contacts, *gears, *cams),
-        starts=places.starts_of(position, contacts) if contacts or gears else {}, slots=reading.slots,
+        loading=loading, higher_pairs=(*touching, *cams),
+        starts=places.starts_of(position, touching) if touching else {}, slots=reading.slots,
         question=question,
     )  # fmt: skip
     if find or stated:
@@ -330,15 +328,6 @@ def _check_forces(made: Mechanism) -> None:
     problems = [problem for problem in wrong if problem is not None]
     if problems:
         raise SceneError(*dict.fromkeys(problems))
-
-
-def _cams(reading: Reading, position: places.StatedPosition) -> tuple[LawCam, ...]:
-    """The cams, with the lines of the frame on which followers slide."""
-    frame, file = position.bodies[reading.frame.name], reading.file
-    rails = {s.link: (s.key, frame.guides.get(s.guide)) for s in reading.slides if s.on == frame.name}
-    lines = {name: (pair, rail.through, rail.direction) for name, (pair, rail) in rails.items() if rail is not None}
-    seen = {p: complex(*place) * reading.metres for p, place in file.sketch.items()} | dict(position.drawn)
-    return cams_of(reading, lines, seen)
 
 
 # -- the file of a mechanism -------------------------------------------------------------------------------------------

@@ -11,7 +11,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import Discriminator, Strict, StringConstraints, Tag
 from pydantic import Field as Rule
@@ -202,6 +202,11 @@ class Gear(FileTable):
     between: TwoOutlines
     teeth: TwoTeeth
     carrier: LinkName | None = None
+    rolling: ClassVar[bool] = True
+
+
+TOUCHING = "contacts", "gears"
+"""The tables of bodies that touch, each entry ``between`` two of them, ``rolling`` or not."""
 
 
 LawName = Literal["uniform", "parabolic", "harmonic", "cycloidal", "345", "4567", "3-4-5", "4-5-6-7"]
@@ -580,6 +585,11 @@ class SceneTables(FileTable):
     vary: Vary | None = None
     grading: dict[str, NotNegative] = key(default_factory=dict)
     sheet: SheetWishes = SheetWishes()
+
+    @property
+    def touching(self) -> list[Contact | Gear]:
+        """The entries of all tables of bodies that touch."""
+        return [pair for table in TOUCHING for pair in getattr(self, table).values()]
 
 
 SCENE = Form(SceneTables, "graphkin scene", needed="links")
