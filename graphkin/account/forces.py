@@ -196,7 +196,7 @@ class ForceAccount:
             name = Symbol("P", name=spring.name)
             pull_on, opposite = (load for load in self.sheet.forces[0].known if load.symbol == name)
             length = abs(opposite.at - pull_on.at) * self.sheet.scales.length
-            force = spring.preload + spring.rate * (length - spring.free)
+            force = spring.pull(length)
             start, rate = amount(spring.preload / units.newtons), amount(spring.rate * units.metres / units.newtons)
             free, pull = amount(spring.free / units.metres), amount(force / units.newtons, MOST)
 

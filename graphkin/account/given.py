@@ -383,18 +383,9 @@ def _phase(scene: Mechanism, phase: LoadPhase) -> Phrase:
 
 def _spring_given(scene: Mechanism, spring: SpringOn, letters: Notation) -> Phrase:
     """The given data of a spring, in words with symbols."""
-    units = scene.units
+    numbers = {gap: Neutral(f"{number(value)} {unit}") for gap, (value, unit) in spring.numbers(scene.units).items()}
     one, two = (letters.point(point) for point in spring.points)
-    rate = Neutral(f"{number(spring.rate * units.metres / units.newtons)} {units.force}/{units.length}")
-    free, preload = (
-        Neutral(unit.beside(number(unit.of(value))))
-        for unit, value in ((units.of("length"), spring.free), (units.of("force"), spring.preload))
-    )
     name = force_letters(letters.convention, Symbol("P", name=spring.name))
-    link, other_link = spring.links
-    return Phrase(
-        "given spring", name=spring.name, point=one, link=link, other_point=two, other_link=other_link, rate=rate,
-        length=free, preload=preload, force=name,
-    )  # fmt: skip
+    return Phrase(f"given {spring.kind}", **{**spring.gaps, "point": one, "other_point": two}, **numbers, force=name)
 
 

@@ -289,11 +289,8 @@ def drawn_symbols(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tupl
     asked = asked_symbols(scene, find)
     if find is not None or not asked or not scene.loading or any(s.scope == "force" for s in asked):
         return asked
-    loading = scene.loading
-    forces = [Symbol("Fi", link=mass.link) for mass in loading.masses]
-    forces += [Symbol("P", name=load.name, turning=not load.is_force) for load in loading.loads]
-    forces += [Symbol("P", name=spring.name) for spring in loading.springs]
-    return (*asked, *forces)
+    inertia = (Symbol("Fi", link=mass.link) for mass in scene.loading.masses)
+    return *asked, *inertia, *scene.loading.applied
 
 
 def asked_here(asked: Sequence[Symbol]) -> tuple[Symbol, ...]:

@@ -155,7 +155,7 @@ def _bodies(scene: Mechanism) -> Bodies:
     made.lost += [Phrase("lost redundant link", link=link.name) for link in scene.links if link.redundant]
     made.lost += [Phrase("lost mass", link=mass.link) for mass in scene.loading.masses]
     made.lost += [Phrase("lost load", name=load.name) for load in scene.loading.loads]
-    made.lost += [Phrase("lost spring", name=spring.name) for spring in scene.loading.springs]
+    made.lost += [Phrase(f"lost {spring.kind}", name=spring.name) for spring in scene.loading.springs]
     for driver in scene.drivers:
         if driver.law is not None:
             made.lost.append(Phrase("lost law", name=driver.key))

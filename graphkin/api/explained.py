@@ -277,13 +277,8 @@ def _loads(scene: Mechanism) -> Iterator[Phrase]:
         key = "explained force" if load.is_force else "explained moment"
         yield Phrase(key, load=load.name, size=size, link=load.link)
     for spring in loading.springs:
-        (point, other_point), (link, other_link) = spring.points, spring.links
-        rate = f"{spring.rate * units.metres / units.newtons:.6g} {units.force}/{units.length}"
-        free, preload = f"{spring.free / units.metres:.6g} {units.length}", spring.preload / units.newtons
-        yield Phrase(
-            "explained spring", spring=spring.name, point=point, link=link, other_point=other_point,
-            other_link=other_link, rate=rate, free=free, preload=f"{preload:.6g} {units.force}",
-        )  # fmt: skip
+        numbers = {gap: f"{value:.6g} {unit}" for gap, (value, unit) in spring.numbers(units).items()}
+        yield Phrase(f"explained {spring.kind}", **spring.gaps, **numbers)
     for force in forces_named(scene):
         if force.kind in ("F", "M") and not force.other:
             measure = force.measure.name

@@ -12,7 +12,7 @@ from collections import Counter
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 from graphkin.errors import Problem, Unsolvable, did_you_mean
 from graphkin.scene.laws import MotionLaw
@@ -129,6 +129,28 @@ class SpringOn:
     rate: float
     free: float
     preload: float = 0.0
+    kind: ClassVar[str] = "spring"
+
+    def pull(self, length: Any) -> Any:
+        """Its pull at a length (N, m): floats, or arrays of one shape."""
+        return self.preload + self.rate * (length - self.free)
+
+    @property
+    def gaps(self) -> dict[str, object]:
+        """The names in its sentences."""
+        (point, other_point), (link, other_link) = self.points, self.links
+        return {"name": self.name, "point": point, "link": link, "other_point": other_point, "other_link": other_link}
+
+    def numbers(self, units: Units) -> dict[str, tuple[float, str]]:
+        """The numbers in its sentences, in the units of a scene, with the unit."""
+        return {"rate": (self.rate * units.metres / units.newtons, f"{units.force}/{units.length}"),
+                "free": (self.free / units.metres, units.length),
+                "preload": (self.preload / units.newtons, units.force)}  # fmt: skip
+
+    @property
+    def where(self) -> str:
+        """Its place in the file."""
+        return f"{self.kind}s.{self.name}"
 
     @property
     def ends(self) -> tuple[tuple[str, complex], tuple[str, complex]]:
@@ -150,6 +172,12 @@ class Loading:
 
     def __bool__(self) -> bool:
         return bool(self.masses or self.loads or self.springs)
+
+    @property
+    def applied(self) -> tuple[Symbol, ...]:
+        """The forces and moments of loads and springs by name."""
+        loads = (Symbol("P", name=load.name, turning=not load.is_force) for load in self.loads)
+        return *loads, *(Symbol("P", name=spring.name) for spring in self.springs)
 
 
 @dataclass(frozen=True)
@@ -586,8 +614,7 @@ def forces_named(mechanism: Mechanism) -> tuple[Symbol, ...]:
     made: list[Symbol] = []
     for mass in loading.masses:
         made += [Symbol(kind, link=mass.link) for kind in ("Fi", "Mi", *(("G",) if loading.gravity else ()))]
-    made += [Symbol("P", name=load.name, turning=not load.is_force) for load in loading.loads]
-    made += [Symbol("P", name=spring.name) for spring in loading.springs]
+    made += loading.applied
     for joint in joints(mechanism):
         made += [joint.symbol("F"), *([joint.symbol("M")] if joint.couple else [])]
     if loading.balance is not None:

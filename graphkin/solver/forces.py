@@ -259,9 +259,9 @@ class Forces:
             return motion
         reasons: list[Wording] = [BALANCE_IDLE if here else why
                                   for here, why in zip(unknown, motion.reasons, strict=True)]  # fmt: skip
-        for name, where in without_line(motion).items():
+        for spring, where in without_line(motion).items():
             for k in np.flatnonzero(where).tolist():
-                reasons[k] = Phrase("the two points of spring coincide in this", name=name)
+                reasons[k] = Phrase("the two points of spring coincide in this", name=spring.name)
         return replace(motion, status=np.where(unknown, "dead point", motion.status), reasons=tuple(reasons))
 
     @cached_property
@@ -408,7 +408,7 @@ def _spring(motion: Motion, spring: SpringOn) -> Iterator[Action]:
     way = two - one
     length = np.abs(way)
     along = np.divide(way, length, out=np.full(len(motion), complex(np.nan, np.nan)), where=_has_line(motion, length))
-    force = np.asarray((spring.preload + spring.rate * (length - spring.free)) * along)
+    force = np.asarray(spring.pull(length) * along)
     yield Action(Symbol("P", name=spring.name), spring.links[0], one, force)
     yield Action(None, spring.links[1], two, -force)
 
@@ -419,11 +419,11 @@ def spring_ends(motion: Motion, spring: SpringOn) -> tuple[Array, Array]:
     return np.asarray(one), np.asarray(two)
 
 
-def without_line(motion: Motion) -> dict[str, Array]:
+def without_line(motion: Motion) -> dict[SpringOn, Array]:
     """For each spring the positions, bool, shape (n,), at which its points coincide, so that its force has no line."""
     springs = motion.scene.loading.springs
-    lengths = {one.name: np.abs(np.subtract(*spring_ends(motion, one))) for one in springs}
-    return {name: motion.ok & ~_has_line(motion, length) for name, length in lengths.items()}
+    lengths = {one: np.abs(np.subtract(*spring_ends(motion, one))) for one in springs}
+    return {spring: motion.ok & ~_has_line(motion, length) for spring, length in lengths.items()}
 
 
 def _has_line(motion: Motion, length: Array) -> Array:

@@ -131,9 +131,9 @@ def forces_here(motion: Motion) -> Forces:
         known: Forces = motion.kept["forces here"]
         return known
     forces = forces_of(_of_cams(motion))
-    for name, where in without_line(forces.motion).items():
+    for spring, where in without_line(forces.motion).items():
         if where[0]:
-            raise Unsolvable("dead point", Problem(f"springs.{name}", "its two points coincide in this position so",
+            raise Unsolvable("dead point", Problem(spring.where, "its two points coincide in this position so",
                                                    "move the driver off this position"))
     if not forces.ok[0]:
         drivers = ", ".join(d.key for d in motion.scene.drivers)

@@ -327,9 +327,9 @@ def _spring(drawn: DrawnPosition, spring: SpringOn, hand: Instrument) -> Iterato
     size = abs(end - start)
     if size <= COINCIDE * drawn.sheet.scene.size * drawn.mm:
         said = "its two points coincide in this position so", "move the driver off this position"
-        raise Unsolvable("dead point", Problem(f"springs.{spring.name}", *said))
+        raise Unsolvable("dead point", Problem(spring.where, *said))
     length = hand.read(size) / drawn.mm
-    force = (spring.preload + spring.rate * (length - spring.free)) * unit(end - start)
+    force = spring.pull(length) * unit(end - start)
     symbol = Symbol("P", name=spring.name)
     yield ForceVector(symbol, spring.links[0], force, start)
     yield ForceVector(symbol, spring.links[1], -force, end, turned=True)

@@ -249,6 +249,10 @@ def spring(start: complex, end: complex, colour: str = strokes.BLACK) -> tuple[S
     return (Polyline(tuple(start + along * z for z in places), strokes.OUTLINE.coloured(colour)),)
 
 
+PULLING = {"spring": spring}
+"""The symbol of each kind that pulls two points together."""
+
+
 def _rectangle(at: complex, angle: float, length: float, width: float) -> tuple[complex, ...]:
     along = page_direction(angle) * length / 2
     side = page_direction(angle + math.pi / 2) * width / 2

@@ -518,9 +518,9 @@ def _springs(here: MechanismOnPaper) -> Piece:
         poses = [(here.sheet.poses[link], at / here.sheet.scales.length) for link, at in one.ends]
         a, b = (pose.place(at) for pose, at in poses)
         since = max((number for number in map(here.since, one.links) if number), default=None)
-        shape = symbols.spring(on_page(a), on_page(b))
-        drawn.append(Group(shape, id=f"spring-{one.name}", classes=("spring",), since=since))
-        names.append(Label.of(plain(one.name), (on_page(a), on_page(b)), f"label-spring-{one.name}", rank=1,
+        shape = symbols.PULLING[one.kind](on_page(a), on_page(b))
+        drawn.append(Group(shape, id=f"{one.kind}-{one.name}", classes=(one.kind,), since=since))
+        names.append(Label.of(plain(one.name), (on_page(a), on_page(b)), f"label-{one.kind}-{one.name}", rank=1,
                               since=since))
     return Piece({"mechanism": tuple(drawn)}, tuple(names)) if drawn else Piece()
 
