@@ -181,13 +181,14 @@ _FIT = np.linalg.inv(_VALUES)
 
 
 class Turn(NamedTuple):
-    """A turning point of a curve: its parameter and value, 1 at a greatest and -1 at a least value, and whether a seam
-    lies there."""
+    """A turning point of a curve: its parameter and value, 1 at a greatest and -1 at a least value, whether a seam lies
+    there, and how long the curve has been constant before it: from seam to seam."""
 
     place: float
     value: float
     sense: float
     at_seam: bool = False
+    rest: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -302,12 +303,25 @@ class Pieces:
             top = sense * (sense * levels).max(axis=0)
             turning = (sense * (top - before) >= -slack) & (sense * (top - after) > slack)
             turning &= at_rest | (np.abs(top) > slack)
-            ends = zip(self.seams[turning].tolist(), top[turning].tolist(), strict=True)
-            turns += [Turn(*end, sense, True) for end in ends]
+            for k in np.flatnonzero(turning).tolist():
+                rest = self._rest(curve, k, float(top[k]), slack)
+                turns.append(Turn(float(self.seams[k]), float(top[k]), sense, True, rest))
         distance = np.abs(places[:, None] - self.seams)
         distance = np.minimum(distance, high - low - distance) if self.periodic else distance
         same = (np.abs(levels - values[:, None, None]) <= slack).any(axis=1)
         return turns, np.asarray(((distance < near) & same).any(axis=1))
+
+    def _rest(self, curve: int, seam: int, level: float, slack: float) -> float:
+        """The length of the stretch before a seam, from another seam on, along which a curve keeps a level."""
+        whole, rest = float(self.high[-1] - self.low[0]), 0.0
+        for back in range(1, len(self.seams) if self.periodic else seam + 1):
+            length = float(self.seams[seam] - self.seams[seam - back])
+            length += whole if back > seam else 0.0
+            inside = self._within(self.seams[seam] - np.linspace(rest, length, POINTS + 1)[1:-1])
+            if np.abs(self.at(inside, curve) - level).max() > slack:
+                break
+            rest = length
+        return rest
 
     def _room(self) -> Array:
         """The distance of each seam from its neighbour: another seam, or an end of the range."""

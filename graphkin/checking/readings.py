@@ -255,8 +255,10 @@ def _of_turn(sheet: Sheet, symbol: Symbol, instrument: Instrument) -> Measured |
         return None, abs(angle + math.tau * round((highest.angle - lowest.angle - angle) / math.tau))
     driver = sheet.scene.drivers[0]
     one, two = (poses[driver.link].axis / poses[driver.relative_to].axis for poses in (low, high))
-    between = phase(instrument.read_direction(two / one))
-    lag = math.pi - abs(between)
+    sense = -1.0 if driver.values[1] < 0.0 else 1.0
+    between = (sense * phase(instrument.read_direction(two / one))) % math.tau
+    out, back = between - highest.rest, math.tau - between - lowest.rest
+    lag = math.pi * abs(out - back) / (out + back)
     lag = 0.0 if abs(lag) < MOST_LOST else lag  # rounding of exact hands: a pencil reads no such angle
     if symbol.kind == "theta_lag":
         return None, lag

@@ -498,13 +498,14 @@ class LawCam:
         """The angle of the law (rad) at an angle of the link's own axis."""
         return self.law.reduced(self.sense * angle)
 
-    def leaves(self, lift: float, sense: int) -> float:
+    def leaves(self, lift: float, sense: int) -> tuple[float, float]:
         """The angle of the link's own axis (rad, 0 to a turn) from which the follower leaves its least or greatest lift
-        where the cam turns in a sense; the smallest of several."""
-        grows = sense * self.sense > 0
+        where the cam turns in a sense, the smallest of several; and the angle of the dwell before it."""
         moving = [piece for piece in self.law.pieces if piece.low != piece.high]
-        ends = [piece.start if grows else piece.end for piece in moving if lift == (piece.low if grows else piece.high)]
-        return min(self.sense * end % math.tau for end in ends)
+        ends = [(before.end, after.start) for before, after in zip(moving[-1:] + moving[:-1], moving, strict=True)
+                if after.low == lift]  # fmt: skip
+        grows = sense * self.sense > 0
+        return min((self.sense * (end if grows else start) % math.tau, (end - start) % math.tau) for start, end in ends)
 
     def course(self, lift: Lift, exp: Callable[[Values], Values] = cmath.exp) -> Course:
         """The follower's point at a lift.  Raises Unsolvable as `beginning`.

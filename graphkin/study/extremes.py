@@ -45,13 +45,15 @@ HAIR = 1e-6
 @dataclass(frozen=True)
 class Extreme:
     """A greatest or least value, or the value at an end of the motion: its place (offset, and value of the driver, SI)
-    and its value (SI); ``local`` if the quantity exceeds it elsewhere in a range that ends."""
+    and its value (SI); ``local`` if the quantity exceeds it elsewhere in a range that ends; ``rest``, how far the
+    driver turns before it while the quantity keeps the value."""
 
     kind: Literal["max", "min", "end"]
     offset: float
     driver: float
     value: float
     local: bool = False
+    rest: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -390,6 +392,7 @@ def _extremes(way: CurveParameter, curves: Sequence[Curve]) -> list[tuple[Extrem
             # at a jump both values stand at one place
             # and where a group stands in line, at a change point, the solver refuses
             value = curve.quantity.of_smooth(turn.value) if turn.at_seam or np.isnan(value) else value
-            inner.append(Extreme("max" if turn.sense > 0 else "min", place, driver_value(reach, place), value))
+            kind: Literal["max", "min"] = "max" if turn.sense > 0 else "min"
+            inner.append(Extreme(kind, place, driver_value(reach, place), value, rest=turn.rest))
         found.append((*ends[0], *inner, *ends[1]))
     return found

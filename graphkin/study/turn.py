@@ -378,13 +378,13 @@ class TurnStudy:
         """K of an output, and the crank angle theta (rad) between its limit positions; None where it has none.
 
         K = (180 + theta) / (180 - theta): the greater of the driver's two angles between the limit positions of the
-        output over the smaller; 1 or more (coefficient of travel speed variation, 行程速比系数; quick-return or time
-        ratio, Norton, Design of Machinery, ch. 3).
+        output over the smaller, dwells not counted; 1 or more (coefficient of travel speed variation, 行程速比系数;
+        quick-return or time ratio, Norton, Design of Machinery, ch. 3).
         """
         low, high = output.low, output.high
         if low is None or high is None or self.reach.turns != 1:
             return None
-        ends = Extremes(low.value, high.value, low.offset, high.offset)
+        ends = Extremes(low.value, high.value, low.offset, high.offset, low.rest, high.rest)
         if ends.lag > np.pi * (1 - 2e-12):
             return None
         return ends.ratio, ends.lag

@@ -266,3 +266,15 @@ def test_a_link_that_swings_is_not_said_to_turn_fully() -> None:
 def test_nothing_is_said_to_turn_fully_where_no_link_on_the_frame_does() -> None:
     said = graphkin.sweep(four_bar(300, 100, 330, 350), positions=4).text
     assert "double-rocker (its coupler can turn fully)\n" in said
+
+
+def test_a_K_that_leaves_out_dwells_says_so() -> None:
+    scene = {
+        "frame": {"points": {"A": [0, 0]}, "guides": {"g": {"through": "A", "angle": 90}}},
+        "links": {"1": {"points": ["A"]}, "2": {"points": ["B"], "on": "0.g"}},
+        "cams": {"1": {"follower": "2", "base": {"r": 80}, "law": [
+            {"to": 100, "rise": 20, "by": "345"}, {"to": 150}, {"to": 350, "fall": 20, "by": "345"}, {"to": 360},
+        ]}},
+        "driver": {"link": "1", "angle": 30, "omega": 10},
+    }  # fmt: skip
+    assert "K = 2 (θ = 60°, dwells not counted)" in graphkin.sweep(scene, positions=4).text

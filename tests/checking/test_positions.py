@@ -111,3 +111,22 @@ def test_a_figure_is_drawn_alone_when_it_is_asked_for() -> None:
 def test_an_unknown_figure_is_refused_with_the_nearest_name() -> None:
     with pytest.raises(CallError, match='figure: "velocty"; did you mean "velocity"'):
         graphkin.draw(FOUR_BAR, figures=["velocty"])
+
+
+DWELLING = {
+    "frame": {"points": {"A": [0, 0]}, "guides": {"g": {"through": "A", "angle": 90}}},
+    "links": {"1": {"points": ["A"]}, "2": {"points": ["B"], "on": "0.g"}},
+    "cams": {"1": {"follower": "2", "base": {"r": 80}, "law": [
+        {"to": 60, "rise": 20, "by": "345"}, {"to": 140}, {"to": 160},
+        {"to": 340, "fall": 20, "by": "345"}, {"to": 360},
+    ]}},
+}  # fmt: skip
+"""A cam that lifts its follower in 60 degrees and lets it down in 180 (mm)."""
+
+
+@pytest.mark.parametrize("omega", [10, -10])
+def test_K_of_a_drawn_follower_is_that_of_rise_and_fall_without_dwells(omega: float) -> None:
+    scene = DWELLING | {"driver": {"link": "1", "angle": 30, "omega": omega}}
+    checked = graphkin.check(scene, find=["K_2/0", "theta_lag_2/0"])
+    assert [3.0, 90.0] == pytest.approx([row.measured for row in (checked["K_2/0"], checked["theta_lag_2/0"])])
+    assert checked.ok

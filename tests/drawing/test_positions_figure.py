@@ -109,3 +109,18 @@ def test_limits_that_there_are_need_no_number_of_positions() -> None:
 def test_a_scene_that_shows_its_limits_alone_has_tables_of_a_turn(driver: str) -> None:
     assert len(graphkin.sweep(limits_alone(driver)).table) == 36
     assert graphkin.course_design(limits_alone(driver)).ok
+
+
+def test_a_cam_with_dwells_has_no_angle_between_two_positions_of_it_and_no_path_of_bars_in_its_place() -> None:
+    scene = {
+        "frame": {"points": {"A": [0, 0]}, "guides": {"g": {"through": "A", "angle": 90}}},
+        "links": {"1": {"points": ["A"], "at": {"E": [20, 0]}}, "2": {"points": ["B"], "on": "0.g"}},
+        "cams": {"1": {"follower": "2", "base": {"r": 80}, "law": [
+            {"to": 60, "rise": 20, "by": "345"}, {"to": 160}, {"to": 340, "fall": 20, "by": "345"}, {"to": 360},
+        ]}},
+        "driver": {"link": "1", "angle": 30, "omega": 10},
+    }  # fmt: skip
+    figure = ET.fromstring(svg_bytes(graphkin.draw(scene, figures=["positions"]).figures["positions"]))
+    drawn = {id for id in ids(figure) if id.startswith(("theta", "out", "back", "least", "path"))}
+    assert set() == drawn
+    assert "3" in "".join(figure.itertext()).split("K = ")[-1][:3]

@@ -96,3 +96,13 @@ def test_what_dwells_has_its_limits_where_it_leaves_them(
     found = extremes(reach, Symbol.parse(output))
     places = np.degrees(reach.value(np.array([found.low_offset, found.high_offset]))) % 360
     assert leaves == pytest.approx(sorted((places + 1e-6).round(5) % 360), abs=1e-4)
+
+
+@pytest.mark.parametrize("omega", [10, -10])
+@pytest.mark.parametrize("output", ["2", "4/0"])
+def test_K_counts_no_dwells(output: str, omega: float) -> None:
+    # 100 degrees of rise and 200 of fall
+    found = extremes(
+        driver_range(mechanism_of_text(DWELLS.format(angle=37, omega=omega), "cam")), Symbol.parse(f"K_{output}")
+    )
+    assert (pytest.approx(2.0, rel=1e-9), pytest.approx(math.pi / 3, rel=1e-9)) == (found.ratio, found.lag)

@@ -390,6 +390,13 @@ def test_a_follower_with_dwells_has_its_limits_where_it_leaves_them(by: str, ang
     assert len(output.position.extremes) == 2
 
 
+@pytest.mark.parametrize("angle", [0.0, 37.0, 100.0, 350.0])
+@pytest.mark.parametrize("by", ["harmonic", "parabolic", "345"])
+def test_K_of_a_follower_is_that_of_rise_and_fall_without_dwells(by: str, angle: float) -> None:
+    turn = follower(by, angle)
+    assert (2.0, math.pi / 3) == pytest.approx(turn.quick_return(slider(turn)), rel=1e-9)
+
+
 @pytest.mark.parametrize("angle", [0.0, 37.0, 100.0])
 def test_an_acceleration_that_jumps_has_its_extremes_at_the_jumps(angle: float) -> None:
     curves = follower("harmonic", angle).curves

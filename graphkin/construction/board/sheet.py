@@ -191,11 +191,13 @@ class LimitPosition(OnPaper):
     value : of the crank (rad)
     poses : of links, on paper (mm)
     angle : of the output (rad), to a few degrees and with whole turns; 0 of a slide
+    rest : angle (rad) by which the crank turns before it while the output rests
     """
 
     value: float
     poses: Mapping[str, Pose]
     angle: float = 0.0
+    rest: float = 0.0
 
 
 Limits = tuple[LimitPosition, LimitPosition]

@@ -205,9 +205,9 @@ def _follower_limits(scene: Mechanism, asked: Sequence[Symbol], values: Mapping[
             raise Unsolvable("no whole turn", Problem(str(symbol), *said))
         ends, side = [], cam.motion.side if isinstance(cam.motion, SwingingFollower) else 1
         for lift in (cam.law.least, cam.law.greatest)[::side]:
-            value = cam.leaves(lift, -1 if driver.rate < 0.0 else 1)
+            value, rest = cam.leaves(lift, -1 if driver.rate < 0.0 else 1)
             poses = poses_at(PlacedElements(structure, structure.elements), {**values, driver.key: value})
-            ends.append(LimitPosition(value, poses, side * lift))
+            ends.append(LimitPosition(value, poses, side * lift, rest))
         limits[symbol.pair] = ends[0], ends[1]
     return limits
 

@@ -100,7 +100,7 @@ def shown_positions(planned: Plan, values: Mapping[str, float]) -> Shown:
     structure, scene = planned.structure, planned.structure.scene
     own = execute(planned)
     positions = scene.question.positions
-    show, marks = (positions.show, positions.marks) if positions else (("limits",), MARKS)
+    show, marks = (positions.show, tuple[str, ...](positions.marks)) if positions else (("limits",), MARKS)
     every = positions.names[: positions.count] if positions and "all" in show else ()
     key = scene.drivers[0].key
 
@@ -121,6 +121,8 @@ def shown_positions(planned: Plan, values: Mapping[str, float]) -> Shown:
                 without[asked[0]] = stop.problems[0].found
                 continue
             low, high = turned.limits[output]
+            if low.rest or high.rest:  # the strokes are not parted by two positions of the crank
+                marks = tuple(mark for mark in marks if mark != "theta")
             limits[output] = drawn(low.value), drawn(high.value)
             for reading in read_off(turned):
                 if reading.symbol in asked:
@@ -147,6 +149,8 @@ def _outputs(scene: Mechanism, structure: Structure) -> list[str]:
 def _turn(structure: Structure, own: Sheet) -> TurnOfCrank | None:
     size = own.scales.length / structure.scene.size
     poses = {name: pose.scaled(size) for name, pose in own.poses.items()}
+    if structure.scene.cams:  # bars in a cam's place hold here alone
+        return None
     if not set(structure.links) <= set(poses) or not structure.scene.drivers[0].turns:
         return None
     try:

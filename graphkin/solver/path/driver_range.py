@@ -583,12 +583,15 @@ WHERE_ELSE = Phrase("ask for s_ theta_ or d_ at single")
 
 @dataclass(frozen=True)
 class Extremes:
-    """The least and the greatest value of an output over a turn (m, rad), and the driver's offsets there."""
+    """The least and the greatest value of an output over a turn (m, rad), the driver's offsets there, and the angles
+    (rad) by which it turns before them while the output rests."""
 
     low: float
     high: float
     low_offset: float
     high_offset: float
+    low_rest: float = 0.0
+    high_rest: float = 0.0
 
     @property
     def stroke(self) -> float:
@@ -596,17 +599,27 @@ class Extremes:
 
     @property
     def lag(self) -> float:
-        """The acute angle theta between the crank's two limit positions (rad), the difference of the longer way from
-        half a turn."""
-        way = abs(self.high_offset - self.low_offset)
-        lag = max(way, math.tau - way) - math.pi
-        return lag if lag > ROUNDED else 0.0
+        """The angle theta = 180 (K - 1) / (K + 1) (rad): the acute angle between the crank's two limit positions."""
+        return lag_of(*self.ways)
 
     @property
     def ratio(self) -> float:
         """K = (180 + theta) / (180 - theta): the longer way of the crank over the shorter (coefficient of travel speed
         variation, 行程速比系数; time ratio, Norton, Design of Machinery, ch. 3)."""
         return (math.pi + self.lag) / (math.pi - self.lag)
+
+    @property
+    def ways(self) -> tuple[float, float]:
+        """The angles by which the crank turns during the stroke to the greatest value and during that to the least
+        (rad), without rests."""
+        way = (self.high_offset - self.low_offset) % math.tau
+        return way - self.high_rest, math.tau - way - self.low_rest
+
+
+def lag_of(out: float, back: float) -> float:
+    """The angle theta = 180 (K - 1) / (K + 1) (rad) of the angles by which a crank turns during both strokes."""
+    lag = math.pi * abs(out - back) / (out + back)
+    return lag if lag > ROUNDED else 0.0
 
 
 def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
@@ -626,7 +639,7 @@ def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
     if symbol.other:
         sliding_pair(reach.structure.slides, symbol)
     pair = symbol.pair
-    offsets, values, turned = _turns(reach, symbol)
+    offsets, values, rests, turned = _turns(reach, symbol)
     if not symbol.other and abs(turned) > 1.0:
         raise _without(symbol, Phrase("link turns on and on it has no", output=pair), Phrase("ask for one that swings"))
     wide, size = float(np.ptp(values)) if len(values) else 0.0, reach.scene.size if symbol.other else 1.0
@@ -639,12 +652,12 @@ def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
         min(np.flatnonzero(sign * values >= (sign * values).max() - EQUAL * wide).tolist(), key=crank.__getitem__)
         for sign in (-1.0, 1.0)
     )
-    return Extremes(float(values[low]), float(values[high]), float(offsets[low]), float(offsets[high]))
+    return Extremes(*(float(of[k]) for of in (values, offsets, rests) for k in (low, high)))
 
 
-def _turns(reach: DriverRange, symbol: Symbol) -> tuple[Array, Array, float]:
-    """The reversals of an output over a turn of the driver: offsets and values, of a dwell its end; and the output's
-    change in a turn."""
+def _turns(reach: DriverRange, symbol: Symbol) -> tuple[Array, Array, Array, float]:
+    """The reversals of an output over a turn of the driver: offsets and values, of a dwell its end, and the dwells'
+    lengths; and the output's change in a turn."""
 
     def course(offset: Array, extended: bool = False) -> Array:
         """Value and rate by the driver's own angle, shape (n, 2)."""
@@ -659,13 +672,14 @@ def _turns(reach: DriverRange, symbol: Symbol) -> tuple[Array, Array, float]:
     size = reach.scene.size if symbol.other else 1.0
     floor = np.array([1.0, REST]) * size
     pieces = resolve(curves, 0.0, math.tau, periodic=True, floor=floor, seams=reach.seams)
-    rests, offsets = pieces.zeros(1), []
-    for turn in pieces.turns(0):
+    rests, offsets, turns = pieces.zeros(1), [], pieces.turns(0)
+    for turn in turns:
         # the place of a turn is known to the last digits as that where the rate is nought
         beside = rests[np.abs(rests - turn.place) < BESIDE]
         offsets.append(turn.place if turn.at_seam or not len(beside) else float(beside[0]))
     values = course(np.array([*offsets, 0.0, math.tau]), extended=True)[:, 0]
-    return np.array(offsets), values[:-2], float(values[-1] - values[-2])
+    lengths = np.array([turn.rest for turn in turns])
+    return np.array(offsets), values[:-2], lengths, float(values[-1] - values[-2])
 
 
 def _without(symbol: Symbol, found: Wording, wanted: Wording) -> Unsolvable:
