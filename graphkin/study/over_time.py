@@ -43,7 +43,7 @@ class TimeAxis(Axis):
     def times(self) -> Array:
         """Moments that show the motion: even ones, seams of laws, and just before them."""
         low, high = self.ends
-        seams = [p.start for d in self.scene.drivers if d.law is not None for p in d.law.parts]
+        seams = [t for d in self.scene.drivers if d.law is not None for p in d.law.parts for t in (p.start, p.end)]
         inner = np.array([t for t in seams if low < t < high])
         even = np.linspace(low, high, POINTS)
         return np.unique(np.concatenate([even, inner, inner - BEFORE * (high - low)]))

@@ -228,3 +228,10 @@ def test_a_moment_is_told_where_all_laws_stand_at_it(at, moment):
     sheet = graphkin.check(five_bar(), at=at).sheet
     lines = given_drivers(sheet, notation_of(sheet, "chinese"))
     assert (moment, moment is not None) == (entry.get("time"), repr(lines[0]).startswith("$t$"))
+
+
+def test_of_laws_of_unlike_length_the_shorter_ends_with_an_extreme_of_its_own():
+    laws = {"1": {"from": 100, "to": 140, "duration": 1.9}, "3": {"from": 80, "to": 60, "duration": 3.1}}
+    drivers = [{"link": link, "time": 1, "law": {**law, "by": "parabolic"}} for link, law in laws.items()]
+    outputs = graphkin.sweep({**FIVE_BAR, "driver": drivers}, find=["theta_1"]).data["outputs"]
+    assert {"value": math.radians(140), "time": 1.9} == pytest.approx(outputs["theta_1"]["greatest"])
