@@ -269,10 +269,12 @@ def _forces_of_turn(turn: TurnStudy, language: str) -> list[str]:
         unit = quantity.unit(scene)
         parts = [
             f"{word('greatest' if e.kind == 'max' else 'least', language)} {unit.of(e.value):.6g} @ {_at(scene, e)}"
-            if math.isfinite(e.value) else say(Phrase("grows without bound at", place=_at(scene, e)), language)
-            for e in extremes
-        ]  # fmt: skip
-        whole = word("list semicolon", language).join(dict.fromkeys(parts))
+            for e in extremes if math.isfinite(e.value)
+        ]
+        if away := dict.fromkeys(_at(scene, e) for e in extremes if math.isinf(e.value)):
+            places = word("list comma", language).join(away)
+            parts.insert(0, say(Phrase("grows without bound at", place=places), language))
+        whole = word("list semicolon", language).join(parts)
         lines.append(f"{name} ({unit.text}): {whole}")
     return lines
 

@@ -7,8 +7,9 @@ Where a load begins, ends or reverses the curve jumps: both its values are shown
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from typing import TypeAlias
 
 import numpy as np
 
@@ -35,6 +36,8 @@ BESIDE = np.array([1e-5, 1e-3])
 """Of the range: so far beside a place inside it is seen whether a force grows without bound there."""
 UNKNOWN_HERE = 1e-5
 """Of the range: an extreme this near to a sample without forces stands there."""
+PEAK = 20.0
+"""Of the middle one of all sizes: a peak that is lower grows nowhere without bound."""
 NOUGHT = 1e-12
 """Of the greatest force or moment: less is nothing but rounding."""
 TICKS = 12
@@ -113,16 +116,16 @@ def _extremes(
     if np.ptp(values[known]) <= NOUGHT * np.abs(values[known]).max():  # it is the same everywhere, but for rounding
         at, value = float(offsets[known[0]]), float(values[known[0]])
         return (Extreme("max", at, axis.driver(at), value),)
-    extremes = []
-    for extreme in axis.extremes(quantity, offsets, values):
-        low, high = (False, False) if axis.reach.full else (extreme.offset <= offsets[2], extreme.offset >= offsets[-3])
-        if low or high:
-            inside = float(np.nanmax(np.abs(values[3:6] if low else values[-6:-3]), initial=0.0))
-            away = abs(extreme.value) > GROWS * inside
-        else:
-            extreme = _at_idle(axis, extreme, offsets[~np.isfinite(values)])
-            away = _grows_beside(axis, quantity, extreme.offset)
-        extremes.append(replace(extreme, value=math.copysign(math.inf, extreme.value)) if away else extreme)
+    away = [*_away_inside(axis, quantity, offsets, values)]
+    if not axis.reach.full:
+        away += _away_at_ends(axis, quantity, offsets, values)
+    extremes = list[Extreme]()
+    for finite in axis.extremes(quantity, offsets, values):
+        sign = 1.0 if finite.kind == "max" else -1.0
+        places = {place for place, growing in away if growing == sign}
+        infinite = [Extreme(finite.kind, place, axis.driver(place), sign * math.inf) for place in places]
+        infinite.sort(key=lambda extreme: extreme.driver)
+        extremes += infinite or [_at_idle(axis, finite, offsets[~np.isfinite(values)])]
     return tuple(extremes)
 
 
@@ -135,14 +138,44 @@ def _at_idle(axis: charts.DriverAxis, extreme: Extreme, unknown: charts.Array) -
     return replace(extreme, offset=place, driver=axis.driver(place))
 
 
-def _grows_beside(axis: charts.DriverAxis, quantity: Quantity, place: float) -> bool:
-    """Whether a force grows without bound towards a place inside the motion, as where a balance does no work: with the
+_Away: TypeAlias = tuple[float, float]
+"""An offset towards which a force grows without bound, and the sign with which it does."""
+
+
+def _away_at_ends(
+    axis: charts.DriverAxis, quantity: Quantity, offsets: charts.Array, values: charts.Array
+) -> Iterator[_Away]:
+    """The ends of the motion towards which a force grows without bound."""
+    usual = float(np.nanmedian(np.abs(values)))
+    for end, part, inner in ((0, slice(0, 6), slice(3, 6)), (1, slice(-6, None), slice(-6, -3))):
+        if not np.isfinite(values[part]).any():
+            continue
+        inside = max(usual, float(np.nanmax(np.abs(values[inner]), initial=0.0)))
+        for extreme in axis.extremes(quantity, offsets[part], values[part]):
+            if abs(extreme.value) > GROWS * inside:
+                yield axis.reach.ends[end], math.copysign(1.0, extreme.value)
+
+
+def _away_inside(
+    axis: charts.DriverAxis, quantity: Quantity, offsets: charts.Array, values: charts.Array
+) -> Iterator[_Away]:
+    """The places inside the motion towards which a force grows without bound, as where a balance does no work: with the
     reciprocal of the distance from there, hundredfold at a hundredth."""
-    low, high = axis.reach.ends
-    beside = place + np.outer([-1.0, 1.0], BESIDE) * (high - low)
-    beside = (beside - low) % (high - low) + low if axis.reach.full else np.clip(beside, low, high)
-    near, far = np.abs(axis.values(quantity, beside.ravel())).reshape(beside.shape).T
-    return bool(np.any(near > GROWS * far))
+    (low, high), size = axis.reach.ends, np.abs(values)
+    before, here, after = size[:-2], size[1:-1], size[2:]
+    peaks = np.flatnonzero((here > before) & (here > after) & (here > PEAK * np.nanmedian(size)))
+    tops = [max(axis.extremes(quantity, offsets[k : k + 3], values[k : k + 3]), key=lambda e: abs(e.value)).offset
+            for k in peaks.tolist()]  # fmt: skip
+    near, known = UNKNOWN_HERE * (high - low), [] if axis.reach.full else [low]
+    for place in (*offsets[~np.isfinite(values)].tolist(), *tops):
+        if any(abs(math.remainder(place - other, high - low)) <= near for other in known):
+            continue
+        known.append(place)
+        beside = place + np.outer([-1.0, 1.0], BESIDE) * (high - low)
+        beside = (beside - low) % (high - low) + low if axis.reach.full else np.clip(beside, low, high)
+        nearer, farther = axis.values(quantity, beside.ravel()).reshape(beside.shape).T
+        for value in nearer[np.abs(nearer) > GROWS * np.abs(farther)].tolist():
+            yield place, math.copysign(1.0, value)
 
 
 def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> chart.ChartPage:

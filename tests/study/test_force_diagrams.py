@@ -125,9 +125,13 @@ def test_greatest_and_least_forces_stand_in_the_summary_of_a_turn():
 
 
 def test_a_force_that_grows_without_bound_is_said_to():
-    high, _ = graphkin.sweep("boom-lifted").data["forces"]["F_2"]["extremes"]
-    assert high["value"] is None
-    assert "without bound" in high["why"]
+    swept = graphkin.sweep("boom-lifted")
+    *high, _ = swept.data["forces"]["F_2"]["extremes"]
+    assert [None, None] == [extreme["value"] for extreme in high]
+    assert "without bound" in high[0]["why"]
+    # the cylinder, 400 on 360.555, is in line with its pivots at both ends
+    assert [400 - 360.555127546, 400 + 360.555127546] == pytest.approx([extreme["driver"] for extreme in high])
+    assert "F_2 (kN): grows without bound at 39.4449 mm, 760.555 mm; minimum 0 @ " in swept.text
 
 
 @pytest.mark.parametrize(
@@ -142,7 +146,7 @@ def test_a_force_that_grows_without_bound_is_said_to():
     ],
 )
 def test_the_least_force_is_nought_only_where_it_is(scene, force, least, at):
-    _, low = graphkin.sweep(scene).data["forces"][force]["extremes"]
+    low = graphkin.sweep(scene).data["forces"][force]["extremes"][-1]
     driver = at if scene == "boom-lifted" else np.radians(at)
     assert (least, driver) == pytest.approx((low["value"], low["driver"]), rel=3e-6)
 
@@ -190,3 +194,21 @@ def test_a_force_that_is_the_same_everywhere_has_one_greatest_value_and_no_least
     }
     told = graphkin.sweep(scene, positions=6).text
     assert "F_0/1 (N): maximum 55.3475 @ -57.8676 mm\n" in told
+
+
+def test_every_place_within_a_turn_towards_which_a_force_grows_without_bound_is_named():
+    # a slider 13 beside the crank stands still where crank and rod are in line
+    scene = {
+        "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": [0, 13], "angle": 0}}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 30},
+            "2": {"points": ["B", "C"], "length": 80},
+            "3": {"points": ["C"], "on": "0.h"},
+        },
+        "driver": {"link": "1", "angle": 50, "omega": 10},
+        "loads": {"P": {"on": "1", "moment": 4}},
+        "balance": {"on": "3", "at": "C", "angle": 180},
+    }
+    *away, _ = graphkin.sweep(scene, positions=4).data["forces"]["F_1/2"]["extremes"]
+    still = math.asin(13 / 110), math.pi + math.asin(13 / 50)
+    assert [(None, pytest.approx(place, abs=1e-6)) for place in still] == [(e["value"], e["driver"]) for e in away]
