@@ -186,18 +186,19 @@ class InMechanism(Telling):
         if not table.trials:
             return None
         moved, missed = self._moved_and_missed(table)
-        values, misses = zip(*(_told_in(table, row) for row in table.trials), strict=True)
+        values, misses = zip(*(self._row(table, row) for row in table.trials), strict=True)
         if len(table.moved) > 1:
             several = {"values": _numbered(values), "misses": _numbered(misses)}
             told = Phrase("trial table several", moved=moved, missed=missed, **several)
-            return Phrase("in turn", first=self.plain, second=_divided_by_parts(table, told))
+            return Phrase("in turn", first=self.plain, second=self._divided_by_parts(table, told))
         unit = "°" if table.missed[0].angle else " mm"
         measured = "; ".join(misses).replace(unit, "") + unit
         told = Phrase("trial table", moved=moved, values=listed(values), missed=missed, misses=measured)
         if table.divided:
             before = table.before
-            part, whole = (f"{abs(table.trials[i][1][0]):.2f}" for i in (before - 1, before))
-            (first_values, first_misses), *rest = (_told_in(table, row) for row in table.divided)
+            of_two = (table.trials[i][1][0] for i in (before - 1, before))
+            part, whole = (f"{abs(self._shown(miss, table.missed[0].angle)):.2f}" for miss in of_two)
+            (first_values, first_misses), *rest = (self._row(table, row) for row in table.divided)
             told = Phrase(
                 "trial division", told=told, first=before, second=before + 1, parts=part, whole=whole,
                 values=first_values, misses=first_misses,
@@ -215,7 +216,7 @@ class InMechanism(Telling):
         parts = [Phrase("written trial rolling", moved=moved, contact=rolled) if rolled else fitted]
         if trial.trials:
             moved_words, missed = self._moved_and_missed(trial)
-            rows = [_told_in(trial, row) for row in trial.trials]
+            rows = [self._row(trial, row) for row in trial.trials]
             if len(trial.moved) > 1:
                 numbered = ([Neutral(sign(roman(i)), f" {row[k]}") for i, row in enumerate(rows, 1)] for k in (0, 1))
                 values, misses = map(listed, numbered)
@@ -228,7 +229,7 @@ class InMechanism(Telling):
                 seen = listed([Phrase("written miss", misses=rows[i - 1][1], trial=i) for i in near])
                 parts.append(Phrase("written missed", missed=missed, misses=seen))
             if trial.divided:
-                parts.append(Phrase("written fits", values=_told_in(trial, trial.divided[-1])[0]))
+                parts.append(Phrase("written fits", values=self._row(trial, trial.divided[-1])[0]))
         if route := [*self._route()]:
             parts.insert(2, Phrase("written route", route=listed([*map(Neutral, route)])))
         yield in_turn(parts)
@@ -264,6 +265,33 @@ class InMechanism(Telling):
     def _points(self, names: Sequence[str]) -> RichText:
         return spaced(", ", map(self.account.letters.point, names))
 
+    def _divided_by_parts(self, table: TrialPositions, told: Phrase) -> Phrase:
+        """The divisions of trials that each moved another unknown."""
+        for i, row in enumerate(table.divided):
+            values, misses = self._row(table, row)
+            if i:
+                replaced = sign(roman(table.replaced[i - 1]))
+                told = Phrase("trial parts again", division=told, trial=replaced, values=values, misses=misses)
+            else:
+                steps = spaced(", ", (sign(roman(k)) for k in range(2, len(table.trials) + 1)))
+                parts = ", ".join(map(_two_digits, table.parts))
+                told = Phrase("trial parts", division=told, parts=parts, trials=steps, values=values, misses=misses)
+        return told
+
+    def _row(self, table: TrialPositions, row: TrialRow) -> tuple[str, str]:
+        """The values of a trial, and its gaps, each with its unit."""
+        values = (  # angles from -180 to 180
+            f"{_two_digits(180.0 - (180.0 - math.degrees(v)) % 360.0)}°" if symbol.measure.is_angle
+            else f"{_two_digits(self._shown(v))} mm" for v, symbol in zip(row[0], table.moved, strict=True)
+        )  # fmt: skip
+        misses = (_two_digits(self._shown(miss, of.angle)) + ("°" if of.angle else " mm")
+                  for miss, of in zip(row[1], table.missed, strict=True))  # fmt: skip
+        return ", ".join(values), ", ".join(misses)
+
+    def _shown(self, value: float, angle: bool = False) -> float:
+        """An angle (rad) in degrees, or a length (m) in mm on paper."""
+        return math.degrees(value) if angle else value / self.sheet.scales.length
+
     def _moved_and_missed(self, table: TrialPositions) -> tuple[Phrase, Phrase]:
         """All moved quantities of trial positions, and all gaps."""
         return joined("moved too", map(self._moved, table.moved)), joined("missed too", map(self._missed, table.missed))
@@ -273,7 +301,7 @@ class InMechanism(Telling):
         if missed.kind != "guide":
             ends = PointNames(missed.names, bar=True)
             named: object = ends if missed.kind == "bar" else ", ".join(missed.names)
-            return Phrase(f"missed {missed.kind}", names=named, length=on_paper(missed.length))
+            return Phrase(f"missed {missed.kind}", names=named, length=on_paper(self._shown(missed.length)))
         *points, key = missed.names
         slide = self.sheet.structure.slide(key)
         # the outermost points on the guide, in its sense, else its name
@@ -354,32 +382,8 @@ def _degrees(direction: complex) -> str:
 # -- trials in words ---------------------------------------------------------------------------------------------------
 
 
-def _divided_by_parts(table: TrialPositions, told: Phrase) -> Phrase:
-    """The divisions of trials that each moved another unknown."""
-    for i, row in enumerate(table.divided):
-        values, misses = _told_in(table, row)
-        if i:
-            replaced = sign(roman(table.replaced[i - 1]))
-            told = Phrase("trial parts again", division=told, trial=replaced, values=values, misses=misses)
-        else:
-            steps = spaced(", ", (sign(roman(k)) for k in range(2, len(table.trials) + 1)))
-            parts = ", ".join(map(_two_digits, table.parts))
-            told = Phrase("trial parts", division=told, parts=parts, trials=steps, values=values, misses=misses)
-    return told
-
-
 def _numbered(rows: Sequence[str]) -> str:
     return "; ".join(f"{roman(i)} {row}" for i, row in enumerate(rows, 1))
-
-
-def _told_in(table: TrialPositions, row: TrialRow) -> tuple[str, str]:
-    """The values of a trial, and its gaps, each with its unit."""
-    values = (  # angles from -180 to 180
-        f"{_two_digits(180.0 - (180.0 - v) % 360.0)}°" if symbol.measure.is_angle else f"{_two_digits(v)} mm"
-        for v, symbol in zip(row[0], table.moved, strict=True)
-    )
-    misses = (_two_digits(m) + ("°" if one.angle else " mm") for m, one in zip(row[1], table.missed, strict=True))
-    return ", ".join(values), ", ".join(misses)
 
 
 def _two_digits(value: float) -> str:

@@ -11,6 +11,7 @@ import pytest
 
 import graphkin
 from graphkin.construction import Scales, cad, draft, pencil
+from graphkin.construction.board.sheet import Remark
 from graphkin.construction.board.steps import CompassArc, Ray
 from graphkin.errors import Unsolvable
 from graphkin.plane import cross, dot
@@ -292,3 +293,33 @@ def test_the_limit_positions_of_a_follower_stand_its_lift_apart_on_either_side_o
     low, high = draft(scene, find=[Symbol.parse("swing_2")]).limits["2"]
     assert math.radians(24) == pytest.approx(high.angle - low.angle)
     assert math.radians(24) == pytest.approx(cmath.phase(high.poses["2"].axis / low.poses["2"].axis))
+
+
+@pytest.mark.parametrize(("remark", "said"), [
+    (Remark("velocity", "sharp crossing", ("B",), size=math.sin(math.radians(5.0))), "cross at 5 degrees only"),
+    (Remark("mechanism", "short arm", ("link 2", "A", "B"), mm=2.0), "A lies only 2 mm from B on paper"),
+    (Remark("velocity", "magnified", ("link 2",), size=3.0), "by up to 3 times as much"),
+])  # fmt: skip
+def test_a_remark_tells_an_angle_a_length_or_a_factor(remark, said):
+    assert remark.holds
+    assert said in str(remark.phrase)
+
+
+def test_a_vector_with_a_length_is_not_said_to_be_none():
+    sheet = draft(mechanism_of("four-bar-coupler-point"))
+    lengths = [remark.mm for remark in sheet.noticed if remark.key == "zero vector"]
+    assert min(lengths) > 1.0
+    assert [] == [remark for remark in sheet.remarks if remark.key == "zero vector"]
+
+
+def test_an_arm_is_short_below_3_mm_and_a_crossing_off_the_sheet_beyond_2_m():
+    arms = [Remark("mechanism", "short arm", ("link 2", "A", "B"), mm=mm).holds for mm in (2.9, 3.1)]
+    crossings = [Remark("velocity", "off the sheet", ("B",), mm=mm).holds for mm in (2001.0, 1999.0)]
+    assert [True, False] == arms == crossings
+
+
+def test_the_arm_of_a_guide_is_noted_with_its_length_on_paper():
+    sheet = draft(mechanism_of("whitworth"))
+    (arm,) = (remark.mm for remark in sheet.noticed if remark.key == "short arm")
+    ends = [sheet.points[PointRef(point)] for point in ("A", "O4")]
+    assert arm == pytest.approx(abs(ends[1] - ends[0]))

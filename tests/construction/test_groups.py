@@ -382,7 +382,7 @@ def test_the_arc_that_the_trial_curve_meets_has_the_bar_for_radius_about_its_oth
     (missed,) = table.missed
     (other,) = set(missed.names) - {curve.point}
     assert [at[other], at[curve.point]] == pytest.approx([arc.centre, arc.at], abs=1e-9)
-    assert missed.length == pytest.approx(arc.radius, abs=1e-9)
+    assert arc.radius * sheet.scales.length == pytest.approx(missed.length, abs=1e-12)
 
 
 @pytest.mark.parametrize(("name", "bar"), [("triad-slider", "BC"), ("double-butterfly", "DK")])
@@ -392,12 +392,13 @@ def test_what_is_missed_in_trial_positions_is_divided_to_the_place_where_nothing
     (missed,), (moved,) = table.missed, table.moved
     assert ("bar", set(bar)) == (missed.kind, set(missed.names))
     at = {str(ref): z for ref, z in sheet.points.items()}
-    assert missed.length == pytest.approx(abs(at[bar[0]] - at[bar[1]]), abs=1e-9)
+    length = abs(at[bar[0]] - at[bar[1]]) * sheet.scales.length
+    assert length == pytest.approx(missed.length, abs=1e-12)
     ((a,), (one,)), ((b,), (two,)) = table.trials[table.before - 1 : table.before + 1]
     assert one * two < 0
     assert table.divided[0][0][0] == pytest.approx((a * two - b * one) / (two - one), abs=1e-9)
     p, q = mechanism_of(name).by_name[moved.link].bar
-    turned = math.degrees(cmath.phase((at[q] - at[p]) * cmath.rect(1, -math.radians(table.divided[-1][0][0]))))
+    turned = math.degrees(cmath.phase((at[q] - at[p]) * cmath.rect(1, -table.divided[-1][0][0])))
     assert 0 == pytest.approx(turned, abs=0.1)
 
 
@@ -412,12 +413,13 @@ def test_what_two_trial_drivers_miss_is_divided_to_the_place_where_nothing_is(sc
     assert [0, 0] == pytest.approx(left, abs=1e-9)
     first, last = table.divided
     assert first[0] == pytest.approx((a[0] + p * (b[0] - a[0]), a[1] + q * (c[1] - a[1])))
-    assert max(map(abs, first[1])) > 0.02 > max(map(abs, last[1]))
+    unseen = 0.02 * sheet.scales.length
+    assert max(map(abs, first[1])) > unseen > max(map(abs, last[1]))
     misses = [max(map(abs, row)) for _, row in table.trials]
     assert table.replaced[0] == 1 + misses.index(max(misses))  # what misses most gives way
     assert "" == table.moved[0].other
     laid = next(s for s in sheet.steps if s.reason == "angle" and s.link == table.moved[0].link)
-    assert math.degrees(laid.value) == pytest.approx(last[0][0], abs=0.01)
+    assert laid.value == pytest.approx(last[0][0], abs=1e-4)
 
 
 def test_why_trial_polygons_are_drawn_is_known() -> None:

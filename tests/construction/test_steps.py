@@ -49,7 +49,7 @@ def test_a_number_of_a_step_is_a_length_on_paper_that_a_scale_changes_or_is_know
 ) -> None:
     numbers = {f.name: f.type for f in fields(kind) if "float" in str(f.type) or "int" in str(f.type).split()}
     filled = {name: (1.5, 2.5) if "tuple" in str(of) else 1.5 for name, of in numbers.items()}
-    step = kind("cross", "arcs", **{**filled, "per_mm": 0.0} if "per_mm" in filled else filled)
+    step = kind("cross", "arcs", **{**filled, "plan": 0})
     larger = step.scaled(2.0)
     assert lengths == numbers.keys() - NO_LENGTHS
     assert {name: [2 * mm for mm in in_turn(getattr(step, name))] for name in lengths} == {
@@ -60,7 +60,7 @@ def test_a_number_of_a_step_is_a_length_on_paper_that_a_scale_changes_or_is_know
 def test_strokes_grow_with_their_step_and_a_plan_of_its_own_scale_stays() -> None:
     arc = CompassArc(1j, 2.0, 3j)
     assert [CompassArc(2j, 4.0, 6j)] == [*PlaceStep("cross", "arcs", strokes=(arc,)).scaled(2.0).strokes]
-    assert 7.0 == RateStep("read", "plan", "velocity", mm=7.0, per_mm=0.25).scaled(2.0).mm
+    assert 7.0 == RateStep("read", "plan", "velocity", mm=7.0, per_mm=0.25, plan=1).scaled(2.0).mm
 
 
 TAKEN_OFF = Term(Symbol("v"), True, True)

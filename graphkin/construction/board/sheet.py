@@ -70,7 +70,7 @@ _GAPS: Mapping[Remarkable, tuple[str, ...]] = {
 
 
 @dataclass(frozen=True)
-class Remark:
+class Remark(OnPaper):
     """A possible remark on the construction: whether it ``holds`` depends on the scale of the figure.
 
     Parameters
@@ -82,7 +82,8 @@ class Remark:
         free along one direction, their special point lies at infinity; "at contact", "at pitch curve": a sliding
         contact is drawn at the contact itself, or as a pin on the pitch curve, not by its replacement
     of : the thing found there, or its subject; points by name
-    size : the sine of the angle of a sharp crossing, the factor of magnification, else a length on paper (mm)
+    size : the sine of the angle of a sharp crossing, the factor of magnification
+    mm : the length of a vector or an arm, or the distance of a crossing
     finds : the quantity that a sharp crossing finds, of a place its velocity
     """
 
@@ -90,6 +91,7 @@ class Remark:
     key: Remarkable
     of: tuple[str | Symbol | Phrase, ...]
     size: float = 0.0
+    mm: float = 0.0
     finds: Symbol | None = None
 
     @property
@@ -99,26 +101,23 @@ class Remark:
             case "sharp crossing":
                 return self.size < SHARP
             case "off the sheet":
-                return self.size > REACH
+                return self.mm > REACH
             case "short arm":
-                return self.size < SHORT
+                return self.mm < SHORT
             case "magnified":
                 return self.size > MAGNIFIED
-        return self.size == 0.0
+        return self.mm == 0.0
 
     @property
     def phrase(self) -> Phrase:
-        """The remark as a phrase; of a crossing with its angle, arcsin of the size (deg), of others with their size."""
+        """The remark as a phrase; of a crossing with its angle, arcsin of the size (deg), of others with their size or
+        length."""
         named = (PointNames((of,)) if isinstance(of, str) else of for of in self.of)
         gaps: dict[str, object] = dict(zip(_GAPS[self.key], named, strict=True))
         if "size" in gaps_of(self.key):
-            degrees = self.key == "sharp crossing"
-            gaps["size"] = f"{math.degrees(math.asin(self.size)) if degrees else self.size:.2g}"
+            angle = math.degrees(math.asin(self.size)) if self.key == "sharp crossing" else 0.0
+            gaps["size"] = f"{angle or self.size or self.mm:.2g}"
         return Phrase(self.key, **gaps)
-
-    def scaled(self, times: float) -> Remark:
-        """The remark with lengths on paper multiplied by ``times``."""
-        return self if self.key in ("sharp crossing", "magnified") else replace(self, size=self.size * times)
 
 
 @dataclass(frozen=True)
@@ -467,7 +466,7 @@ def without_residues(sheet: Sheet) -> Sheet:
             return replace(step, value=0.0) if step.symbol in zero else step
         return replace(step, mm=0.0) if isinstance(step, VectorStep) and step.symbol in zero else step
 
-    noticed = (replace(r, size=0.0) if r.key == "zero vector" and r.of[0] in zero else r for r in sheet.noticed)
+    noticed = (replace(r, mm=0.0) if r.key == "zero vector" and r.of[0] in zero else r for r in sheet.noticed)
     return replace(sheet, steps=tuple(map(cleared, sheet.steps)), noticed=tuple(noticed), rates=rates)
 
 
@@ -570,11 +569,11 @@ class Board:
         return True
 
     def notice(
-        self, diagram: DiagramName, key: Remarkable, *of: str | Symbol | Phrase, size: float = 0.0,
+        self, diagram: DiagramName, key: Remarkable, *of: str | Symbol | Phrase, size: float = 0.0, mm: float = 0.0,
         finds: Symbol | None = None,
     ) -> None:  # fmt: skip
         """Note a possible remark, for this scale or another."""
-        self.noticed.append(Remark(diagram, key, of, size, finds))
+        self.noticed.append(Remark(diagram, key, of, size, mm, finds))
 
     def cross(
         self, diagram: DiagramName, p: complex, d: complex, q: complex, e: complex, what: str | Symbol
@@ -589,5 +588,5 @@ class Board:
         at = self.instrument.crossing(str(what), p, d, q, e)
         finds = what if isinstance(what, Symbol) else Symbol("v", PointRef(what))
         self.notice(diagram, "sharp crossing", what, size=abs(cross(d, e)), finds=finds)
-        self.notice(diagram, "off the sheet", what, size=max(abs(at - p), abs(at - q)))
+        self.notice(diagram, "off the sheet", what, mm=max(abs(at - p), abs(at - q)))
         return at

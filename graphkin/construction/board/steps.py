@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
-from operator import mul
 from typing import Any, Literal, Self, TypeAlias, TypeVar
 
 from graphkin.plane import Pose
@@ -245,7 +244,8 @@ class Step(OnPaper):
     symbol : the vector that it draws or finds, or by which it measures
     link : the link that it places, turns or takes
     held : the link held still, from which it is seen; "" for the frame
-    plan : the velocity plan of wheels that it helps to draw, by its number from 1; 0 on a diagram
+    plan : the velocity plan of wheels that it helps to draw, which has a scale of its own, by its number from 1; 0 on
+        a diagram
     """
 
     verb: Verb
@@ -258,6 +258,10 @@ class Step(OnPaper):
     link: str = ""
     held: str = ""
     plan: int = 0
+
+    def scaled(self, times: float) -> Self:
+        """The step with its lengths multiplied by ``times``, except those of a plan."""
+        return self if self.plan else super().scaled(times)
 
     @property
     def vectors(self) -> tuple[Vector, ...]:
@@ -442,7 +446,7 @@ class RateStep(Step):
     pairs : sliding pairs, by key
     value, other : the given or read value (rad, m, rad/s, ...), and the value added to it
     mm : the measured length on paper
-    per_mm : the scale of a plan, whose lengths are constant; 0 on a diagram
+    per_mm : the scale of a plan; 0 on a diagram
     """
 
     kind: str = ""
@@ -453,10 +457,6 @@ class RateStep(Step):
     other: float = 0.0
     mm: float = 0.0
     per_mm: float = 0.0
-
-    def scaled(self, times: float) -> Self:
-        """The step with its lengths multiplied by ``times``, except those of a plan."""
-        return self if self.per_mm else super().scaled(times)
 
     @property
     def sentence(self) -> str:
@@ -611,8 +611,8 @@ class MeasuredGap:
     Parameters
     ----------
     names : of its ends
-    length : of a bar (mm on paper)
-    angle : whether it is measured in degrees, else in mm
+    length : of a bar (m)
+    angle : whether it is an angle, else a length
     """
 
     kind: Literal["bar", "guide", "turn", "travel", "guides", "rolled"]
@@ -622,7 +622,7 @@ class MeasuredGap:
 
 
 TrialRow: TypeAlias = tuple[tuple[float, ...], tuple[float, ...]]
-"""The values of what is moved in a trial position, and what is missed there."""
+"""The values of what is moved in a trial position, and what is missed there (rad, m)."""
 
 
 @dataclass(frozen=True)
@@ -638,7 +638,7 @@ class TrialPositions(Step):
     point, count : the free point whose trial curve is drawn ("" for none), and the number of trial positions
     instead : left-out driven blocks, each with the link that is driven in its place and the block's angle from it (rad)
     moved, missed, trials : what is moved, what is missed, and both as measured in each trial: angles from a link (""
-        for the x axis) and travels, in degrees and mm on paper; empty if none could be drawn
+        for the x axis) and travels; empty if none could be drawn
     divided : positions by proportional division, in order, the last one without a gap
     before : with a single moved quantity the number (from 1) of the trial between which and the next the first divided
         position lies
@@ -662,17 +662,6 @@ class TrialPositions(Step):
     before: int = 0
     parts: tuple[float, ...] = ()
     replaced: tuple[int, ...] = ()
-
-    def scaled(self, times: float) -> Self:
-        """The trial positions with their lengths multiplied by ``times``."""
-        x = [times**symbol.measure.length for symbol in self.moved]
-        y = [1.0 if miss.angle else times for miss in self.missed]
-
-        def rows(old: tuple[TrialRow, ...]) -> tuple[TrialRow, ...]:
-            return tuple((tuple(map(mul, values, x)), tuple(map(mul, misses, y))) for values, misses in old)
-
-        missed = tuple(replace(miss, length=miss.length * times) for miss in self.missed)
-        return replace(super().scaled(times), missed=missed, trials=rows(self.trials), divided=rows(self.divided))
 
     @property
     def phrase(self) -> Phrase:
@@ -756,10 +745,6 @@ class Superposed(Step):
     ways: tuple[Direction, ...] = ()
     between: tuple[tuple[PointRef, PointRef], ...] = ()
     less: tuple[tuple[tuple[Term, float], ...], ...] = ()
-
-    def scaled(self, times: float) -> Self:
-        """The step with its lengths multiplied by ``times``, except those of plans."""
-        return self if self.plan else super().scaled(times)
 
     def gap(self, name: str) -> object:
         """The value of a gap in its sentence: the rates, or the gaps of the trials."""

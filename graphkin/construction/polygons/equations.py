@@ -315,7 +315,7 @@ def _lay_off(plot: Polygons, order: Order, part: Term, at: complex, equation: in
     assert part.span is not None
     size, tip = abs(part.span), plot.board.instrument.laid_off(at, part.span)
     vector = Vector(part.symbol, at, tip, part.role)
-    plot.board.notice(order, "zero vector", part.symbol, size=size)
+    plot.board.notice(order, "zero vector", part.symbol, mm=size)
     plot.record(vector, VectorStep("lay off", part.role, order, (), equation, symbol=part.symbol, size=part.size,
                                    mm=size, direction=part.direction))  # fmt: skip
     return tip
@@ -329,7 +329,7 @@ def _fill(plot: Polygons, order: Order, side: Side, tip: complex, tail: complex,
             if part.span is None:
                 vector = Vector(part.symbol, tail, plot.own_values.found(part.symbol, tail, tip), part.role)
                 span = vector.tip - tail
-                plot.board.notice(order, "zero vector", part.symbol, size=abs(span))
+                plot.board.notice(order, "zero vector", part.symbol, mm=abs(span))
                 mm = plot.found_mm(part.symbol, span)
                 plot.record(vector, VectorStep("read", "vector", order, (), equation, symbol=part.symbol, mm=mm))
                 at = tip

@@ -282,7 +282,7 @@ def _measured(
     positions: TrialPositions, known: PlacedLinks, reduced: ReducedMechanism, poses: Poses,
     tried: Sequence[TrialDrawing],
 ) -> TrialPositions:  # fmt: skip
-    """Trial positions with their gaps, and the divisions of these, in degrees and mm on paper.
+    """Trial positions with their gaps, and the divisions of these (rad, m).
 
     Of the trials of one driver the two on either side of the wanted place are divided, then the trial with a gap of the
     new one's sense is replaced; with several drivers the trial with the largest gap.
@@ -291,16 +291,15 @@ def _measured(
     ----------
     poses : the final poses of the links, near which the divided trials are drawn
     """
-    size = known.mm * reduced.structure.scene.size
+    size = reduced.structure.scene.size
     exact = replace(known, instrument=EXACT)
     moved = [_moved(known, reduced, driver) for driver in reduced.trial]
 
     def row(trial: TrialDrawing) -> TrialRow:
-        shown = (math.degrees(v + ahead) if symbol.measure.is_angle else v * size
-                 for v, (symbol, ahead) in zip(trial.at, moved, strict=True))  # fmt: skip
-        pairs = zip(trial.gaps, reduced.removed, strict=True)
-        misses = (math.degrees(gap) if r.is_angle else gap * size for gap, r in pairs)
-        return tuple(map(float, shown)), tuple(map(float, misses))
+        values = (v + ahead if symbol.measure.is_angle else v * size
+                  for v, (symbol, ahead) in zip(trial.at, moved, strict=True))  # fmt: skip
+        misses = (gap if r.is_angle else gap * size for gap, r in zip(trial.gaps, reduced.removed, strict=True))
+        return tuple(map(float, values)), tuple(map(float, misses))
 
     trials, before, alone, left = tuple(map(row, tried)), 0, len(moved) == 1, [*tried]
     if alone:
@@ -321,7 +320,8 @@ def _measured(
             break
         parts = parts or tuple(map(float, shares(gaps)))
         divided.append(row(nearer))
-        if all(abs(miss) < UNSEEN for miss in divided[-1][1]):
+        least = (math.radians(UNSEEN) if r.is_angle else UNSEEN / known.mm for r in reduced.removed)
+        if all(abs(miss) < unseen for miss, unseen in zip(divided[-1][1], least, strict=True)):
             break
         same_sense = nearer.gaps[0] * gaps[1][0] >= 0.0
         gone = int(same_sense) if alone else int(np.argmax([np.abs(gap).max() for gap in gaps]))
@@ -336,7 +336,7 @@ def _measured(
             names = (*(point for point, _ in r.ends), *(slide.key for slide in r.slides))
         if r.kind == "bar":
             first, second = (reduced.structure.links[r.left_out].points[point] for point in names)
-            length = abs(second - first) * known.mm
+            length = abs(second - first)
         missed.append(MeasuredGap(r.kind, names, length, r.is_angle))
     return replace(
         positions, moved=tuple(symbol for symbol, _ in moved), missed=tuple(missed), trials=trials,

@@ -148,7 +148,7 @@ def _dyad_steps(board: Board, paper: PlacedLinks, dyad: Dyad, intersection: Inte
     board.notice("mechanism", "sharp crossing", result, size=intersection.sharpness, finds=finds)
     if not dyad.inner.turns and outer_first.turns and outer_second.turns:
         arm = abs(paper.point(outer_first.b, outer_first.point) - paper.point(outer_second.b, outer_second.point))
-        board.notice("mechanism", "short arm", whose, outer_first.point, outer_second.point, size=arm)
+        board.notice("mechanism", "short arm", whose, outer_first.point, outer_second.point, mm=arm)
     which = "one assembly" if dyad.is_two_lines else f"{dyad.kind} {index}"
     first, inner, last = (pair.key for pair in dyad.pairs)
     board.assembly[whose] = Phrase(which, first=first, inner=inner, last=last)
