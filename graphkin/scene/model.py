@@ -411,6 +411,11 @@ class Mechanism:
         """The bars that replace pins in circular slots, or cams at one position, with the path of each."""
         return {slot.bar: slot for slot in self.slots if not slot.block}
 
+    @cached_property
+    def replaced_by(self) -> Mapping[str, HigherPair]:
+        """The higher pair that each block or bar stands for."""
+        return {pair.block: pair for pair in self.higher_pairs if pair.block}
+
     def acting_between(self, links: Collection[str]) -> list[HigherPair]:
         """The acting higher pairs all of whose members are among some links."""
         return [pair for pair in self.acting if {*pair.members} <= {*links}]

@@ -277,7 +277,7 @@ def listed_points(scene: Mechanism, slides: Sequence[Pair]) -> tuple[tuple[str, 
     points of both bodies at a contact: (point, link) in the order of the file."""
     found = [(p, link.name) for link in scene.links for p in link.points]
     moving = {link.name for link in scene.links}
-    found += [(c.name, link) for c in scene.contacts for link in c.links if link in moving]
+    found += [(point, link) for point, pair in scene.contact_at.items() for link in pair.links if link in moving]
     for pair in own_slides(scene, slides):
         if pair.pin and pair.b in moving and (pair.pin, pair.b) not in found:
             found.append((pair.pin, pair.b))
@@ -288,5 +288,4 @@ def listed_points(scene: Mechanism, slides: Sequence[Pair]) -> tuple[tuple[str, 
 def own_slides(scene: Mechanism, slides: Sequence[Pair]) -> tuple[Pair, ...]:
     """The sliding pairs and pins in slots of the scene, and for a sliding contact with a face the slide of the disc's
     centre along it."""
-    blocks = {c.block for c in scene.contacts if c.rolling}
-    return tuple(s for s in slides if s.key not in blocks)
+    return tuple(s for s in slides if s.key not in scene.replaced_by or scene.replaced_by[s.key].replaced)

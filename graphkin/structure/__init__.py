@@ -12,6 +12,7 @@ from graphkin.structure.model import (
     Element,
     LargerGroup,
     Mobility,
+    Mover,
     Pair,
     RollingRelation,
     Structure,
@@ -30,7 +31,7 @@ from graphkin.structure.rolling import meshes_of, unrolled
 
 __all__ = [
     "Body", "Driven", "DrivenJoint", "DrivenTriangle", "Dyad", "DyadKind", "Element", "LargerGroup",
-    "Mobility", "Pair", "RollingRelation", "Structure", "analyse", "by_drivers_alone",
+    "Mobility", "Mover", "Pair", "RollingRelation", "Structure", "analyse", "by_drivers_alone",
     "cams_replaced", "driver_pair", "greatest_before", "leading", "links_for", "meshes_of", "mobility_of",
     "named_with_contact", "needed", "part_of", "pick", "pins_on_circles", "regrouped", "replacement_told", "started",
     "unrolled", "without",

@@ -10,7 +10,7 @@ from collections.abc import Callable, Collection, Hashable, Iterable, Mapping, S
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, ClassVar, Literal, TypeVar
+from typing import Any, ClassVar, Literal, TypeAlias, TypeVar
 
 from graphkin.errors import CallError, did_you_mean
 from graphkin.plane import Poses, added_up
@@ -164,6 +164,10 @@ class RollingRelation:
         return {coordinate: float(factor) / whole for coordinate, factor in self.terms.items()}
 
 
+Mover: TypeAlias = Driver | LawCam | RollingRelation
+"""What moves a link from known links: a driver, a cam by its law, or rolling."""
+
+
 @dataclass(frozen=True)
 class Driven:
     """A link that a driver, or a cam by its law, moves from known links: crank, driven slider, follower.
@@ -177,7 +181,7 @@ class Driven:
 
     link: str
     pair: Pair
-    driver: Driver | LawCam | RollingRelation
+    driver: Mover
     order: ClassVar[int] = 1
     starts: ClassVar[tuple[Driver, ...]] = ()
     rolling: ClassVar[tuple[RollingRelation, ...]] = ()

@@ -158,3 +158,14 @@ def test_a_change_point_is_a_dead_point_to_start_from(near: float) -> None:
     driver = {"link": "1", "from": "dead point", "near": near, "angle": -1, "omega": 10}
     found = structure_of(mechanism_of(scenes.four_bar(50, 100, 50, 100, driver=driver))).scene.drivers[0]
     assert math.radians(near - 1) == pytest.approx(found.values[0], abs=1e-14)
+
+
+def test_a_dead_point_to_start_from_is_refused_by_the_link_that_rolls() -> None:
+    scene = {
+        **scenes.four_bar(20, 90, 40, 100, driver={"link": "w", "from": "dead point", "angle": 1, "omega": 10}),
+        "gears": {"g": {"between": ["w", "1"], "teeth": [20, 20]}},
+    }
+    scene["frame"]["points"]["W"] = [-60, 0]
+    scene["links"]["w"] = {"points": ["W"], "start": 0}
+    with pytest.raises(Unsolvable, match="link 1: dead points are found for mechanisms without rolling links only"):
+        structure_of(mechanism_of(scene))

@@ -58,9 +58,8 @@ from graphkin.construction.trains import rolled
 from graphkin.errors import Unsolvable
 from graphkin.plane import added_up, dot, unit
 from graphkin.scene.model import Driver
-from graphkin.scene.pairs import LawCam
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Pair, RollingRelation, driver_pair
+from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Mover, Pair, driver_pair
 from graphkin.words import links_named
 from graphkin.words.written import LONGEST, MOST
 
@@ -120,7 +119,7 @@ def _driven(plot: Polygons, order: Order, element: Driven) -> None:
         draw_equation(plot, order, element, VectorChain.closing(edge if name == pair.a else edge.reversed()))
 
 
-def _roll(plot: Polygons, order: Order, driver: Driver | LawCam | RollingRelation) -> float:
+def _roll(plot: Polygons, order: Order, driver: Mover) -> float:
     """The rate of a rolling link, read from a velocity plan, as the driver's rate; and the length read for it (mm)."""
     coordinate = "angle" if driver.turns else "travel", driver.key
     which = ORDERS.index(order)

@@ -256,7 +256,7 @@ def cams_in_place(
     Unsolvable : a follower that does not come to its base circle, a position that cannot be assembled or reached
     """
     scene, mm = structure.scene, 1.0 / structure.scene.size
-    moving = leading(structure, [cam.link for cam in scene.cams])
+    moving = leading(structure, [pair.bodies[0] for pair in structure.touching if pair.by_law])
     elements = [e for i, e in enumerate(structure.elements) if i in moving or e in needed(structure, asked)]
     poses = poses_at(PlacedElements(structure, elements), values)
     rolling = {name for pair in scene.higher_pairs if pair.rolling for name in pair.bodies}

@@ -239,7 +239,7 @@ def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[l
     # where links touch every link has its number already
     numbered = {shape.link for shape in here.shapes if shape.longest or here.scene.higher_pairs}
     known = {b.slide.key: b for b in here.sliders}
-    rolling = {contact.block for contact in here.scene.contacts if contact.rolling}  # their centres keep a distance
+    rolling = {pair.block for pair in here.scene.higher_pairs if pair.rolling}  # their centres keep a distance
     for slide in (pair for pair in (*inner, *outer) if not pair.turns and pair.key not in rolling):
         stands = slide.key not in known or (slide.higher and slide.key in here.replaced_pairs)
         at = here.places[slide.pin] if stands and slide.pin else known[slide.key].at

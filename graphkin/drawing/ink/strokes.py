@@ -80,9 +80,9 @@ def pale(children: Iterable[Primitive], strength: float = 0.45, words: float = 1
 def colour_of_link(scene: Mechanism, link: str) -> str:
     """Colour of a link; the frame is black."""
     name = link.split("/")[-1]
-    bar = next((c for c in scene.contacts if c.block == name), None)
-    if name not in scene.order and bar is not None:  # what stands for a contact has the colour of what is moved
-        name = next((n for n in reversed(bar.links) if n != scene.frame.name), bar.links[1])
+    pair = scene.replaced_by.get(name)
+    if name not in scene.order and pair is not None:  # what stands for a contact has the colour of what is moved
+        name = next((n for n in reversed(pair.bodies) if n != scene.frame.name), pair.bodies[1])
     return BLACK if name == scene.frame.name else link_colour(scene.order[name])
 
 

@@ -153,10 +153,9 @@ class MechanismOnPaper:
             cam.motion.pair: cam.roller / sheet.scales.length + PAST_ROLLER
             for cam in self.scene.cams if isinstance(cam.motion, SlidingFollower)
         }  # fmt: skip
-        touching = {c.block for c in self.scene.contacts}
         found = []
         for slide in sheet.structure.slides:
-            if slide.a in sheet.poses and slide.b in sheet.poses and slide.key not in touching:
+            if slide.a in sheet.poses and slide.b in sheet.poses and slide.key not in self.scene.replaced_by:
                 along = slide.along(sheet.poses)
                 at = sheet.poses[slide.a].origin + clear.get(slide.key, 0.0) * along
                 found.append(Slider(slide, at, along, slide.key in driven))

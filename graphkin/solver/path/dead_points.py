@@ -53,7 +53,9 @@ def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
     for group in structure.larger_groups:
         where = group.named
         raise Unsolvable("dead point", Problem(where, "dead points are found for groups of two"))
-    if not all(e.explicit for e in structure.elements):
+    for element in (e for e in structure.driven if not e.explicit):
+        if element.driver.rolls:
+            raise Unsolvable("dead point", Problem(element.named, Phrase("dead points are found where nothing rolls")))
         where = Phrase("cams named", cams=", ".join(cam.link for cam in structure.scene.cams))
         raise Unsolvable("dead point", Problem(where, Phrase("dead points are found for mechanisms without cams")))
     turning = structure.scene.drivers[0].turns
