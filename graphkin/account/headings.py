@@ -153,14 +153,7 @@ def structure_words(scene: Mechanism, language: str) -> list[str]:
         points = [point for point in link.points if slot is None or (slot.block and point != slot.centre)]
         if points:
             said.append(say(Phrase("link joins", link=link.name, points=listed(points)), language))
-    for pair in scene.slidings:
-        said.append(say(Phrase("link slides", link=pair.link, guide=pair.on), language))
-    for pin in scene.pins:
-        said.append(say(Phrase("pin runs", point=pin.point, link=pin.of, guide=pin.on), language))
-    for slot in slots.values():
-        runs = {"point": slot.point, "link": slot.of or slot.bar, "guide": slot.on, "centre": slot.centre}
-        said.append(say(Phrase("runs on circle", **runs), language))
-    return said + [say(told(pair, "built"), language) for pair in scene.higher_pairs]
+    return said + [say(told(pair, "built"), language) for pair in scene.pairs]
 
 
 def _vectors(sheet: Sheet, diagram: DiagramName, language: str) -> list[str]:

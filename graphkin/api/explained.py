@@ -17,7 +17,7 @@ from graphkin.construction import EXACT, execute, plan
 from graphkin.errors import GraphkinError, Unsolvable
 from graphkin.files import Json
 from graphkin.scene.model import Driver, Mechanism, PlacedLink, forces_named
-from graphkin.scene.pairs import PlacedGuide, told
+from graphkin.scene.pairs import told
 from graphkin.scene.scene import SceneLike
 from graphkin.structure import LargerGroup, Structure, mobility_of
 from graphkin.table import Table
@@ -201,23 +201,7 @@ def _joints(scene: Mechanism) -> Iterator[Phrase]:
                 yield Phrase("explained turning", point=point, links=listed(own))
             else:
                 yield Phrase("explained turnings", point=point, links=listed(own), number=len(own) - 1)
-    for pair in scene.slidings:
-        guide = _guide_name(scene, pair.on, pair.guide)
-        along = Phrase("explained sliding without point", link=pair.link, guide=guide, angle=_degrees(pair.turn))
-        pinned = Phrase("explained sliding", link=pair.link, guide=guide, point=pair.point, angle=_degrees(pair.turn))
-        yield pinned if pair.pin else along
-    for slot in scene.slots:
-        key = "explained circular block" if slot.block else "explained circular slot"
-        link, guide = slot.bar if slot.block else slot.of, f"{slot.on}.{slot.name}"
-        yield Phrase(key, point=slot.point, link=link, guide=guide, centre=slot.centre, bar=slot.bar)
-    for pin in scene.pins:
-        yield Phrase("explained slot", point=pin.point, link=pin.of, guide=_guide_name(scene, pin.on, pin.guide))
-    yield from (told(pair, "explained") for pair in scene.higher_pairs)
-
-
-def _guide_name(scene: Mechanism, link: str, guide: str) -> str:
-    found: PlacedGuide = scene.by_name[link].guides[guide]
-    return f"{link}.{found.name}" if found.name else link
+    yield from (told(pair, "explained") for pair in scene.pairs)
 
 
 def _mobility(scene: Mechanism) -> Phrase:

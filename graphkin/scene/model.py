@@ -411,6 +411,12 @@ class Mechanism:
         """The bars that replace pins in circular slots, or cams at one position, with the path of each."""
         return {slot.bar: slot for slot in self.slots if not slot.block}
 
+    @property
+    def pairs(self) -> tuple[SlidingPair | CircularSlot | HigherPair, ...]:
+        """All pairs but turning pairs: sliding pairs, pins in slots, what runs along a circle, and what touches."""
+        slots = (slot for slot in self.slots if slot.of or slot.block)  # the others stand for cams
+        return *self.slides, *slots, *self.higher_pairs
+
     @cached_property
     def replaced_by(self) -> Mapping[str, HigherPair]:
         """The higher pair that each block or bar stands for."""
@@ -603,8 +609,8 @@ def joints(mechanism: Mechanism) -> tuple[ForceJoint, ...]:
         hosts = hosts_at(mechanism, point, at_point)
         first = next((name for name in at_point if name not in hosts), "")
         pairs += [ForceJoint("turning", hosts.get(name, first), name, point) for name in at_point if name != first]
-    pairs += [ForceJoint("sliding", s.on, s.of or s.link, s.point, s.key, not s.of)
-              for s in mechanism.slides if {s.on, s.of or s.link} <= here]
+    pairs += [ForceJoint("sliding", *s.bodies[::-1], s.point, s.key, not s.of)
+              for s in mechanism.slides if {*s.bodies} <= here]
     pairs += [ForceJoint("touching", *pair.bodies, pair.letter, pair=pair) for pair in mechanism.acting_between(here)]
     shared = Counter(frozenset((joint.first, joint.second)) for joint in pairs)
     several = (shared[frozenset((joint.first, joint.second))] > 1 and joint.point != "" for joint in pairs)

@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 from typing import ClassVar, Literal, NamedTuple, TypeAlias
 
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import Values, cross
+from graphkin.plane import Values, cross, degrees
 from graphkin.scene.laws import FollowerLaw, Lift
 from graphkin.scene.tables import Units
 from graphkin.words import Phrase, gaps_of, has_words
@@ -78,6 +78,23 @@ class SlidingPair:
         return self.link if self.of else f"{self.link}/{self.on}"
 
     @property
+    def bodies(self) -> tuple[str, str]:
+        """The link that slides, or has the pin, and the link with the guide."""
+        return self.of or self.link, self.on
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """The words of its kind, the most special first."""
+        return ("pin",) if self.of else ("sliding",) if self.pin else ("sliding without point", "sliding")
+
+    @property
+    def gaps(self) -> dict[str, object]:
+        """The names in its sentences, and the angle (degrees) of the link's own axis to the guide."""
+        link, on = self.bodies
+        return {"point": self.point, "link": link, "on": on, "guide": f"{on}.{self.guide}" if self.guide else on,
+                "angle": f"{degrees(self.turn) + 0.0:.6g}"}  # fmt: skip
+
+    @property
     def point(self) -> str:
         """The point that runs in the guide, "" where it has no name."""
         return self.pin or ""
@@ -101,6 +118,17 @@ class CircularSlot:
     block: bool = False
     ends: tuple[float, float] | None = None
     of: str = ""
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """The words of its kind, the most special first."""
+        return *(("circular block",) if self.block else ()), "circular slot"
+
+    @property
+    def gaps(self) -> dict[str, object]:
+        """The names in its sentences."""
+        return {"point": self.point, "link": self.of or self.bar, "on": self.on, "guide": f"{self.on}.{self.name}",
+                "centre": self.centre, "bar": self.bar}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -576,8 +604,8 @@ that is ``replaced``, a sliding one for a pair that is ``unrolled``, a ``mesh`` 
 those in the file; ``kinds`` and ``gaps`` its words, ``roles`` the words for links that are more than bars."""
 
 
-def told(pair: HigherPair, about: str) -> Phrase:
-    """The sentence on a higher pair in a list of the table of words ("explained", "left behind", ...), by the most
+def told(pair: SlidingPair | CircularSlot | HigherPair, about: str) -> Phrase:
+    """The sentence on a pair in a list of the table of words ("explained", "left behind", ...), by the most
     special of its kinds that has one there.
 
     >>> gear = PlacedGear("g", ("2", "4"), (20, None), "3", ("A", ""))

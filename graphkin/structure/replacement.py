@@ -83,10 +83,7 @@ def _standing(scene: Mechanism, poses: Poses, values: Mapping[str, float]) -> Me
 def replacement_told(structure: Structure) -> tuple[Phrase, ...]:
     """The higher pairs in words, the replacement of each, and the mobility counted after it."""
     scene, m, bars = structure.scene, structure.mobility, structure.scene.whole.replacing
-    said = [Phrase("structure high pair", point=pin.point, link=pin.on) for pin in scene.whole.pins]
-    said += [Phrase("structure circular slot", point=path.point, link=path.on, name=bar,
-                    bar=path.centre + path.point) for bar, path in bars.items()]  # fmt: skip
-    said += [told(pair, "structure") for pair in scene.higher_pairs]
+    said = [told(pair, "structure") for pair in (*scene.whole.pins, *bars.values(), *scene.higher_pairs)]
     said += [Phrase("structure roller", link=cam.follower) for cam in scene.cams if cam.roller]
     replaced = [pair for pair in scene.higher_pairs if pair.replaced]
     if replaced or bars:
