@@ -27,11 +27,20 @@ from graphkin.construction.forces.force_sheet import (
     MomentEquation,
     MomentTerm,
 )
-from graphkin.plane import added_up
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Neutral, Phrase, Wording, about, in_all, languages, links_named, listed, rich_text
 from graphkin.words.symbols import RichText, rate, sign, spaced
-from graphkin.words.written import FINER, MOST, amount, is_quotient, on_paper, pointing, printed, product, to_lay_off
+from graphkin.words.written import (
+    FINER,
+    MOST,
+    amount,
+    is_quotient,
+    on_paper,
+    pointing,
+    printed,
+    product,
+    to_lay_off,
+)
 
 ZERO = 1e-8  # mm: a shorter force is nothing but rounding
 SAME = 1e-6  # mm
@@ -169,7 +178,7 @@ class ForceAccount:
                 why = Phrase("two sentences", first=why, second=Phrase("lever virtual")) if lever.virtual else why
                 total, balanced = self.lever(state, lever)
                 steps = (ForceStep("lever", why), ForceStep("lever", Phrase("lever step forces")),
-                         ForceStep("lever", balanced, (total,), (lever.unknown.symbol,)))  # fmt: skip
+                         ForceStep("lever", total, (balanced,), (lever.unknown.symbol,)))  # fmt: skip
                 yield ForceStage("lever", Phrase("lever"), steps, state, again=bool(k))
 
     def inertia(self, pushed: Inertia) -> RichText:
@@ -382,15 +391,14 @@ class ForceAccount:
 
     def lever(self, state: ForceState, lever: Lever) -> tuple[Phrase, Phrase]:
         """The sum of the moments on a lever in numbers, and its balancing load beside that of the polygons."""
-        units, balances, per_mm = self.sheet.scene.units, lever.unknown.symbol, lever_scale(self.sheet, lever)
-        name, moment, arm = self.name(balances), balances.kind == "M", lever.unknown.moment / per_mm
-        total = added_up(row.moment for row in lever.rows) / units.newtons / per_mm
+        units, balances = self.sheet.scene.units, lever.unknown.symbol
+        name, moment, (_, total, arm) = self.name(balances), balances.kind == "M", lever_sum(self.sheet, lever)
         if moment:
             values = lever.value, float(state.moments.get(balances) or 0.0)
         else:
             values = abs(lever.value), abs(state.vectors.get(balances, 0j))
-        lead = "−" * (arm < 0) + name + f"·{number(abs(arm), MOST)}"
-        rest = f"{'+' if total >= 0 else '−'} {number(abs(total), MOST)}"
+        lead = "−" * (lever.unknown.moment < 0) + name + f"·{printed(arm)}"
+        rest = f"{'+' if total >= 0 else '−'} {printed(amount(float(abs(total)), 12))}"
         unit = units.force + ("·m" if moment else "")
         by_lever, by_polygons = (f"{number(v / units.newtons, MOST)} {unit}" for v in values)
         return (
@@ -486,6 +494,31 @@ def lever_scale(sheet: Sheet, lever: Lever) -> float:
     if not lever.virtual and least_scale(extent, LEVER_ROOM) <= lever.per_mm:
         return lever.per_mm
     return fitting_scale(extent, LEVER_ROOM, 1.0 / metres) * metres
+
+
+LeverRow: TypeAlias = tuple[MomentTerm, str, str, str]
+"""A force on a lever as it is written: its size (the file's unit), its arm (mm) and its moment."""
+LeverSum: TypeAlias = tuple[tuple[LeverRow, ...], Decimal, str]
+"""The forces on a lever, the sum of their moments, and the arm of the balancing load."""
+
+
+def lever_sum(sheet: Sheet, lever: Lever) -> LeverSum:
+    """The sum of the moments on a lever, with the figures that it needs to give the drawn load as it is written."""
+    drawn = amount(abs(lever.value) / sheet.scene.units.newtons, MOST)
+    tried = [_lever_sum(sheet, lever, carried) for carried in FINER]
+    return next((s for s in tried if amount(float(abs(s[1]) / Decimal(s[2])), MOST) == drawn), tried[0])
+
+
+def _lever_sum(sheet: Sheet, lever: Lever, carried: int) -> LeverSum:
+    per_mm, rows = lever_scale(sheet, lever), list[LeverRow]()
+    for row in (row for row in lever.rows if row.acting.force):
+        mm = abs(row.arm or 0.0) / per_mm
+        arm = on_paper(mm) if carried == MOST else amount(mm, carried)
+        size = amount(abs(row.acting.force) / sheet.scene.units.newtons, carried)
+        moment = product(size, arm, carried=carried) if row.arm else "0"
+        rows.append((row, size, arm, "-" * (row.moment < 0) + moment))
+    total = sum((Decimal(moment) for *_, moment in rows), Decimal(0))
+    return tuple(rows), total, amount(abs(lever.unknown.moment) / per_mm, carried)
 
 
 def spots_of(lever: Lever, per_mm: float) -> list[complex]:

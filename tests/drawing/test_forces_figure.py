@@ -6,6 +6,7 @@ import math
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Callable
+from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from graphkin.account.forces import ForceAccount, ForceStage, balance
 from graphkin.account.notation import force_letters, notation_of
 from graphkin.drawing import svg_bytes
 from graphkin.scene.symbol import Symbol
+from graphkin.words import rich_text
 from graphkin.words.written import amount, is_quotient
 from tests.construction.test_forces import DRIVEN_AGAINST_A_BLOCK
 from tests.mechanisms import random_scene
@@ -136,6 +138,26 @@ def test_the_lever_tells_both_values() -> None:
     page = graphkin.draw(SHAPER, figures=["lever"]).figures["lever"]
     text = "".join(ET.fromstring(svg_bytes(page)).itertext())
     assert 2 == text.count("−539.79")
+
+
+@pytest.mark.parametrize("name", ["rocker-return-spring", "toggle-press-force", "engine-gas-force", "shaper-forces"])
+def test_the_sum_on_a_lever_is_that_of_its_rows_and_gives_the_balance_as_they_are_written(name: str) -> None:
+    figure = ET.fromstring(svg_bytes(graphkin.draw(name, figures=["lever"], language="en").figures["lever"]))
+    words = ["".join(text.itertext()).replace("−", "-") for text in figure.iter("{http://www.w3.org/2000/svg}text")]
+    arm, sense, total = re.search(r"·([\d.]+) ([+-]) ([\d.]+) = 0", " ".join(words)).groups()  # type: ignore[union-attr]
+    (head,) = (k for k, text in enumerate(words) if text.startswith("moment about the pole, "))
+    moments = [Decimal(row) for row in words[head + 4 :: 4] if re.fullmatch(r"-?[\d.]+", row)]
+    balance = re.search(r"(-?[\d.]+) k?N·m by the lever", " ".join(words))
+    assert Decimal(total) == abs(sum(moments)) == Decimal(f"{sense}1") * sum(moments)
+    assert balance is not None
+    assert balance[1].strip("-") == amount(float(Decimal(total) / Decimal(arm)), 5)
+
+
+def test_the_sum_on_a_lever_is_told_before_its_result() -> None:
+    (stage,) = (stage for stage in stages_of("shaper-forces") if stage.figure == "lever")
+    said = [repr(rich_text(line, "en")) for line in stage.told("lever")]
+    assert [False, False, True, False] == ["All moments together" in line for line in said]
+    assert "by the lever" in said[-1]
 
 
 @pytest.mark.parametrize("name", ["rocker-return-spring", "boom-lifted", "engine-gas-force", "shaper-forces"])

@@ -20,6 +20,7 @@ from graphkin.account.forces import (
     corner_at,
     corners,
     lever_scale,
+    lever_sum,
     spots_of,
 )
 from graphkin.account.given import given_loads
@@ -54,7 +55,7 @@ from graphkin.plane import added_up, unit
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, languages, links_named, say, word
 from graphkin.words.symbols import RichText, Words, sign, spaced
-from graphkin.words.written import amount, on_paper, printed, product
+from graphkin.words.written import printed
 
 SKETCH = 64.0  # mm, width of a sketch
 AROUND = 11.0  # mm of room around a polygon
@@ -477,7 +478,6 @@ def _wholes(vectors: Sequence[ForceVector]) -> Iterator[ForceVector]:
 
 LEVER_ARROW, LEVER_ROOM = 14.0, 20.0  # mm of an arrow that only shows a direction, and around the lever
 COLUMNS = 42.0, 34.0, 34.0, 64.0  # mm: force, its size, arm, moment
-DIGITS = 5
 
 
 def lever_figure(page: FigurePage, report: Report | None = None) -> Drawing | None:
@@ -511,7 +511,7 @@ def _lever(page: FigurePage, account: ForceAccount, state: ForceState, lever: Le
         [word("force heads", each), units.force, f"{word('arm', each)}, mm",
          f"{word('moment about pole', each)}, {units.force}·mm"] for each in languages(page.language)
     ]  # fmt: skip
-    rows = [_row(row, units.newtons, per_mm, page.letters) for row in lever.rows if row.acting.force]
+    rows = [(_named(row, page.letters), *map(printed, written)) for row, *written in lever_sum(page.sheet, lever)[0]]
     yield table(heads, rows, COLUMNS)
     total, balance = account.lever(state, lever)
     yield column(page.prose((total,)), page.prose((balance,), bold=True))
@@ -573,14 +573,10 @@ def _forces_at(row: MomentTerm, per_mm: float) -> list[tuple[complex, complex]]:
     return [(tip, unit(force)), (tail, -unit(force))]
 
 
-def _row(row: MomentTerm, newtons: float, per_mm: float, letters: Notation) -> tuple[Words, str, str, str]:
-    """A force with its arm and moment."""
-    acting, arm = row.acting, on_paper(abs(row.arm or 0.0) / per_mm)
-    size = amount(abs(acting.force) / newtons, DIGITS)
-    moment = f"{'−' * (row.moment < 0)}{printed(product(size, arm, carried=DIGITS))}" if row.arm else "0"
-    name = "−" * acting.turned + force_letters(letters.convention, acting.symbol)
-    name += " / " + sign("l") if row.pair is not None else ""
-    return name, printed(size), printed(arm), moment
+def _named(row: MomentTerm, letters: Notation) -> Words:
+    """A force on the lever by name."""
+    name = "−" * row.acting.turned + force_letters(letters.convention, row.acting.symbol)
+    return name + " / " + sign("l") if row.pair is not None else name
 
 
 FIGURES = (
