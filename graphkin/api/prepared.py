@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphkin.api.arguments import as_scene, columns_shown, quantities_shown, whole_number
+from graphkin.api.arguments import as_scene, columns_shown, whole_number
 from graphkin.api.results import OfScene, Tabled
 from graphkin.errors import CallError, as_list, as_text, did_you_mean, unfit
 from graphkin.scene.model import Mechanism
@@ -20,7 +20,7 @@ from graphkin.scene.scene import SceneLike, written
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Unit
 from graphkin.solver.compiled.kernel import pays
-from graphkin.study.quantities import settled
+from graphkin.solver.values import settled
 from graphkin.table import Column, Table, Values
 from graphkin.words import Phrase
 
@@ -69,11 +69,10 @@ class Prepared(Tabled, OfScene):
 
     @cached_property
     def units(self) -> dict[str, str]:
-        """The unit of each asked quantity, forces last: the scene's length unit, seconds, degrees for angles, but
-        radians in their rates (rad/s, rad/s2)."""
-        names = (*self.ready.wanted, *self.ready.loads)
-        shown = zip(names, quantities_shown(self.mechanism, names), strict=True)
-        return {name: quantity.unit(self.mechanism).text for name, quantity in shown}
+        """The unit of each asked quantity, those without a formula last: the scene's length unit, seconds, degrees for
+        angles, but radians in their rates (rad/s, rad/s2)."""
+        units = self.mechanism.units
+        return {str(symbol): symbol.unit(units).text for symbol in (*self.ready.wanted, *self.ready.solved)}
 
     def place(self, name: str) -> int:
         """The index of an asked quantity.  Raises CallError for another one."""
@@ -184,9 +183,9 @@ class Prepared(Tabled, OfScene):
         from graphkin.study.designs import design_keys
         from graphkin.study.prepared_designs import PreparedMechanisms
 
-        if self.ready.loads:
-            raise CallError.of("over", "forces are not given over designs", "prepare each design or sweep over designs",
-                               loads=', '.join(self.ready.loads))
+        if self.ready.solved:
+            raise CallError.of("over", "are not given over designs", "prepare each design or sweep over designs",
+                               names=", ".join(map(str, self.ready.solved)))
         try:
             values = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in designs.values()))
         except (AttributeError, TypeError, ValueError):
@@ -262,12 +261,12 @@ class Samples(Tabled):
         """A quantity or a column by its name.  Raises CallError for one that was not asked for."""
         name = as_text("name", name)
         names = self.prepared.names
-        units = self.prepared.units
         if name in names:
-            return Values.of(self._settled(names.index(name)), units[name.removesuffix(".x").removesuffix(".y")])
+            symbol = self.prepared.ready.columns_of[name]
+            return Values.of(self._settled(names.index(name)), symbol.unit(self.prepared.mechanism.units).text)
         self.prepared.place(name)
-        first = names.index(f"{name}.x")
-        return Values.of(self._settled(first) + 1j * self._settled(first + 1), units[name])
+        x, y = (self._settled(names.index(f"{name}.{axis}")) for axis in "xy")
+        return Values.of(x + 1j * y, self.prepared.units[name])
 
     def _settled(self, column: int) -> Reals:
         """A column, 0 where it is rounding alone."""
@@ -299,9 +298,8 @@ class Samples(Tabled):
         driver = f"driver_{self.prepared.mechanism.drivers[0].key}"
         shown = np.ravel(np.broadcast_to(np.round(self.driver, 11), shape))
         columns.append(Column(driver, shown, self.prepared.own_unit.text))
-        for k, name in enumerate(self.prepared.names):
-            symbol = name.removesuffix(".x").removesuffix(".y")
-            columns.append(Column(name, np.ravel(self._settled(k)), units[symbol], symbol))
+        for k, (name, symbol) in enumerate(self.prepared.ready.columns_of.items()):
+            columns.append(Column(name, np.ravel(self._settled(k)), units[str(symbol)], str(symbol)))
         return Table((*columns, Column("ok", np.ravel(self.ok))), index)
 
     def __eq__(self, other: object) -> bool:
@@ -408,9 +406,9 @@ def prepare(
     Parameters
     ----------
     scene : a file, the name of a bundled scene, a mapping of the same shape, or a `Scene`
-    find : quantities by name: "C" (place of a point), "v_C", "a_C", "a_B@3" (of the point of link 3 that lies at B),
-        "v_C/B" (relative), "theta_3", "omega_3", "alpha_3" (of a link), "s_3/4" (travel of a sliding pair); forces and
-        moments ("F_5/6", "M_2"), which stand last, and are solved at each position
+    find : quantities of a position by name, as for `solve`: "C" (place of a point), "v_C", "v_C.x", "a_B@3" (of the
+        point of link 3 that lies at B), "v_C/B" (relative), "omega_3", "s_3/4", "v_3/4" (of a sliding pair).  Forces,
+        moments ("F_5/6", "M_2") and angles at joints ("gamma_2-3") stand last, and are solved at each position
     bounds : also a bound of the rounding error of each of them, ``Samples.bound``
     fast : compile the formulas with numba (the extra ``fast``): True on the first call, which then takes a second or
         two; False never; None in calls for 500,000 positions or more, where numba is installed
@@ -457,5 +455,5 @@ def prepare(
                            fast=f"{fast!r:.40}")
     if not asked:
         raise CallError.of("find", "asks for nothing", "name quantities for example v_c omega_3")
-    columns_shown(given, [name for name in asked if " at " in name])
-    return Prepared(scene, asked, fast, prepared(given, asked, given.units, bounds))
+    symbols = dict.fromkeys(quantity.symbol for quantity in columns_shown(given, asked))
+    return Prepared(scene, asked, fast, prepared(given, tuple(symbols), given.units, bounds))

@@ -50,9 +50,9 @@ def copy_time(work: Work, repeats: int) -> tuple[float, float]:
 # -- the closed form ---------------------------------------------------------------------------------------------------
 
 
-def columns_of(work: Work, kinds: str = "va") -> list[str]:
-    """Names of columns: velocities ("v"), accelerations ("a") and places ("z") of all outputs."""
-    return [str(o.ref) if kind == "z" else f"{kind}_{o.ref}" for kind in kinds for o in work.outputs]
+def columns_of(work: Work, kinds: str = "va") -> list[Symbol]:
+    """Velocities ("v"), accelerations ("a") and places ("z") of all outputs."""
+    return [Symbol("place" if kind == "z" else kind, o.ref) for kind in kinds for o in work.outputs]
 
 
 def vectors(columns: Array) -> Array:

@@ -65,6 +65,11 @@ def known_symbol(where: str, text: str, scene: Mechanism | Reading, drawn: bool 
         return [Problem(where, "names two different points", "it is between coincident points of two links", text=text,
                         kind=symbol.kind)]
     if drawn and symbol.is_of_tables:
+        keys = [pair.key for pair in scene.slides]
+        on_outline = scene.contact_at and not scene.no_point(where, symbol.link)
+        if symbol.is_rate_of_pair and symbol.pair not in keys and not on_outline:
+            known = Phrase("known here", names=", ".join(keys)) if keys else Phrase("nothing slides here")
+            return [Problem(where, "there is no such sliding pair", known)]
         return [Problem(where, "is given by tables alone", "ask a drawing for", text=text,
                         instead=_drawn_instead(symbol, scene))]
     return symbol
@@ -77,8 +82,10 @@ def _drawn_instead(symbol: Symbol, scene: Mechanism | Reading) -> str:
     if symbol.axis:
         return str(symbol.whole)
     pair = next((pair for pair in scene.slides if pair.key == symbol.pair), None)
-    link = pair.of or pair.link if pair else symbol.link
-    point = pair.point if pair and pair.point else next(iter(scene.points.get(link, ())), "B")
+    if pair is None:  # of a point on an outline
+        return f"{symbol.kind}_{symbol.link}/{symbol.link}@{symbol.other}"
+    link = pair.of or pair.link
+    point = pair.point or next(iter(scene.points.get(link, ())), "B")
     return f"{symbol.kind}_{point}@{link}/{point}@{symbol.other}"
 
 

@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphkin.plane import added_up
-from graphkin.scene.symbol import KINDS, Line, PointRef, Printed, Symbol, Way, forms_of_names, stated
+from graphkin.scene.symbol import KINDS, Line, PointRef, Printed, Symbol, Way, centre_links, forms_of_names, stated
 from graphkin.scene.tables import FORCES, LENGTHS, Units
 from graphkin.words import LANGUAGES, Phrase, area
 
@@ -125,10 +125,9 @@ class Spelling:
         return alike[0] if len(alike) == 1 else ""
 
     def _exists(self, symbol: Symbol) -> bool:
-        refs = [r for r in (symbol.of, symbol.to) if r]
-        return all(r.point in self.points for r in refs) and all(
-            link in self.links or link in self.points for link in symbol.links()
-        )
+        names = [ref.point for ref in (symbol.of, symbol.to) if ref]
+        centres = {name for name in names if symbol.kind == "d" and centre_links(name, self.links)}
+        return {*names} <= {*self.points, *centres} and {*symbol.links()} <= {*self.links, *self.points}
 
     def _usual(self, symbol: Symbol) -> Symbol:
         """The name under which a point of a link is known: ``v_B@2`` is ``v_B`` where B is one of link 2's points."""

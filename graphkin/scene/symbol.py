@@ -240,6 +240,11 @@ class Symbol:
         return self.entry.is_vector and not (self.turning or self.axis or self.is_rate_of_pair)
 
     @property
+    def heads(self) -> tuple[str, ...]:
+        """The names of its columns; a vector and a place have two."""
+        return (f"{self}.x", f"{self}.y") if self.is_vector or self.kind == "place" else (str(self),)
+
+    @property
     def is_rate_of_pair(self) -> bool:
         """Whether it is a rate of a sliding pair along its guide."""
         return self.of is None and self.entry.of_pairs

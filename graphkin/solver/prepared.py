@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
+from typing import Any
 
 import numpy as np
 
-from graphkin.errors import CallError
-from graphkin.scene.model import Dimension, Mechanism, dimensions, force_of
+from graphkin.scene.model import Dimension, Mechanism, dimensions
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Measure, Units
 from graphkin.solver.algebra.bounds import error_bounds
@@ -24,7 +24,8 @@ from graphkin.solver.forces import forces_of
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.path.dead_points import singular
 from graphkin.solver.path.driver_range import DriverRange, range_of
-from graphkin.solver.quantities import VALUES, Posed, bound_of_symbol
+from graphkin.solver.quantities import Posed, bound_of_symbol, formula_of_symbol
+from graphkin.solver.values import settled_value, value_of
 from graphkin.structure import Structure
 
 CHUNK = 16384  # positions in a piece, so that all columns of one stay in the cache
@@ -41,48 +42,59 @@ FEW = 1000
 class PreparedMechanism:
     """A mechanism with its assembly followed over the range of its first driver, and the code for what is asked.
 
-    names : of the columns, two for a vector ("v_B.x", "v_B.y") asked : their formulas, except those of loads
-    wanted : the names of the asked quantities
+    asked : the formulas of the columns, except those of solved quantities
+    wanted : the asked quantities that have formulas
     units : of the columns, as tables have them; SI without any
-    bounded : whether columns of bounds follow all others, one for each name; they are made from the constraints of
+    bounded : whether columns of bounds follow all others, one for each quantity; they are made from the constraints of
         all links, some hundred times slower than the values
-    loads : forces and moments that were asked for, by name: the last of the names, solved position by position as they
-        have no closed form, some hundred times slower
+    solved : the asked quantities without formulas, as forces: they come last, and are solved position by position,
+        some hundred times slower
     open : numbers of the formulas that are given for each design
     """
 
-    names: tuple[str, ...]
     range: DriverRange
     asked: tuple[Real, ...]
     dimensioned: DimensionedProgram
-    wanted: tuple[str, ...]
+    wanted: tuple[Symbol, ...]
     units: Units | None = None
     bounded: bool = False
-    loads: tuple[str, ...] = ()
+    solved: tuple[Symbol, ...] = ()
     open: frozenset[Name] = frozenset()
+
+    @cached_property
+    def columns_of(self) -> dict[str, Symbol]:
+        """The quantity of each column; of a vector two, "v_B.x" and "v_B.y"."""
+        return {head: symbol for symbol in (*self.wanted, *self.solved) for head in symbol.heads}
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """The names of the columns."""
+        return tuple(self.columns_of)
 
     @property
     def rows(self) -> int:
         """The rows of the array of columns: bounds come last."""
-        return len(self.names) + (len(self.wanted) + len(self.loads)) * self.bounded
+        return len(self.names) + (len(self.wanted) + len(self.solved)) * self.bounded
+
+    def _factor(self, symbol: Symbol) -> float:
+        return _factor(symbol.measure, self.units)
 
     @cached_property
     def residues(self) -> Array:
         """The size of a few roundings in each column, by the size of the mechanism and the motion of its drivers, shape
-        (columns,); 0 for forces, whose size these do not give."""
+        (columns,); 0 of solved quantities, which have none left."""
         scene, rate, second = self.structure.scene, 0.0, 0.0
         for driver in scene.drivers:
             by = 1.0 if driver.turns else 1.0 / scene.size
             rate, second = rate + by * abs(driver.values[1]), second + by * abs(driver.values[2])
 
-        def left(name: str) -> float:
-            if name in self.loads:
+        def left(symbol: Symbol) -> float:
+            if symbol in self.solved:
                 return 0.0
-            measure = Symbol.parse(name).measure if name[-2:] not in (".x", ".y") else Symbol.parse(name[:-2]).measure
-            whole = scene.size**measure.length * (1.0, rate, second + rate**2)[measure.order]
-            return RESIDUE * whole * _factor(measure, self.units)
+            whole = scene.size**symbol.measure.length * (1.0, rate, second + rate**2)[symbol.measure.order]
+            return RESIDUE * whole * self._factor(symbol)
 
-        return np.array([left(name) for name in self.names])
+        return np.array([left(symbol) for symbol in self.columns_of.values()])
 
     @cached_property
     def by_newton(self) -> bool:
@@ -125,7 +137,7 @@ class PreparedMechanism:
     @cached_property
     def clear(self) -> bool:
         """Whether no position needs examination: a whole turn of one assembly, far from every dead point."""
-        return self._regular and not self.loads and not self.bounded
+        return self._regular and not self.solved and not self.bounded
 
     @cached_property
     def _of_table(self) -> list[tuple[float, float, int]]:
@@ -184,8 +196,7 @@ class PreparedMechanism:
     @cached_property
     def _held(self) -> dict[Name, float]:
         """Units, rates of the drivers, and values of those but the first."""
-        measures = {column_symbol(name).measure for name in self.wanted}
-        held: dict[Name, float] = {("per", measure.name): _factor(measure, self.units) for measure in measures}
+        held: dict[Name, float] = {("per", s.measure.name): self._factor(s) for s in self.wanted}
         count = len(self.structure.scene.drivers)
         for k, driver in enumerate(self.structure.drivers):
             _, rate, second = driver.values
@@ -247,7 +258,7 @@ class PreparedMechanism:
         if (names, moving) not in self._opened:
             dimensioned = program_of(self.structure, moving, names)
             asked = formulas(dimensioned.program, self.structure, self.wanted, self.units)
-            made = replace(self, dimensioned=dimensioned, asked=tuple(asked.values()), open=names)
+            made = replace(self, dimensioned=dimensioned, asked=tuple(by_columns(asked).values()), open=names)
             self._opened[names, moving] = made
         return self._opened[names, moving]
 
@@ -268,8 +279,8 @@ class PreparedMechanism:
 
     def at(self, value: float) -> tuple[float, ...] | None:
         """The asked quantities at one value of the first driver, in plain floats; None where the position does not
-        exist or is a dead point.  With loads the bounds come after them."""
-        return self._by_columns(value) if self.loads else self._one(value)
+        exist or is a dead point.  With solved quantities the bounds come after them."""
+        return self._by_columns(value) if self.solved else self._one(value)
 
     @cached_property
     def _one(self) -> Callable[[float], tuple[float, ...] | None]:
@@ -368,19 +379,15 @@ class PreparedMechanism:
         return out, self._all(GivenValues(values), out, fast)
 
     def _all(self, steps: GivenValues | UniformGrid, out: Array, fast: bool) -> Array:
-        """All columns: those of formulas, below them forces and moments, at last the bounds of both, infinite where
-        they are unknown; NaN where the position does not exist."""
+        """All columns: those of formulas, below them the solved ones, at last the bounds of both, infinite where they
+        are unknown; NaN where the position does not exist."""
         count, n = len(self.asked), len(steps)
-        ok = self._formulas(steps, out[:count], fast) if count or not self.loads else self._reached(steps)
-        if not (self.loads or self.bounded):
+        ok = self._formulas(steps, out[:count], fast) if count or not self.solved else self._reached(steps)
+        if not (self.solved or self.bounded):
             return ok
         bounds = out[len(self.names) :]
-        if self.loads:
-            rows, of_loads, solved = force_rows(self.range, self.loads, steps.values, self.bounded)
-            ok = ok & solved & self._reached(steps)
-            rows_of_out = [*out[count : len(self.names)], *bounds[len(self.wanted) :]]
-            for row, value in zip(rows_of_out, [*rows, *of_loads], strict=True):
-                row[:] = value
+        if self.solved:
+            ok = ok & self._solve(steps.values, out[count : len(self.names)], bounds[len(self.wanted) :])
         for k in range(0, n if self.bounded and self.wanted else 0, CHUNK):
             some = slice(k, k + CHUNK)
             self._bounds(steps.values[some], ok[some], bounds[: len(self.wanted), some])
@@ -388,6 +395,19 @@ class PreparedMechanism:
         if not ok.all():
             np.copyto(out, np.nan, where=~ok)
         return ok
+
+    def _solve(self, values: Array, rows: Array, bounds: Array) -> Array:
+        """The columns of solved quantities at values of the first driver, bounds of those that are forces, and whether
+        all are known there."""
+        motion = self.range.motion(self.range.offsets(values))
+        forces = forces_of(motion) if any(symbol.is_load for symbol in self.solved) else None
+        found = {symbol: settled_value(motion, symbol) * self._factor(symbol) for symbol in self.solved}
+        for row, part in zip(rows, by_columns(found).values(), strict=True):
+            row[:] = part
+        for row, symbol in zip(bounds, self.solved if self.bounded else (), strict=True):
+            bound = forces.bound[symbol.measure.length] if forces and symbol.is_load else math.inf
+            row[:] = bound * self._factor(symbol)
+        return motion.ok if forces is None else forces.ok
 
     def _formulas(self, steps: GivenValues | UniformGrid, out: Array, fast: bool) -> Array:
         """The columns of formulas, and whether the position exists; NaN where it does not."""
@@ -453,16 +473,15 @@ class PreparedMechanism:
         return columns, reached
 
     def _bounds(self, value: Array, ok: Array, out: Array) -> None:
-        """Bounds of the rounding errors of each name's columns, at the values that are ok."""
+        """Bounds of the rounding errors of each quantity's columns, at the values that are ok."""
         if not ok.any():
             return
         structure, state = self.structure, self._state(value[ok])
         errors = np.broadcast_to(self._value_errors, state.drive.value.shape)
         links = error_bounds(structure, state.poses, state.drive, state.slack, state.refined, errors)
         posed = Posed(structure, state.poses, structure.slides)
-        for row, name in zip(out, self.wanted, strict=True):
-            symbol = column_symbol(name)
-            row[ok] = bound_of_symbol(posed, symbol, links) * _factor(symbol.measure, self.units)
+        for row, symbol in zip(out, self.wanted, strict=True):
+            row[ok] = bound_of_symbol(posed, symbol, links) * self._factor(symbol)
 
     def _state(self, value: Array) -> State:
         """The mechanism at values of the first driver that the motion reaches, in 16 digits."""
@@ -488,7 +507,7 @@ def _every(n: int) -> Array:
 
 def prepare(
     scene: Mechanism | Structure,
-    asked: Sequence[str],
+    asked: Sequence[Symbol],
     units: Units | None = None,
     bounded: bool = False,
     along: DriverRange | None = None,
@@ -498,36 +517,25 @@ def prepare(
     Parameters
     ----------
     scene : a scene, or its structure
-    asked : columns by name, as in ``column_symbol``: "B", "v_B", "a_B@3", "omega_3", ...
+    asked : quantities of a position, each once
     units : of the columns, as tables have them; SI without any
-    bounded : after all others a column for each name, with a bound of its values' rounding errors
+    bounded : after all others a column for each quantity, with a bound of its values' rounding errors
     along : the range of its first driver, if it is known already
 
     Raises
     ------
-    CallError : a name of no quantity
+    CallError : a quantity that the mechanism does not have
     Unsolvable, SceneError : as for ``solve``
     """
     structure = structure_of(scene)
-    loads = tuple(name for name in asked if force_heads(structure.scene, name))
-    asked = [name for name in asked if name not in loads]
     dimensioned = program_of(structure, tuple(d.values[2] != 0 for d in structure.drivers))
-    columns = formulas(dimensioned.program, structure, asked, units)
-    names = (*columns, *(column for name in loads for column in force_heads(structure.scene, name)))
-    along = along or range_of(structure)
-    return PreparedMechanism(names, along, tuple(columns.values()), dimensioned, tuple(asked), units, bounded, loads)
-
-
-def column_symbol(name: str) -> Symbol:
-    """The symbol of a column: "B", "B@3" (place of a point), "v_B", "a_B@3", "v_C/B", "theta_3", "omega_3", "alpha_3",
-    "s_2/3" (travel of a sliding pair).  Raises CallError for another name."""
-    try:
-        symbol = Symbol.parse(name)
-    except ValueError as error:
-        raise CallError.of(f'"{name}"', error.args[0]) from None
-    if symbol.order is None or symbol.axis or (symbol.other and symbol.kind != "s"):
-        raise CallError.of(f'"{name}"', "is no column", "ask for places v_ a_ theta_ omega_ alpha_")
-    return symbol
+    made = formulas(dimensioned.program, structure, asked, units)
+    along, solved = along or range_of(structure), tuple(symbol for symbol in asked if symbol not in made)
+    for symbol in solved:
+        value_of(along.motion(np.zeros(1)), symbol)
+    return PreparedMechanism(
+        along, tuple(by_columns(made).values()), dimensioned, tuple(made), units, bounded, solved
+    )
 
 
 def _factor(measure: Measure, units: Units | None) -> float:
@@ -536,61 +544,22 @@ def _factor(measure: Measure, units: Units | None) -> float:
 
 
 def formulas(
-    program: Program, structure: Structure, asked: Sequence[str], units: Units | None = None
-) -> dict[str, Real]:
-    """A formula for each column.
-
-    Parameters
-    ----------
-    asked : names as in ``column_symbol``; of points two columns each, "B.x" and "B.y"
-    units : as tables have them; SI without any
-
-    Raises
-    ------
-    CallError : a name that is no column, or names nothing in this mechanism
-    """
-    made: dict[str, Real] = {}
-    posed = Posed(structure, program.poses, structure.slides, program.number, program.angle)
-    for name in asked:
-        symbol = column_symbol(name)
-        formula: Real | Vec = VALUES[symbol.kind](posed, symbol)
-        if _factor(symbol.measure, units) != 1.0:
+    program: Program, structure: Structure, asked: Iterable[Symbol], units: Units | None = None
+) -> dict[Symbol, Real | Vec]:
+    """The formula of each quantity that has one, in ``units`` as tables have them, SI without any."""
+    made: dict[Symbol, Real | Vec] = {}
+    posed = Posed(structure, program.poses, structure.slides, program.number)
+    for symbol in asked:
+        formula = formula_of_symbol(posed, symbol)
+        if formula is not None and _factor(symbol.measure, units) != 1.0:
             formula = formula * program.graph.param(("per", symbol.measure.name))
-        if isinstance(formula, Vec):
-            made[f"{name}.x"], made[f"{name}.y"] = formula.real, formula.imag
-        else:
-            made[name] = formula
+        if formula is not None:
+            made[symbol] = formula
     return made
 
 
-def force_heads(scene: Mechanism, name: str) -> tuple[str, ...]:
-    """The heads of the columns of a force (two, ``F_5/6.x`` and ``F_5/6.y``) or a moment; none for what is neither."""
-    try:
-        force = force_of(scene, Symbol.parse(name))
-    except ValueError:
-        force = None
-    if force is None or force.axis:
-        return ()
-    return (f"{name}.x", f"{name}.y") if force.is_vector else (name,)
-
-
-def force_rows(
-    reach: DriverRange, names: Sequence[str], values: Array, bounded: bool = False
-) -> tuple[list[Array], list[Array], Array]:
-    """Forces and moments at values of the first driver (rad, m), shape (n,).
-
-    Returns
-    -------
-    rows : one for each head of each name, in the scene's units
-    bounds : for each name a bound of its rows' rounding errors, if it is wanted (``bounded``)
-    ok : bool, shape (n,): positions that the motion reaches and in which the balance does work
-    """
-    forces, per = forces_of(reach.motion(reach.offsets(values))), reach.scene.units.newtons
-    rows, bounds = [], []
-    for name in names:
-        value = forces.value(Symbol.parse(name))
-        assert value is not None
-        vector = np.iscomplexobj(value)
-        rows += [part / per for part in ((value.real, value.imag) if vector else (value,))]
-        bounds += [forces.bound[0 if vector else 1] / per] if bounded else []
-    return rows, bounds, forces.ok
+def by_columns(values: Mapping[Symbol, Any]) -> dict[str, Any]:
+    """Values, or formulas, by the names of columns: of a vector its two components."""
+    return {head: part for symbol, value in values.items()
+            for head, part in zip(symbol.heads, ("real", "imag"), strict=False)
+            for part in (getattr(value, part),)}  # fmt: skip

@@ -1,7 +1,8 @@
 """Quantities by their symbols, from the poses of the links: an entry a kind.
 
-The poses are arrays over positions, or formulas (``graphkin.solver.compiled.program``): the entries of `VALUES` up to
-``s`` take either, so that a prepared mechanism and a motion have their velocities from the same line.
+The poses are arrays over positions, or formulas (``graphkin.solver.compiled.program``).  The entries of `VALUES` take
+either, except angles at joints (`ANGLES_AT_JOINTS`): a prepared mechanism and a motion have a quantity from the same
+line.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from graphkin.errors import CallError, did_you_mean
 from graphkin.plane import dot
 from graphkin.scene.model import PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol, centre_links
+from graphkin.solver.algebra.expressions import angle_of, size
 from graphkin.solver.algebra.pose import UNIT, Array, ErrorBound, Pose, R, V
 from graphkin.solver.cams import cam_at
 from graphkin.structure import Pair, Structure
@@ -31,12 +33,6 @@ from graphkin.structure.transmission import (
 from graphkin.words import Phrase
 
 
-def _angle(direction: Array) -> Array:
-    """In (-pi, pi] (rad)."""
-    angle = np.angle(direction)
-    return np.where(angle == -np.pi, np.pi, angle)
-
-
 @dataclass(frozen=True)
 class Posed(Generic[V, R]):
     """The links of a structure in their poses, as arrays of shape (n,) or formulas.
@@ -44,14 +40,12 @@ class Posed(Generic[V, R]):
     poses : pose of each link by its name
     slides : the sliding pairs and pins in slots
     number : a place or direction of the scene by its name, as in ``Program.number``; None for the scene's own
-    angle : of a direction (rad)
     """
 
     structure: Structure
     poses: Mapping[str, Pose[V, R]]
     slides: tuple[Pair, ...]
     number: Callable[..., V] | None = None
-    angle: Callable[[V], R] = _angle  # type: ignore[assignment]
 
     def pose(self, link: str) -> Pose[V, R]:
         """The pose of a link or the block of a pin.  Raises CallError for an unknown name."""
@@ -114,6 +108,10 @@ class Posed(Generic[V, R]):
         return ((self.poses[slide.a].z - guide.z) * guide.u.conjugate()).real  # type: ignore[no-any-return]
 
 
+AnyPosed = Posed[Any, Any]
+"""Poses as arrays or as formulas."""
+
+
 def all_slides(structure: Structure) -> tuple[Pair, ...]:
     """The sliding pairs, those of redundant links after the others."""
     have = {s.key for s in structure.slides}
@@ -129,10 +127,34 @@ def value_of_symbol(posed: Posed, symbol: Symbol) -> Array:
     CallError : a symbol that means nothing in this mechanism, or belongs to the whole turn, or is a force
     """
     if symbol.kind in VALUES:
-        return np.asarray(VALUES[symbol.kind](posed, symbol))
+        return np.asarray(_value(posed, symbol))
     if symbol.scope == "force":
         raise CallError.of(str(symbol), "is no motion", "forces stand in solve of a scene with")
     raise CallError.of(str(symbol), "belongs to the whole turn not to one", "ask check audit or sweep")
+
+
+def formula_of_symbol(posed: AnyPosed, symbol: Symbol) -> Any:
+    """The formula of a quantity, from poses that are formulas; None where it has none: an angle at a joint, a force, an
+    instant centre, a link that the formulas leave out."""
+    points = () if symbol.kind == "place" else (ref.point for ref in (symbol.of, symbol.to) if ref)
+    if symbol.kind not in VALUES or symbol.kind in ANGLES_AT_JOINTS:
+        return None
+    if symbol.kind in ("x", "y", "d") and not posed.structure.scene.holders.keys() >= {*points}:
+        return None
+    try:
+        return _value(posed, symbol)
+    except CallError:
+        return None
+
+
+def _value(posed: AnyPosed, symbol: Symbol) -> Any:
+    value = VALUES[symbol.kind](posed, symbol.whole)
+    return part_along(symbol.axis, value) if symbol.axis else value
+
+
+def part_along(axis: str, vector: Any) -> Any:
+    """The component of a vector along the "x" or "y" axis of the frame: of numbers, arrays, formulas."""
+    return vector.real if axis == "x" else vector.imag
 
 
 def _rate(field: str) -> Callable[[Posed[V, R], Symbol], V | R]:
@@ -150,10 +172,10 @@ def _rate(field: str) -> Callable[[Posed[V, R], Symbol], V | R]:
     return value
 
 
-def _theta(posed: Posed[V, R], symbol: Symbol) -> R:
+def _theta(posed: AnyPosed, symbol: Symbol) -> Any:
     """The angle of a link's own x axis, or from another link's."""
     turn = posed.pose(symbol.link).u
-    return posed.angle(turn * posed.pose(symbol.other).u.conjugate() if symbol.other else turn)
+    return angle_of(turn * posed.pose(symbol.other).u.conjugate() if symbol.other else turn)
 
 
 def _pressure(posed: Posed, symbol: Symbol) -> Array:
@@ -173,26 +195,25 @@ def _transmission(posed: Posed, symbol: Symbol) -> Array:
     return _crossing(posed.poses, joint_of_dyad(posed.structure, dyad))
 
 
-def _apart(posed: Posed, symbol: Symbol) -> Array:
+def _apart(posed: AnyPosed, symbol: Symbol) -> Any:
     assert symbol.of is not None
     assert symbol.to is not None
-    return np.asarray(np.abs(_place(posed, symbol, symbol.of.point) - _place(posed, symbol, symbol.to.point)))
+    return size(_place(posed, symbol, symbol.of.point) - _place(posed, symbol, symbol.to.point))
 
 
-def _coordinate(posed: Posed, symbol: Symbol) -> Array:
+def _coordinate(posed: AnyPosed, symbol: Symbol) -> Any:
     assert symbol.of is not None
-    place = _place(posed, symbol, symbol.of.point)
-    return np.asarray(place.real if symbol.kind == "x" else place.imag)
+    return part_along(symbol.kind, _place(posed, symbol, symbol.of.point))
 
 
-def _place(posed: Posed, symbol: Symbol, name: str) -> Array:
+def _place(posed: AnyPosed, symbol: Symbol, name: str) -> Any:
     """The place of a point or an instant centre; NaN for a centre at infinity or of links that move as one."""
     scene = posed.structure.scene
     if name in scene.holders:
-        return np.asarray(posed.point(PointRef(name)).z)
+        return posed.point(PointRef(name)).z
     contact = scene.contact_at.get(name)
     if contact is not None:
-        return np.asarray(posed.point(PointRef(name, contact.carrier or contact.block)).z)
+        return posed.point(PointRef(name, contact.carrier or contact.block)).z
     pair = centre_links(name, scene.by_name)
     if pair is None:
         raise CallError.of(str(symbol), "there is no point", did_you_mean(name, scene.holders), name=name)
@@ -201,7 +222,7 @@ def _place(posed: Posed, symbol: Symbol, name: str) -> Array:
         return _place(posed, symbol, shared)
     q, omega = pole(posed.poses[pair[0]], posed.poses[pair[1]])
     with np.errstate(all="ignore"):
-        return np.asarray(np.where(omega == 0.0, np.nan, q / omega))
+        return np.where(omega == 0.0, np.nan, q / omega)
 
 
 def pole(one: Pose, two: Pose) -> tuple[Array, Array]:
@@ -222,7 +243,7 @@ def pole(one: Pose, two: Pose) -> tuple[Array, Array]:
 # parts of accelerations
 
 
-def _part(posed: Posed, symbol: Symbol) -> Array:
+def _part(posed: AnyPosed, symbol: Symbol) -> Any:
     """A part of an acceleration: normal (an), tangential (at), Coriolis (ak), or the rest (ar).
 
     Seen from a second link a point of a first one runs along a path: its Coriolis term comes from the turning of the
@@ -239,12 +260,12 @@ def _part(posed: Posed, symbol: Symbol) -> Array:
     coriolis = 2j * posed.poses[base].omega * (first.v - second.v)
     left = first.a - second.a - coriolis
     if kind == "ak" or normal is None:
-        return np.asarray(coriolis if kind == "ak" else left)
+        return coriolis if kind == "ak" else left
     across = normal * dot(normal, left)
-    return np.asarray(across if kind == "an" else left - across)
+    return across if kind == "an" else left - across
 
 
-def _path(posed: Posed, kind: str, of: PointRef, to: PointRef) -> tuple[str, Array | None] | None:
+def _path(posed: AnyPosed, kind: str, of: PointRef, to: PointRef) -> tuple[str, Any] | None:
     """The link from which a point is seen to run along a path, of coincident points of two links, and the unit normal
     of the path, where a part of this kind is told by that; None where it is no path that bends.
 
@@ -254,24 +275,24 @@ def _path(posed: Posed, kind: str, of: PointRef, to: PointRef) -> tuple[str, Arr
     curved = (s for s in posed.slides if s.guide.curvature and s.pin == of.point)
     slide = next((s for s in curved if s.b in (of.link, to.link)), None)
     if slide is not None and kind != "at":
-        return slide.b, np.asarray(1j * posed.poses[slide.b].u * slide.guide.direction)
+        return slide.b, 1j * posed.guide(slide).u
     contact = posed.structure.scene.contact_at.get(of.point)
     if contact is not None and {of.link, to.link} == set(contact.links):
         # the centre of a disc lies on the normal
         which = 1 if contact.radii[0] == 0.0 and not contact.flat else 0
         centre = PointRef(contact.centres[which], contact.round_links[which])
         normal = posed.point(of).z - posed.point(centre).z
-        return to.link, np.asarray(normal / np.abs(normal))
+        return to.link, normal / size(normal)
     if of.link == to.link or not {of.link, to.link} <= set(links):
         return None
     hinge = next((p for p in links[of.link].points if p in links[to.link].points and p != of.point), None)
     if hinge is None:
         return None
     arm = posed.point(of).z - posed.point(PointRef(hinge, of.link)).z
-    return to.link, None if kind == "ar" else np.asarray(arm / np.abs(arm))
+    return to.link, None if kind == "ar" else arm / size(arm)
 
 
-def _is_on(posed: Posed, ref: PointRef, link: str) -> bool:
+def _is_on(posed: AnyPosed, ref: PointRef, link: str) -> bool:
     """True where the point is one of the link's, or the link's point under that pin."""
     holders = posed.structure.scene.holders.get(ref.point, ())
     if not holders:
@@ -282,7 +303,7 @@ def _is_on(posed: Posed, ref: PointRef, link: str) -> bool:
     return own and (link in holders or ref.point in posed.link(link).points)
 
 
-def _of_turning(posed: Posed, symbol: Symbol, of: PointRef) -> Array:
+def _of_turning(posed: AnyPosed, symbol: Symbol, of: PointRef) -> Any:
     """Normal and tangential part of the acceleration of one point of a link about another."""
     if of.link:
         posed.link(of.link)
@@ -302,7 +323,7 @@ def _of_turning(posed: Posed, symbol: Symbol, of: PointRef) -> Array:
             centre = pivot
         pose = posed.poses[name]
         arm = posed.point(PointRef(of.point, name)).z - posed.point(PointRef(centre, name)).z
-        return np.asarray(-(pose.omega**2) * arm if symbol.kind == "an" else 1j * pose.alpha * arm)
+        return -(pose.omega * pose.omega) * arm if symbol.kind == "an" else 1j * pose.alpha * arm
     wanted = (
         Phrase("both points must be on one link")
         if to
@@ -311,7 +332,7 @@ def _of_turning(posed: Posed, symbol: Symbol, of: PointRef) -> Array:
     raise CallError.of(str(symbol), "no link makes this part", wanted)
 
 
-def _guiding(posed: Posed, symbol: Symbol, of: PointRef, to: PointRef) -> str:
+def _guiding(posed: AnyPosed, symbol: Symbol, of: PointRef, to: PointRef) -> str:
     """The link along whose guide one of two coincident points slides, by the turning of which the Coriolis term is."""
     for ref in (of, to):
         posed.point(ref)
@@ -339,7 +360,11 @@ def _example(symbol: Symbol, slides: Iterable[Pair]) -> Phrase:
     )  # fmt: skip
 
 
-VALUES: Mapping[str, Callable[[Posed[Any, Any], Symbol], Any]] = {
+ANGLES_AT_JOINTS: Mapping[str, Callable[[Posed, Symbol], Array]] = {
+    "gamma": _gamma, "transmission": _transmission, "pressure": _pressure,
+}  # fmt: skip
+"""Quantities that are found from arrays alone: their joints have places in numbers."""
+VALUES: Mapping[str, Callable[[AnyPosed, Symbol], Any]] = {
     "v": _rate("v"),
     "a": _rate("a"),
     "place": _rate("z"),
@@ -350,18 +375,19 @@ VALUES: Mapping[str, Callable[[Posed[Any, Any], Symbol], Any]] = {
     "x": _coordinate,
     "y": _coordinate,
     "d": _apart,
-    "gamma": _gamma,
-    "transmission": _transmission,
-    "pressure": _pressure,
     **dict.fromkeys(("an", "at", "ak", "ar"), _part),
+    **ANGLES_AT_JOINTS,
 }
 """How a quantity of each kind is found from the poses."""
 
 
 def bound_of_symbol(posed: Posed, symbol: Symbol, bounds: Mapping[str, ErrorBound[Array]]) -> Array:
-    """The error bound of a place, an angle, a travel or a rate of them (SI), shape (n,), by the bounds of the links."""
-    order, frame = symbol.order, posed.structure.scene.frame.name
-    assert order is not None
+    """The error bound of a quantity (SI), shape (n,), by the bounds of the links; infinite where it is unknown: of
+    rates of sliding pairs and of parts of accelerations."""
+    frame = posed.structure.scene.frame.name
+    order = 0 if symbol.kind in ("x", "y", "d") else symbol.order
+    if order is None or symbol.is_rate_of_pair:
+        return np.full(np.shape(next(iter(bounds.values())).angle), np.inf)
     known = {frame: ErrorBound(*(np.zeros(1),) * 6), **bounds}
 
     def of_point(ref: PointRef) -> Array:
@@ -385,12 +411,12 @@ def bound_of_symbol(posed: Posed, symbol: Symbol, bounds: Mapping[str, ErrorBoun
         block, guide = known[pair.a], known[pair.b]
         return np.asarray(block.position + guide.position + np.abs(posed.travel(pair)) * (guide.angle + 4 * UNIT))
     if symbol.of is None:
-        posed.pose(symbol.link)
-        return known[symbol.link].of_turning[order] + (16 * UNIT if symbol.kind == "theta" else 0.0)
+        turning = [known[posed.link(name).name].of_turning[order] for name in symbol.links()]
+        return np.asarray(sum(turning) + (16 * UNIT if symbol.kind == "theta" else 0.0))
     bound = of_point(symbol.of)
     if symbol.to is None:
         return bound
-    return bound + of_point(symbol.to) + UNIT * np.abs(value_of_symbol(posed, symbol))
+    return bound + of_point(symbol.to) + 4 * UNIT * np.abs(value_of_symbol(posed, symbol))
 
 
 def _crossing(poses: Mapping[str, Pose], joint: TransmissionAngle) -> Array:

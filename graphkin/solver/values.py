@@ -30,7 +30,7 @@ from graphkin.solver.forces import Action, Forces, actions, balances, forces_of,
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import SLIGHT, Motion, listed_points, own_slides
 from graphkin.solver.path.driver_range import DriverRange, range_of
-from graphkin.solver.quantities import value_of_symbol
+from graphkin.solver.quantities import part_along, value_of_symbol
 from graphkin.solver.touching import Measure, measured
 from graphkin.structure import Dyad, LargerGroup, Structure, links_for, part_of
 from graphkin.words import Phrase, Wording, say
@@ -44,11 +44,10 @@ def value_of(motion: Motion, symbol: Symbol) -> Array:
     CallError : the symbol names nothing here
     Unsolvable : a load acts on a part of a stroke, or a flywheel is asked for, and the driver makes no whole turn
     """
-    if symbol.axis:
-        vector = value_of(motion, symbol.whole)
-        return np.asarray(vector.real if symbol.axis == "x" else vector.imag)
     if symbol.scope not in ("force", "cycle"):
         return motion.value(symbol)
+    if symbol.axis:
+        return np.asarray(part_along(symbol.axis, value_of(motion, symbol.whole)))
     problem = no_force(motion.scene, str(symbol), symbol)
     if problem is not None:
         raise CallError(problem)
@@ -59,6 +58,22 @@ def value_of(motion: Motion, symbol: Symbol) -> Array:
     if found is None:
         raise CallError.of(str(symbol), "is read off the drawing alone", "ask check for it")
     return found
+
+
+def settled_value(motion: Motion, symbol: Symbol) -> Array:
+    """A quantity as `value_of` gives it, 0 where it is rounding alone."""
+    value, measure = value_of(motion, symbol), symbol.measure
+    if symbol.is_load:
+        return settled(value, forces_of(motion).floors[measure.length])
+    # points seen from each other have the errors of two places
+    return motion.settled(value, measure, 1.0 if measure.angle or symbol.kind == "place" else 2.0)
+
+
+def settled(value: Array, floor: Array) -> Array:
+    """Values, 0 where they are not above what rounding amounts to; complex ones by their parts."""
+    if np.iscomplexobj(value):
+        return settled(value.real, floor) + 1j * settled(value.imag, floor)
+    return np.asarray(np.where(np.abs(value) <= floor, 0.0, value))
 
 
 def senses_along(motion: Motion, symbol: Symbol) -> Array | None:

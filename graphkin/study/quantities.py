@@ -17,7 +17,7 @@ from graphkin.solver import DriverRange, Motion, listed_points, own_slides
 from graphkin.solver.algebra.pose import Array
 from graphkin.solver.forces import forces_of
 from graphkin.solver.quantities import all_slides
-from graphkin.solver.values import senses_along, value_of
+from graphkin.solver.values import senses_along, settled_value, value_of
 from graphkin.structure import Structure, links_for
 from graphkin.table import Column, Table
 from graphkin.words import Wording
@@ -126,11 +126,10 @@ class Quantity:
     def parts(self, reach: DriverRange | None, motion: Motion) -> tuple[Array, ...]:
         """Its values in a motion (alone, or of a range) in the table's units, 0 where they are rounding alone: one
         array, or a vector's components."""
-        found = self.values(reach, motion) if self.is_angle else self.whole(motion)
-        if self.is_load:
-            found = settled(found, forces_of(motion).floors[self.measure.length])
+        if self.is_angle:
+            found = motion.settled(self.values(reach, motion), self.measure)
         else:
-            found = motion.settled(found, self.measure, self._ends)
+            found = settled_value(motion, self.symbol)
         value = self.unit(motion.scene).of(found)
         return (value.real, value.imag) if self.is_vector else (value,)
 
@@ -194,13 +193,6 @@ class Quantity:
         """The links whose errors it has; none for a quantity of further links, as a transmission angle."""
         moves = self.symbol.scope == "motion" or self.order == 0
         return links_for(motion.structure, self.symbol) if moves else ()
-
-
-def settled(value: Array, floor: Array) -> Array:
-    """Values, 0 where they are not above what rounding amounts to; complex ones by their parts."""
-    if np.iscomplexobj(value):
-        return settled(value.real, floor) + 1j * settled(value.imag, floor)
-    return np.asarray(np.where(np.abs(value) <= floor, 0.0, value))
 
 
 def link_quantities(link: str) -> tuple[Quantity, Quantity, Quantity]:

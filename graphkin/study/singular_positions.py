@@ -316,7 +316,7 @@ def differences(mp: MPContext, samples: int = 4) -> Singularity:
     structure = reach.structure
     (_, rate, second), equations = scene.drivers[0].values, Equations(structure)
     angles = 2 * math.pi * (np.arange(places) + 0.3) / places
-    k, slider = equations.column[link], prepare(structure, (next(iter(scene.links[-1].points)),))
+    k, slider = equations.column[link], prepare(structure, [Symbol.parse(next(iter(scene.links[-1].points)))])
 
     def place(values: Array) -> Array:
         x, y = slider.columns(values)[0]
@@ -447,7 +447,8 @@ def _exact_bar(mp: MPContext, a: mpf, d: mpf, rate: float, angle: mpf) -> Turnin
 
 def _in_doubles(scene: Mechanism, angle: float) -> Turning:
     """The closed form in doubles only, without more digits where these do not suffice; nan where it refuses."""
-    values = prepare(_turned(scene, angle), ("theta_3", "omega_3", "alpha_3", "v_B@2/B@3")).at(angle)
+    asked = [*map(Symbol.parse, ("theta_3", "omega_3", "alpha_3", "v_B@2/B@3"))]
+    values = prepare(_turned(scene, angle), asked).at(angle)
     theta, omega, alpha, x, y = values or (math.nan,) * 5
     u = complex(math.cos(theta), math.sin(theta))
     return Turning(u, (2 * omega * (x * u.real + y * u.imag), alpha))

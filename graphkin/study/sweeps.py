@@ -27,10 +27,11 @@ from graphkin.solver.compiled.kernel import pays
 from graphkin.solver.forces import forces_of
 from graphkin.solver.path.named_positions import first_position, standing
 from graphkin.solver.prepared import PreparedMechanism, prepare
+from graphkin.solver.values import settled
 from graphkin.structure import Structure
 from graphkin.study.designs import Designs, Value, applied
 from graphkin.study.prepared_designs import PreparedMechanisms
-from graphkin.study.quantities import Parts, Quantity, Words, all_that_moves, motion_table, settled, word_column
+from graphkin.study.quantities import Parts, Quantity, Words, all_that_moves, motion_table, word_column
 from graphkin.table import Column, Table, parquet_of_csv
 from graphkin.words import from_others
 
@@ -95,10 +96,8 @@ class FollowedDesign:
             return None
         if not all(e.explicit for e in self.structure.elements):
             return None
-        try:
-            return prepare(self.structure, [w.name for w in self.asked], self.scene.units, along=self.reach)
-        except CallError:  # a redundant link is none of its
-            return None
+        ready = prepare(self.structure, [w.symbol for w in self.asked], self.scene.units, along=self.reach)
+        return None if ready.solved else ready  # a redundant link is none of its
 
     def table(self, n: int, first: int, last: int, arrays: Arrays | None = None) -> Table:
         """Positions ``first`` to ``last`` (not included) of n: driver values, quantities, status and reason;

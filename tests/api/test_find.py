@@ -89,7 +89,8 @@ def test_what_stands_in_tables_alone_is_refused_with_what_a_drawing_has(name: st
 
 
 @pytest.mark.parametrize(("scene", "rate"), [("geneva-step", "v_B/2"), ("loader-cylinder", "v_7/6"),
-                                             ("slider-crank-offset", "a_3/4")])  # fmt: skip
+                                             ("slider-crank-offset", "a_3/4"),
+                                             ("cam-eccentric-flat-rocker", "v_O/2")])  # fmt: skip
 def test_what_a_drawing_has_instead_of_a_rate_along_a_guide_can_be_asked_of_it(scene: str, rate: str) -> None:
     with pytest.raises(graphkin.CallError) as refused:
         graphkin.check(scene, find=rate)
@@ -114,6 +115,59 @@ def test_a_name_of_two_points_is_of_a_sliding_pair_where_they_are_links() -> Non
     solved = graphkin.solve(LETTERED)
     assert solved["v_C"][0].real == pytest.approx(solved["v_G/F"][0], rel=1e-12)
     assert solved["v_C/B"][0] == pytest.approx(solved["v_C"][0] - solved["v_B"][0], rel=1e-12)
+
+
+IN_TABLES = [
+    *((SIXBAR, name) for name in (
+        "v_D", "v_B@3/B@2", "v_2/3", "a_2/3", "s_2/3", "C", "B@3", "v_D.x", "v_B@3/D.y", "ak_B@3/B@2", "ar_B@3/B@2.y",
+        "omega_3", "x_D", "y_B", "theta_3", "theta_3/4", "d_B/D", "d_P13/D", "gamma_4-5", "pressure_5",
+    )),
+    *(("fourbar-150-500-300-400", name) for name in ("an_C", "at_C/B", "gamma_2-3", "d_B/D", "at_C.y")),
+    *(("geneva-step", name) for name in ("v_B/2", "a_B/2", "ak_B@2/B", "theta_2/1")),
+    ("cam-swinging-roller", "pressure_2"), ("hit16-double-guide", "v_4/5"),
+    *(("shaper-forces", name) for name in ("F_5/6", "F_6/5.y", "M_2", "M_6/1", "Mi_4", "J_F")),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("scene", "name"), IN_TABLES)
+def test_a_quantity_has_a_value_by_the_same_name_in_solve_and_prepare(scene: str, name: str) -> None:
+    solved, ready = graphkin.solve(scene, find=name), graphkin.prepare(scene, find=name)
+    assert solved[name] == pytest.approx(ready[name], rel=1e-9, abs=1e-9 * abs(solved[name][0]))
+    assert solved[name].unit == ready[name].unit == ready.units[name]
+
+
+REFUSED = [*((SIXBAR, name) for name in (
+    "v_B/3", "s_B/3", "v_2/3.x", "C.x", "an_C", "an_C/B", "an_C.x", "omega_B", "stroke_5/6", "K_5/6", "4-5", "v_9",
+    "v_Q", "v_D at 7", "F_5/6", "gamma_1-5", "ak_B@1/C@2", "speed",
+)), *(("shaper-forces", name) for name in ("F_2", "Fi_5", "h_4", "arm_G_6", "P_cut", "v_5/6"))]  # fmt: skip
+
+
+@pytest.mark.parametrize(("scene", "name"), REFUSED)
+def test_a_name_of_nothing_is_refused_with_the_same_words_by_solve_and_prepare(scene: str, name: str) -> None:
+    said = []
+    for verb in (graphkin.solve, graphkin.prepare):
+        with pytest.raises(graphkin.CallError) as refusal:
+            verb(scene, find=name)
+        said.append(str(refusal.value))
+    assert said[0] == said[1]
+
+
+@pytest.mark.parametrize(("scene", "name"), [("shaper-forces", "v_5/6"), (SIXBAR, "v_B/3"), (SIXBAR, "a_1/6")])
+def test_a_rate_of_no_sliding_pair_is_refused_with_the_pairs_there_are_by_a_drawing_too(scene: str, name: str) -> None:
+    said = []
+    for verb in (graphkin.solve, graphkin.check):
+        with pytest.raises(graphkin.CallError) as refusal:
+            verb(scene, find=name)
+        (problem,) = refusal.value.problems
+        said.append((str(problem.found), str(problem.wanted)))
+    assert "there is no such sliding pair" == said[0][0]
+    assert said[0] == said[1]
+
+
+def test_a_column_of_answers_may_be_the_distance_of_a_centre() -> None:
+    answers = {"Ann": {"d_P13/D": "555", "d_B/C": "381.6"}}
+    judged = graphkin.audit(SIXBAR, answers=answers).data["values"]
+    assert [("d_P13/D", "right"), ("d_B/C", "right")] == [(value["symbol"], value["verdict"]) for value in judged]
 
 
 @pytest.mark.parametrize("name", ["v_D", "a_B@3", "v_B@3/D"])

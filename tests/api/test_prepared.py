@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from importlib.util import find_spec
 
@@ -211,3 +212,41 @@ def test_a_rack_never_comes_to_an_angle_that_lies_a_turn_beyond_the_end_of_the_m
     ready = rack_of_a_rocking_crank()
     assert (None, pytest.approx(ready.columns([20])["s_4/0"][0])) == (ready.at(380), ready.at(20)[0])
     assert np.isnan(ready.columns([380])["s_4/0"]).all()
+
+
+def test_bounds_of_a_component_a_distance_and_an_angle_between_links_follow_from_those_of_their_parts():
+    names = ["A", "C", "a_C", "theta_3", "theta_4", "x_C", "a_C.x", "d_A/C", "theta_3/4"]
+    samples = graphkin.prepare("shaper-scheme-2", find=names, bounds=True).sweep(12)
+    bound = samples.bound
+    assert bound("C").tolist() == bound("x_C").tolist()
+    assert bound("a_C").tolist() == bound("a_C.x").tolist()
+    rounding = 2.0**-51 * samples["d_A/C"]
+    assert bound("A") + bound("C") + rounding == pytest.approx(bound("d_A/C"), rel=1e-12, abs=0)
+    of_angles = np.degrees(16 * 2.0**-53)
+    assert bound("theta_3") + bound("theta_4") - of_angles == pytest.approx(bound("theta_3/4"), rel=1e-12, abs=0)
+
+
+def test_bounds_of_what_nobody_estimates_are_unknown():
+    samples = graphkin.prepare("shaper-scheme-2", find=["v_3/4", "ak_A@3/A@4", "gamma_4-5"], bounds=True).sweep(3)
+    assert {math.inf} == {x for name in samples.prepared.asked for x in samples.bound(name).tolist()}
+
+
+def test_a_quantity_asked_twice_has_its_column_and_its_bound_once():
+    ready = graphkin.prepare("shaper-scheme-2", find=["v_C", "omega_4", "v_C", "v_C.x"], bounds=True)
+    alone = graphkin.prepare("shaper-scheme-2", find="omega_4", bounds=True)
+    assert ("v_C.x", "v_C.y", "omega_4") == ready.names
+    assert alone.sweep(4).bound("omega_4").tolist() == ready.sweep(4).bound("omega_4").tolist()
+
+
+def test_a_force_and_its_component_share_a_column():
+    ready = graphkin.prepare("shaper-forces", find=["F_5/6.y", "F_5/6", "M_2"])
+    assert ("F_5/6.y", "F_5/6.x", "M_2") == ready.names
+    assert ready["F_5/6"].imag.tolist() == ready["F_5/6.y"].tolist()
+    assert graphkin.solve("shaper-forces")["F_5/6"] == pytest.approx(ready["F_5/6"], rel=1e-12)
+
+
+def test_a_moment_that_is_rounding_alone_is_0_and_its_bound_is_that_of_moments():
+    ready = graphkin.prepare("shaper-forces", find=["M_6/1", "M_2"], bounds=True)
+    forces = graphkin.solve("shaper-forces").forces
+    assert 0.0 == ready.at(ready.here)[0]
+    assert [forces.bound[1][0]] == pytest.approx(ready.columns([ready.here]).bound("M_2"), rel=1e-6, abs=0)

@@ -10,6 +10,7 @@ import pytest
 
 import graphkin
 from graphkin.scene import library_text, mechanism_of
+from graphkin.scene.symbol import Symbol
 from graphkin.solver.prepared import prepare
 from graphkin.study.designs import applied
 from graphkin.study.prepared_designs import PreparedMechanisms
@@ -29,7 +30,7 @@ FOUR_BAR = {
     },
     "driver": {"link": "1", "angle": 60, "omega": 10, "alpha": 0},
 }
-ASKED = ["v_C", "a_C", "theta_4"]
+ASKED = ["v_C", "a_C", "theta_4", "v_3/4", "a_6/1", "x_C", "d_O4/C", "theta_4/5", "ak_A@3/A@4", "an_B", "at_C/B"]
 KEYS = {
     "links.2.length": np.linspace(70, 110, 7),
     "frame.points.O2.y": np.linspace(300, 400, 7),
@@ -102,7 +103,7 @@ def test_a_driven_slide_has_designs_too():
 
 
 def test_designs_that_stay_away_from_dead_points_are_computed_together():
-    ready = prepare(mechanism_of("shaper-scheme-2"), ["v_C"])
+    ready = prepare(mechanism_of("shaper-scheme-2"), [Symbol.parse("v_C")])
     lengths = np.linspace(0.08, 0.1, 5)
     (crank,) = (name for name in ready.dimensions if name[:2] == ("point", "2") and ready.dimensions[name])
     assert PreparedMechanisms(ready, {crank: lengths}).together.all()
@@ -271,3 +272,8 @@ def test_each_design_that_does_not_turn_fully_has_its_own_range():
     for k, length in enumerate(designs["links.1.length"].tolist()):
         anew = graphkin.prepare(applied(FOUR_BAR, ("links.1.length",), (length,)), find=["omega_3"]).sweep(6)
         assert anew.driver.tolist() == pytest.approx(found.driver[k].tolist(), rel=1e-12)
+
+
+def test_an_angle_at_a_joint_is_not_given_over_designs():
+    with pytest.raises(graphkin.CallError, match="gamma_4-5 are not given over designs"):
+        graphkin.prepare(SHAPER, find=["v_C", "gamma_4-5"]).over({"links.2.length": [80, 90]})

@@ -21,6 +21,7 @@ import numpy as np
 
 import graphkin
 from graphkin.scene import mechanism_of_text
+from graphkin.scene.symbol import Symbol
 from graphkin.solver.prepared import prepare
 
 from . import by_hand, peers
@@ -92,7 +93,7 @@ def agree(name: str, mine: np.ndarray, theirs: np.ndarray) -> str:
 def rows(case: Case) -> list[tuple[str, int, float, str]]:
     """What, number of positions, seconds, and whether the values agree."""
     scene = mechanism_of_text(case.text, case.name)
-    ready = prepare(scene, case.asked)
+    ready = prepare(scene, [*map(Symbol.parse, case.asked)])
     public, compiled = (graphkin.prepare(scene, find=case.asked, fast=fast) for fast in (False, True))
     shaper = by_hand.compiled_shaper(case.sizes) if case.sizes and peers.have("numba") else None
     found: list[tuple[str, int, float, str]] = []

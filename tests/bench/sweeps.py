@@ -22,6 +22,7 @@ import numpy as np
 import graphkin
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.scene import library
+from graphkin.scene.symbol import Symbol
 from graphkin.solver.compiled.kernel import Kernel, pays
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.prepared import prepare
@@ -39,7 +40,7 @@ def arrays() -> None:
     for case in MECHANISMS:
         scene = mechanism_of_text(case.text, case.name)
         for n in COUNTS:
-            ready = prepare(scene, case.asked)
+            ready = prepare(scene, [*map(Symbol.parse, case.asked)])
             calls: dict[str, Callable[[], object]] = {
                 "engine": lambda r=ready, n=n: r.sweep(n, fast=pays(n)),
                 "sweep": lambda s=scene, c=case, n=n: graphkin.sweep(s, positions=n, find=c.asked),

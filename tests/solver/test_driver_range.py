@@ -10,6 +10,7 @@ import pytest
 from graphkin.errors import CallError, Unsolvable
 from graphkin.scene import library_text, mechanism_of_text
 from graphkin.scene.model import Mechanism
+from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, driver_range, solve, structure_of
 from graphkin.solver.compiled.engine import group_at
 from graphkin.solver.path.driver_range import each_once
@@ -42,7 +43,7 @@ def test_solve_and_prepare_come_to_the_same_positions_over_the_range(text: str) 
     scene = scene_of(text)
     name = f"omega_{next(link.name for link in scene.links if link.name not in [d.key for d in scene.drivers])}"
     motion = solve(scene, sweep=40)
-    columns, ok = prepare(scene, [name]).columns(motion.values[:, 0])
+    columns, ok = prepare(scene, [Symbol.parse(name)]).columns(motion.values[:, 0])
     assert columns[0, ok] == pytest.approx(motion.omega(name[6:])[ok], rel=1e-9, abs=1e-9)
     assert motion.ok.tolist() == ok.tolist()
 

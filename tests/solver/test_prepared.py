@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from importlib.util import find_spec
 
 import numpy as np
@@ -10,13 +11,18 @@ import pytest
 from graphkin.errors import CallError
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.model import Mechanism
-from graphkin.solver import solve
+from graphkin.scene.symbol import Symbol
+from graphkin.solver import prepared, solve
 from graphkin.solver.compiled.kernel import kernel_text
-from graphkin.solver.prepared import PreparedMechanism, prepare
+from graphkin.solver.prepared import PreparedMechanism
 from tests import scenes
 
 NUMBA = pytest.mark.skipif(find_spec("numba") is None, reason="the extra fast is not installed")
 ASKED = ("C", "v_C", "a_C", "omega_3", "alpha_3")
+
+
+def prepare(scene: Mechanism, asked: Sequence[str]) -> PreparedMechanism:
+    return prepared.prepare(scene, [*map(Symbol.parse, asked)])
 
 
 def four_bar() -> PreparedMechanism:
@@ -171,7 +177,7 @@ def test_a_driven_slide_is_swept_inside_its_range() -> None:
 
 @pytest.mark.parametrize(
     ("name", "what"),
-    [("Q", "Q"), ("v_Q", "Q"), ("omega_9", "9"), ("s_1/2", "1/2"), ("an_C/B", "an_C/B"), ("nonsense_3", "nonsense")],
+    [("Q", "Q"), ("v_Q", "Q"), ("omega_9", "9"), ("s_1/2", "1/2"), ("an_C/A", "an_C/A")],
 )
 def test_a_name_that_names_nothing_is_refused(name: str, what: str) -> None:
     with pytest.raises(CallError, match=what):

@@ -322,6 +322,19 @@ def root(x: Number) -> Number:
     return x.graph.line("root", x.at)
 
 
+def size(z: Any) -> Any:
+    """The size of a plane vector, or of each of an array of them."""
+    return root(z.real * z.real + z.imag * z.imag) if isinstance(z, Vec) else np.abs(z)
+
+
+def angle_of(direction: Any) -> Any:
+    """The angle of a direction, in (-pi, pi] (rad)."""
+    if isinstance(direction, Vec):
+        return direction.real.graph.line("atan2", direction.imag.at, direction.real.at)
+    angle = np.angle(direction)
+    return np.where(angle == -np.pi, np.pi, angle)
+
+
 def fmin(x: Number, y: Number) -> Number:
     """The smaller of two numbers; if one is nan, the other."""
     if not isinstance(x, Real):

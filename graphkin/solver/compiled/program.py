@@ -78,10 +78,6 @@ class Program:
         second = self.graph.param(("second", k)) if self._moving[k] else self.graph.const(0)
         return self.graph.param(("rate", k)), second
 
-    def angle(self, direction: Vec) -> Real:
-        """The angle of a direction, in (-pi, pi] (rad)."""
-        return self.graph.line("atan2", direction.imag.at, direction.real.at)
-
     def turn(self, driver: Driver) -> PoseFormula:
         """The rotation that an angle driver gives."""
         k = self.structure.drivers.index(driver)
