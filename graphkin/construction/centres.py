@@ -29,7 +29,7 @@ from graphkin.construction.board.steps import Superposed
 from graphkin.construction.plan import draft
 from graphkin.construction.touching import Touching
 from graphkin.plane import Pose, dot
-from graphkin.scene.model import Driver, Mechanism
+from graphkin.scene.model import Driver, Loading, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Structure, analyse, part_of
 from graphkin.words import Phrase
@@ -276,7 +276,8 @@ def find_centres(
     scene = of.scene if isinstance(of, Structure) else of
     moving = _moving(scene)
     if sheet is None or moving is not scene or not set(sheet.structure.links) <= set(sheet.poses):
-        sheet = draft(of if moving is scene else moving, at, (), instrument, near=None if near is None else near.sheet)
+        unloaded = replace(moving, loading=Loading()) if moving.loading else moving
+        sheet = draft(of if unloaded is scene else unloaded, at, (), instrument, near=near.sheet if near else None)
     if any(pair.by_law for pair in scene.acting):
         scene = sheet.scene  # with the pins on pitch curves and faces, which have normals
     return _with_table(_placed(scene, sheet), instrument)
