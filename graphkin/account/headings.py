@@ -145,8 +145,8 @@ def remarks(sheet: Sheet) -> list[Phrase]:
 def structure_words(scene: Mechanism, language: str) -> list[str]:
     """Sentences on the joints: the links with their points, and the pairs that are no turning pairs."""
     fixed, name = [*scene.frame.points], scene.frame.name
-    said = [say(Phrase("fixed link", link=name, points=listed(fixed)) if fixed else
-                Phrase("fixed link bare", link=name), language)]  # fmt: skip
+    key = ("fixed link bare", "fixed link one", "fixed link")[min(len(fixed), 2)]
+    said = [say(Phrase(key, link=name, **({"points": listed(fixed)} if fixed else {})), language)]
     slots = {slot.bar: slot for slot in scene.slots if slot.of or slot.block}  # the others stand for cams
     for link in scene.links:
         slot = slots.get(link.name)
@@ -167,8 +167,8 @@ def _vectors(sheet: Sheet, diagram: DiagramName, language: str) -> list[str]:
             continue
         size = on_paper(abs(vector.span))
         phrase = Phrase(
-            "vector is", vector=words, size=product(size, amount(per_mm, 12)), unit=unit.written, length=size,
-            angle=pointing(vector.span),
+            "vector is", vector=words, size=printed(product(size, amount(per_mm, 12))), unit=unit.written,
+            length=printed(size), angle=pointing(vector.span),
         )  # fmt: skip
         said.append(say(phrase, language))
     return said

@@ -99,7 +99,7 @@ def explain(scene: SceneLike, *, language: str | None = None) -> Explained:
     --------
     >>> four_bar = explain("fourbar-150-500-300-400")
     >>> four_bar.data["mobility"]
-    ['F = 3·3 - 2·4 - 0 = 1: as many as there are drivers']
+    ['F = 3·3 − 2·4 − 0 = 1: as many as there are drivers']
     """
     known_words(language=language)
     given = as_scene(scene)

@@ -37,7 +37,7 @@ def report_text(checked: Checked, language: str) -> str:
     if scene.question.source_in(language):
         lines.append(f"{word('source', language)}{colon}{scene.question.source_in(language)}")
     count = sheet.structure.mobility
-    lines.append(f"F = 3·{count.links} - 2·{count.lower} - {count.higher} = {count.value}")
+    lines.append(f"F = 3·{count.links} − 2·{count.lower} − {count.higher} = {count.value}")
     drivers = [f"{d.key}: {scene.unit_of(d).said(sheet.drivers[d.key])}" for d in scene.drivers]
     lines.append(f"{word('driver', language)}{colon}{', '.join(drivers)}")
     for group, assembly in sheet.assembly.items():

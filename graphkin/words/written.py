@@ -113,8 +113,8 @@ def increase(value: float, more: float) -> str:
     base, own = (amount(one if abs(one) > tiny else 0.0, MOST) for one in (value, more))
     whole, finer = increased(base, own), amount(value + more if abs(value + more) > tiny else 0.0, MOST)
     sign = "−" if own.startswith("-") else "+"
-    exact = "" if whole == finer else f" ({true_minus(finer)})"
-    return f"{true_minus(base)} {sign} {own.removeprefix('-')} = {true_minus(whole)}{exact}"
+    exact = "" if whole == finer else f" ({printed(finer)})"
+    return f"{printed(base)} {sign} {printed(own.removeprefix('-'))} = {printed(whole)}{exact}"
 
 
 def amount(value: float, carried: int = 6) -> str:

@@ -29,7 +29,7 @@ def test_a_six_bar_is_explained_joint_by_joint() -> None:
         "link 4 slides on the guide 3 with its point D, its own axis at 0° to it: a sliding pair",
         "link 5 slides on the guide 6.h with its point D, its own axis at 0° to it: a sliding pair",
     ]
-    assert data["mobility"] == ["F = 3·5 - 2·7 - 0 = 1: as many as there are drivers"]
+    assert data["mobility"] == ["F = 3·5 − 2·7 − 0 = 1: as many as there are drivers"]
     assert data["drivers"] == ["link 1 turns relative to link 6, now at 50°, clockwise with 10 rad/s (95.493 rpm)"]
     assert data["groups"][:2] == [
         "links 2, 3: RPR, class II", "its assembly: B on the positive side of the guide of 2/3"
@@ -78,7 +78,7 @@ def test_a_hinge_of_three_links_is_two_turning_pairs() -> None:
     scene["links"]["5"] = {"points": ["C", "F"], "length": 100}
     explained = graphkin.explain(scene)
     assert "C joins the links 2, 3, 5: 2 turning pairs" in explained.data["joints"]
-    assert "F = 3·4 - 2·5 - 0 = 2, but the number of drivers is 1: it moves, but its motion is not determined" in (
+    assert "F = 3·4 − 2·5 − 0 = 2, but the number of drivers is 1: it moves, but its motion is not determined" in (
         explained.data["mobility"]
     )
     assert not explained.ok
@@ -141,7 +141,7 @@ def test_a_pin_in_a_circular_slot_is_told_as_such_with_the_bar_that_stands_in_it
         "the pin C of link 2 runs in the circular slot 0.s about M: a higher pair; "
         "bar s from M to C stands in its place",
     ] == data["joints"]
-    assert ["F = 3·2 - 2·2 - 1 = 1: as many as there are drivers"] == data["mobility"]
+    assert ["F = 3·2 − 2·2 − 1 = 1: as many as there are drivers"] == data["mobility"]
 
 
 def test_a_block_in_a_circular_slot_is_a_block_and_its_centre_joins_nothing() -> None:

@@ -214,7 +214,7 @@ def test_a_four_bar_is_built_by_mouse_and_gets_its_checked_sheet(page) -> None:
     place_of(page, "D")
     pull(page, place_of(page, "B"), place_of(page, "D"))
     until(page, "document.getElementById('board').board.editor.text.includes('[links.3]')")
-    until(page, "document.querySelector('.count').textContent.startsWith('F = 3·3 - 2·4 - 0 = 1')")
+    until(page, "document.querySelector('.count').textContent.startsWith('F = 3·3 − 2·4 − 0 = 1')")
     page.click("[data-tool=drive]")
     ends = place_of(page, "A"), place_of(page, "C")
     page.mouse.click(*(sum(x) / 2 for x in zip(*ends, strict=True)))

@@ -17,7 +17,7 @@ from graphkin.scene.scene_tables import Diagram
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, gaps_of, listed, say, sense_of, word
 from graphkin.words.symbols import RichText, Words, rate, sign, spaced
-from graphkin.words.written import MOST, amount, computed, figures, increase, on_paper, product, true_minus
+from graphkin.words.written import MOST, amount, computed, figures, increase, on_paper, printed, product, true_minus
 
 Order = Literal["velocity", "acceleration"]
 Role = Literal["resultant", "relative", "normal", "tangential", "coriolis", "sliding"]
@@ -499,13 +499,13 @@ class RateStep(Step):
                 return {"known": known, "sign": "+" if own else "−", "told": told,
                         "between": self.link + known if own else known + self.link}  # fmt: skip
             case "given on plan":
-                signed = "−" * (self.value < 0.0) + on_paper(self.mm)
-                return {"told": true_minus(amount(self.value, 4)), "signed": signed}
+                signed = "−" * (self.value < 0.0) + printed(on_paper(self.mm))
+                return {"told": printed(amount(self.value, 4)), "signed": signed}
             case "plan":
                 per = amount(self.per_mm, 6)
-                return {"per": per, "product": product(on_paper(self.mm), per)}
+                return {"per": printed(per), "product": printed(product(on_paper(self.mm), per))}
         carried = min(MOST - 1, figures(on_paper(self.mm))) if self.mm else MOST - 1
-        return {"told": computed(abs(self.value), carried)}
+        return {"told": printed(computed(abs(self.value), carried))}
 
 
 _IN_FIGURES = {"known", "sign", "between", "told", "signed", "per", "product"}
@@ -751,7 +751,7 @@ class Superposed(Step):
         open_at = ", ".join(f"{name} ({direction})" for name, direction in zip(self.closing, self.ways, strict=True))
         gaps = true_minus("; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in self.apart))
         of_links = [(rate(found.kind, found.link), value) for found, value in self.found]
-        rates = spaced(", ", (name + f" = {true_minus(amount(value, 5))}" for name, value in of_links))
+        rates = spaced(", ", (name + f" = {printed(amount(value, 5))}" for name, value in of_links))
         names = spaced(", ", (name for name, _ in of_links))
         told = {"open_at": open_at, "apart": gaps, "names": names, "rates": rates, **_assumed(self.found)}
         return told[name]
@@ -780,5 +780,5 @@ def _assumed(rates: Sequence[tuple[Symbol, float]]) -> dict[str, object]:
     """The first of some rates as a symbol, and its value with the others."""
     (first, value), *rest = rates
     units = {"omega": " rad/s", "alpha": " rad/s²"}
-    more = "".join(f", {symbol} = {amount(v, 5)}{units.get(symbol.kind, '')}" for symbol, v in rest)
-    return {"first": first, "values": true_minus(f"{amount(value, 5)}{units.get(first.kind, '')}{more}")}
+    more = "".join(f", {symbol} = {printed(amount(v, 5))}{units.get(symbol.kind, '')}" for symbol, v in rest)
+    return {"first": first, "values": f"{printed(amount(value, 5))}{units.get(first.kind, '')}{more}"}

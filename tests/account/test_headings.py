@@ -1,0 +1,33 @@
+"""Figures in sentences, for those who do not see them."""
+
+from __future__ import annotations
+
+import pytest
+
+import graphkin
+from graphkin.account.headings import describe, structure_words
+from graphkin.scene import mechanism_of
+
+SLIDER_CRANK = {
+    "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": "A", "angle": 0}}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 30},
+        "2": {"points": ["B", "C"], "length": 80},
+        "3": {"points": ["C"], "on": "0.h"},
+    },
+    "driver": {"link": "1", "angle": 60, "omega": 1e-9},
+}
+
+
+@pytest.mark.parametrize(
+    ("language", "said"), [("en", "The fixed link 0 has the point A."), ("zh", "机架 0 上有点 A。")]
+)
+def test_a_frame_with_one_point_has_no_points(language: str, said: str) -> None:
+    assert said == structure_words(mechanism_of(SLIDER_CRANK), language)[0]
+
+
+def test_powers_of_ten_are_written_as_such() -> None:
+    sheet = graphkin.check(SLIDER_CRANK).sheet
+    said = describe(sheet, ("velocity", "acceleration"), "en")
+    assert "·10⁻⁸ mm/s" in said
+    assert "e-" not in said
