@@ -508,6 +508,16 @@ class LawCam:
         return isinstance(self.motion, SwingingFollower)
 
     @property
+    def pair(self) -> str:
+        """The sliding pair of its follower, "" of a swinging one."""
+        return self.motion.pair if isinstance(self.motion, SlidingFollower) else ""
+
+    @property
+    def side(self) -> int:
+        """The sense in which its follower moves as the lift grows: 1 along its guide, or counter-clockwise."""
+        return self.motion.side if isinstance(self.motion, SwingingFollower) else 1
+
+    @property
     def links(self) -> tuple[str, ...]:
         """The links that give its follower's motion."""
         return (self.link,)

@@ -28,7 +28,7 @@ from graphkin.solver.path.driver_path import MOST_GROUPS, not_tried
 from graphkin.solver.quantities import Posed
 from graphkin.solver.redundant import Fit, fit
 from graphkin.solver.sentences import driver_text
-from graphkin.structure import Driven, Dyad, LargerGroup, Structure, analyse, mobility_of
+from graphkin.structure import Dyad, LargerGroup, Structure, analyse, mobility_of
 from graphkin.words import Phrase, Wording, clauses, links_named, listed
 
 NEARBY = 0.01
@@ -148,7 +148,7 @@ def with_sensible_guides(structure: Structure) -> Structure:
 def _elements(structure: Structure) -> Iterator[tuple[int, Dyad]]:
     """The dyads before the first larger group, and before rolling links."""
     for i, element in enumerate(structure.elements):
-        if isinstance(element, LargerGroup) or (isinstance(element, Driven) and element.rolled):
+        if isinstance(element, LargerGroup) or element.rolled:
             return
         if isinstance(element, Dyad):
             yield i, element

@@ -174,9 +174,9 @@ class Driven:
 
     ``pair`` joins it (``a``) to a known link (``b``); for a slide driver it is the slide itself, in which the
     driven link may be the sliding or the guiding one.  It has the properties of groups: ``links`` and ``members`` hold
-    this link alone; ``drivers`` has the driver unless that is a cam or rolling; ``outside`` are the known links of its
-    pair, ``named`` its words; it is ``explicit``, given by formulas of the drivers alone, unless it follows a cam,
-    whose law has pieces, or rolls.
+    this link alone; ``drivers`` has the driver unless it is ``lifted`` by a cam or ``rolled``; ``outside`` are the
+    known links of its pair, ``named`` its words; it is ``explicit``, given by formulas of the drivers alone, unless it
+    follows a cam, whose law has pieces, or rolls.
     """
 
     link: str
@@ -191,6 +191,7 @@ class Driven:
     pairs: tuple[Pair] = field(init=False, repr=False, compare=False)
     drivers: tuple[Driver, ...] = field(init=False, repr=False, compare=False)
     rolled: RollingRelation | None = field(init=False, repr=False, compare=False)
+    lifted: LawCam | None = field(init=False, repr=False, compare=False)
     explicit: bool = field(init=False, repr=False, compare=False)
     outside: frozenset[str] = field(init=False, repr=False, compare=False)
     named = cached_property(_named)
@@ -200,7 +201,8 @@ class Driven:
         self.__dict__.update(
             links=(self.link,), members=(self.link,), pairs=(self.pair,),
             drivers=(driver,) if isinstance(driver, Driver) else (),
-            rolled=driver if isinstance(driver, RollingRelation) else None, explicit=driver.given,
+            rolled=driver if isinstance(driver, RollingRelation) else None,
+            lifted=driver if isinstance(driver, LawCam) else None, explicit=driver.given,
             outside=frozenset((*self.pair.links, *driver.links, *driver.through)) - {self.link},
         )  # fmt: skip
 
@@ -237,6 +239,8 @@ class Dyad:
     explicit: ClassVar[bool] = True
     starts: ClassVar[tuple[Driver, ...]] = ()
     rolling: ClassVar[tuple[RollingRelation, ...]] = ()
+    rolled: ClassVar[None] = None
+    lifted: ClassVar[None] = None
 
     bodies: tuple[Body, Body] = field(init=False, repr=False, compare=False)
     members: tuple[str, ...] = field(init=False, repr=False, compare=False)
@@ -296,6 +300,8 @@ class LargerGroup:
     rolling: tuple[RollingRelation, ...] = ()
     starts: tuple[Driver, ...] = ()
     explicit: ClassVar[bool] = False  # found by Newton's method
+    rolled: ClassVar[None] = None
+    lifted: ClassVar[None] = None
 
     kind: str = field(init=False, repr=False, compare=False)
     outside: frozenset[str] = field(init=False, repr=False, compare=False)

@@ -23,7 +23,6 @@ from graphkin.construction.position.reduced_mechanism import PlacedElements
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Poses
 from graphkin.scene.model import Mechanism
-from graphkin.scene.pairs import SwingingFollower
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Element, Pair, Structure, analyse
 from graphkin.structure.transmission import sliding_pair
@@ -199,11 +198,11 @@ def _follower_limits(scene: Mechanism, asked: Sequence[Symbol], values: Mapping[
     for symbol in asked:
         if symbol.scope != "turn" or symbol.pair in limits:
             continue
-        cam = next((c for c in scene.cams if symbol.pair in (c.follower, getattr(c.motion, "pair", ""))), None)
+        cam = next((c for c in scene.cams if symbol.pair in (c.follower, c.pair)), None)
         if cam is None or driver.key != cam.link or not driver.turns_about(scene.frame.name):
             said = Phrase("is drawn of followers of the driven cam"), Phrase("ask for s_ theta_ or d_ at single")
             raise Unsolvable("no whole turn", Problem(str(symbol), *said))
-        ends, side = [], cam.motion.side if isinstance(cam.motion, SwingingFollower) else 1
+        ends, side = [], cam.side
         for lift in (cam.law.least, cam.law.greatest)[::side]:
             value, rest = cam.leaves(lift, -1 if driver.rate < 0.0 else 1)
             poses = poses_at(PlacedElements(structure, structure.elements), {**values, driver.key: value})

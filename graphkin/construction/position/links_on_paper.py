@@ -17,7 +17,6 @@ from graphkin.construction.board.steps import Bar, CompassArc, PlaceStep, Step
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Pose, Poses, added_up, cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
 from graphkin.scene.model import Driver, PlacedLink
-from graphkin.scene.pairs import LawCam
 from graphkin.structure import (
     Body,
     Driven,
@@ -524,12 +523,11 @@ def assemble(
     """
     for i, element in enumerate(elements):
         if isinstance(element, Driven):
-            driver = element.driver
-            if rolled is not None and isinstance(driver, RollingRelation):
-                paper.values = {**paper.values, driver.key: rolled(driver)}
-            elif isinstance(driver, LawCam):
-                lifted = driver.follower_at(cmath.phase(paper.poses[driver.link].axis))
-                paper.values = {**paper.values, driver.key: lifted}
+            cam = element.lifted
+            if rolled is not None and element.rolled is not None:
+                paper.values = {**paper.values, element.rolled.key: rolled(element.rolled)}
+            elif cam is not None:
+                paper.values = {**paper.values, cam.key: cam.follower_at(cmath.phase(paper.poses[cam.link].axis))}
             poses: Poses | None = {element.link: drive(paper, element)[0]}
         else:
             poses = choose(i, element)

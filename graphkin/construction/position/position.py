@@ -228,7 +228,7 @@ def assembly_at(
                 raise stuck("dead point", element.named, "every trial drawing is at a dead point")
             reduced[element] = best.rolled_from(poses, paper.mm)
         paper.poses.update({name: poses[name] for name in element.members})
-    rolling = [e.driver for e in elements if isinstance(e, Driven) and isinstance(e.driver, RollingRelation)]
+    rolling = [e.rolled for e in elements if e.rolled is not None]
     rolled = {r.key: coordinate_on_paper(structure, paper, r.coordinate) for r in rolling}
     return Assembly({**values, **starts, **rolled}, poses, branches, reduced)
 

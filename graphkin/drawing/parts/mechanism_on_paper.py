@@ -22,7 +22,7 @@ from graphkin.drawing.ink.strokes import colour_of_link
 from graphkin.drawing.ink.symbols import hull
 from graphkin.plane import cross, dot
 from graphkin.scene.model import Mechanism
-from graphkin.scene.pairs import CircularSlot, LawCam, SlidingFollower
+from graphkin.scene.pairs import CircularSlot, LawCam
 from graphkin.structure import Pair
 
 # mm: how far a bar of no fixed length goes on beyond a block, and a slot beyond its pin
@@ -149,10 +149,7 @@ class MechanismOnPaper:
         sheet = self.sheet
         driven = {d.key for d in self.scene.drivers if not d.turns}
         # a follower's block stands clear of its roller
-        clear = {
-            cam.motion.pair: cam.roller / sheet.scales.length + PAST_ROLLER
-            for cam in self.scene.cams if isinstance(cam.motion, SlidingFollower)
-        }  # fmt: skip
+        clear = {cam.pair: cam.roller / sheet.scales.length + PAST_ROLLER for cam in self.scene.cams}
         found = []
         for slide in sheet.structure.slides:
             if slide.a in sheet.poses and slide.b in sheet.poses and slide.key not in self.scene.replaced_by:

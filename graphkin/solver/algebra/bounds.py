@@ -16,7 +16,6 @@ from functools import cached_property
 
 import numpy as np
 
-from graphkin.scene.pairs import LawCam
 from graphkin.solver.algebra.constraints import Constraints, Layout, Parts, led_relation, product, solve_all
 from graphkin.solver.algebra.pose import GIVEN, UNIT, Array, Drive, ErrorBound, Pose
 from graphkin.solver.cams import follower_inputs, greatest_jerk
@@ -188,12 +187,12 @@ def _follow(
         k = relations.index(relation)
         row, scale = layout.rolling_rows[k], next(iter(relation.weights(layout.size).values()))
         scales[k] = scale
-        if not isinstance(element.driver, LawCam):
+        if element.lifted is None:
             continue
-        cam = layout.link[element.driver.link]
-        inputs = follower_inputs(element.driver, all_.u[:, cam])
+        cam = layout.link[element.lifted.link]
+        inputs = follower_inputs(element.lifted, all_.u[:, cam])
         slope, second = scale * inputs["slope"], scale * inputs["second"]
-        jerk = scale * greatest_jerk(element.driver.law)
+        jerk = scale * greatest_jerk(element.lifted.law)
         omega, alpha = all_.omega[:, cam], all_.alpha[:, cam]
         changes = slope, second * omega, abs(jerk) * omega**2 + np.abs(second * alpha)
         for matrix, change in zip(matrices, changes, strict=True):

@@ -25,7 +25,7 @@ from graphkin.solver.algebra.pose import FIELDS, GIVEN, Array, Drive, ErrorBound
 from graphkin.solver.cams import follower_inputs
 from graphkin.solver.compiled.program import DimensionedProgram, program_of
 from graphkin.solver.drivers import cos_sin, law_doubts, meant, meant_angle, working
-from graphkin.structure import Driven, LargerGroup, RollingRelation, Structure
+from graphkin.structure import LargerGroup, RollingRelation, Structure
 
 ROUGH = 1e-10
 """Relative bound of a rate above which a position is computed in more digits."""
@@ -279,10 +279,10 @@ class _Run:
         for i, element in enumerate(self.structure.elements[:upto]):
             if isinstance(element, LargerGroup):
                 self._together(i, element)
-            elif isinstance(element, Driven) and isinstance(element.driver, LawCam):
-                self._lift(i, element.driver)
-            elif isinstance(element, Driven) and isinstance(element.driver, RollingRelation):
-                self._roll(i, element.driver)
+            elif element.lifted is not None:
+                self._lift(i, element.lifted)
+            elif element.rolled is not None:
+                self._roll(i, element.rolled)
 
     def state(self, upto: int, whole: bool = True) -> State:
         """The mechanism up to an element, or of it the last element alone."""

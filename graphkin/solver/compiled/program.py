@@ -286,26 +286,27 @@ def driven(program: Program, element: Driven, poses: Mapping[str, PoseFormula]) 
     base = pair.b if pair.a == link else pair.a
     mine, theirs = program.rest(pair, link), program.rest(pair, base)
     at = poses[base].fixed(theirs.z, theirs.u)
-    if isinstance(element.driver, LawCam):
-        stands, slope, by_angle = program.lift(element.driver)
-        cam = poses[element.driver.link]
+    if element.lifted is not None:
+        stands, slope, by_angle = program.lift(element.lifted)
+        cam = poses[element.lifted.link]
         rate, second = slope * cam.omega, by_angle * (cam.omega * cam.omega) + slope * cam.alpha
         if isinstance(stands, Vec):
             return at.pinned(mine, stands, rate, second)
         return at.along(stands, rate, second).of(mine.inverse())
-    if isinstance(element.driver, RollingRelation):
-        stands, rate, second = program.rolled(element.driver)
+    if element.rolled is not None:
+        stands, rate, second = program.rolled(element.rolled)
         if isinstance(stands, Vec):
             return at.pinned(mine, stands, rate, second)
         sense = 1.0 if pair.a == link else -1.0
         return at.along(stands * sense, rate * sense, second * sense).of(mine.inverse())
-    if element.driver.turns:
-        given = program.turn(element.driver)
-        forward = element.driver.link == link
-        from_ = poses[element.driver.relative_to if forward else element.driver.link]
+    (driver,) = element.drivers
+    if driver.turns:
+        given = program.turn(driver)
+        forward = driver.link == link
+        from_ = poses[driver.relative_to if forward else driver.link]
         seen = from_.of(given if forward else given.inverse())
         return at.pinned(mine, seen.u, seen.omega, seen.alpha)
-    travel, rate, second = program.travel(element.driver)
+    travel, rate, second = program.travel(driver)
     if pair.a == link:
         return at.along(travel, rate, second).of(mine.inverse())
     return at.along(-travel, -rate, -second).of(mine.inverse())

@@ -19,7 +19,7 @@ from graphkin.solver.algebra.larger_groups import GroupSolved
 from graphkin.solver.algebra.pose import Array
 from graphkin.solver.compiled.engine import group_at, positions
 from graphkin.solver.path.driver_path import OFF_FLIP, START, Path, Stretch, stretches, turning
-from graphkin.structure import Driven, Dyad, LargerGroup, RollingRelation, Structure
+from graphkin.structure import Dyad, LargerGroup, RollingRelation, Structure
 
 CLOSE = 2e-13
 """A position is found where no constraint is open by more, with lengths in the size."""
@@ -227,7 +227,7 @@ def follow_path(structure: Structure, modes: Mapping[int, Array], start: Array, 
     for i, element in enumerate(structure.elements):
         if isinstance(element, Dyad):
             path = _follow_dyad(path, i, element, float(modes[i]))
-        elif isinstance(element, Driven) and element.rolled is not None:
+        elif element.rolled is not None:
             path = _follow_rolled(path, i, element.rolled, np.asarray(modes[i]), grid)
         elif isinstance(element, LargerGroup):
             path = _follow_group(path, i, np.asarray(modes[i]))
