@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from graphkin.scene import mechanism_of_text
+from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.model import Driver, LoadOn, Mechanism
 from graphkin.scene.scene_tables import LoadPhase
 from tests.scenes import FOUR_BAR
@@ -48,6 +48,11 @@ def test_a_mechanism_with_other_links_knows_them_by_name() -> None:
     scene = four_bar()
     first = scene.links[0]
     assert [first.name, scene.frame.name] == [*replace(scene, links=(first,)).order]
+
+
+@pytest.mark.parametrize(("name", "size"), [("cam-flat-face", 0.04), ("cam-eccentric-flat-slider", 0.04)])
+def test_a_mechanism_is_as_large_as_the_base_circle_of_its_cam_or_its_disc(name: str, size: float) -> None:
+    assert size == mechanism_of(name).size
 
 
 def test_the_frame_comes_first_among_the_holders_of_its_points() -> None:

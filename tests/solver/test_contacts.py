@@ -20,6 +20,7 @@ def test_the_flat_rocker_moves_as_the_exercise_says():
     assert here["links"]["2"]["alpha"] == pytest.approx(4.348559188361159, rel=1e-12)
     assert here["points"]["K@2"]["acceleration"] == pytest.approx([51.78362191245033, -539.5945080649294], rel=1e-12)
     contact = here["contacts"]["K"]
+    assert "sliding" == contact["kind"]
     assert contact["position"] == pytest.approx([39.63291103600903, 52.48331285821464], rel=1e-13)
     assert contact["normal"] == pytest.approx([0.7926582207201806, 0.6096662571642928], rel=1e-13)
     assert contact["slip"] == pytest.approx([-386.60557650958424, 502.64564390022593], rel=1e-12)
@@ -128,6 +129,10 @@ def test_wheels_go_the_direct_way_over_more_than_one_turn():
     turned = np.exp(1j * np.radians(90 + 450 / 2))
     assert [35 * turned.real + 120, 35 * turned.imag] == pytest.approx(here["points"]["P@3"]["position"])
     assert 1.5 == pytest.approx(here["links"]["3"]["alpha"], rel=1e-14)
+
+
+def test_a_wheel_on_a_rail_touches_it_rolling():
+    assert "rolling" == frame_of(solve("wheel-on-rail").data)["contacts"]["K"]["kind"]
 
 
 def test_a_rim_point_of_a_rolling_wheel_runs_on_a_cycloid():

@@ -43,6 +43,22 @@ def test_a_part_of_what_needs_everything_is_the_scene_itself() -> None:
     assert part_of(structure_of(scene), asked("v_D")) is scene
 
 
+@pytest.mark.parametrize("between", [["3.w", "0.rail"], ["0.rail", "3.w"]])
+def test_a_rod_on_a_wheel_needs_the_wheel_whichever_body_the_file_names_first(between: list[str]) -> None:
+    mapping = {
+        "frame": {"points": {"A": [0, 60]}, "guides": {"rail": {"through": [0, 0], "angle": 0}}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 30},
+            "2": {"points": ["B", "C"], "length": 150},
+            "3": {"points": ["C"], "start": 60, "discs": {"w": {"centre": "C", "r": 40}}},
+        },
+        "contacts": {"K": {"between": between, "rolling": True}},
+        "driver": {"link": "1", "angle": 50, "omega": 10},
+    }
+    part = part_of(structure_of(mechanism_of(mapping)), asked("v_C"))
+    assert ["1", "2", "3"] == [link.name for link in part.links]
+
+
 def test_a_part_has_the_mobility_of_its_drivers() -> None:
     assert 1 == analyse(part_of(structure_of(mechanism_of(SIXBAR)), asked("omega_3"))).mobility.value
 
