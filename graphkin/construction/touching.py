@@ -128,7 +128,7 @@ class Touching:
 
     def named(self, name: str) -> Touch:
         """The place of a contact, or of a mesh."""
-        return next(self.of(pair) for pair in self.scene.higher_pairs if pair.letter == name)
+        return next(self.of(pair) for pair in self.scene.higher_pairs if pair.name == name)
 
     def pitch_circles(self) -> Iterator[tuple[str, complex, float]]:
         """Wheels with the centre and the radius (mm, negative for internal teeth) of each pitch circle."""

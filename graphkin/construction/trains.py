@@ -74,7 +74,7 @@ class CentreLine:
     @property
     def links(self) -> tuple[str, ...]:
         """Links with a line in the plan, in the order of the pairs."""
-        return tuple(dict.fromkeys(name for mesh in self.meshes for name in mesh.links))
+        return tuple(dict.fromkeys(name for mesh in self.meshes for name in mesh.members))
 
     def spots_of(self, link: str) -> tuple[Spot, ...]:
         """The places of a link, from below."""
@@ -89,7 +89,7 @@ def trains(meshes: Sequence[PlacedGear], ground: str) -> tuple[tuple[PlacedGear,
     """Rolling pairs connected by moving links."""
     groups: list[tuple[set[str], list[PlacedGear]]] = []
     for mesh in meshes:
-        links, members = set(mesh.links) - {ground}, [mesh]
+        links, members = set(mesh.members) - {ground}, [mesh]
         for other in [g for g in groups if g[0] & links]:
             groups.remove(other)
             links |= other[0]

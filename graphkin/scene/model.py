@@ -562,7 +562,8 @@ def same_but_for_dimensions(before: Mechanism, after: Mechanism) -> bool:
 @dataclass(frozen=True)
 class ForceJoint:
     """A joint, with a force of link ``first`` on link ``second``: a turning pair or a pin in a slot at ``point``, a
-    sliding pair (``point`` is the sliding link's first point, or empty), or a higher pair (``point`` is its letter).
+    sliding pair (``point`` is the sliding link's first point, or empty), or a higher pair (``point`` is its name, empty
+    of a cam).
     ``second`` slides, has the pin, or is the second body.
 
     pair : the higher pair
@@ -611,7 +612,8 @@ def joints(mechanism: Mechanism) -> tuple[ForceJoint, ...]:
         pairs += [ForceJoint("turning", hosts.get(name, first), name, point) for name in at_point if name != first]
     pairs += [ForceJoint("sliding", *s.bodies[::-1], s.point, s.key, not s.of)
               for s in mechanism.slides if {*s.bodies} <= here]
-    pairs += [ForceJoint("touching", *pair.bodies, pair.letter, pair=pair) for pair in mechanism.acting_between(here)]
+    pairs += [ForceJoint("touching", *pair.bodies, "" if pair.by_law else pair.name, pair=pair)
+              for pair in mechanism.acting_between(here)]
     shared = Counter(frozenset((joint.first, joint.second)) for joint in pairs)
     several = (shared[frozenset((joint.first, joint.second))] > 1 and joint.point != "" for joint in pairs)
     return tuple(replace(joint, several=more) for joint, more in zip(pairs, several, strict=True))

@@ -204,16 +204,6 @@ class PlacedContact:
         return (*self.links, *((self.carrier,) if self.carrier else ()))
 
     @property
-    def letter(self) -> str:
-        """The letter of its point."""
-        return self.name
-
-    @property
-    def key(self) -> str:
-        """Its name among joints."""
-        return self.name
-
-    @property
     def means(self) -> Meeting:
         """Whether its bodies slide, roll or mesh."""
         return "slides" if not self.rolling else "meshes" if self.carrier else "rolls"
@@ -288,34 +278,19 @@ class PlacedGear:
         return self.teeth[1] is None
 
     @property
-    def links(self) -> tuple[str, ...]:
-        """All its links, the wheels first."""
-        return tuple(dict.fromkeys((*self.wheels, self.carrier)))
-
-    @property
     def bodies(self) -> tuple[str, str]:
         """The two wheels, or the wheel and the rack."""
         return self.wheels
 
     @property
     def members(self) -> tuple[str, ...]:
-        """The links without which it is none."""
-        return self.links
+        """The links without which it is none, the wheels first."""
+        return tuple(dict.fromkeys((*self.wheels, self.carrier)))
 
     @property
     def roles(self) -> Mapping[str, str]:
         """The words for its wheels."""
         return dict.fromkeys(self.wheels, "wheel")
-
-    @property
-    def letter(self) -> str:
-        """The name of its pitch point."""
-        return self.name
-
-    @property
-    def key(self) -> str:
-        """Its name among joints."""
-        return self.name
 
     def mesh(self, slidings: Sequence[SlidingPair], points: Points, guides: Guides) -> PlacedGear:
         """The mesh of wheels; of a rack with the signed distance (m) of its line from the wheel's axis as the first of
@@ -449,7 +424,6 @@ class LawCam:
     by_law: ClassVar[bool] = True
     rolling: ClassVar[bool] = False
     means: ClassVar[Meeting] = "slides"
-    letter: ClassVar[str] = ""
     carrier: ClassVar[str] = ""
     # asked of whatever moves a link: it neither rolls, nor does the scene give its value
     rolls: ClassVar[bool] = False
@@ -607,8 +581,8 @@ class LawCam:
 
 
 HigherPair: TypeAlias = PlacedContact | PlacedGear | LawCam
-"""Two links that touch.  Every kind has a ``name`` in its ``table`` of the file, a ``key`` among joints, the ``letter``
-of its point, two ``bodies`` and with them all its ``members``.  It ``means`` that they slide, roll or mesh, ``rolling``
+"""Two links that touch.  Every kind has a ``name`` in its ``table`` of the file (that of its point, if that has a
+letter), two ``bodies`` and with them all its ``members``.  It ``means`` that they slide, roll or mesh, ``rolling``
 perhaps with their centres held apart by a ``carrier``; or moves its follower ``by_law``.  A ``block`` stands for a pair
 that is ``replaced``, a sliding one for a pair that is ``unrolled``, a ``mesh`` for all that rolls.  ``lengths`` (m) are
 those in the file; ``kinds`` and ``gaps`` its words, ``roles`` the words for links that are more than bars."""

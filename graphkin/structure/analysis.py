@@ -596,7 +596,8 @@ def _loose_ends(structure: Structure) -> Iterator[Problem]:
     for link in moving:
         joints = [p for p, names in hinges.items() if link.name in names]
         joints += [s.key for s in structure.slides if link.name in s.links]
-        joints += [p.key for p in structure.touching if (p.rolling or p.by_law) and link.name in p.members]
+        joints += [f"cam {p.name}" if p.by_law else p.name for p in structure.touching
+                   if (p.rolling or p.by_law) and link.name in p.members]
         where, ends = f"links.{link.name}", free[link.name]
         if len(joints) >= 2:
             continue

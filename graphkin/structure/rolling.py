@@ -49,7 +49,7 @@ def relations_of(scene: Mechanism, meshes: Iterable[PlacedGear]) -> tuple[Rollin
         for coordinate, factor in (*rolled, (carrier, -part - other_part)):
             terms[coordinate] = terms.get(coordinate, Fraction(0)) + factor
         terms = {c: f for c, f in terms.items() if f and c != ("angle", scene.frame.name)}
-        relations.append(RollingRelation(mesh.name, terms, mesh.links))
+        relations.append(RollingRelation(mesh.name, terms, mesh.members))
     return tuple(relations)
 
 
