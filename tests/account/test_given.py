@@ -192,6 +192,15 @@ def test_a_mass_beside_all_points_has_a_place_in_the_axes_of_its_link() -> None:
     assert "$m_{2}$ = 3 kg at (60, 8) mm from $B$ along $BC$" in of_loads()
 
 
+SPRING = {"s": {"between": ["A", "C"], "rate": 2, "free": 12, "preload": 0.5}}
+
+
+def test_a_spring_is_given_with_its_ends_and_its_numbers_in_the_units_of_the_file() -> None:
+    told = of_loads(units={"length": "cm", "force": "kN"}, springs=SPRING)
+    assert ("spring s from $A$ (link 0) to $C$ (link 2): rate 2 kN/cm, free length 12 cm, preload 0.5 kN; "
+            "$P_{s}$ acts on link 0") in told  # fmt: skip
+
+
 def test_weights_that_do_not_pull_down_have_a_direction() -> None:
     assert "weights pull in the direction −160°" in of_loads(gravity={"angle": 200})
     assert not [told for told in of_loads(gravity={}) if told.startswith("weights")]

@@ -118,6 +118,14 @@ def test_a_cam_and_a_wheel_are_told_as_what_they_are(name: str, what: str) -> No
     assert not any("no fixed length" in line for line in lines)
 
 
+def test_a_spring_is_explained_with_its_ends_and_its_numbers_in_the_units_of_the_file() -> None:
+    spring = {"between": ["A", "C"], "rate": 2, "free": 12, "preload": 0.5}
+    sprung = graphkin.read("four-bar-coupler-point").to_dict() | {"springs": {"s": spring}}
+    sprung["units"] = {"length": "cm", "force": "kN"}
+    assert ("spring s between A of link 4 and C of link 2: rate 2 kN/cm, free length 12 cm, preload 0.5 kN; "
+            "P_s is its force on link 4") in graphkin.explain(sprung).text  # fmt: skip
+
+
 def test_forces_are_asked_too_where_something_loads_the_mechanism():
     loaded = graphkin.read("four-bar-coupler-point").to_dict() | {"loads": {"P": {"on": "3", "moment": 2}}}
     assert "all velocities, accelerations and forces" in graphkin.explain(loaded).text
