@@ -490,6 +490,8 @@ def read_cell(
     0.4827
     >>> read_cell("≈2.82 cw", Symbol.parse("omega_3"), Units()).value
     -2.82
+    >>> read_cell("0.4827", Symbol.parse("v_B"), Units(), "m/s").text
+    '0.4827 m/s'
     """
     plain = _PER_TIME.sub("/", _RAISED.sub(r"\1", _ABOUT.sub(" ", plain_text(text))))
     plain = _INCHES.sub(" inch", _joined(plain, symbol))
@@ -524,7 +526,10 @@ def read_cell(
         pointed = [("-" if way.sense < 0 else "") + n.lstrip("+-") for n in pointed]
     if way.angle is not None and len(pointed) == 1 and pointed[0].startswith("-"):
         pointed, way = [pointed[0][1:]], replace(way, angle=way.angle + math.pi)
-    made = replace(stated(symbol, pointed, units, factor), shown=text.strip())
+    shown = text.strip()
+    if unit and not left and factor != symbol.unit(units).si:
+        shown += f" ({unit})" if any(map(str.isalpha, shown)) else f" {unit}"
+    made = replace(stated(symbol, pointed, units, factor), shown=shown)
     if len(pointed) > 1 or not symbol.is_vector:
         return made
     return replace(made, way=way)

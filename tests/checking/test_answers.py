@@ -75,3 +75,20 @@ def test_a_comma_between_digits_of_a_list_is_a_decimal_comma_where_it_can_be_not
 def test_a_component_that_cancels_is_zero():
     (value,) = graphkin.audit("slotter-75-150").data["values"]
     assert 0 == value["exact"][1]
+
+
+def test_a_value_in_the_unit_of_its_head_is_shown_with_it(tmp_path):
+    table = tmp_path / "answers.csv"
+    table.write_text("name,v_C (m/s),omega_2 (rpm),a_C (mm/s2)\nAnn,0.94888,22.79 cw,5907.2\n", encoding="utf-8")
+    scene = {
+        "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": "A", "angle": 0}}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 100},
+            "2": {"points": ["B", "C"], "length": 280},
+            "3": {"points": ["C"], "on": "0.h"},
+        },
+        "driver": {"link": "1", "angle": 50, "omega": 10},
+    }
+    audited = graphkin.audit(scene, answers=str(table))
+    assert ["0.94888 m/s", "22.79 cw (rpm)", "5907.2"] == list(audited.table["printed"])
+    assert ["right"] * 3 == list(audited.table["verdict"])
