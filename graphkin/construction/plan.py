@@ -450,7 +450,12 @@ def execute(planned: Plan, instrument: Instrument = EXACT, own_values: OwnValues
     """
     if instrument is EXACT and own_values is AS_DRAWN:
         return planned.exact.at(planned.scales)
-    return finished(planned, carried_out(planned, planned.scales, instrument, own_values))
+    sheet = finished(planned, carried_out(planned, planned.scales, instrument, own_values))
+    if instrument.faultless or not planned.has_forces:
+        return sheet
+    from graphkin.construction.forces.draw import force_scales
+
+    return replace(sheet, force_scales=force_scales(planned.exact.at(planned.scales)))
 
 
 def draft(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
@@ -12,6 +13,8 @@ from graphkin.checking.readings import read_off
 from graphkin.checking.report import COVERAGE, JUDGED
 from graphkin.checking.uncertainty import advise, predict
 from graphkin.construction import execute, pencil, plan
+from graphkin.construction.forces.draw import force_scales, with_forces
+from graphkin.construction.plan import Plan
 from graphkin.construction.position.links_on_paper import PlacedLinks
 from graphkin.plane import Pose
 from graphkin.scene import library, library_text, mechanism_of, mechanism_of_text
@@ -148,3 +151,31 @@ def test_points_of_a_link_that_fall_into_one_are_pricked_once_and_others_for_the
     placed.settle(["1"])
     assert placed.pricked["B"] == placed.pricked["C"]
     assert len({placed.pricked[name] for name in "ABD"}) == 3
+
+
+def test_a_pencil_s_forces_have_the_scale_of_the_exact_drawing() -> None:
+    def planned(moment: float) -> Plan:
+        scene: dict[str, Any] = {
+            "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": "A", "angle": 0}}},
+            "links": {
+                "1": {"points": ["A", "B"], "length": 100},
+                "2": {"points": ["B", "C"], "length": 280},
+                "3": {"points": ["C"], "on": "0.h"},
+            },
+            "driver": {"link": "1", "angle": 50, "omega": 10},
+            "loads": {"M": {"on": "1", "moment": moment}},
+            "balance": {"on": "3", "at": "C", "angle": 180},
+        }
+        return plan(mechanism_of(scene))
+
+    def scale(moment: float) -> float:
+        return force_scales(execute(planned(moment)))[()]
+
+    low, high = 100.0, 1000.0
+    assert scale(low) < scale(high)
+    for _ in range(40):  # the greatest moment whose polygons fit at the finer scale
+        middle = (low + high) / 2
+        low, high = (middle, high) if scale(middle) == scale(100.0) else (low, middle)
+    hands = [pencil(Tools(), seed) for seed in range(6)]
+    drawn = [with_forces(execute(planned(low), hand), hand).scales.force for hand in hands]
+    assert [scale(100.0)] * 6 == drawn

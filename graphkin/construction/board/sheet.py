@@ -234,6 +234,7 @@ class Sheet:
     readings : the lengths (mm) that an erring hand has read for the construction, of vectors by their symbols
         (`either_way`), of the mechanism by the two points
     has_forces : whether forces can be drawn from it: there are masses or loads, and all that they need is drawn
+    force_scales : N for one mm of force polygons, for erring hands as on the exact drawing; empty: as polygons fit
     inertias : inertia forces by link
     forces : the drawn forces, once, or twice if a load begins or ends exactly here
     """
@@ -262,6 +263,7 @@ class Sheet:
     trains: tuple[TrainPlan, ...] = ()
     readings: Mapping[Symbol | frozenset[str], float] = field(default_factory=dict)
     has_forces: bool = False
+    force_scales: Mapping[tuple[str, ...], float] = field(default_factory=dict)
     inertias: Mapping[str, Inertia] = field(default_factory=dict)
     forces: tuple[ForceState, ...] = ()
 

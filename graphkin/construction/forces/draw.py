@@ -52,13 +52,13 @@ def with_forces(sheet: Sheet, hand: Instrument = EXACT, scales: ForceScales | No
 
     Parameters
     ----------
-    scales : of the polygons; None: by `force_scales`
+    scales : of the polygons; None: those of the sheet, or by `force_scales`
 
     Raises
     ------
     Unsolvable : "dead point": the balance does no work, or a polygon does not close
     """
-    scales = scales or force_scales(sheet)
+    scales = scales or sheet.force_scales or force_scales(sheet)
     moves = any(driver.values[1] for driver in sheet.scene.drivers)
     growing = sheet if moves else sheet.growing[0]
     held, pushes = held_by_pairs(sheet), inertias(sheet, hand)
