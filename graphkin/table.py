@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     import pandas
     import pyarrow
     import pyarrow.csv
+    import pyarrow.parquet
     import xarray
 
 BLOCK = 16384
@@ -372,10 +373,11 @@ class Table:
                     self.write_csv(out)
                 elif kind == ".json":
                     self.write_json(out)
-                elif kind == ".html":
+                elif arrow is None:
                     out.write(self._repr_html_().encode())
                 else:
-                    import_module("pyarrow.parquet").write_table(arrow, out, compression="zstd")
+                    with _parquet(self, arrow.schema, out) as writer:
+                        writer.write_table(arrow)
         except OSError as error:
             raise CallError.of(str(path), "cannot be written",
                                reason=from_others(error.strerror or str(error))) from None
@@ -520,12 +522,17 @@ def _read(cells: Array, like: Column) -> Array:
 def parquet_of_csv(path: Path, like: Table, out: IO[bytes]) -> None:
     """Write the table of a CSV file (with the columns of ``like``) as Parquet, in bounded memory."""
     from pyarrow import csv as csv_file
-    from pyarrow import parquet
 
     with csv_file.open_csv(path, convert_options=_arrow_types(like)) as reader, \
-            parquet.ParquetWriter(out, reader.schema, compression="zstd") as writer:  # fmt: skip
+            _parquet(like, reader.schema, out) as writer:  # fmt: skip
         for batch in reader:
             writer.write_batch(batch)
+
+
+def _parquet(like: Table, schema: pyarrow.Schema, out: IO[bytes]) -> pyarrow.parquet.ParquetWriter:
+    """The writer of Parquet: only words are kept in dictionaries, since hardly any number comes twice."""
+    words = [column.head for column in like.columns if column.is_text]
+    return import_module("pyarrow.parquet").ParquetWriter(out, schema, compression="zstd", use_dictionary=words)
 
 
 def _arrow_types(like: Table) -> pyarrow.csv.ConvertOptions:

@@ -100,6 +100,14 @@ def test_parquet_of_a_csv_file_is_that_of_the_table(tmp_path: Path) -> None:
     assert parquet.read_table(tmp_path / "of.parquet").equals(parquet.read_table(table.write(tmp_path / "t.parquet")))
 
 
+def test_parquet_keeps_words_in_dictionaries_and_no_number(tmp_path: Path) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet", reason="pyarrow is not installed")
+    table = Table((Column("v", np.array([1.5, 2.5]), "m/s"), text_column("status", ["ok", "ok"])))
+    kept = parquet.read_metadata(table.write(tmp_path / "t.parquet")).row_group(0)
+    encodings = [kept.column(k).encodings for k in range(2)]
+    assert [False, True] == ["RLE_DICTIONARY" in encoding for encoding in encodings]
+
+
 def test_json_has_units_symbols_and_null() -> None:
     out = io.BytesIO()
     Table((Column("v_C.x", np.array([1.5, np.nan]), "m/s", "v_C"),)).write_json(out)
