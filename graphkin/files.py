@@ -7,13 +7,13 @@ import json
 import os
 import re
 import stat
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from pathlib import Path
 from typing import IO, Any
 
 from graphkin.errors import CallError, unfit
-from graphkin.words import Phrase
+from graphkin.words import Phrase, from_others
 
 Json = str | float | bool | None | Sequence["Json"] | Mapping[str, "Json"]
 """What stands in a file of JSON or TOML."""
@@ -121,3 +121,24 @@ def folder_alone(folder: Path) -> Iterator[None]:
         finally:
             with suppress(OSError):
                 path.unlink()
+
+
+def write_files(folder: Path, files: Mapping[str, bytes | Iterable[bytes]]) -> list[Path]:
+    """Write files by name, each from one piece or many, into a folder, which is made if it is missing, each whole or
+    not at all; returns their paths.
+
+    Raises
+    ------
+    CallError : the folder cannot be written
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, content in files.items():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            with whole_file(folder / name) as out:
+                for piece in [content] if isinstance(content, bytes) else content:
+                    out.write(piece)
+    except OSError as error:
+        raise CallError.of(str(folder), "cannot be written", "give another folder with o",
+                           reason=from_others(error.strerror or str(error))) from None
+    return [folder / name for name in files]

@@ -17,6 +17,7 @@ import json
 import math
 import os
 import re
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
@@ -30,7 +31,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphkin.errors import CallError, as_text, did_you_mean
-from graphkin.files import Json, opened, path_of
+from graphkin.files import Json, opened, path_of, whole_file, write_files
 from graphkin.words import Phrase, from_others
 
 if TYPE_CHECKING:
@@ -360,8 +361,6 @@ class Table:
         ------
         CallError : another ending, pyarrow is missing for .parquet, or a place that cannot be written
         """
-        from graphkin.files import whole_file
-
         target = path_of(path)
         kind = target.suffix.lower()
         if kind not in FILES:
@@ -382,6 +381,66 @@ class Table:
             raise CallError.of(str(path), "cannot be written",
                                reason=from_others(error.strerror or str(error))) from None
         return target
+
+
+class Tabled(ABC):
+    """A result with a table, its columns, its exports and its display.
+
+    ``tabled["v_C"]`` is a value by its name, in the file's units and degrees, with its unit; ``table`` has all values
+    as columns with units, ``data`` for programs, ``write`` makes its files; a notebook shows it.
+    """
+
+    __slots__ = ()
+
+    @property
+    @abstractmethod
+    def table(self) -> Table:
+        """Its main table."""
+
+    @property
+    def data(self) -> Json:
+        """For programs: each column of the table with its unit and its values; ``None`` for a missing value."""
+        return self.table.data
+
+    def write(self, folder: str | os.PathLike[str]) -> Sequence[Path]:
+        """Write table.csv, and table.parquet where pyarrow is installed, into a folder; or one file, whose name ends in
+        .csv, .parquet, .json or .html.  Returns the paths; raises CallError as ``Table.write``."""
+        target = path_of(folder)
+        if target.suffix.lower() in FILES:
+            return [self.table.write(target)]
+        write_files(target, {})
+        names = ["table.csv", "table.parquet"] if have("pyarrow") else ["table.csv"]
+        return [self.table.write(target / name) for name in names]
+
+    def __getitem__(self, name: str) -> Any:
+        """A column of the table by its name.  Raises CallError for an unknown one."""
+        name = as_text("name", name)
+        return self.table[name]
+
+    def __contains__(self, name: object) -> bool:
+        """Whether ``tabled[name]`` is there."""
+        if not isinstance(name, str):
+            return False
+        try:
+            self[name]
+        except CallError:
+            return False
+        return True
+
+    def __iter__(self) -> Iterator[str]:
+        """Results are read by name only: Python would ask for 0, 1, 2 ... Raises TypeError."""
+        raise TypeError(f"a {type(self).__name__} is asked by name, and has its rows in .table: it is not gone through")
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The table as a frame of pandas.  Raises CallError where that is not installed."""
+        return self.table.to_pandas()
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The table as a data set of xarray, with units.  Raises CallError where that is not installed."""
+        return self.table.to_xarray()
+
+    def _repr_html_(self) -> str:
+        return self.table._repr_html_()
 
 
 def _library(name: str) -> Any:

@@ -22,7 +22,7 @@ from graphkin.scene.scene import SceneLike, mechanism_of
 from graphkin.scene.scene_tables import Convention, SheetWishes
 from graphkin.scene.symbol import Symbol
 from graphkin.structure.assembly import ChangePoint
-from graphkin.words import BOTH, LANGUAGES, Phrase, Wording, from_others, links_named
+from graphkin.words import BOTH, LANGUAGES, Phrase, Wording, links_named
 
 if TYPE_CHECKING:
     from graphkin.construction import Instrument
@@ -341,30 +341,3 @@ def own_folder(folder: str | os.PathLike[str] | None, name: str) -> Path:
     from graphkin.scene.scene import safe_name
 
     return path_of(folder) if folder is not None else Path(safe_name(name))
-
-
-def write_files(folder: Path, files: Mapping[str, bytes | Iterable[bytes]]) -> list[Path]:
-    """Write files by name, each from one piece or many, into a folder, which is made if it is missing, each whole or
-    not at all; returns their paths.
-
-    Raises
-    ------
-    CallError : the folder cannot be written
-    """
-    from graphkin.files import whole_file
-
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, content in files.items():
-            (folder / name).parent.mkdir(parents=True, exist_ok=True)
-            with whole_file(folder / name) as out:
-                for piece in [content] if isinstance(content, bytes) else content:
-                    out.write(piece)
-    except OSError as error:
-        where = Problem(
-            str(folder),
-            Phrase("cannot be written", reason=from_others(error.strerror or str(error))),
-            Phrase("give another folder with o"),
-        )
-        raise CallError(where) from None
-    return [folder / name for name in files]

@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 
 from graphkin.account.centres import how_found, place_of, velocity_sentences
 from graphkin.account.notation import Notation
-from graphkin.api.arguments import ON_SHEETS, At, as_scene, for_paper, known_words, own_folder, placed, write_files
+from graphkin.api.arguments import ON_SHEETS, At, as_scene, for_paper, known_words, own_folder, placed
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.centres import TOLERANCE, SpeedByCentres, centre_errors, velocities_by_centres
 from graphkin.construction.board.scales import Room
 from graphkin.construction.centres import Centre, Centres, LinkPair, Turning, find_centres
 from graphkin.errors import CallError, as_text, did_you_mean
-from graphkin.files import Json
+from graphkin.files import Json, write_files
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import PointRef

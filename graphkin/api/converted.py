@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from graphkin.api.arguments import as_scene, write_files
+from graphkin.api.arguments import as_scene
 from graphkin.api.results import Result
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.exchange import FRAME, READ, Bodies, BodySlide, is_address, read_bodies, write_bodies
-from graphkin.files import Json, path_of
+from graphkin.files import Json, path_of, write_files
 from graphkin.scene.model import Mechanism
 from graphkin.scene.pairs import told
 from graphkin.scene.scene import Scene, SceneLike, safe_name, toml_text, written

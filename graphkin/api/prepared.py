@@ -13,15 +13,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphkin.api.arguments import as_scene, columns_shown, whole_number
-from graphkin.api.results import OfScene, Tabled
-from graphkin.errors import CallError, as_list, as_text, did_you_mean, unfit
+from graphkin.api.results import OfScene
+from graphkin.errors import CallError, as_list, as_text, unfit
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike, written
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Unit
 from graphkin.solver.compiled.kernel import pays
-from graphkin.solver.values import settled
-from graphkin.table import Column, Table, Values
+from graphkin.study.designs import Designs
+from graphkin.study.sweeps import FollowedDesign, Sweep
+from graphkin.table import Table, Tabled
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
@@ -74,15 +75,13 @@ class Prepared(Tabled, OfScene):
         units = self.mechanism.units
         return {str(symbol): symbol.unit(units).text for symbol in (*self.ready.wanted, *self.ready.solved)}
 
-    def place(self, name: str) -> int:
-        """The index of an asked quantity.  Raises CallError for another one."""
-        if name not in self.units:
-            known = [*self.units, *self.names]
-            raise CallError.of(f'"{name}"', "was not asked for", did_you_mean(name, known))
-        return list(self.units).index(name)
+    @cached_property
+    def base(self) -> FollowedDesign:
+        """The mechanism with its quantities, of which sweeps are made."""
+        return FollowedDesign.prepared(self.ready)
 
     @cached_property
-    def _here(self) -> Samples:
+    def _here(self) -> Sweep:
         return self.columns([self.here])
 
     @property
@@ -91,7 +90,7 @@ class Prepared(Tabled, OfScene):
         return float(self.own_unit.of(self.ready.range.start[0]))
 
     def __getitem__(self, name: str) -> NDArray[np.float64] | NDArray[np.complex128]:
-        """A quantity or a column at the scene's own position, shape (1,).  Raises CallError as ``Samples``."""
+        """A quantity or a column at the scene's own position, shape (1,).  Raises CallError as ``Sweep``."""
         return self._here[name]
 
     @property
@@ -124,7 +123,7 @@ class Prepared(Tabled, OfScene):
         columns = self.ready.at(value * self.own_unit.si)
         return columns if columns is None or not self.ready.bounded else columns[: len(self.names)]
 
-    def columns(self, values: ArrayLike) -> Samples:
+    def columns(self, values: ArrayLike) -> Sweep:
         """The quantities at given values of the first driver, shape (n,), in its own unit."""
         try:
             own = np.atleast_1d(np.asarray(values, dtype=float)).reshape(-1)
@@ -133,9 +132,10 @@ class Prepared(Tabled, OfScene):
         wrong = own[~(np.abs(own) <= MOST_VALUE)]
         if len(wrong):
             raise CallError.of("values", "found value", "give finite numbers below 1e9", value=f"{wrong[0]:g}")
-        return self.samples(*self.ready.columns(own * self.own_unit.si, fast=self.compiled(len(own))), own)
+        arrays = self.ready.columns(own * self.own_unit.si, fast=self.compiled(len(own)))
+        return Sweep(self.base, self.base.scene.name, len(own), content=arrays, given=own)
 
-    def sweep(self, n: int, out: Reals | None = None) -> Samples:
+    def sweep(self, n: int, out: Reals | None = None) -> Sweep:
         """The quantities at n positions of the whole range: a turn from the scene's own position on, in the sense of
         the driver; of a driven slide evenly inside the range of travel.  As fast as the memory takes the columns: about
         5 ns a position compiled, 30 in NumPy.
@@ -153,10 +153,9 @@ class Prepared(Tabled, OfScene):
             n = whole_number("sweep", n, 1, MOST, "positions of number")
         if out is not None:
             self._fitting(n, out)
-        columns, ok = self.ready.sweep(n, out, pays(n) if self.fast is None else self.fast)
-        if self.ready.bounded:
-            return self.samples(columns, ok, None)
-        return Samples(self, columns, ok, None, None)  # at some hundred positions each call would be felt
+        arrays = self.ready.sweep(n, out, pays(n) if self.fast is None else self.fast)
+        # at some hundred positions each call would be felt
+        return Sweep(self.base, self.base.scene.name, n, content=arrays)
 
     def _fitting(self, n: int, out: Reals) -> None:
         shape = self.ready.rows, n
@@ -207,13 +206,6 @@ class Prepared(Tabled, OfScene):
         """Whether n positions are computed by compiled code."""
         return pays(n) if self.fast is None else self.fast
 
-    def samples(self, columns: Reals, ok: NDArray[np.bool_], driver: Reals | None) -> Samples:
-        """The results of the code: the columns, and below them their bounds, if these were asked for."""
-        if not self.ready.bounded:
-            return Samples(self, columns, ok, driver, None)
-        count = len(self.names)
-        return Samples(self, columns[:count], ok, driver, columns[count:])
-
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Prepared) and self._said == other._said
 
@@ -231,89 +223,6 @@ class Prepared(Tabled, OfScene):
 
     def __repr__(self) -> str:
         return f"<Prepared {self.mechanism.name}: {', '.join(self.asked)}>"
-
-
-@dataclass(slots=True, eq=False, repr=False)  # not frozen: that would take longer than a hundred positions
-class Samples(Tabled):
-    """The quantities of a prepared mechanism at many positions.
-
-    ``samples["v_C"]`` is a complex array, ``samples["v_C.x"]`` and ``samples["omega_3"]`` are real ones, shape (n,),
-    in the units of ``Prepared.units``; NaN where ``ok`` is False.
-
-    Of many designs every array has the shape (designs, n), at one position (designs,).
-
-    values : real, shape (columns, n), in the order of ``Prepared.names``
-    ok : bool, shape (n,): False at positions that the motion does not reach, and at dead points
-    designs : the values of the keys that the designs change, shape (designs,), or () for a single design
-    """
-
-    prepared: Prepared
-    values: Reals
-    ok: NDArray[np.bool_]
-    _driver: Reals | None
-    _bounds: Reals | None
-    designs: Mapping[str, Reals] | None = None
-
-    def __len__(self) -> int:
-        return self.ok.size
-
-    def __getitem__(self, name: str) -> NDArray[np.float64] | NDArray[np.complex128]:
-        """A quantity or a column by its name.  Raises CallError for one that was not asked for."""
-        name = as_text("name", name)
-        names = self.prepared.names
-        if name in names:
-            symbol = self.prepared.ready.columns_of[name]
-            return Values.of(self._settled(names.index(name)), symbol.unit(self.prepared.mechanism.units).text)
-        self.prepared.place(name)
-        x, y = (self._settled(names.index(f"{name}.{axis}")) for axis in "xy")
-        return Values.of(x + 1j * y, self.prepared.units[name])
-
-    def _settled(self, column: int) -> Reals:
-        """A column, 0 where it is rounding alone."""
-        return settled(self.values[column], self.prepared.ready.residues[column])
-
-    def bound(self, name: str) -> Reals:
-        """A bound of the rounding error of a quantity, shape (n,), in its unit: for both components of a vector;
-        infinite where it is unknown.  Raises CallError where bounds were not asked for."""
-        if self._bounds is None:
-            raise CallError.of("bound", "no bounds were asked for", "prepare with bounds true")
-        return np.asarray(self._bounds[self.prepared.place(name)])
-
-    @property
-    def driver(self) -> Reals:
-        """Values of the first driver (degrees, or the scene's length unit), shape (n,) or as ``ok``."""
-        return self.prepared.driver_values(self.ok.shape[-1]) if self._driver is None else self._driver
-
-    @property
-    def table(self) -> Table:
-        """A row for each position (of each design): the design's keys, the driver, the columns, and whether the
-        position exists."""
-        shape, units, designs = self.ok.shape, self.prepared.units, self.designs or {}
-        many = any(values.ndim for values in designs.values())
-        index = ("design",) * many + ("position",) * (len(shape) - many)
-        columns = [Column(name, np.ravel(k) + 1) for name, k in zip(index, np.indices(shape), strict=True)]
-        for key, values in designs.items():
-            column = values.reshape(-1, *[1] * (len(shape) - 1)) if many else values
-            columns.append(Column(key, np.ravel(np.broadcast_to(column, shape))))
-        driver = f"driver_{self.prepared.mechanism.drivers[0].key}"
-        shown = np.ravel(np.broadcast_to(np.round(self.driver, 11), shape))
-        columns.append(Column(driver, shown, self.prepared.own_unit.text))
-        for k, (name, symbol) in enumerate(self.prepared.ready.columns_of.items()):
-            columns.append(Column(name, np.ravel(self._settled(k)), units[str(symbol)], str(symbol)))
-        return Table((*columns, Column("ok", np.ravel(self.ok))), index)
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Samples):
-            return NotImplemented
-        return (self.prepared.units, self._bounds is None) == (other.prepared.units, other._bounds is None) and (
-            self.table == other.table
-        )
-
-    def __hash__(self) -> int:
-        return hash((tuple(self.prepared.units), self.ok.shape))
-
-    def __repr__(self) -> str:
-        return f"<Samples of {', '.join(self.prepared.units)}: {int(self.ok.sum())} of {self.ok.size} positions>"
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -340,7 +249,7 @@ class PreparedDesigns(Tabled, OfScene):
 
     def __getitem__(self, name: str) -> NDArray[np.float64] | NDArray[np.complex128]:
         """A quantity or a column of all designs at the own position of each, shape (designs,), or () for a single
-        design. Raises CallError as ``Samples``."""
+        design. Raises CallError as ``Sweep``."""
         return self._here[name]
 
     @property
@@ -349,18 +258,17 @@ class PreparedDesigns(Tabled, OfScene):
         return self._here.table
 
     @cached_property
-    def _here(self) -> Samples:
+    def _here(self) -> Sweep:
         columns, ok, values = self._designs.at(None)
-        return self._samples(columns, ok, np.asarray(self.prepared.own_unit.of(values)))
+        return self._swept(1, columns, ok, np.asarray(self.prepared.own_unit.of(values)))
 
-    def at(self, value: float) -> Samples:
+    def at(self, value: float) -> Sweep:
         """All designs at one value of the first driver, in its own unit: arrays of shape (designs,)."""
         value = driver_value(value)
-        given = value * self.prepared.own_unit.si
-        columns, ok, _ = self._designs.at(given)
-        return self._samples(columns, ok, np.asarray(float(value)))
+        columns, ok, _ = self._designs.at(value * self.prepared.own_unit.si)
+        return self._swept(1, columns, ok, np.asarray(float(value)))
 
-    def sweep(self, n: int) -> Samples:
+    def sweep(self, n: int) -> Sweep:
         """All designs over the whole range of the first driver, as ``Prepared.sweep``: arrays of shape (designs, n).
 
         Designs whose groups stay away from dead points over the whole turn are computed together, in some microseconds
@@ -368,15 +276,18 @@ class PreparedDesigns(Tabled, OfScene):
         """
         n = whole_number("sweep", n, 1, MOST, "positions of number")
         columns, ok, values = self._designs.sweep(n, self.prepared.compiled(n * len(self)))
-        return self._samples(columns, ok, np.asarray(self.prepared.own_unit.of(values)))
+        return self._swept(n, columns, ok, np.asarray(self.prepared.own_unit.of(values)))
 
-    def _samples(self, columns: Reals, ok: NDArray[np.bool_], driver: Reals) -> Samples:
+    def _swept(self, n: int, columns: Reals, ok: NDArray[np.bool_], driver: Reals) -> Sweep:
         if self.single:
             one_each = driver.shape[:1] == ok.shape[:1] and driver.ndim == ok.ndim
             columns, ok, driver = columns[:, 0], ok[0], driver[0] if one_each else driver
-        samples = self.prepared.samples(columns, ok, driver)
-        samples.designs = {key: x.reshape(()) if self.single else x for key, x in self.values.items()}
-        return samples
+        base, name = self.prepared.base, self.prepared.name
+        return Sweep(base, name, n, self._rows, self._designs, content=(columns, ok), given=driver)
+
+    @cached_property
+    def _rows(self) -> Designs:
+        return Designs(tuple(self.values), (), tuple(zip(*(x.tolist() for x in self.values.values()), strict=True)))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, PreparedDesigns):
@@ -409,7 +320,7 @@ def prepare(
     find : quantities of a position by name, as for `solve`: "C" (place of a point), "v_C", "v_C.x", "a_B@3" (of the
         point of link 3 that lies at B), "v_C/B" (relative), "omega_3", "s_3/4", "v_3/4" (of a sliding pair).  Forces,
         moments ("F_5/6", "M_2") and angles at joints ("gamma_2-3") stand last, and are solved at each position
-    bounds : also a bound of the rounding error of each of them, ``Samples.bound``
+    bounds : also a bound of the rounding error of each of them, ``Sweep.bound``
     fast : compile the formulas with numba (the extra ``fast``): True on the first call, which then takes a second or
         two; False never; None in calls for 500,000 positions or more, where numba is installed
 

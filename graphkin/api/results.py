@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import os
-from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from abc import abstractmethod
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import fields
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
+from typing import TYPE_CHECKING, ClassVar, Self, TypeVar
 
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
-from graphkin.files import Json
+from graphkin.files import Json, write_files
+from graphkin.table import Tabled
 
 if TYPE_CHECKING:
-    import pandas
-    import xarray
-
     from graphkin.drawing import Drawing
     from graphkin.drawing.chart import ChartPage
     from graphkin.scene.model import Mechanism
@@ -25,70 +23,6 @@ if TYPE_CHECKING:
     from graphkin.words import Wording
 
 T = TypeVar("T")
-
-
-class Tabled(ABC):
-    """A result with a table, its columns, its exports and its display.
-
-    ``tabled["v_C"]`` is a value by its name, in the file's units and degrees, with its unit; ``table`` has all values
-    as columns with units, ``data`` for programs, ``write`` makes its files; a notebook shows it.
-    """
-
-    __slots__ = ()
-
-    @property
-    @abstractmethod
-    def table(self) -> Table:
-        """Its main table."""
-
-    @property
-    def data(self) -> Json:
-        """For programs: each column of the table with its unit and its values; ``None`` for a missing value."""
-        return self.table.data
-
-    def write(self, folder: str | os.PathLike[str]) -> Sequence[Path]:
-        """Write table.csv, and table.parquet where pyarrow is installed, into a folder; or one file, whose name ends in
-        .csv, .parquet, .json or .html.  Returns the paths; raises CallError as ``Table.write``."""
-        from graphkin.api.arguments import write_files
-        from graphkin.files import path_of
-        from graphkin.table import FILES, have
-
-        target = path_of(folder)
-        if target.suffix.lower() in FILES:
-            return [self.table.write(target)]
-        write_files(target, {})
-        names = ["table.csv", "table.parquet"] if have("pyarrow") else ["table.csv"]
-        return [self.table.write(target / name) for name in names]
-
-    def __getitem__(self, name: str) -> Any:
-        """A column of the table by its name.  Raises CallError for an unknown one."""
-        name = as_text("name", name)
-        return self.table[name]
-
-    def __contains__(self, name: object) -> bool:
-        """Whether ``tabled[name]`` is there."""
-        if not isinstance(name, str):
-            return False
-        try:
-            self[name]
-        except CallError:
-            return False
-        return True
-
-    def __iter__(self) -> Iterator[str]:
-        """Results are read by name only: Python would ask for 0, 1, 2 ... Raises TypeError."""
-        raise TypeError(f"a {type(self).__name__} is asked by name, and has its rows in .table: it is not gone through")
-
-    def to_pandas(self) -> pandas.DataFrame:
-        """The table as a frame of pandas.  Raises CallError where that is not installed."""
-        return self.table.to_pandas()
-
-    def to_xarray(self) -> xarray.Dataset:
-        """The table as a data set of xarray, with units.  Raises CallError where that is not installed."""
-        return self.table.to_xarray()
-
-    def _repr_html_(self) -> str:
-        return self.table._repr_html_()
 
 
 class OfScene:
@@ -170,7 +104,7 @@ class Result(Tabled):
         ------
         CallError : an unknown format, a folder that cannot be written
         """
-        from graphkin.api.arguments import own_folder, write_files
+        from graphkin.api.arguments import own_folder
 
         pages = self.pages(formats, text)
         target = own_folder(folder, self.name)

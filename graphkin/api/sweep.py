@@ -26,17 +26,16 @@ from graphkin.api.arguments import (
     quantities_shown,
     require_callable,
     whole_number,
-    write_files,
 )
 from graphkin.api.results import OfScene, Result
 from graphkin.errors import CallError, Problem, as_list, as_text
-from graphkin.files import Json, path_of
+from graphkin.files import Json, path_of, write_files
 from graphkin.jobs import Progress, Workers, cluster
 from graphkin.scene.drivers import moves_by_law
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike, written
 from graphkin.scene.symbol import Symbol
-from graphkin.table import Table, Values, have, table_of_csv
+from graphkin.table import Table, have
 from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
@@ -48,7 +47,7 @@ if TYPE_CHECKING:
     from graphkin.study.graphical import Chords, Way
     from graphkin.study.over_time import TimeStudy
     from graphkin.study.quantities import Quantity
-    from graphkin.study.sweeps import Arrays, Outcome, Sweep
+    from graphkin.study.sweeps import Outcome, Sweep
     from graphkin.study.turn import TurnStudy
     from graphkin.table import Array
 
@@ -68,7 +67,7 @@ class Swept(OfScene, Result):
     status of each position.  Table, study and figures are made when they are first asked for.  ``paths`` are the files
     written to a given folder.
 
-    content : the table, its file, or the arrays of a prepared mechanism of which it is made
+    over : the sweep itself
     by_design : the outcome of each design, or of the scene itself
     damaged : damaged pieces of an earlier run, which were made again
     written : the files of its tables
@@ -77,7 +76,6 @@ class Swept(OfScene, Result):
     figure_formats = CHART_FORMATS
 
     over: Sweep
-    content: Table | Path | Arrays
     by_design: tuple[Outcome, ...]
     language: str
     measured: Mapping[Quantity, Sequence[tuple[float, float]]] = field(default_factory=dict)
@@ -113,21 +111,12 @@ class Swept(OfScene, Result):
     def __getitem__(self, name: str) -> Array:
         """An asked quantity by its name, or any column of the table: NaN where it is missing.  Raises CallError for an
         unknown one."""
-        name = as_text("name", name)
-        # of a vector its size, if it has one, and its components
-        columns = [column for column in self.table.columns if column.symbol == name] or [self.table.column(name)]
-        values = columns[0].values if len(columns) == 1 else columns[-2].values + 1j * columns[-1].values
-        shown = values.reshape(-1, self.over.positions) if self.over.designs.keys else values
-        return Values.of(shown, columns[0].unit) if columns[0].unit else shown
+        return self.over[name]
 
-    @cached_property
+    @property
     def table(self) -> Table:
         """A row for each position: the asked quantities in the scene's units, degrees for angles, and its status."""
-        if isinstance(self.content, Table):
-            return self.content
-        if isinstance(self.content, Path):
-            return table_of_csv(self.content, self.over.head)
-        return self.over.base.table(self.rows, 0, self.rows, self.content)
+        return self.over.table
 
     @cached_property
     def designs(self) -> Table | None:
@@ -215,10 +204,8 @@ class Swept(OfScene, Result):
         return {f"{way}-{name.replace('/', '-')}": graphical(reach, name, way) for way, name in self.on_paper}
 
     def to_xarray(self) -> xarray.Dataset:
-        """The table as a data set of xarray with units, over ``position`` or over ``design`` and ``position``, with the
-        replaced values as coordinates of the designs.  Raises CallError where it is not installed."""
-        data = self.table.to_xarray()
-        return data.assign_coords({key: ("design", data[key].values[:, 0]) for key in self.over.designs.keys})
+        """The table as a data set of xarray, as of a ``Sweep``.  Raises CallError where it is not installed."""
+        return self.over.to_xarray()
 
     @property
     def tables(self) -> Mapping[str, Table]:
@@ -393,19 +380,20 @@ def sweep(
             raise CallError.of("sweep", "rows", "give a folder out or o", number=over.rows)
         quickly = at_once(over)
         if quickly is not None:
-            return Swept(over, *quickly, spoken, elsewhere, on_paper)
+            return Swept(*quickly, spoken, elsewhere, on_paper)
     if not made.keys and over.base.engine is None and not moves_by_law(given):
         _ = over.base.reach  # a start that cannot be assembled
     through = cluster(as_text("scheduler", scheduler)) if scheduler is not None else executor
     try:
         with Workers(through, workers if over.long else None) as working:
             if out is None:
-                return Swept(over, *collect(over, working, progress), spoken, elsewhere, on_paper)
+                content, outcomes = collect(over, working, progress)
+                return Swept(replace(over, content=content), outcomes, spoken, elsewhere, on_paper)
             files, outcomes, damaged = write_tables(over, path_of(out), working, have("pyarrow"), progress)
     finally:
         if scheduler is not None and through is not None:
             through.shutdown()
-    swept = Swept(over, files[0], outcomes, spoken, elsewhere, on_paper, damaged, files, [*files])
+    swept = Swept(replace(over, content=files[0]), outcomes, spoken, elsewhere, on_paper, damaged, files, [*files])
     if not made.keys:
         swept.paths.extend(swept.write_figures(out, formats, text))
     return swept

@@ -48,7 +48,8 @@ UNCHECKED = {"instrument": "exact", "ok": False, "status": "", "why": "", "readi
 )
 def check(given: Given) -> None:
     """Measure the drawn diagrams and compare every reading with the analytic solver."""
-    from graphkin.api.arguments import known_words, write_files
+    from graphkin.api.arguments import known_words
+    from graphkin.files import write_files
 
     known_words(language=given.lang, convention=given.convention, instrument=given.instrument)
     with answering(UNCHECKED):
@@ -217,8 +218,9 @@ def cam(given: Given) -> None:
 )  # fmt: skip
 def solve(given: Given) -> None:
     """The analytic solution alone, at one position or over a turn."""
-    from graphkin.api.arguments import known_words, write_files
+    from graphkin.api.arguments import known_words
     from graphkin.api.solved import refused
+    from graphkin.files import write_files
 
     known_words(language=given.lang, convention=given.convention, instrument=given.instrument)
     values = given.values

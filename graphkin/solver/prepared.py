@@ -61,6 +61,11 @@ class PreparedMechanism:
     solved: tuple[Symbol, ...] = ()
     open: frozenset[Name] = frozenset()
 
+    def __reduce__(self) -> tuple[object, ...]:
+        # what was asked is pickled, the code for it is made anew
+        assert not self.open
+        return prepare, (self.structure, (*self.wanted, *self.solved), self.units, self.bounded, self.range)
+
     @cached_property
     def columns_of(self) -> dict[str, Symbol]:
         """The quantity of each column; of a vector two, "v_B.x" and "v_B.y"."""

@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from graphkin.errors import SceneError, Unsolvable
-from graphkin.scene.model import Dimension, with_dimensions
+from graphkin.scene.model import Dimension, Mechanism, with_dimensions
 from graphkin.solver.algebra.expressions import Code, Name
 from graphkin.solver.algebra.pose import Array, turned
 from graphkin.solver.drivers import GivenValues, UniformGrid, own_values
@@ -42,6 +42,9 @@ class PreparedMechanisms:
 
     ready: PreparedMechanism
     given: Mapping[Dimension, Array]
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return PreparedMechanisms, (self.ready, self.given)  # open formulas are made anew
 
     @cached_property
     def count(self) -> int:
@@ -129,12 +132,23 @@ class PreparedMechanisms:
         steps = np.abs(seen - np.roll(seen, 1, axis=2))
         return np.asarray(((seen > CLEAR) & (steps < seen / 2)).all(axis=(0, 2)))
 
+    @property
+    def starts(self) -> Array:
+        """The values of the drivers at the own position of each, shape (designs, drivers) (rad, m)."""
+        starts = enumerate(self.ready.range.start)
+        each = (np.broadcast_to(self.given.get(("value", j), value), self.count).real for j, value in starts)
+        return np.stack([*each], axis=1)
+
+    def mechanism(self, k: int) -> Mechanism:
+        """A design by its number."""
+        changed = {name: complex(numbers[k]) for name, numbers in self.given.items()}
+        return with_dimensions(self.ready.structure.scene, changed)
+
     def _alone(self) -> Iterator[tuple[int, PreparedMechanism]]:
         """The designs that are followed one by one, by their numbers; without those that cannot be assembled."""
         ready = self.ready
         for k in np.flatnonzero(~self.together).tolist():
-            changed = {name: complex(numbers[k]) for name, numbers in self.given.items()}
-            scene = with_dimensions(ready.structure.scene, changed)
+            scene = self.mechanism(k)
             try:
                 structure = analyse(scene)
                 modes = choose_modes(structure)

@@ -7,21 +7,22 @@ an interrupted sweep is continued in its folder from the finished pieces.
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, fields, replace
 from functools import cached_property
 from itertools import groupby
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from graphkin.errors import CallError, GraphkinError, Unsolvable
+from graphkin.errors import CallError, GraphkinError, Unsolvable, as_text, did_you_mean
 from graphkin.files import Tables, folder_alone, whole_file
 from graphkin.jobs import Checkpoints, Progress, Workers, key_of
 from graphkin.scene import mechanism_of
 from graphkin.scene.drivers import moments, moves_by_law
 from graphkin.scene.model import Dimension, Mechanism, dimensions, same_but_for_dimensions
-from graphkin.solver import DriverRange, driver_range, over_time, structure_of
+from graphkin.solver import DriverRange, Motion, driver_range, over_time, structure_of
 from graphkin.solver.algebra.pose import Array
 from graphkin.solver.compiled.kernel import pays
 from graphkin.solver.forces import forces_of
@@ -32,9 +33,14 @@ from graphkin.structure import Structure
 from graphkin.study.designs import Designs, Value, applied
 from graphkin.study.prepared_designs import PreparedMechanisms
 from graphkin.study.quantities import Parts, Quantity, Words, all_that_moves, motion_table, word_column
-from graphkin.table import Column, Table, parquet_of_csv
+from graphkin.table import Column, Table, Tabled, Values, parquet_of_csv, table_of_csv
 from graphkin.words import from_others
 
+if TYPE_CHECKING:
+    import xarray
+
+ALONE = Designs()
+"""A scene by itself."""
 BLOCK = 16384
 """Positions that are computed and written together, about."""
 MOST_DESIGNS = 64
@@ -60,9 +66,12 @@ class FollowedDesign:
     asked: tuple[Quantity, ...] = ()
     at: tuple[tuple[str, float], ...] = ()
 
-    def __getstate__(self) -> dict[str, object]:
-        # its range goes with it to other processes; functions of formulas are made anew there
-        return {name: value for name, value in self.__dict__.items() if name != "engine"}
+    @classmethod
+    def prepared(cls, engine: PreparedMechanism) -> FollowedDesign:
+        """A mechanism that is prepared already, whatever its quantities."""
+        design = cls(engine.structure.scene, tuple(map(Quantity, (*engine.wanted, *engine.solved))))
+        design.__dict__.update(structure=engine.structure, reach=engine.range, engine=engine)
+        return design
 
     @cached_property
     def structure(self) -> Structure:
@@ -99,51 +108,72 @@ class FollowedDesign:
         ready = prepare(self.structure, [w.symbol for w in self.asked], self.scene.units, along=self.reach)
         return None if ready.solved else ready  # a redundant link is none of its
 
+    @cached_property
+    def places(self) -> Mapping[str, tuple[tuple[int, ...], str]]:
+        """The rows of each prepared quantity, and of each of its components, with its unit, by their names."""
+        places = dict[str, tuple[tuple[int, ...], str]]()
+        names = () if self.engine is None else self.engine.names
+        for quantity in self.asked if names else ():
+            unit, rows = quantity.unit(self.scene).text, tuple(map(names.index, quantity.symbol.heads))
+            places |= {head: ((k,), unit) for head, k in zip(quantity.symbol.heads, rows, strict=True)}
+            places[quantity.name] = rows, unit
+        return places
+
     def table(self, n: int, first: int, last: int, arrays: Arrays | None = None) -> Table:
         """Positions ``first`` to ``last`` (not included) of n: driver values, quantities, status and reason;
         ``arrays`` if the prepared mechanism gave them already."""
-        if arrays is None and self.engine is not None:
-            arrays = self.engine.columns(self.reach.grid(n, first, last).values)
-        if arrays is not None:
-            return self._table_of(arrays, n, first, last)
+        if self.engine is not None:
+            given, offset = self.reach.grid(n, first, last).values, self.reach.table_offsets(n, np.arange(first, last))
+            columns, ok = self.engine.columns(given) if arrays is None else arrays
+            values, missing = _driven(self.reach.start[None], given[None]), np.flatnonzero(~ok)
+            return self.table_of(columns, values, [(missing, self, offset[missing])], first)
         times = np.array(moments(self.scene, n)[first:last]) if moves_by_law(self.scene) else None
         if times is not None:
             motion = over_time(self.structure, times)
         else:
             motion = self.reach.motion(self.reach.table_offsets(n, np.arange(first, last)))
         parts = tuple(w.parts(None if times is not None else self.reach, motion) for w in self.watched)
-        if any(w.is_load for w in self.watched):
-            motion = forces_of(motion).known_motion
+        motion = self._known(motion)
         return self._rows(first, motion.values, parts, motion.status, motion.why, times)
 
-    def _table_of(self, arrays: Arrays, n: int, first: int, last: int) -> Table:
-        """The table of a prepared mechanism's results, 0 where they are rounding alone."""
-        (columns, ok), rows, engine = arrays, last - first, self.engine
-        assert engine is not None
-        values = np.repeat(self.reach.start[None], rows, axis=0)
-        values[:, 0] = self.reach.grid(n, first, last).values
-        by_name = dict(zip(engine.names, map(settled, columns, engine.residues), strict=True))
-        parts = tuple(tuple(by_name[w.name + e] for e in ((".x", ".y") if w.is_vector else ("",)))
-                      for w in self.watched)  # fmt: skip
-        without = np.flatnonzero(~ok)
-        if not len(without):
+    def table_of(self, columns: Array, values: Array, missing: Iterable[Missing], first: int = 0) -> Table:
+        """The table of a prepared mechanism's columns, 0 where they are rounding alone.
+
+        Parameters
+        ----------
+        values : of the drivers, shape (rows, drivers) (rad, m)
+        """
+        assert self.engine is not None
+        by_head = dict(zip(self.engine.names, map(settled, columns, self.engine.residues), strict=False))
+        parts, rows = tuple(tuple(by_head[head] for head in w.symbol.heads) for w in self.watched), len(values)
+        absent = [gone for gone in missing if len(gone[0])]
+        if not absent:
             return self._rows(first, values, parts, ["ok"], [""])
         status, why = np.full(rows, "ok", object), np.full(rows, "", object)
-        for some in (without[k : k + BLOCK] for k in range(0, len(without), BLOCK)):
-            # why there is nothing there the solver says, and it has the last word on whether there is
-            motion = self.reach.motion(self.reach.table_offsets(n, first + some))
-            for watched, components in zip(self.watched, parts, strict=True):
-                for component, solved in zip(components, watched.parts(self.reach, motion), strict=True):
-                    component[some] = solved
-            status[some], why[some] = motion.status.tolist(), motion.why
+        for without, design, offset in absent:
+            if isinstance(design, tuple):
+                values[without], (status[without], why[without]) = np.nan, design
+                continue
+            for k in range(0, len(without), BLOCK):
+                # why there is nothing there the solver says, and it has the last word on whether there is
+                some, motion = without[k : k + BLOCK], design.reach.motion(offset[k : k + BLOCK])
+                for watched, components in zip(self.watched, parts, strict=True):
+                    for component, solved in zip(components, watched.parts(design.reach, motion), strict=True):
+                        component[some] = solved
+                known = self._known(motion)
+                status[some], why[some] = known.status.tolist(), known.why
         return self._rows(first, values, parts, status, why)
+
+    def _known(self, motion: Motion) -> Motion:
+        """A motion, not solved where asked forces are unknown."""
+        return forces_of(motion).known_motion if any(w.is_load for w in self.watched) else motion
 
     def blank(self, first: int, last: int, status: str = "", why: str = "") -> Table:
         """The table of positions without values."""
         nothing = np.full(last - first, np.nan)
         parts = tuple((nothing,) * (1 + w.is_vector) for w in self.watched)
         values = np.stack([nothing] * len(self.scene.drivers), axis=1)
-        times = nothing if moves_by_law(self.scene) else None
+        times = nothing if moves_by_law(self.scene) and self.engine is None else None
         return self._rows(first, values, parts, [status], [why], times)
 
     def _rows(
@@ -153,6 +183,11 @@ class FollowedDesign:
         return motion_table(
             self.scene, self.watched, bool(self.asked), first, values, parts, status, why, times
         )
+
+
+Missing = tuple[Array, FollowedDesign | tuple[str, str], Array]
+"""Rows of a table for which a prepared mechanism has nothing, with the design of which the solver says why, or its
+status and reason, and the offsets of the first driver in its range (rad, m)."""
 
 
 @dataclass(frozen=True)
@@ -173,21 +208,147 @@ class Outcome:
     good: int
 
 
-@dataclass(frozen=True)
-class Sweep:
+@dataclass(eq=False, repr=False)  # not frozen: that would take longer than a hundred positions
+class Sweep(Tabled):
     """A sweep: positions of one mechanism, or of many designs of it; a piece of it is a sweep again.
 
+    ``sweep["v_C"]`` is an asked quantity by its name, as an array: complex for vectors, in the scene's length unit,
+    degrees for angles, NaN where it is missing; shape (positions,), over designs (designs, positions).  ``table`` also
+    has the drivers' values and the status of each position; it is made when it is first read.
+
     base : the scene itself as a design, without replaced values; all pieces share it
-    source : the mapping of its file, if designs replace numbers in it
+    source : the numbers of each design: the mapping of the scene's file in which they are replaced, or the prepared
+        mechanisms
     some : first and last position (not included) of each design; None for all
+    content : the table, its file, or the arrays of a prepared mechanism of which it is made; None before it is made
+    given : values of the first driver in its own unit, as the arrays; None for those of the whole range
     """
 
     base: FollowedDesign
     name: str
     positions: int
-    designs: Designs = field(default_factory=Designs)
-    source: Tables | None = None
+    designs: Designs = ALONE
+    source: Tables | PreparedMechanisms | None = None
     some: tuple[int, int] | None = None
+    content: Table | Path | Arrays | None = None
+    given: Array | None = None
+
+    def __getstate__(self) -> dict[str, object]:
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    # its values
+
+    def __len__(self) -> int:
+        return self.rows
+
+    def __getitem__(self, name: str) -> Array:
+        """An asked quantity by its name, or any column of the table.  Raises CallError for an unknown one."""
+        name = as_text("name", name)
+        if isinstance(self.content, tuple) and self.base.engine is not None and name in self.base.places:
+            rows, unit = self.base.places[name]
+            parts = [settled(self.content[0][row], self.base.engine.residues[row]) for row in rows]
+            return Values.of(parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1], unit)
+        # of a vector its size, if it has one, and its components
+        columns = [column for column in self.table.columns if column.symbol == name] or [self.table.column(name)]
+        values = columns[0].values if len(columns) == 1 else columns[-2].values + 1j * columns[-1].values
+        shown = values.reshape(self._shown)
+        return Values.of(shown, columns[0].unit) if columns[0].unit else shown
+
+    @property
+    def _shown(self) -> tuple[int, ...]:
+        """The shape of its arrays."""
+        if isinstance(self.content, tuple):
+            return self.content[1].shape
+        return (len(self.designs), self.positions) if self.designs.keys else (self.positions,)
+
+    @property
+    def values(self) -> Array:
+        """The arrays of a prepared mechanism, shape (columns, ...) in the order of its names."""
+        assert isinstance(self.content, tuple)
+        columns, engine = self.content[0], self.base.engine
+        assert engine is not None
+        return columns[: len(engine.names)] if engine.bounded else columns
+
+    @property
+    def ok(self) -> Array:
+        """Whether each position is solved: not where the motion does not reach it, and not at dead points."""
+        if isinstance(self.content, tuple):
+            return self.content[1]
+        return np.asarray(self.table["status"] == "ok").reshape(self._shown)
+
+    @property
+    def driver(self) -> Array:
+        """Values of the first driver (degrees, or the scene's length unit), shape (positions,) or as ``ok``."""
+        driver = self.scene.drivers[0]
+        if self.given is None and isinstance(self.content, tuple):
+            return np.asarray(self.scene.unit_of(driver).of(self.base.reach.grid(self.positions).values))
+        return self[f"driver_{driver.key}"] if self.given is None else self.given
+
+    def bound(self, name: str) -> Array:
+        """A bound of the rounding error of a quantity in its unit, as ``ok``: for both components of a vector; infinite
+        where it is unknown.  Raises CallError where bounds were not asked for."""
+        engine = self.base.engine
+        if not isinstance(self.content, tuple) or engine is None or not engine.bounded:
+            raise CallError.of("bound", "no bounds were asked for", "prepare with bounds true")
+        names = [*map(str, (*engine.wanted, *engine.solved))]
+        if name not in names:
+            raise CallError.of(f'"{name}"', "was not asked for", did_you_mean(name, names))
+        return np.asarray(self.content[0][len(engine.names) + names.index(name)])
+
+    @cached_property
+    def table(self) -> Table:
+        """A row for each position: the asked quantities in the scene's units, degrees for angles, and its status."""
+        if isinstance(self.content, Table):
+            return self.content
+        if isinstance(self.content, Path):
+            return table_of_csv(self.content, self.head)
+        if self.content is None:
+            return collect(self, Workers())[0]
+        return self._of_arrays(*self.content)
+
+    def _of_arrays(self, columns: Array, ok: Array) -> Table:
+        """The table of the arrays of a prepared mechanism: designs of which positions are missing are followed."""
+        base, n, source = self.base, self.positions, self.source
+        if self.given is None:
+            return base.table(n, 0, n, (columns, ok))
+        si = self.scene.unit_of(self.scene.drivers[0]).si
+        given, ok = np.broadcast_to(self.given, ok.shape).reshape(-1, n) * si, ok.reshape(-1, n)
+        starts = source.starts if isinstance(source, PreparedMechanisms) else base.reach.start[None]
+
+        def missing() -> Iterator[Missing]:
+            for k in np.flatnonzero(~ok.all(axis=1)).tolist():
+                design, rows = _followed(self, k), np.flatnonzero(~ok[k])
+                driven = given[k, rows]
+                yield k * n + rows, design, driven if isinstance(design, tuple) else design.reach.offsets(driven)
+
+        table = base.table_of(columns.reshape(len(columns), -1), _driven(starts, given), missing())
+        if not self.designs.keys:
+            return table
+        count, (_, *others) = len(ok), table.columns
+        numbers = np.array([self.designs[k] for k in range(count)], float)
+        numbered = [
+            Column("design", np.repeat(np.arange(1, count + 1), n)),
+            *(Column(key, np.repeat(each, n)) for key, each in zip(self.designs.keys, numbers.T, strict=True)),
+            Column("position", np.tile(np.arange(1, n + 1), count)),
+        ]
+        return Table((*numbered, *others), ("design", "position"))
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The table as a data set of xarray with units, over ``position`` or over ``design`` and ``position``, with the
+        replaced values as coordinates of the designs.  Raises CallError where it is not installed."""
+        data = self.table.to_xarray()
+        return data.assign_coords({key: ("design", data[key].values[:, 0]) for key in self.designs.keys})
+
+    def __eq__(self, other: object) -> bool:
+        return self.table == other.table if isinstance(other, Sweep) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self.table)
+
+    def __repr__(self) -> str:
+        return f"<Sweep of {self.name}: {int(self.ok.sum())} of {self.rows} positions>"
+
+    # its pieces
 
     @property
     def rows(self) -> int:
@@ -213,7 +374,7 @@ class Sweep:
     @cached_property
     def key(self) -> str:
         """A key that two sweeps share only if they give the same results."""
-        base, source = self.base, repr(self.scene) if self.source is None else dict(self.source)
+        base, source = self.base, dict(self.source) if isinstance(self.source, Mapping) else repr(self.scene)
         return key_of(BLOCK, source, self.name, repr(self.designs), self.positions, repr(base.asked), base.at)
 
     @property
@@ -242,11 +403,19 @@ class Sweep:
         return replace(self, designs=self.designs.part(group * together, (group + 1) * together), some=some)
 
 
+def _driven(starts: Array, given: Array) -> Array:
+    """Values of all drivers, shape (designs * positions, drivers), from those of the first, shape (designs, positions):
+    the others stand at their start, shape (designs, drivers)."""
+    values = np.repeat(starts, given.shape[1], axis=0)
+    values[:, 0] = given.ravel()
+    return values
+
+
 def made(sweep: Sweep) -> tuple[Table, list[Outcome]]:
     """The table of a piece, and the outcome of each of its designs.  Failures of a design are told in its rows and not
     raised."""
     designs, keys = sweep.designs, sweep.designs.keys
-    followed = [_followed(sweep, designs[k]) for k in range(len(designs))]
+    followed = [_followed(sweep, k) for k in range(len(designs))]
     first, last = sweep.some or (0, sweep.positions)
     arrays = _together(sweep, followed) if last - first == sweep.positions and keys else {}
     tables, outcomes = [], []
@@ -317,13 +486,15 @@ def _outcome(number: int, table: Table, cells: Mapping[str, float | str | None])
     return Outcome(number, status, why, cells, len(table) - len(bad))
 
 
-def _followed(sweep: Sweep, values: tuple[Value, ...]) -> FollowedDesign | tuple[str, str]:
+def _followed(sweep: Sweep, number: int) -> FollowedDesign | tuple[str, str]:
     """A design with its path, or the status and the reason why it has none."""
     try:
-        design = sweep.base
-        if sweep.source is not None:
-            scene = standing(mechanism_of(applied(sweep.source, sweep.designs.keys, values)))
-            design = replace(design, scene=scene)
+        design, source = sweep.base, sweep.source
+        if isinstance(source, PreparedMechanisms):
+            design = replace(design, scene=source.mechanism(number))
+        elif source is not None:
+            replaced = applied(source, sweep.designs.keys, sweep.designs[number])
+            design = replace(design, scene=standing(mechanism_of(replaced)))
         _ = design.reach
         return design
     except Unsolvable as error:
@@ -344,17 +515,17 @@ def _with_design(table: Table, keys: Sequence[str], number: int, values: Sequenc
     return Table((Column("design", np.full(n, number + 1)), *replaced, *table.columns), ("design", "position"))
 
 
-def at_once(sweep: Sweep) -> tuple[Table | Arrays, tuple[Outcome, ...]] | None:
-    """All positions of a scene that can be prepared, very many by compiled code: the arrays of which its table is made
-    when it is read, or the table where the solver has to say why there is nothing.  None for others."""
+def at_once(sweep: Sweep) -> tuple[Sweep, tuple[Outcome, ...]] | None:
+    """All positions of a scene that can be prepared, very many by compiled code: with the arrays of which its table is
+    made when it is read, or the table where the solver has to say why there is nothing.  None for others."""
     design, n = sweep.base, sweep.positions
     if sweep.designs.keys or design.engine is None:
         return None
     arrays = design.engine.sweep(n, fast=pays(n))
     if arrays[1].all():
-        return arrays, (Outcome(0, "ok", "", {}, n),)
+        return replace(sweep, content=arrays), (Outcome(0, "ok", "", {}, n),)
     table = design.table(n, 0, n, arrays)
-    return table, _joined(sweep, [_outcome(0, table, {})])
+    return replace(sweep, content=table), _joined(sweep, [_outcome(0, table, {})])
 
 
 def collect(sweep: Sweep, workers: Workers, progress: Progress | None = None) -> tuple[Table, tuple[Outcome, ...]]:

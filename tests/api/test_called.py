@@ -130,7 +130,7 @@ RESULTS = {
     "Solved": lambda: graphkin.solve(SIXBAR, sweep=3),
     "Prepared": lambda: graphkin.prepare(SIXBAR, find=["v_D"], bounds=True),
     "PreparedDesigns": lambda: graphkin.prepare(SIXBAR, find=["v_D"]).over({"links.1.length": [120, 121]}),
-    "Samples": lambda: graphkin.prepare(SIXBAR, find=["v_D"]).sweep(4),
+    "Sweep": lambda: graphkin.prepare(SIXBAR, find=["v_D"]).sweep(4),
     "Scene": lambda: graphkin.read(SIXBAR),
     "Mechanism": lambda: graphkin.read(SIXBAR).mechanism,
     "Table": lambda: graphkin.solve(SIXBAR).table,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 import tomllib
 from importlib.util import find_spec
 
@@ -144,20 +145,35 @@ def test_compiled_designs_are_those_of_numpy():
     assert np.abs(fast - slow).max() < 1e-13 * np.abs(slow).max()
 
 
-def test_the_table_tells_designs_and_positions_and_what_changes():
-    table = graphkin.prepare(SHAPER, find="omega_4").over({"links.2.length": [80, 90]}).sweep(3).table
-    assert ("design", "position", "links.2.length", "driver_2 (deg)", "omega_4 (rad/s)", "ok") == table.heads
-    assert [80, 80, 80, 90, 90, 90] == table["links.2.length"].tolist()
-    assert [1, 2, 3, 1, 2, 3] == table["position"].tolist()
-
-
 @pytest.mark.parametrize(
-    ("length", "value", "index"),
-    [(80, None, ("position",)), ([80, 90], 30, ("design",)), (80, 30, ()), ([80, 90], None, ("design", "position"))],
+    ("source", "asked", "designs"),
+    [
+        (FOUR_BAR, ["v_C", "omega_3"], {"links.1.length": [150.0, 250.0, 1000.0]}),  # one with ends, one that is none
+        (tomllib.loads(scenes.FIVE_BAR), ["omega_3"], {"driver.2.angle": [60.0, 100.0]}),
+    ],
 )
-def test_the_table_is_over_what_there_is_more_than_one_of(length, value, index):
-    designs = graphkin.prepare(SHAPER, find="omega_4").over({"links.2.length": length})
-    assert index == (designs.sweep(3) if value is None else designs.at(value)).table.index
+def test_the_table_of_designs_is_the_table_of_a_sweep_over_them(source, asked, designs):
+    swept = graphkin.sweep(source, positions=5, find=asked, designs=designs).table
+    table = graphkin.prepare(source, find=asked).over(designs).sweep(5).table
+    assert (swept.heads, swept.index) == (table.heads, table.index)
+    for column, other in zip(swept.columns, table.columns, strict=True):
+        if column.is_text:
+            assert column.values.tolist() == other.values.tolist()
+        else:
+            np.testing.assert_allclose(column.values, other.values, rtol=1e-9, err_msg=column.head)
+
+
+@pytest.mark.parametrize(("length", "rows"), [(80, [80.0]), ([80, 90], [80.0, 90.0])])
+def test_the_table_at_a_position_has_a_row_for_each_design(length, rows):
+    table = graphkin.prepare(SHAPER, find="omega_4").over({"links.2.length": length}).at(30).table
+    assert rows == table["links.2.length"].tolist()
+    assert [30.0] * len(rows) == table["driver_2"].tolist()
+    assert ("design", "position") == table.index
+
+
+def test_designs_that_were_swept_can_be_sent_to_another_process():
+    swept = graphkin.prepare(FOUR_BAR, find="v_C").over({"links.1.length": [150.0, 1000.0]}).sweep(4)
+    assert swept == pickle.loads(pickle.dumps(swept))
 
 
 def test_designs_in_xarray_are_over_designs_and_positions():

@@ -22,11 +22,10 @@ from graphkin.api.arguments import (
     known_workers,
     require_callable,
     whole_number,
-    write_files,
 )
 from graphkin.api.results import OfScene, Result, named
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, printable
-from graphkin.files import Json, OwnTables, Tables, folder_alone, path_of
+from graphkin.files import Json, OwnTables, Tables, folder_alone, path_of, write_files
 from graphkin.jobs import Progress, Workers
 from graphkin.papers.data_rows import columns_of, replaced
 from graphkin.papers.documents import answers_template

@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 
 from graphkin.account.headings import number
-from graphkin.api.arguments import known_words, own_folder, write_files
+from graphkin.api.arguments import known_words, own_folder
 from graphkin.api.cams import CamMade
 from graphkin.api.designed import Designed
 from graphkin.checking.closed_form import predict_cam, predict_lengths
@@ -21,6 +21,7 @@ from graphkin.drawing.figures.constructions import (
     construction_picture,
 )
 from graphkin.drawing.write.drawing import Drawing
+from graphkin.files import write_files
 from graphkin.papers.blocks import (
     Block,
     Document,
