@@ -198,15 +198,12 @@ def positioned(
     assembly = replace(planned.assembly, values=values)
     told_on = board if with_steps else None
     paper = place(planned.opened, planned.elements, 1.0 / scales.length, assembly, instrument, told_on)
-    polygons = Polygons(board, planned.opened, paper, scales, own_values)
-    polygons.given.update({inversion.key: motion[1:] for inversion, motion in triangles})
-    polygons.at_contacts = planned.touching
-    polygons.chains.update(planned.chains)
-    polygons.plans.update(planned.plans)
+    polygons = Polygons.begun(board, planned.opened, paper, scales, own_values)
     for inversion, motion in triangles:
+        polygons.given[inversion.key] = motion[1:]
         for step in inversion.carried_over(motion):
             board.do(step)
-    return polygons
+    return replace(polygons, at_contacts=planned.touching, chains={**planned.chains}, plans={**planned.plans})
 
 
 def carried_out(
@@ -255,7 +252,7 @@ def finished(planned: Plan, polygons: Polygons) -> Sheet:
         asked=planned.asked,
         acting=planned.acting,
         growing=planned.growing,
-        trains=polygons.trains,
+        trains=tuple(polygons.trains),
         limits=limits,
         readings=dict(board.readings),
         has_forces=planned.has_forces,
@@ -340,8 +337,7 @@ class Stages:
             return self.after[number][1]
         key = number, frozenset(own.items())
         if key not in self.others:
-            polygons = self._from(number - 1, own).again(EXACT)
-            polygons.own_values = self.own_values(own)
+            polygons = replace(self._from(number - 1, own).again(EXACT), own_values=self.own_values(own))
             draw_element(polygons, *self.in_order[number - 1])
             while len(self.others) >= self.KEPT:
                 del self.others[next(iter(self.others))]
@@ -400,9 +396,9 @@ def _plan(
 
 def _planned(planned: Plan, room: Room | None) -> Plan:
     """A plan carried out exactly, with the limit positions and the loads that its question needs, and its scales."""
+    asked, loads = planned.asked, planned.loads_on_strokes
     polygons = carried_out(planned, NATURAL)
     exact = finished(planned, polygons)
-    asked, loads = planned.asked, planned.loads_on_strokes
     if loads or any(symbol.scope == "turn" for symbol in asked):
         from graphkin.construction.position.limits import limits_asked
 
@@ -548,7 +544,7 @@ class Inversion:
         drawn with a link held still; its result at the common pair: value, rate and second rate (SI)."""
         second_board = Board(board.instrument)
         paper = self.placed(values, 1.0 / scales.length, board.instrument, second_board)
-        polygons = Polygons(second_board, self.structure, paper, scales)
+        polygons = Polygons.begun(second_board, self.structure, paper, scales)
         for order in ORDERS:
             draw_element(polygons, order, *self.structure.dyads.values())
         board.causes += second_board.causes

@@ -394,16 +394,16 @@ def _scaled(plan: TrainPlan, rough: TrainPlan, units: float) -> TrainPlan:
 # -- the trains of a mechanism -----------------------------------------------------------------------------------------
 
 def rolled(
-    structure: Structure, drawn: tuple[TrainPlan, ...], order: Order, wanted: Coordinate, rates: Mapping[str, float],
+    structure: Structure, drawn: list[TrainPlan], order: Order, wanted: Coordinate, rates: Mapping[str, float],
     travel: Callable[[str], float | None], turns: list[Turned], hand: Instrument,
-) -> tuple[tuple[TrainPlan, ...], float, float, list[Step]]:  # fmt: skip
-    """The plans with the plan that leads to a rate (rad/s, rad/s2) or to the speed of a slide (m/s, m/s2), that value,
-    the length read for it (mm), and its strokes.  Wheels whose motion needs other results first get a plan of their
-    own, at scales that suit it, in which the rates known by then are laid off.
+) -> tuple[float, float, list[Step]]:  # fmt: skip
+    """A rate (rad/s, rad/s2) or the speed of a slide (m/s, m/s2) on the plan that leads to it, the length read for it
+    (mm), and the steps of a new plan.  Wheels whose motion needs other results first get a plan of their own, at scales
+    that suit it, in which the rates known by then are laid off.
 
     Parameters
     ----------
-    drawn : the plans of the mechanism drawn so far
+    drawn : the plans of the mechanism drawn so far, to which a new plan is added
     rates : known rates by link (rad/s, rad/s2)
     travel : function to the known speed (m/s, m/s2) of a sliding pair, None where it is unknown
     turns : links that turn from one another at given rates
@@ -430,11 +430,11 @@ def rolled(
             plan = train_plan(begun, here, scene.units.rates.metres, hand)
             if plan is None:
                 continue
-            drawn = *drawn, plan
+            drawn.append(plan)
             steps = [replace(step, plan=len(drawn)) for step in _steps(scene, plan)]
         step = plan.step(here)
         assert step is not None
-        return drawn, step.value, step.mm, steps
+        return step.value, step.mm, steps
     raise Unsolvable("not drawn", Problem(Phrase("link of name", name=name),
                                           "no velocity plan leads to what rolls here"))
 

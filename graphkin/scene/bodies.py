@@ -22,9 +22,11 @@ from graphkin.scene.pairs import CircularSlot, SlidingPair
 from graphkin.scene.scene_tables import (
     TOUCHING,
     Compass,
+    Contact,
     DrivenSlide,
     Driver,
     Frame,
+    Gear,
     Guide,
     Link,
     Pin,
@@ -123,6 +125,11 @@ class Reading:
         names |= dict.fromkeys(self.lost_names("links"), frozenset[str]())
         names.setdefault(self.frame.name, frozenset(self.frame.guides) | self.lost_names("frame", "guides"))
         return names
+
+    @cached_property
+    def touching(self) -> list[Contact | Gear]:
+        """The entries of all tables of bodies that touch."""
+        return [pair for table in TOUCHING for pair in getattr(self.file, table).values()]
 
     @cached_property
     def contact_at(self) -> frozenset[str]:
@@ -394,7 +401,7 @@ def _pin_problem(
 def check_rolling(reading: Reading) -> None:
     """Note starts of rolling in a file in which nothing rolls."""
     started = [name for name, link in reading.links.items() if link.start is not None]
-    rolls = any(pair.rolling for pair in reading.file.touching)
+    rolls = any(pair.rolling for pair in reading.touching)
     if started and not rolls and not any(map(reading.lost_under, TOUCHING)):
         for name in started:
             reading.say(f"links.{name}.start", "nothing rolls here", "leave start out the driver")
@@ -425,7 +432,7 @@ def islands(reading: Reading) -> list[tuple[str, ...]]:
     """
     slides = [(name, ref) for name, link in reading.links.items() for ref in listed(link.on)]
     slides += [(pin.of, ref) for pin in reading.pins.values() for ref in listed(pin.slots)]
-    touching = [pair.between for pair in reading.file.touching]
+    touching = [pair.between for pair in reading.touching]
     sides = [tuple(ref.partition(".")[0] for ref in pair) for pair in (*slides, *touching)]
     known = reading.points
     meant = {n: n if n in known else "".join(get_close_matches(n, known, n=1)) for pair in sides for n in pair}

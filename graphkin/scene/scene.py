@@ -266,7 +266,7 @@ def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[Sce
     reading = replace(reading, slides=sliding_pairs(reading))
     reading = replace(reading, slides=(*reading.slides, *pins_in_slots(reading)))
     discs = discs_of(reading) if any(body.discs for _, _, body in reading.bodies) else {}
-    touching = touching_of(reading, discs)
+    touching = touching_of(reading, discs) if reading.touching else ()
     for table in ("sketch", "drawn"):
         reading.wrong(*(reading.no_point(f"{table}.{point}", point) for point in getattr(file, table)))
     check_references(reading)
@@ -289,7 +289,7 @@ def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[Sce
         places.check_distances(position)
     reading = replace(reading, places={name: body.local for name, body in position.bodies.items()})
     cams = cams_of(reading, position) if file.cams else ()
-    if not problems:
+    if touching and not problems:
         check_distances(touching, position)
     values = [position.value_of(driver) for driver in driven.values()]
     tables = () if problems else ((reading.frame.name, None), *reading.links.items())

@@ -586,11 +586,6 @@ class SceneTables(FileTable):
     grading: dict[str, NotNegative] = key(default_factory=dict)
     sheet: SheetWishes = SheetWishes()
 
-    @property
-    def touching(self) -> list[Contact | Gear]:
-        """The entries of all tables of bodies that touch."""
-        return [pair for table in TOUCHING for pair in getattr(self, table).values()]
-
 
 SCENE = Form(SceneTables, "graphkin scene", needed="links")
 """What may stand in a scene file."""

@@ -14,8 +14,10 @@ from graphkin.checking.readings import read_off
 from graphkin.checking.slips import Evidence
 from graphkin.construction import execute, plan
 from graphkin.construction.board.instruments import EXACT, nudged
+from graphkin.construction.board.steps import ORDERS
 from graphkin.construction.plan import Stages, positioned
 from graphkin.construction.polygons import elements
+from graphkin.construction.polygons.polygons import OwnValues
 from graphkin.construction.polygons.seen_from import contours
 from graphkin.scene import mechanism_of
 from graphkin.scene.scene_tables import Tools
@@ -262,3 +264,17 @@ def test_how_large_and_how_turned_a_contour_is_drawn_changes_nothing(size: float
 
 def test_links_that_drivers_hold_one_after_the_other_are_no_contour() -> None:
     assert [] == contours("123", [(("2", "3"), 20 + 30j, None, True), (("1", "2"), 0j, None, True)], [])
+
+
+@pytest.mark.parametrize("name", ["four-bar", "through a block", "on a guide"])
+def test_own_values_take_the_place_of_vectors_of_the_polygons_not_of_those_seen_from_a_held_link(name: str) -> None:
+    taken: list[Symbol] = []
+
+    def found(symbol: Symbol, _: complex, tip: complex) -> complex:
+        taken.append(symbol)
+        return tip
+
+    sheet = execute(plan(mechanism_of(SCENES[name])), own_values=OwnValues(found=found))
+    seen = {vector.symbol for order in ORDERS for vector in sheet.vectors_seen(order)}
+    assert seen
+    assert set() == seen & set(taken)

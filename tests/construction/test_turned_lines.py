@@ -85,14 +85,14 @@ def test_each_line_of_a_group_turned_by_a_tenth_of_a_degree_makes_readings_wrong
 
 @pytest.mark.parametrize("name", ["special point", "contour", "special point at infinity, moving", "trial polygons"])
 def test_check_fails_where_a_line_is_turned_by_a_tenth_of_a_degree(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    init = Polygons.__init__
+    begun = Polygons.begun
     first: list[Symbol] = []
 
     def line(symbol: Symbol, along: complex) -> complex:
         first.append(symbol)
         return along * TURNED if symbol == first[0] else along
 
-    monkeypatch.setattr(Polygons, "__init__", lambda self, *args: init(self, *args[:4], OwnValues(line=line)))
+    monkeypatch.setattr(Polygons, "begun", lambda *args: begun(*args[:4], OwnValues(line=line)))
     assert not graphkin.check(POLYGONS[name]).ok
 
 

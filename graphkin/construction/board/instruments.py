@@ -15,7 +15,6 @@ from dataclasses import dataclass, replace
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines
 from graphkin.scene.scene_tables import Tools
-from graphkin.words import Wording
 from graphkin.words.written import MOST, computed, figures, on_paper
 
 EXACT_NAME = "exact"  # of the instrument that errs nowhere
@@ -86,7 +85,7 @@ class Instrument:
         return at + complex(self._error(across), self._error(across))
 
     def crossing(
-        self, what: Wording, p: complex, d: complex, q: complex, e: complex, status: str = "dead point",
+        self, what: object, p: complex, d: complex, q: complex, e: complex, status: str = "dead point",
         wanted: str = "move the driver off this position",
     ) -> complex:  # fmt: skip
         """Prick the place (mm) where two drawn lines meet, each through a point along a vector.
@@ -102,7 +101,7 @@ class Instrument:
         """
         at = cross_lines(p, d, q, e)
         if at is None or abs(cross(d, e)) < PARALLEL * abs(d) * abs(e):
-            raise Unsolvable(status, Problem(what, "the two lines that should find it are", wanted))
+            raise Unsolvable(status, Problem(str(what), "the two lines that should find it are", wanted))
         return self.point(at)
 
     @property

@@ -587,7 +587,7 @@ class Board:
         Unsolvable : "dead point": the lines are parallel and meet nowhere
         """
         d, e = self.instrument.direction(d), self.instrument.direction(e)
-        at = self.instrument.crossing(str(what), p, d, q, e)
+        at = self.instrument.crossing(what, p, d, q, e)
         finds = what if isinstance(what, Symbol) else Symbol("v", PointRef(what))
         self.notice(diagram, "sharp crossing", what, size=abs(cross(d, e)), finds=finds)
         self.notice(diagram, "off the sheet", what, mm=max(abs(at - p), abs(at - q)))

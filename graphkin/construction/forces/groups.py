@@ -220,7 +220,7 @@ class CutFree:
         end, corner = _end_of(chain), chain[0].tail if chain else 0j
         if first is not None:
             d, e = self.hand.direction(last.force), self.hand.direction(first.force)
-            start, corner = corner, self.hand.crossing(str(last.symbol), end, d, corner, e)
+            start, corner = corner, self.hand.crossing(last.symbol, end, d, corner, e)
             chain.insert(0, first.between(start - _gap(chain, corner, start), start))
             corner = chain[0].tail
         chain.append(last.between(end, end + _gap(chain, end, corner)))

@@ -126,7 +126,7 @@ def _roll(plot: Polygons, order: Order, driver: Mover) -> float:
     turns = [(s.a, s.b, 0.0) for s in plot.structure.slides]
     turns += [(*d.links, d.values[1 + which]) for d in plot.structure.scene.drivers if d.turns]
     known = {name: rate.value for name, rate in plot.rates[order].items()}
-    plot.trains, value, mm, steps = rolled(
+    value, mm, steps = rolled(
         plot.structure, plot.trains, order, coordinate, known, lambda key: _travel_rate(plot, order, key), turns,
         plot.board.instrument,
     )  # fmt: skip
@@ -314,7 +314,7 @@ def _rolling_points(plot: Polygons, group: LargerGroup) -> dict[str, tuple[str, 
     between = {pair.name: pair.bodies for pair in scene.higher_pairs if pair.rolling}
     points = {}
     for name in (relation.name for relation in group.rolling):
-        if name not in plot.touching and name not in plot.pitch_points:
+        if name not in plot.structure.scene.contact_at and name not in plot.pitch_points:
             letter = plot.pitch_points[name] = _free_letters(plot)[0]
             touch = plot.touch(name)
             at = plot.places[letter] = plot.board.instrument.point(touch.at)
@@ -582,7 +582,7 @@ class TrialPolygons:
             ends.append(trial.ends[order])
             plot.links.update(trial.links)
             plot.places.update(trial.places)
-            plot.special |= trial.special
+            plot.special.update(trial.special)
             for step in trial.board.steps:
                 if step.diagram == "mechanism":  # special points met with first
                     plot.do(step)

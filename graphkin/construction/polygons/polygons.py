@@ -9,10 +9,10 @@ Images after Mehmke: the end points of a link's points form a figure similar to 
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Literal, TypeVar
+from dataclasses import dataclass, field, fields, replace
+from functools import cached_property
+from typing import Any, Literal
 
 from graphkin.construction.board.instruments import Instrument
 from graphkin.construction.board.scales import Scales
@@ -40,6 +40,7 @@ from graphkin.construction.touching import Touch, Touching
 from graphkin.construction.trains import TrainPlan
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.plane import added_up, cross, dot, unit
+from graphkin.scene.model import PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Dyad, LargerGroup, Pair, Structure
 from graphkin.words import Phrase
@@ -72,78 +73,113 @@ class OwnValues:
 AS_DRAWN = OwnValues()
 
 
+@dataclass(frozen=True, eq=False)
 class Polygons:
-    """The velocity and the acceleration polygon of a position."""
+    """The velocity and the acceleration polygon of a position, as far as they are drawn.
 
-    def __init__(
-        self, board: Board, structure: Structure, paper: PlacedLinks, scales: Scales, own_values: OwnValues = AS_DRAWN
-    ) -> None:
-        self.board, self.structure, self.paper, self.scales = board, structure, paper, scales
-        self.own_values = own_values
-        self.per = {"velocity": scales.velocity, "acceleration": scales.acceleration}  # m/s, m/s2 for one mm
-        self.given = {d.key: d.values[1:] for d in structure.drivers}  # rates of the drivers
-        self.believed: set[tuple[Order, str]] = set()  # rates of links that are own values, not measured
-        self.links = dict(structure.links)  # with the special points that larger groups get
-        self.special: set[str] = set()
-        self.pitch_points: dict[str, str] = {}  # letters where wheels of larger groups roll on each other
-        self.ties: dict[tuple[Order, str], complex] = {}  # by a special point of two links: that of the second from it
-        self.trial = 0  # number of the trial polygon that this is; 0: it is none
-        self.tried: dict[tuple[Order, str], float] = {}  # rates of sliding pairs moved at a trial speed
-        self.trains: tuple[TrainPlan, ...] = ()
-        self.at_contacts = False  # whether sliding contacts are drawn themselves, instead of what replaces them
-        # how each group is drawn: found once, for all drawings of a task
-        self.chains: dict[Dyad, VectorChain] = {}
-        self.plans: dict[LargerGroup, GroupPlan] = {}
-        self.contours: dict[LargerGroup, tuple[tuple[str, LargerGroup], ...]] = {}  # link held still, the rest on it
-        self.places = {point: paper.point(name, point) for name in paper.poses for point in self.links[name].points}
-        size = max((abs(z - w) for z in self.places.values() for w in self.places.values()), default=1.0)
-        self.tiny = 1e-11 * size
-        self.touching = {*structure.scene.contact_at}
-        self.held = ""  # the link that is held still, and the group whose it is
-        self.part_of: LargerGroup | None = None
-        self.begin(structure.scene.frame.name)
+    Parameters
+    ----------
+    links, places : the links with the special points that larger groups get, and the places of all points (mm)
+    tiny : a distance of points that is none (mm)
+    ends, rates, drawn : end points (mm), measured rates, and vectors
+    own_values : a person's own values in place of drawn ones
+    given : rate and second rate by the driver's key (SI); of rolling links once they are read
+    at_contacts : whether sliding contacts are drawn themselves, instead of their replacements
+    chains, plans : the construction of each group, found once for all drawings of a task
+    contours : for each group its links held still, each with the rest on it
+    special, pitch_points : the special points, and the letters where wheels of larger groups roll on each other
+    ties : by a special point of two links: that of the second from it (mm)
+    believed : links whose rates are own values, not measured
+    tried : rates of sliding pairs moved at a trial speed (m/s, m/s2)
+    trains : velocity plans of rolling links
+    trial : the number of the trial polygon that this is; 0 for none
+    held, part_of : the link that is held still, "" for the frame, and the group whose it is
+    seen : polygons with a link of a contour held still, by that link
+    """
 
-    def begin(self, ground: str) -> None:
-        """Begin empty polygons with a link as the ground: its points are in the poles."""
-        self.ground = ground
-        self.still = self.structure.turning_with(ground)  # links that can only translate
-        self.seen: dict[str, Polygons] = {}  # polygons with a link of a contour held still, by that link
-        fixed = dict.fromkeys(map(PointRef, self.links[ground].points), 0j)
-        self.ends: dict[Order, dict[PointRef, complex]] = {order: dict(fixed) for order in ORDERS}
-        self.rates: dict[Order, dict[str, Rate]] = {order: {ground: Rate(ground, 0.0)} for order in ORDERS}
-        self.drawn: dict[Order, dict[Symbol, Vector]] = {order: {} for order in ORDERS}
+    board: Board
+    structure: Structure
+    paper: PlacedLinks
+    scales: Scales
+    links: dict[str, PlacedLink]
+    places: dict[str, complex]
+    tiny: float
+    ends: dict[Order, dict[PointRef, complex]]
+    rates: dict[Order, dict[str, Rate]]
+    drawn: dict[Order, dict[Symbol, Vector]]
+    own_values: OwnValues = AS_DRAWN
+    given: dict[str, tuple[float, float]] = field(default_factory=dict)
+    at_contacts: bool = False
+    chains: dict[Dyad, VectorChain] = field(default_factory=dict)
+    plans: dict[LargerGroup, GroupPlan] = field(default_factory=dict)
+    contours: dict[LargerGroup, tuple[tuple[str, LargerGroup], ...]] = field(default_factory=dict)
+    special: set[str] = field(default_factory=set)
+    pitch_points: dict[str, str] = field(default_factory=dict)
+    ties: dict[tuple[Order, str], complex] = field(default_factory=dict)
+    believed: set[tuple[Order, str]] = field(default_factory=set)
+    tried: dict[tuple[Order, str], float] = field(default_factory=dict)
+    trains: list[TrainPlan] = field(default_factory=list)
+    trial: int = 0
+    held: str = ""
+    part_of: LargerGroup | None = None
+    seen: dict[str, Polygons] = field(default_factory=dict)
+
+    @classmethod
+    def begun(
+        cls, board: Board, structure: Structure, paper: PlacedLinks, scales: Scales, own_values: OwnValues = AS_DRAWN
+    ) -> Polygons:
+        """Empty polygons of placed links."""
+        links = dict(structure.links)
+        places = {point: paper.point(name, point) for name in paper.poses for point in links[name].points}
+        size = max((abs(z - w) for z in places.values() for w in places.values()), default=1.0)
+        given, begun = {d.key: d.values[1:] for d in structure.drivers}, _empty(links, structure.scene.frame.name)
+        return cls(board, structure, paper, scales, links, places, 1e-11 * size, *begun, own_values, given)
+
+    @cached_property
+    def ground(self) -> str:
+        """The link whose points are in the poles."""
+        return self.held or self.structure.scene.frame.name
+
+    @cached_property
+    def still(self) -> set[str]:
+        """The links that can only translate."""
+        return self.structure.turning_with(self.ground)
+
+    @cached_property
+    def per(self) -> Mapping[Order, float]:
+        """The scales: m/s, m/s2 for one mm."""
+        return {order: self.scales.of(order) for order in ORDERS}
 
     def again(self, hand: Instrument) -> Polygons:
         """The same polygons as they stand here, to go on with by other hands."""
-        made = copy.copy(self)
-        for name in vars(self).keys() - SHARED:
-            setattr(made, name, _copied(getattr(self, name)))
-        made.seen = {held: seen.again(hand) for held, seen in self.seen.items()}
-        return made._on(self.board.again(hand))
+        copies = {part.name: _copied(getattr(self, part.name)) for part in fields(self) if part.name not in SHARED}
+        seen = {held: seen.again(hand) for held, seen in self.seen.items()}
+        return replace(self, **{**copies, "seen": seen}).on_board(self.board.again(hand))
 
     def fork(self, trial: int) -> Polygons:
         """The same polygons on a board of their own, with the same hands, which do not read twice what they have read:
         the trial polygons of that number."""
-        made = self.again(self.board.instrument)
-        made.trial = trial
-        return made._on(Board(self.board.instrument, readings=self.board.readings))
+        board = Board(self.board.instrument, readings=self.board.readings)
+        return replace(self.again(self.board.instrument), trial=trial).on_board(board)
 
     def holding(self, group: LargerGroup, held: str) -> Polygons:
         """Empty polygons with a link of a group held still, as if it were the frame; drawn on the same mechanism."""
-        made = self.fork(0)
-        made.part_of, made.held, made.contours, made.own_values = group, held, {}, OwnValues(line=self.own_values.line)
-        made.begin(held)
-        self.seen[held] = made
-        self._on(self.board)
-        return made
+        ends, rates, drawn = _empty(self.links, held)
+        self.seen[held] = replace(
+            self.fork(0), part_of=group, held=held, contours={}, own_values=OwnValues(line=self.own_values.line),
+            ends=ends, rates=rates, drawn=drawn, seen={},
+        )  # fmt: skip
+        self.seen.update(self.on_board(self.board).seen)
+        return self.seen[held]
 
-    def _on(self, board: Board) -> Polygons:
+    def on_board(self, board: Board) -> Polygons:
         """These on a board; those with a link held still share its equations and readings, and special points."""
-        self.board = board
-        for seen in self.seen.values():
-            seen.links, seen.places, seen.special = self.links, self.places, self.special
-            seen.board.readings, seen.board.equations = board.readings, board.equations
-        return self
+        seen = {
+            held: replace(seen, links=self.links, places=self.places, special=self.special,
+                          board=replace(seen.board, readings=board.readings, equations=board.equations))
+            for held, seen in self.seen.items()
+        }  # fmt: skip
+        return replace(self, board=board, seen=seen)
 
     def do(self, step: Step) -> None:
         """Record a step.  Seen from a held link only vectors are shown: end points get their letters in the polygon of
@@ -267,7 +303,7 @@ class Polygons:
     def complete(self, order: Order, name: str) -> None:
         """All points of a link, and the points of it under sliding pins and at contacts."""
         for point in self.links[name].points:
-            if point not in self.touching:
+            if point not in self.structure.scene.contact_at:
                 self.place(order, PointRef(point))
         for contact in self.structure.scene.contacts:
             if name in contact.links and contact.name in self.places and name != self.ground:
@@ -360,14 +396,20 @@ class Polygons:
         )
 
 
-_Kept = TypeVar("_Kept")
+def _empty(
+    links: Mapping[str, PlacedLink], ground: str
+) -> tuple[dict[Order, dict[PointRef, complex]], dict[Order, dict[str, Rate]], dict[Order, dict[Symbol, Vector]]]:
+    """End points, rates and vectors of empty polygons, in which a link is the ground."""
+    fixed = dict.fromkeys(map(PointRef, links[ground].points), 0j)
+    return ({order: dict(fixed) for order in ORDERS}, {order: {ground: Rate(ground, 0.0)} for order in ORDERS},
+            {order: {} for order in ORDERS})  # fmt: skip
 
 
-def _copied(kept: _Kept) -> _Kept:
+def _copied(kept: Any) -> Any:
     """A copy of a collection with the collections in it; another value as it is."""
     if isinstance(kept, dict):
-        return {key: _copied(value) for key, value in kept.items()}  # type: ignore[return-value]
-    return set(kept) if isinstance(kept, set) else kept  # type: ignore[return-value]
+        return {key: _copied(value) for key, value in kept.items()}
+    return type(kept)(kept) if isinstance(kept, set | list) else kept
 
 
 def letter(order: Order) -> str:
