@@ -213,3 +213,55 @@ def test_what_a_law_is_off_moves_the_follower_within_the_bound_of_it(name: str, 
     for link, most in found.items():
         for change, bound in zip(missed(own, moved, link), most, strict=True):
             assert change <= 1.001 * float(bound[0]) + 1e-12, link
+
+
+def wild(system: Constraints, all_: Pose, seed: int) -> tuple[Constraints, Pose]:
+    """The links anywhere, turning at any rate, their directions not quite of unit length; with the turns that rolling
+    counts."""
+    rng, n, count = np.random.default_rng(seed), len(system.drive), system.layout.members
+    fields = {field: np.array(getattr(all_, field)) for field in FIELDS}
+    for field in ("z", "v", "a"):
+        fields[field][:, :count] = system.layout.size * (rng.normal(size=(n, count)) + 1j * rng.normal(size=(n, count)))
+    for field in ("omega", "alpha"):
+        fields[field][:, :count] = 3.0 * rng.normal(size=(n, count))
+    angle = np.zeros(fields["u"].shape)
+    angle[:, :count] = rng.uniform(-math.pi, math.pi, (n, count))
+    fields["u"][:, :count] = np.exp(1j * angle[:, :count]) * (1.0 + 1e-13 * rng.normal(size=(n, count)))
+    return replace(system, near=angle, kept=angle @ system.layout.rolled.T), Pose(**fields)
+
+
+@pytest.mark.skipif(bool(np.finfo(np.longdouble).eps > 1e-18), reason="a long double has no more digits here")
+@pytest.mark.parametrize("name", [*(name for name in SCENES if name not in FIXED), *ROLLING])
+def test_rounding_of_links_anywhere_moves_no_constraint_farther_than_is_told(name: str) -> None:
+    reach = driver_range(mechanism_of(ROLLING[name]) if name in ROLLING else mechanism(name))
+    known = reach.motion(np.linspace(*reach.ends, 62)[1:-1], extended=False).accuracy
+    known = known.rows(np.flatnonzero(known.ok))
+    whole = Constraints.whole(replace(known.structure), known.drive.followed(known.structure))
+    system, all_ = wild(whole, whole.of(known.poses), 5)
+    exact = np.zeros_like(system.drive.value)
+    with patch.object(bounds, "conversion_error", lambda *_: (0.0, 0.0)):
+        told = bounds._row_errors(system, all_, system.parts(all_, 2), np.zeros(len(known.ok), bool), [exact] * 3)
+    moved = np.abs(system.constraints(in_more_digits(all_)) - system.constraints(all_))
+    assert (moved <= told).all()
+
+
+@pytest.mark.skipif(bool(np.finfo(np.longdouble).eps > 1e-18), reason="a long double has no more digits here")
+@pytest.mark.parametrize("name", ["FOUR_BAR", "OFFSET_SWING", "OLDHAM", "FIVE_BAR"])
+def test_the_difference_of_the_rates_of_two_links_is_rounded_no_farther_than_is_told(name: str) -> None:
+    reach = driver_range(mechanism(name))
+    known = reach.motion(np.linspace(*reach.ends, 62)[1:-1], extended=False).accuracy
+    known = known.rows(np.flatnonzero(known.ok))
+    whole = Constraints.whole(replace(known.structure), known.drive.followed(known.structure))
+    system, all_ = wild(whole, whole.of(known.poses), 5)
+    for field in ("omega", "alpha"):
+        getattr(all_, field)[:, system.layout.members :] = 0.3
+    exact = np.zeros_like(system.drive.value)
+    with patch.object(bounds, "conversion_error", lambda *_: (0.0, 0.0)):
+        told = bounds._row_errors(system, all_, system.parts(all_, 2), np.zeros(len(known.ok), bool), [exact] * 3)
+    seen = 0
+    for order, rate in enumerate((all_.omega, all_.alpha), start=1):
+        one, two = (rate[:, links] for links in (system.layout.one, system.layout.two))
+        missed = np.abs((one.astype(np.longdouble) - two) - (one - two))
+        assert (missed <= told[order][:, system.layout.turn_rows]).all()
+        seen += np.count_nonzero(missed)
+    assert seen

@@ -378,7 +378,7 @@ def _row_errors(
     for order in range(3):
         found[order][:, layout.line_rows.entries] = layout.line_rows.of(moved[order] + leant[order]) / layout.size
         found[order][:, layout.driven] += given[order][:, layout.drivers] * layout.scales[1]
-    found[0][:, layout.turn_rows] += lean[:, one] + lean[:, two] + FEW * unit + 1.5 * turning
+    found[0][:, layout.turn_rows] += FEW * unit + 1.5 * turning
     for order, rate in enumerate(rates, start=1):
         found[order][:, layout.turn_rows] += unit * (rate[:, one] + rate[:, two])
     if len(layout.rolling_rows):
