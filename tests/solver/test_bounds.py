@@ -9,6 +9,7 @@ from functools import cache
 from typing import Any
 from unittest.mock import patch
 
+import mpmath
 import numpy as np
 import pytest
 
@@ -265,3 +266,41 @@ def test_the_difference_of_the_rates_of_two_links_is_rounded_no_farther_than_is_
         assert (missed <= told[order][:, system.layout.turn_rows]).all()
         seen += np.count_nonzero(missed)
     assert seen
+
+
+def driven_slide(travel: float) -> Mechanism:
+    """A crank of 3 m moved by its slider on a rod of 5 m, which comes to its end at 8 m."""
+    return mechanism_of({
+        "units": {"length": "m"},
+        "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": "A", "angle": 0}}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 3},
+            "2": {"points": ["B", "C"], "length": 5},
+            "3": {"points": ["C"], "on": "0.h"},
+        },
+        "driver": {"slide": "3", "travel": travel, "velocity": 1},
+        "sketch": {"B": [2.9, 0.1]},
+    })  # fmt: skip
+
+
+@pytest.mark.parametrize("part", [0.05, 0.2, 0.3])
+def test_errors_grow_beside_a_dead_point_no_more_than_is_told(part: float) -> None:
+    own = solve(driven_slide(7.99))
+    known, off = own.accuracy, part * 0.01  # of the distance from the end
+    errors = np.full(known.drive.value.shape, off)
+    told = bounds.error_bounds(replace(known.structure), known.poses, known.drive, known.slack, known.refined, errors)
+    for travel in (7.99 - off, 7.99 + off):
+        for link, most in told.items():
+            changes = missed(own, solve(driven_slide(travel)), link)
+            assert all(change <= float(bound[0]) for change, bound in zip(changes, most, strict=True)), link
+
+
+def test_what_is_computed_in_fifty_digits_is_rounded_once() -> None:
+    own = solve(driven_slide(7.999999999))
+    assert own.accuracy.refined.all()
+    with mpmath.workdps(60):
+        travel = mpmath.mpf("7.999999999")
+        cosine = (9 + travel**2 - 25) / (6 * travel)
+        u = own.poses["1"].u[0]
+        missed_by = float(mpmath.hypot(mpmath.mpf(u.real) - cosine, mpmath.mpf(u.imag) - mpmath.sqrt(1 - cosine**2)))
+    assert 0.0 < missed_by <= float(own.accuracy.links["1"].angle[0]) < 1e-15
