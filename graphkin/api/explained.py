@@ -152,7 +152,7 @@ def _links(scene: Mechanism) -> Iterator[Phrase]:
     yield from _outlines(scene.frame, scene)
     blocks = {slot.bar: slot for slot in scene.slots if slot.block}
     replacing = {slot.bar for slot in scene.slots if not slot.block}
-    roles = {name: role for pair in scene.higher_pairs for name, role in pair.roles.items()}
+    roles = {name: role for pair in scene.higher_pairs for name, role in zip(pair.bodies, pair.roles, strict=False)}
     for link in (link for link in scene.links if link.name not in replacing):
         own = link.bar
         if len(own) == 2:

@@ -365,7 +365,7 @@ def _normals(links: Centres) -> Iterator[CentreRelation]:
     for contact, touch in links.touching.contacts():
         if not contact.rolling:
             line = links.chart.line(touch.at, touch.normal)
-            yield CentreRelation(links.pair(*contact.links), line, ROUNDING, (contact.name,))
+            yield CentreRelation(links.pair(*contact.bodies), line, ROUNDING, (contact.name,))
 
 
 # -- Kennedy's theorem -------------------------------------------------------------------------------------------------

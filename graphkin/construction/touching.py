@@ -79,10 +79,10 @@ class Touching:
             guide = self.scene.by_name[pair.face].guides[pair.guide]
             normal = self.poses[pair.face].axis * guide.direction * pair.normal_to_face
             at = first - normal * pair.radii[0] * self.mm
-            return Touch(pair.name, pair.links, at, normal, pair.means, centres)
+            return Touch(pair.name, pair.bodies, at, normal, pair.means, centres)
         line = second[0] - first
         at = first + line * (pair.radii[0] / pair.apart)
-        return Touch(pair.name, pair.links, at, line / abs(line), pair.means, centres)
+        return Touch(pair.name, pair.bodies, at, line / abs(line), pair.means, centres)
 
     def _mesh(self, pair: PlacedGear) -> Touch:
         axes = zip(pair.wheels, pair.axes, strict=True)
@@ -114,7 +114,7 @@ class Touching:
 
     def touches(self) -> Iterator[Touch]:
         """All of them, each with a letter of its own; a cam that a contact replaces is that contact."""
-        between = {frozenset(contact.links) for contact, _ in self.contacts()}
+        between = {frozenset(contact.bodies) for contact, _ in self.contacts()}
         taken = {*self.scene.holders, *self.scene.contact_at}
         for pair, touch in self.each():
             if isinstance(pair, PlacedContact):

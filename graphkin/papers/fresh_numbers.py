@@ -323,7 +323,7 @@ def _on_its_face(made: OwnTables, contact: PlacedContact) -> bool:
     if drawn is None:
         return True
     refs = made["contacts"][contact.name]["between"]
-    wheel, face = (refs if contact.face == contact.links[1] else refs[::-1])
+    wheel, face = (refs if contact.face == contact.bodies[1] else refs[::-1])
     frame = made.get("frame", {})
     guide = frame.get("guides", {}).get(face.partition(".")[2])
     if guide is None or face.partition(".")[0] != str(frame.get("name", "0")) or not isinstance(guide["through"], list):

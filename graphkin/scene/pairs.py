@@ -135,15 +135,15 @@ class CircularSlot:
 class PlacedContact:
     """Two outlines that touch in ``name``.
 
-    ``links`` stand in the order of the file, ``outlines`` are the names of a disc or a guide of each.  ``centres`` and
-    ``radii`` (m) are those of the discs, one or two, in that order; the radii have the signs with which they meet
-    (inside: the larger is hollow).  ``face`` is the link with the flat face, "" where both are discs; ``left`` tells on
-    which side of the guide the disc lies.  ``carrier`` is the link that holds both centres of a rolling pair, "" where
-    no link does.  ``again`` marks a further contact of the same centre with the same link.
+    ``bodies`` are the two links in the order of the file, ``outlines`` the names of a disc or a guide of each.
+    ``centres`` and ``radii`` (m) are those of the discs, one or two, in that order; the radii have the signs with which
+    they meet (inside: the larger is hollow).  ``face`` is the link with the flat face, "" where both are discs;
+    ``left`` tells on which side of the guide the disc lies.  ``carrier`` is the link that holds both centres of a
+    rolling pair, "" where no link does.  ``again`` marks a further contact of the same centre with the same link.
     """
 
     name: str
-    links: tuple[str, str]
+    bodies: tuple[str, str]
     outlines: tuple[str, str]
     centres: tuple[str, ...]
     radii: tuple[float, ...]
@@ -153,7 +153,7 @@ class PlacedContact:
     carrier: str = ""
     again: bool = False
     table: ClassVar[str] = "contacts"
-    roles: ClassVar[Mapping[str, str]] = {}
+    roles: ClassVar[tuple[str, ...]] = ()
     by_law: ClassVar[bool] = False
 
     @property
@@ -169,12 +169,12 @@ class PlacedContact:
     @property
     def round_links(self) -> tuple[str, ...]:
         """The links of the discs."""
-        return tuple(link for link in self.links if link != self.face)
+        return tuple(link for link in self.bodies if link != self.face)
 
     @property
     def guide(self) -> str:
         """The guide that is the flat face (the link's own axis has no name), "" where there is none."""
-        return self.outlines[self.links.index(self.face)] if self.flat else ""
+        return self.outlines[self.bodies.index(self.face)] if self.flat else ""
 
     @property
     def block(self) -> str:
@@ -194,14 +194,9 @@ class PlacedContact:
         return not self.rolling
 
     @property
-    def bodies(self) -> tuple[str, str]:
-        """The two links that touch."""
-        return self.links
-
-    @property
     def members(self) -> tuple[str, ...]:
         """The links without which it is none: the two that touch, and the carrier."""
-        return (*self.links, *((self.carrier,) if self.carrier else ()))
+        return (*self.bodies, *((self.carrier,) if self.carrier else ()))
 
     @property
     def means(self) -> Meeting:
@@ -227,7 +222,7 @@ class PlacedContact:
             wheels, height = (self.round_links[0], self.face), -radius if self.left else radius
             return PlacedGear(self.name, wheels, (height, None), self.block, (centre, ""), slide=self.block, sense=-1)
         (first, second), (radius, other) = self.centres, self.radii
-        return PlacedGear(self.name, self.links, (radius, other), self.carrier or self.block, (first, second))
+        return PlacedGear(self.name, self.bodies, (radius, other), self.carrier or self.block, (first, second))
 
     @property
     def kinds(self) -> tuple[str, ...]:
@@ -239,8 +234,8 @@ class PlacedContact:
     @property
     def gaps(self) -> dict[str, object]:
         """The names in its sentences."""
-        sides = (f"{link}.{name}" if name else link for link, name in zip(self.links, self.outlines, strict=True))
-        return {"contact": self.name, "first": self.links[0], "second": self.links[1], "carrier": self.carrier,
+        sides = (f"{link}.{name}" if name else link for link, name in zip(self.bodies, self.outlines, strict=True))
+        return {"contact": self.name, "first": self.bodies[0], "second": self.bodies[1], "carrier": self.carrier,
                 "bar": self.block, "centre": self.centres[0],
                 **dict(zip(("first_side", "second_side"), sides, strict=True))}  # fmt: skip
 
@@ -265,6 +260,7 @@ class PlacedGear:
     slide: str = ""
     sense: int = 1
     table: ClassVar[str] = "gears"
+    roles: ClassVar[tuple[str, ...]] = ("wheel", "wheel")
     by_law: ClassVar[bool] = False
     rolling: ClassVar[bool] = True
     means: ClassVar[Meeting] = "meshes"
@@ -286,11 +282,6 @@ class PlacedGear:
     def members(self) -> tuple[str, ...]:
         """The links without which it is none, the wheels first."""
         return tuple(dict.fromkeys((*self.wheels, self.carrier)))
-
-    @property
-    def roles(self) -> Mapping[str, str]:
-        """The words for its wheels."""
-        return dict.fromkeys(self.wheels, "wheel")
 
     def mesh(self, slidings: Sequence[SlidingPair], points: Points, guides: Guides) -> PlacedGear:
         """The mesh of wheels; of a rack with the signed distance (m) of its line from the wheel's axis as the first of
@@ -420,6 +411,7 @@ class LawCam:
     motion: SlidingFollower | SwingingFollower
     allowed: tuple[float | None, float | None] = (None, None)
     table: ClassVar[str] = "cams"
+    roles: ClassVar[tuple[str, ...]] = ("cam link",)
     unrolled: ClassVar[None] = None
     by_law: ClassVar[bool] = True
     rolling: ClassVar[bool] = False
@@ -451,11 +443,6 @@ class LawCam:
     def members(self) -> tuple[str, ...]:
         """The links without which it is none: the cam and its follower."""
         return self.bodies
-
-    @property
-    def roles(self) -> Mapping[str, str]:
-        """The word for the cam's link."""
-        return {self.link: "cam link"}
 
     @property
     def lengths(self) -> tuple[float, ...]:
@@ -585,7 +572,7 @@ HigherPair: TypeAlias = PlacedContact | PlacedGear | LawCam
 letter), two ``bodies`` and with them all its ``members``.  It ``means`` that they slide, roll or mesh, ``rolling``
 perhaps with their centres held apart by a ``carrier``; or moves its follower ``by_law``.  A ``block`` stands for a pair
 that is ``replaced``, a sliding one for a pair that is ``unrolled``, a ``mesh`` for all that rolls.  ``lengths`` (m) are
-those in the file; ``kinds`` and ``gaps`` its words, ``roles`` the words for links that are more than bars."""
+those in the file; ``kinds`` and ``gaps`` its words, ``roles`` the words for the first of its bodies, or both."""
 
 
 def told(pair: SlidingPair | CircularSlot | HigherPair, about: str) -> Phrase:

@@ -68,10 +68,10 @@ def _sides(scene: Mechanism, contact: PlacedContact) -> tuple[int, str] | None:
     driver = scene.drivers[0] if scene.drivers else None
     if driver is None or not driver.turns_about(scene.frame.name) or contact.rolling:
         return None
-    if driver.link not in contact.links:
+    if driver.link not in contact.bodies:
         return None
-    side = contact.links.index(driver.link)
-    follower = contact.links[1 - side]
+    side = contact.bodies.index(driver.link)
+    follower = contact.bodies[1 - side]
     pivots = [p for p in scene.by_name[driver.link].points if p in scene.frame.points]
     if driver.link == contact.face or not pivots:
         return None
@@ -82,7 +82,7 @@ def _sides(scene: Mechanism, contact: PlacedContact) -> tuple[int, str] | None:
 
 def _measured(reach: DriverRange, contact: PlacedContact, side: int, of: str) -> DiscCam:
     scene = reach.scene
-    link, follower = contact.links[side], contact.links[1 - side]
+    link, follower = contact.bodies[side], contact.bodies[1 - side]
     which = contact.round_links.index(link)  # of the discs
     centre, radius = contact.centres[which], contact.radii[which]
     points = scene.by_name[link].points

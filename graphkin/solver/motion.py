@@ -277,7 +277,7 @@ def listed_points(scene: Mechanism, slides: Sequence[Pair]) -> tuple[tuple[str, 
     points of both bodies at a contact: (point, link) in the order of the file."""
     found = [(p, link.name) for link in scene.links for p in link.points]
     moving = {link.name for link in scene.links}
-    found += [(point, link) for point, pair in scene.contact_at.items() for link in pair.links if link in moving]
+    found += [(point, link) for point, pair in scene.contact_at.items() for link in pair.bodies if link in moving]
     for pair in own_slides(scene, slides):
         if pair.pin and pair.b in moving and (pair.pin, pair.b) not in found:
             found.append((pair.pin, pair.b))

@@ -277,7 +277,7 @@ def _path(posed: AnyPosed, kind: str, of: PointRef, to: PointRef) -> tuple[str, 
     if slide is not None and kind != "at":
         return slide.b, 1j * posed.guide(slide).u
     contact = posed.structure.scene.contact_at.get(of.point)
-    if contact is not None and {of.link, to.link} == set(contact.links):
+    if contact is not None and {of.link, to.link} == set(contact.bodies):
         # the centre of a disc lies on the normal
         which = 1 if contact.radii[0] == 0.0 and not contact.flat else 0
         centre = PointRef(contact.centres[which], contact.round_links[which])

@@ -57,14 +57,14 @@ def contact_normal(motion: Motion, contact: PlacedContact) -> Array:
     """The normal of a contact, out of its first body, unit complex, shape (n,)."""
     radius, link = contact.radii[0], contact.round_links[0]
     arm = motion.position(contact.name) - motion.position(contact.centres[0], link)
-    normal = arm / (radius if link == contact.links[0] else -radius)
+    normal = arm / (radius if link == contact.bodies[0] else -radius)
     with np.errstate(invalid="ignore"):  # of positions that are none
         return np.asarray(normal / np.abs(normal))
 
 
 def contact_slip(motion: Motion, contact: PlacedContact) -> Array:
     """The velocity of the first body's point at a contact minus that of the second's, complex, shape (n,) (m/s)."""
-    one, two = (motion.velocity(contact.name, link) for link in contact.links)
+    one, two = (motion.velocity(contact.name, link) for link in contact.bodies)
     return np.asarray(one - two)
 
 
@@ -72,7 +72,7 @@ def contact_pressure(motion: Motion, contact: PlacedContact) -> dict[str, Array]
     """For each moving body of a contact the angle between the normal and the velocity of its point there, 0 .. pi/2
     (rad), NaN where it rests, shape (n,)."""
     normal = contact_normal(motion, contact)
-    velocities = {link: motion.velocity(contact.name, link) for link in contact.links}
+    velocities = {link: motion.velocity(contact.name, link) for link in contact.bodies}
     rates = max((abs(d.values[1]) for d in motion.scene.drivers), default=0.0)
     fast = np.maximum(*map(np.abs, velocities.values())) + rates * motion.scene.size
     velocities.pop(motion.scene.frame.name, None)

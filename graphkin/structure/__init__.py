@@ -26,13 +26,13 @@ from graphkin.structure.model import (
     part_of,
     without,
 )
-from graphkin.structure.replacement import cams_replaced, pins_on_circles, replacement_told
+from graphkin.structure.replacement import cams_replaced, pin_in_guide, pins_on_circles, replacement_told
 from graphkin.structure.rolling import meshes_of, unrolled
 
 __all__ = [
     "Body", "Driven", "DrivenJoint", "DrivenTriangle", "Dyad", "DyadKind", "Element", "LargerGroup",
     "Mobility", "Mover", "Pair", "RollingRelation", "Structure", "analyse", "by_drivers_alone",
     "cams_replaced", "driver_pair", "greatest_before", "leading", "links_for", "meshes_of", "mobility_of",
-    "named_with_contact", "needed", "part_of", "pick", "pins_on_circles", "regrouped", "replacement_told", "started",
-    "unrolled", "without",
+    "named_with_contact", "needed", "part_of", "pick", "pin_in_guide", "pins_on_circles", "regrouped",
+    "replacement_told", "started", "unrolled", "without",
 ]  # fmt: skip

@@ -61,11 +61,9 @@ def pins_on_circles(scene: Mechanism, poses: Poses, values: Mapping[str, float])
             continue
         del links[bar]
         holder = next(n for n in scene.holders[slot.point] if n != bar)
-        on, place = links[slot.on], poses[holder].place(scene.by_name[holder].points[slot.point])
-        at = poses[slot.on].local(place)
-        guide = _guide(on, slot.name, at, 1j * unit(at - on.points[slot.centre]), 1.0 / slot.radius)
-        links[slot.on] = replace(on, guides={**on.guides, guide.name: guide})
-        slides.append(SlidingPair.of_pin(slot.point, holder, slot.on, guide.name))
+        at = poses[slot.on].local(poses[holder].place(scene.by_name[holder].points[slot.point]))
+        guide = PlacedGuide(slot.name, at, 1j * unit(at - links[slot.on].points[slot.centre]), 1.0 / slot.radius)
+        slides.append(pin_in_guide(links, slot.point, holder, slot.on, guide))
     return replace(
         _standing(scene, poses, values), frame=links.pop(scene.frame.name), links=tuple(links.values()),
         slides=tuple(slides), slots=tuple(s for s in scene.slots if s.bar in links),
@@ -136,14 +134,13 @@ def cams_replaced(scene: Mechanism, poses: Poses, values: Mapping[str, float], b
             touches = not bars and abs(radius) >= SHARP * cam.base
             # the turn from the guide of a sliding follower to its own axis
             turned = next(s.turn for s in scene.slidings if s.link == cam.follower and s.on == scene.frame.name)
-            face = _guide(follower, "f", -(0.0 if touches else radius) / turned, 1j / turned, 0.0)
-            links[cam.follower] = replace(follower, guides={**follower.guides, face.name: face})
+            face = PlacedGuide("f", -(0.0 if touches else radius) / turned, 1j / turned)
+            pin = pin_in_guide(links, point, cam.link, cam.follower, face)
             if touches:
-                sides = (cam.link, cam.follower), (point, face.name)
-                contacts.append(PlacedContact(next(letters), *sides, (point,), (radius,), cam.follower,
-                                              left=True, rolling=False))
+                contacts.append(PlacedContact(next(letters), cam.bodies, (point, pin.guide), (point,), (radius,),
+                                              cam.follower, left=True, rolling=False))
             else:
-                pins.append(SlidingPair.of_pin(point, cam.link, cam.follower, face.name))
+                pins.append(pin)
             continue
         tangent = course.tangent
         if abs(tangent) < SHARP * cam.base:
@@ -165,9 +162,8 @@ def cams_replaced(scene: Mechanism, poses: Poses, values: Mapping[str, float], b
             made[bar.name] = bar
             slots.append(CircularSlot(bar.name, cam.link, centre, 1.0 / abs(curvature), bar.name, point))
             continue
-        slot = _guide(link, "t", course.point / turn, unit(tangent) / turn, curvature)
-        links[cam.link] = replace(link, guides={**link.guides, slot.name: slot})
-        pins.append(SlidingPair.of_pin(point, cam.follower, cam.link, slot.name))
+        slot = PlacedGuide("t", course.point / turn, unit(tangent) / turn, curvature)
+        pins.append(pin_in_guide(links, point, cam.follower, cam.link, slot))
     here = _standing(scene, poses, values)
     return replace(
         here, links=(*(links[link.name] for link in scene.links), *made.values()), slides=(*scene.slides, *pins),
@@ -176,11 +172,15 @@ def cams_replaced(scene: Mechanism, poses: Poses, values: Mapping[str, float], b
     )  # fmt: skip
 
 
-def _guide(link: PlacedLink, name: str, through: complex, direction: complex, curvature: float) -> PlacedGuide:
-    """A guide for a link, by this name if the link has no guide of that name."""
-    while name in link.guides:
-        name += "1"
-    return PlacedGuide(name, through, direction, curvature)
+def pin_in_guide(
+    links: dict[str, PlacedLink], point: str, of: str, on: str, guide: PlacedGuide, mark: str = "1"
+) -> SlidingPair:
+    """A pin of link ``of`` in a guide that link ``on`` is given among ``links``, with as many marks behind its name as
+    make it the only guide of that name."""
+    while guide.name in links[on].guides:
+        guide = replace(guide, name=guide.name + mark)
+    links[on] = replace(links[on], guides={**links[on].guides, guide.name: guide})
+    return SlidingPair.of_pin(point, of, on, guide.name)
 
 
 def _free_names(scene: Mechanism, *first: str) -> Iterator[str]:

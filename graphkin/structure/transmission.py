@@ -57,7 +57,7 @@ def joint_of_dyad(structure: Structure, dyad: Dyad) -> TransmissionAngle:
     """The joint of a group of two links; where one of them replaces a sliding contact, the contact itself."""
     for contact in structure.scene.contacts:
         if not contact.rolling and any(contact.block in body.links for body in dyad.bodies):
-            moved = [n for body in dyad.bodies for n in body.links if n in contact.links]
+            moved = [n for body in dyad.bodies for n in body.links if n in contact.bodies]
             joint = _at_contact(structure, contact, moved[0]) if moved else None
             if joint is not None:
                 return joint
@@ -105,7 +105,7 @@ def joint_of_follower(structure: Structure, name: str, symbol: Symbol) -> Transm
     """The joint through which a link is driven, a sliding contact first.  Raises CallError where no joint can be
     named."""
     for contact in structure.scene.contacts:
-        joint = _at_contact(structure, contact, name) if not contact.rolling and name in contact.links else None
+        joint = _at_contact(structure, contact, name) if not contact.rolling and name in contact.bodies else None
         if joint is not None:
             return joint
     for dyad in structure.dyads.values():

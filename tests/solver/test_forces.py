@@ -79,7 +79,7 @@ def shares(mechanism, solved, symbol):
     mesh = next((g for g in mechanism.gears if g.wheels == (first, second)), None)
     if mesh is not None:
         return second, first, pitch_point(motion, mesh)[0]
-    touch = next((c for c in mechanism.contacts if c.links == (first, second)), None)
+    touch = next((c for c in mechanism.contacts if c.bodies == (first, second)), None)
     if touch is not None:
         return second, first, motion.position(touch.name)
     common = [p for p, holders in mechanism.holders.items() if {first, second} <= set(holders) and point in ("", p)]

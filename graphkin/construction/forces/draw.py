@@ -29,9 +29,9 @@ from graphkin.construction.forces.position import DrawnPosition, force_groups, f
 from graphkin.construction.touching import Touching
 from graphkin.plane import Pose, added_up, cross, unit
 from graphkin.scene.model import Driver
-from graphkin.scene.pairs import PlacedGuide, SlidingPair
+from graphkin.scene.pairs import PlacedGuide
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Driven, Dyad, analyse
+from graphkin.structure import Driven, Dyad, analyse, pin_in_guide
 
 ROOM = (98.0, 84.0)
 """Width and height (mm) that the largest force polygon fills at most, where the scene wishes for no scale."""
@@ -165,11 +165,8 @@ def held_by_pairs(sheet: Sheet) -> Sheet:
         # a pin of the second link runs in a slot of the first
         with_point(second, touch.name, touch.at)
         name, along = (NORMAL, touch.normal) if touch.means == "meshes" else (TANGENT, 1j * touch.normal)
-        while name in links[first].guides:
-            name += "'"
         guide = PlacedGuide(name, local(first, touch.at), along / sheet.poses[first].axis)
-        links[first] = replace(links[first], guides={**links[first].guides, name: guide})
-        slides.append(SlidingPair.of_pin(touch.name, second, first, name))
+        slides.append(pin_in_guide(links, touch.name, second, first, guide, "'"))
         poses[slides[-1].key] = Pose(touch.at, along)
     other = replace(
         scene.keeping(lambda _: False), frame=links[scene.frame.name], slides=tuple(slides), slots=scene.whole.slots,

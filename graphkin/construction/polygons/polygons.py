@@ -306,7 +306,7 @@ class Polygons:
             if point not in self.structure.scene.contact_at:
                 self.place(order, PointRef(point))
         for contact in self.structure.scene.contacts:
-            if name in contact.links and contact.name in self.places and name != self.ground:
+            if name in contact.bodies and contact.name in self.places and name != self.ground:
                 self.place(order, PointRef(contact.name, name))
         for s in self.structure.slides:
             if s.pin and s.pin in self.places and s.b == name and "/" not in name:

@@ -156,9 +156,9 @@ class VectorGraph:
         letters = list(dict.fromkeys([s.pin for s in slides if s.pin] + [t.point for t in turns] + touching))
         self.natural = {node(links, t.point, t.a) for t in turns}
         self.natural |= {node(links, s.pin, side) for s in slides if s.pin for side in (s.a, s.b)}
-        self.natural |= {PointRef(c.name, side) for c in contacts for side in c.links}
+        self.natural |= {PointRef(c.name, side) for c in contacts for side in c.bodies}
         self.natural |= {PointRef(letter, link) for letter, both in rolling.values() for link in both}
-        sides = [*((p.a, p.b) for p in pairs), *((j.a, j.b) for j in joints), *(c.links for c in contacts)]
+        sides = [*((p.a, p.b) for p in pairs), *((j.a, j.b) for j in joints), *(c.bodies for c in contacts)]
         around = dict.fromkeys([*inside, *chain(*sides)])
         beside = [*((s.a, s.b) for s in slides), *((j.a, j.b) for j in joints), *contours]
         on = _near(links, beside, contacts, around, letters) if near else {}
@@ -189,7 +189,7 @@ class VectorGraph:
                 self._add(RelativeMotion(a, b, labels, Direction("square", (j.pair.point, labels[0].point)), joint=j))
         for c in contacts:
             # against the frame where it can be: its point stands in the pole
-            a, b = (PointRef(c.name, link) for link in sorted(c.links, key=lambda link: link != frame))
+            a, b = (PointRef(c.name, link) for link in sorted(c.bodies, key=lambda link: link != frame))
             direction, unknown = Direction("along", ("t-t",)), ("slip", c.name)
             self._add(RelativeMotion(a, b, (a, b), direction, contact=c.name, unknown=unknown))
         for relation, (letter, both) in rolling.items():
@@ -341,7 +341,7 @@ def _near(
     turned on it by a driver, and of their neighbours."""
     on = {name: {p for p in letters if p in links[name].points} for name in around}
     for c in contacts:
-        for side in c.links:
+        for side in c.bodies:
             on[side].add(c.name)
     for _ in range(2):
         shared = [(a, b, on[a] | on[b]) for a, b in beside]

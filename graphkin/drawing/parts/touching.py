@@ -43,7 +43,7 @@ def outlines_of(here: MechanismOnPaper, link: str, replaced: bool = False) -> li
     if link not in here.sheet.poses:
         return []
     rolling = {name for contact in here.scene.contacts if contact.rolling
-               for of, name in zip(contact.links, contact.outlines, strict=True) if of == link}
+               for of, name in zip(contact.bodies, contact.outlines, strict=True) if of == link}
     links, colour = _on_paper(here), here.colour(link)
     parts: list[Primitive] = []
     for name, disc in here.scene.by_name[link].discs.items():
