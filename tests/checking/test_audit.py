@@ -136,6 +136,22 @@ def test_a_sun_taken_for_its_planet_is_told():
     assert "teeth" in judged("gears-epicyclic", omega_2="2.222")["looks_like"]
 
 
+def test_the_teeth_of_a_single_mesh_exchanged_are_told() -> None:
+    wheels = {
+        "frame": {"points": {"A": [0, 0], "B": [60, 0]}},
+        "links": {"1": {"points": ["A"]}, "2": {"points": ["B"]}},
+        "gears": {"g": {"between": ["1", "2"], "teeth": [20, 40]}},
+        "driver": {"link": "1", "angle": 0, "omega": 10},
+    }
+    # 10 * 40 / 20 for 10 * 20 / 40
+    assert "numbers of teeth exchanged (gear g)" == judged(wheels, omega_2="-20")["looks_like"]
+
+
+def test_a_carrier_taken_as_fixed_is_told() -> None:
+    # the planet turned by a sun of 30 teeth as if its arm stood: 10 * 30 / 20
+    assert "the carrier taken as fixed (gear sun)" == judged("gears-epicyclic", omega_3="-15")["looks_like"]
+
+
 def test_a_wrong_value_that_nothing_explains_has_no_name():
     assert "looks_like" not in judged(SIXBAR, v_D="701")
 

@@ -7,7 +7,7 @@ import re
 
 import pytest
 
-from graphkin import centres, check, draw
+from graphkin import centres, check, draw, read
 
 FRAME = {"points": {"A": [0, 0], "C": [110, 15]}, "guides": {"g": {"through": [4, 0], "angle": 80}}}
 ECCENTRIC = {"points": ["A", "O"], "length": 22, "discs": {"k": {"centre": "O", "r": 40}}}
@@ -174,3 +174,13 @@ def test_a_wheel_that_a_rod_rolls_swings_by_the_stroke_over_its_radius():
 
 def test_a_rod_whose_wheel_is_not_asked_for_is_held_by_it_all_the_same():
     assert check(WHEEL_BY_ROD, find=["omega_2"]).ok
+
+
+def test_a_wheel_that_the_shaft_of_a_cam_turns_stands_where_it_has_rolled() -> None:
+    scene = read("cam-flat-face").to_dict()
+    scene["frame"]["points"]["P"] = [60, 0]
+    scene["links"]["3"] = {"points": ["P", "Q"], "length": 20, "start": 30}
+    scene["gears"] = {"g": {"between": ["1", "3"], "teeth": [20, 40]}}
+    result = check(scene, at=100, find=["theta_3"])
+    # 30 degrees less half of the 40 that the cam has turned
+    assert 10 == pytest.approx(result["theta_3"].measured, abs=1e-12)

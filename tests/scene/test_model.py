@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from graphkin.scene import mechanism_of, mechanism_of_text
-from graphkin.scene.model import Driver, LoadOn, Mechanism
+from graphkin.scene.model import Driver, Loading, LoadOn, Mechanism, SpringOn
 from graphkin.scene.scene_tables import LoadPhase
 from tests.scenes import FOUR_BAR
 
@@ -53,6 +53,13 @@ def test_a_mechanism_with_other_links_knows_them_by_name() -> None:
 @pytest.mark.parametrize(("name", "size"), [("cam-flat-face", 0.04), ("cam-eccentric-flat-slider", 0.04)])
 def test_a_mechanism_is_as_large_as_the_base_circle_of_its_cam_or_its_disc(name: str, size: float) -> None:
     assert size == mechanism_of(name).size
+
+
+def test_of_loads_and_springs_the_moments_alone_turn() -> None:
+    loads = (LoadOn("M", "2", 3.0, False), LoadOn("F", "2", 5.0, True))
+    spring = SpringOn("s", ("A", "C"), ("4", "3"), (0j, 0j), 200.0, 0.1)
+    applied = Loading(loads=loads, springs=(spring,)).applied
+    assert [("P_M", True), ("P_F", False), ("P_s", False)] == [(str(force), force.turning) for force in applied]
 
 
 def test_the_frame_comes_first_among_the_holders_of_its_points() -> None:

@@ -135,6 +135,11 @@ def test_a_wheel_on_a_rail_touches_it_rolling():
     assert "rolling" == frame_of(solve("wheel-on-rail").data)["contacts"]["K"]["kind"]
 
 
+@pytest.mark.parametrize(("name", "slides"), [("wheel-on-rail", []), ("cam-eccentric-flat-rocker", ["O/2"])])
+def test_a_disc_slides_along_a_face_but_where_it_rolls(name: str, slides: list[str]) -> None:
+    assert slides == list(frame_of(solve(name).data)["slides"])
+
+
 def test_a_rim_point_of_a_rolling_wheel_runs_on_a_cycloid():
     turn = sweep("wheel-on-rail", positions=24, find=["P", "v_K@1"])
     rolled = 2 * np.pi * np.arange(24) / 24
