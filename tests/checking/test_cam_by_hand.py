@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import pytest
 
-from graphkin import cam, handout, read
+from graphkin import cam, check, handout, read
 from graphkin.checking.closed_form import compare_cam, predict_cam
 from graphkin.checking.report import COVERAGE
 from graphkin.construction import pencil
@@ -115,3 +115,8 @@ def test_the_normals_of_a_sliding_follower_pass_a_point_ds_dphi_from_the_axis():
     for d in sheet.divisions:
         slope = sheet.cam.law.at(d.degree).slope
         assert abs(slope) == pytest.approx(abs(d.centre) * sheet.scale, abs=1e-12)
+
+
+def test_the_swing_of_a_follower_that_a_lift_turns_clockwise_begins_at_the_greatest_lift() -> None:
+    low, high = check("cam-swinging-roller", find=["swing_2"]).sheet.limits["2"]
+    assert (math.radians(-24), 0.0) == pytest.approx((low.angle, high.angle))

@@ -326,3 +326,15 @@ def test_the_line_below_a_title_has_the_colon_of_its_language(figure: str) -> No
     lines = ["".join(text.itertext()) for text in root.iter("{http://www.w3.org/2000/svg}text")]
     assert [] == [line for line in lines if "14.9006" in line and ": " in line]
     assert any(re.match("[一-龥]+：φ", line) for line in lines), lines[:5]
+
+
+@pytest.mark.parametrize(
+    ("name", "further"),
+    [("wheel-on-rail", ["plan"]), ("gears-epicyclic", ["plan"]), ("disc-on-disc", ["contacts"]),
+     ("cam-flat-face", ["cam", "contacts"]), ("four-bar-coupler-point", [])],
+)  # fmt: skip
+def test_what_rolls_has_a_plan_by_itself_and_what_slides_on_an_outline_polygons_at_the_contact(
+    name: str, further: list[str]
+) -> None:
+    always = {"mechanism", "velocity", "acceleration", "sheet", "centres"}
+    assert further == sorted({*graphkin.draw(name).wanted} - always)

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from graphkin.errors import Unsolvable
-from graphkin.scene import mechanism_of
+from graphkin.scene import mechanism_of, read
 from graphkin.structure import analyse
 
 pytestmark = pytest.mark.quick
@@ -77,6 +77,15 @@ def train(driven: str, *gears: dict[str, Any]) -> dict[str, Any]:
 def test_wheels_that_mesh_do_not_turn_freely() -> None:
     sun, ring = {"between": ["1", "3"], "teeth": [20, 25]}, {"between": ["3", "4"], "teeth": [25, -70]}
     assert [] == said(train("2", sun, ring))
+
+
+@pytest.mark.parametrize("name", ["cam-swinging-roller", "cam-flat-face"])
+def test_a_cam_and_its_follower_hold_each_other(name: str) -> None:
+    scene = read(name).to_dict()
+    del scene["driver"]
+    with pytest.raises(Unsolvable) as refused:
+        analyse(mechanism_of(scene))
+    assert ["mobility"] == [str(problem.where) for problem in refused.value.problems]
 
 
 def test_a_driven_link_does_not_turn_freely_and_a_wheel_that_meshes_with_none_does() -> None:
