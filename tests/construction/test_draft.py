@@ -323,3 +323,13 @@ def test_the_arm_of_a_guide_is_noted_with_its_length_on_paper():
     (arm,) = (remark.mm for remark in sheet.noticed if remark.key == "short arm")
     ends = [sheet.points[PointRef(point)] for point in ("A", "O4")]
     assert arm == pytest.approx(abs(ends[1] - ends[0]))
+
+
+def test_a_train_has_room_for_its_pitch_circles() -> None:
+    # the ring of 70 mm radius is the largest
+    assert (0.14, 0.14) == pytest.approx(draft(mechanism_of("gears-epicyclic")).extents["mechanism"])
+
+
+def test_a_cam_has_room_for_its_outline() -> None:
+    # from 40 mm behind the axis to 60 mm before it, where the lift of 20 mm is greatest
+    assert 0.1 == pytest.approx(draft(mechanism_of("cam-flat-face")).extents["mechanism"][1], rel=1e-3)
