@@ -26,7 +26,6 @@ from graphkin.words import BOTH, LANGUAGES, Phrase, Wording, links_named
 
 if TYPE_CHECKING:
     from graphkin.construction import Instrument
-    from graphkin.study.quantities import Quantity
 
 FORMATS = ("svg", "pdf", "png", "dxf")
 CHART_FORMATS = ("svg", "pdf", "png")
@@ -313,22 +312,13 @@ def hand_of(wishes: SheetWishes, name: str, seed: int) -> Instrument:
     raise CallError.of("instrument", f'"{name}"', did_you_mean(str(name), INSTRUMENTS))
 
 
-def quantities_shown(
-    scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] | None
-) -> tuple[Quantity, ...]:
-    """The quantities of names in a table.  Raises CallError with every name that names none."""
-    from graphkin.study.quantities import Quantity
-
-    return tuple(map(Quantity, asked_symbols(scene, find, drawn=False)))
-
-
 def columns_shown(
     scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] | None
-) -> tuple[Quantity, ...]:
+) -> tuple[Symbol, ...]:
     """The quantities of names in a table over the driver's range.  Raises CallError for a quantity of one position
     too."""
-    shown = quantities_shown(scene, find)
-    if elsewhere := [quantity.symbol for quantity in shown if quantity.symbol.at]:
+    shown = asked_symbols(scene, find, drawn=False)
+    if elsewhere := [quantity for quantity in shown if quantity.at]:
         raise CallError(*(Problem(f"find {symbol}", Phrase("is of one position no column", position=symbol.at),
                                   Phrase("ask for it alone", symbol=symbol.here)) for symbol in elsewhere))
     return shown

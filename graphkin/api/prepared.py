@@ -366,5 +366,5 @@ def prepare(
                            fast=f"{fast!r:.40}")
     if not asked:
         raise CallError.of("find", "asks for nothing", "name quantities for example v_c omega_3")
-    symbols = dict.fromkeys(quantity.symbol for quantity in columns_shown(given, asked))
+    symbols = dict.fromkeys(columns_shown(given, asked))
     return Prepared(scene, asked, fast, prepared(given, tuple(symbols), given.units, bounds))

@@ -228,7 +228,7 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
         lines.append("  " + say(Phrase("also assembles", assembly=_between(scene, other)), language))
     if turn.not_searched:
         lines.append("  " + say(Phrase("not looked for", links=links_named(turn.not_searched)), language))
-    turning = {output.quantity.of for output in turn.outputs if output.turned}
+    turning = {output.quantity.pair for output in turn.outputs if output.turned}
     turning |= {driver.link} if turn.reach.full else set()
     for loop in turn.loops:
         parts = [f"{word('basic mechanism', language)} {', '.join(loop.links)}{colon}{word(loop.name, language)}"]
@@ -266,7 +266,7 @@ def _forces_of_turn(turn: TurnStudy, language: str) -> list[str]:
         return [word("forces", language) + word("colon", language) + say(stop.reason, language)]
     lines = []
     for name, (quantity, extremes) in ranges.items():
-        unit = quantity.unit(scene)
+        unit = quantity.unit(scene.units)
         parts = [
             f"{word('greatest' if e.kind == 'max' else 'least', language)} {unit.of(e.value):.6g} @ {_at(scene, e)}"
             for e in extremes if math.isfinite(e.value)
@@ -309,12 +309,12 @@ def _at(scene: Mechanism, extreme: Extreme) -> str:
 
 def _output(turn: TurnStudy, output: Output, language: str) -> list[str]:
     scene, quantity = turn.scene, output.quantity
-    unit, colon = quantity.unit(scene), word("colon", language)
+    unit, colon = quantity.unit(scene.units), word("colon", language)
 
     def amount(value: float) -> str:
         return unit.beside(f"{unit.of(value):.10g}")
 
-    head = f"{word('output', language)} {quantity.of}{colon}"
+    head = f"{word('output', language)} {quantity.pair}{colon}"
     if output.stroke is None:
         return [head + word(output.without, language)]
     kind = "swing" if quantity.kind == "theta" else "stroke"
@@ -333,7 +333,7 @@ def _curves(turn: TurnStudy, language: str) -> list[str]:
     lines: list[str] = []
     moving = [t for t in turn.curves if t.constant is None and not t.quantity.is_position]
     for traced in moving[:MOST_CURVES]:
-        quantity, unit = traced.quantity, traced.quantity.unit(scene)
+        quantity, unit = traced.quantity, traced.quantity.unit(scene.units)
         parts = []
         for key, extreme in (("greatest", traced.furthest(1.0, "max")), ("least", traced.furthest(-1.0, "min"))):
             if extreme is not None:
@@ -345,7 +345,7 @@ def _curves(turn: TurnStudy, language: str) -> list[str]:
         if traced.zeros:
             places = ", ".join(scene.unit_of(scene.drivers[0]).said(z) for z in traced.zeros)
             parts.append(f"{word('zero at', language)} {places}")
-        lines.append(f"{quantity.name} ({unit.text}): {word('list semicolon', language).join(parts)}")
+        lines.append(f"{quantity} ({unit.text}): {word('list semicolon', language).join(parts)}")
     return lines
 
 

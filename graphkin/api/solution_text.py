@@ -14,7 +14,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import MEASURES
 from graphkin.solver import listed_points, own_slides
 from graphkin.solver.forces import Forces
-from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
+from graphkin.study.quantities import link_quantities, parts_of, slide_quantities
 from graphkin.table import Array
 from graphkin.words import Phrase, Wording, say, word
 
@@ -65,15 +65,15 @@ def _whole(solved: Solved, language: str) -> list[Texts]:
         units = {measure: unit.text if language == "en" else unit.written for measure, unit in shown.items()}
         return say(Phrase(f"heads of {of}", **units), language).split("|"), right, [*rows]
 
-    def columns(*quantities: Quantity) -> list[list[str]]:
-        return [_texts(*quantity.parts(None, motion)) for quantity in quantities]
+    def columns(*quantities: Symbol) -> list[list[str]]:
+        return [_texts(*parts_of(quantity, None, motion)) for quantity in quantities]
 
     links = [(link.name, columns(*link_quantities(link.name))) for link in scene.links]
     pairs = own_slides(scene, motion.slides)
     points, slides = list[Row](), list[Row]()
     for point, link in listed_points(scene, pairs):
         ref = PointRef(point, "" if point in scene.by_name[link].points else link)
-        points.append((f"{point}@{link}", columns(*(Quantity(Symbol(kind, ref)) for kind in ("place", "v", "a")))))
+        points.append((f"{point}@{link}", columns(*(Symbol(kind, ref) for kind in ("place", "v", "a")))))
     for pair in pairs:
         term = push.of(motion.settled(motion.slide(pair.key)[3], MEASURES["acceleration"], 2.0))
         slides.append((pair.key, [*columns(*slide_quantities(pair.key)), _texts(term.real, term.imag)]))
@@ -86,9 +86,9 @@ def _whole(solved: Solved, language: str) -> list[Texts]:
 def _forces(found: Forces) -> Iterator[Row]:
     """Forces by components, size and direction."""
     for quantity in _loads(found, True):
-        x, y = (_there(found, quantity, part) for part in quantity.parts(None, found.motion))
+        x, y = (_there(found, quantity, part) for part in parts_of(quantity, None, found.motion))
         way = ["–" if a == b == 0.0 else f"{math.degrees(math.atan2(b, a)):.6g}" for a, b in zip(x, y, strict=True)]
-        yield quantity.name, (_texts(x, y), _texts(np.hypot(x, y)), way)
+        yield str(quantity), (_texts(x, y), _texts(np.hypot(x, y)), way)
 
 
 def _moments(found: Forces) -> Iterator[Row]:
@@ -96,26 +96,25 @@ def _moments(found: Forces) -> Iterator[Row]:
     motion = found.motion
     shown = [*_loads(found, False)]
     if motion.scene.loading.flywheel is not None:
-        shown += [Quantity(Symbol.parse(name)) for name in ("excess_W", "J_F")]
+        shown += map(Symbol.parse, ("excess_W", "J_F"))
     for quantity in shown:
         try:
-            (values,) = quantity.parts(None, motion)
+            (values,) = parts_of(quantity, None, motion)
         except Unsolvable:  # no whole turn
             continue
         texts = _texts(_there(found, quantity, values))
-        yield quantity.name, (texts, [quantity.unit(motion.scene).text] * len(texts))
+        yield str(quantity), (texts, [quantity.unit(motion.scene.units).text] * len(texts))
 
 
-def _loads(found: Forces, vectors: bool) -> Iterator[Quantity]:
+def _loads(found: Forces, vectors: bool) -> Iterator[Symbol]:
     """Forces, or moments, each followed by its value with the loads that begin or end exactly here, if that differs."""
     for symbol in (symbol for symbol in found.values if symbol.is_vector is vectors):
-        yield Quantity(symbol)
+        yield symbol
         if symbol in found.beside:
-            yield Quantity(replace(symbol, plus=True))
+            yield replace(symbol, plus=True)
 
 
-def _there(found: Forces, quantity: Quantity, values: Array) -> Array:
+def _there(found: Forces, quantity: Symbol, values: Array) -> Array:
     """Values of a force; NaN where the loads that begin or end here do not change it."""
-    symbol = quantity.symbol
-    beside = found.beside.get(replace(symbol, plus=False)) if symbol.plus else None
+    beside = found.beside.get(replace(quantity, plus=False)) if quantity.plus else None
     return values if beside is None else np.where(np.isnan(beside), np.nan, values)

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from graphkin.api.arguments import (
     At,
     as_scene,
+    asked_symbols,
     columns_shown,
     known_words,
     placed,
-    quantities_shown,
     value_at,
     whole_number,
 )
@@ -29,6 +29,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import mobility_of
+from graphkin.study.quantities import columns_of, parts_of
 from graphkin.table import Values
 from graphkin.words import Phrase
 
@@ -37,7 +38,6 @@ if TYPE_CHECKING:
     from graphkin.solver import Motion
     from graphkin.solver.forces import Forces
     from graphkin.structure import Structure
-    from graphkin.study.quantities import Quantity
     from graphkin.table import Array, Column, Table
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -117,7 +117,7 @@ class Solved(OfScene, Result):
     @property
     def motion(self) -> Motion:
         """The motion; a position is not solved where asked forces are unknown, as where the balance does no work."""
-        if self.find and not any(quantity.is_load for quantity in quantities_shown(self.mechanism, self.find)):
+        if self.find and not any(symbol.is_load for symbol in asked_symbols(self.mechanism, self.find, drawn=False)):
             return self._moved
         return self._moved if self.forces is None else self.forces.known_motion
 
@@ -138,10 +138,10 @@ class Solved(OfScene, Result):
         name = as_text("name", name)
         if name.startswith(("driver_", "time", "position", "status", "why")):
             return self.table[name]
-        (shown,) = quantities_shown(self.mechanism, [name])
-        parts = shown.parts(None, self._motion_of(shown))
+        (shown,) = asked_symbols(self.mechanism, [name], drawn=False)
+        parts = parts_of(shown, None, self._motion_of(shown))
         values = parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
-        return Values.of(values, shown.unit(self.mechanism).text)
+        return Values.of(values, shown.unit(self.mechanism.units).text)
 
     @cached_property
     def table(self) -> Table:
@@ -149,17 +149,17 @@ class Solved(OfScene, Result):
         from graphkin.study.quantities import all_that_moves, motion_table
 
         motion, scene = self.motion, self.mechanism
-        shown = quantities_shown(scene, self.find) or all_that_moves(motion.structure)
-        parts = tuple(quantity.parts(None, self._motion_of(quantity)) for quantity in shown)
+        shown = asked_symbols(scene, self.find, drawn=False) or all_that_moves(motion.structure)
+        parts = tuple(parts_of(quantity, None, self._motion_of(quantity)) for quantity in shown)
         times = np.array(self.times) if self.times else None
         return motion_table(scene, shown, bool(self.find), 0, motion.values, parts, motion.status, motion.why, times)
 
     def columns(self, name: str) -> list[Column]:
         """A quantity by its name, as columns of the table: a vector's size and components.  Raises CallError."""
-        (shown,) = quantities_shown(self.mechanism, [name])
-        return shown.columns(self.mechanism, shown.parts(None, self._motion_of(shown)))
+        (shown,) = asked_symbols(self.mechanism, [name], drawn=False)
+        return columns_of(shown, self.mechanism, parts_of(shown, None, self._motion_of(shown)))
 
-    def _motion_of(self, quantity: Quantity) -> Motion:
+    def _motion_of(self, quantity: Symbol) -> Motion:
         """The motion of which a quantity is told: its own, or where it is of a named position ("v_C at 10") that one.
 
         Raises
@@ -167,13 +167,13 @@ class Solved(OfScene, Result):
         CallError : a quantity of a named position, of a sweep
         Unsolvable : a position that cannot be assembled or reached, a dead point
         """
-        name, driver = quantity.symbol.at, self.mechanism.drivers[0].key
+        name, driver = quantity.at, self.mechanism.drivers[0].key
         if not name:
             return self._moved
         if self.count is not None:
-            columns_shown(self.mechanism, [quantity.symbol])
+            columns_shown(self.mechanism, [quantity])
         values = {**(self.values or {}), driver: value_at(self.mechanism, name)}
-        there = replace(self, values=values, find=(str(quantity.symbol.here),), part=None)
+        there = replace(self, values=values, find=(str(quantity.here),), part=None)
         if not there.motion.ok[0]:
             raise Unsolvable(str(there.motion.status[0]), Problem(Phrase("position", name=name), there.said))
         return there._moved

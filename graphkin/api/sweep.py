@@ -19,11 +19,11 @@ from graphkin.api.arguments import (
     CHART_FORMATS,
     At,
     as_scene,
+    asked_symbols,
     columns_shown,
     driver_values,
     known_words,
     known_workers,
-    quantities_shown,
     require_callable,
     whole_number,
 )
@@ -46,7 +46,6 @@ if TYPE_CHECKING:
     from graphkin.drawing.chart import ChartPage
     from graphkin.study.graphical import Chords, Way
     from graphkin.study.over_time import TimeStudy
-    from graphkin.study.quantities import Quantity
     from graphkin.study.sweeps import Outcome, Sweep
     from graphkin.study.turn import TurnStudy
     from graphkin.table import Array
@@ -78,7 +77,7 @@ class Swept(OfScene, Result):
     over: Sweep
     by_design: tuple[Outcome, ...]
     language: str
-    measured: Mapping[Quantity, Sequence[tuple[float, float]]] = field(default_factory=dict)
+    measured: Mapping[Symbol, Sequence[tuple[float, float]]] = field(default_factory=dict)
     on_paper: tuple[tuple[Way, str], ...] = ()
     damaged: int = 0
     written: tuple[Path, ...] = ()
@@ -145,11 +144,11 @@ class Swept(OfScene, Result):
         return study_time(self.over.base.structure, self._wished)
 
     @property
-    def _wished(self) -> list[Quantity]:
+    def _wished(self) -> list[Symbol]:
         """The quantities asked besides the scene's own wishes: only these are drawn."""
         by_scene = [str(s) for s in self.over.scene.question.find]
         wished = [q for q in self.over.base.asked if q.kind != "place"]
-        return wished if [q.name for q in self.over.base.asked] != by_scene else []
+        return wished if [str(q) for q in self.over.base.asked] != by_scene else []
 
     @cached_property
     def data(self) -> dict[str, Json]:
@@ -182,7 +181,7 @@ class Swept(OfScene, Result):
         offsets = self.turn.reach.offsets
         over = {q: [(float(offsets(np.array(at))), x) for at, x in pairs] for q, pairs in self.measured.items()}
         if over:
-            signed = {replace(quantity, along=False): quantity for quantity in over}
+            signed = {quantity.whole: quantity for quantity in over}
             asked = list(dict.fromkeys((*(signed.get(q, q) for q in asked), *over)))
         pages = {}
         if asked or not self.chords:
@@ -371,7 +370,7 @@ def sweep(
         raise CallError.of("measured", "do not go with designs", "give one design")
     elsewhere = {} if measured is None else _elsewhere(given, measured)
     if find is None and elsewhere:
-        find = [quantity.symbol for quantity in elsewhere]
+        find = [*elsewhere]
     base = FollowedDesign(given, _asked(given, find), tuple(sorted(start.items())))
     over = Sweep(base, name or given.name, positions, made, source if isinstance(source, Mapping) else None)
     spoken = language or given.question.sheet.language
@@ -399,13 +398,12 @@ def sweep(
     return swept
 
 
-def _elsewhere(scene: Mechanism, measured: AnswersLike) -> dict[Quantity, list[tuple[float, float]]]:
+def _elsewhere(scene: Mechanism, measured: AnswersLike) -> dict[Symbol, list[tuple[float, float]]]:
     """Values measured elsewhere, each with the first driver's value (rad, m): SI, of a vector its size, or, where the
     column has signs, its place along the guide on which it lies."""
     from graphkin.checking.answers import as_answers
     from graphkin.solver import solve
     from graphkin.solver.values import senses_along
-    from graphkin.study.quantities import Quantity
 
     rows, _ = as_answers(scene, measured)
     if any(row.at is None for row in rows):
@@ -415,22 +413,22 @@ def _elsewhere(scene: Mechanism, measured: AnswersLike) -> dict[Quantity, list[t
     signed = {answer.symbol for answer in answers if answer.shows_sign}
     signed -= {answer.symbol for answer in answers if isinstance(answer.value, complex)}
     along = {s for s in signed if s.is_vector and senses_along(solve(scene), s) is not None}
-    elsewhere: dict[Quantity, list[tuple[float, float]]] = {}
+    elsewhere: dict[Symbol, list[tuple[float, float]]] = {}
     for row, place in zip(rows, places, strict=True):
         for answer in (answer for answer in row.values if answer.symbol.scope != "turn" and not answer.symbol.at):
-            quantity = Quantity(answer.symbol, answer.symbol in along)
-            value = abs(answer.value) if quantity.is_size else float(answer.value.real)
+            quantity = replace(answer.symbol, along=True) if answer.symbol in along else answer.symbol
+            value = abs(answer.value) if quantity.is_vector else float(answer.value.real)
             elsewhere.setdefault(quantity, []).append((place, value))
     return elsewhere
 
 
-def _asked(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Quantity, ...]:
+def _asked(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:
     """The asked quantities in their order.  Raises CallError with every name of none."""
     if find is None:
         by_scene = scene.question.find
         shown = (s for s in by_scene if s.scope not in ("turn", "cycle") and s.kind not in ("h", "arm") and not s.at)
-        return quantities_shown(scene, tuple(shown))
-    asked: list[Quantity] = []
+        return asked_symbols(scene, tuple(shown), drawn=False)
+    asked: list[Symbol] = []
     problems: list[Problem] = []
     for name in [find] if isinstance(find, Symbol) else as_list("find", find, Phrase("give symbols v_b omega_3")):
         try:
@@ -438,7 +436,7 @@ def _asked(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Quant
         except CallError as error:
             problems += error.problems
             continue
-        if quantity.symbol.scope in ("turn", "cycle"):
+        if quantity.scope in ("turn", "cycle"):
             problems.append(Problem(f"find {name}", "is of the whole turn no column", "it stands in the summary"))
         asked.append(quantity)
     if problems:

@@ -172,7 +172,8 @@ class Symbol:
     Of forces ``link`` acts on ``other`` at the joint ``of`` (where they share two); ``name`` is the name of a load, or
     of the force of an arm; with ``plus`` a load that begins or ends exactly there acts.  ``turning`` marks a load that
     is a moment, which its name does not tell.  ``seen`` is the link held still, from which a vector is seen; "" for the
-    frame.  ``axis`` is "x" or "y" for a component of a vector along an axis of the frame.
+    frame.  ``axis`` is "x" or "y" for a component of a vector along an axis of the frame; ``along`` marks the component
+    along the guide on which the vector lies, with its sign, which has no name of its own.
 
     >>> Symbol.parse("v_B@3/B@2").id
     'v_B3-B2'
@@ -193,6 +194,7 @@ class Symbol:
     turning: bool = field(default=False, compare=False)
     seen: str = ""
     axis: str = ""
+    along: bool = False
 
     @classmethod
     def parse(cls, text: str) -> Symbol:
@@ -237,7 +239,7 @@ class Symbol:
 
     @property
     def is_vector(self) -> bool:
-        return self.entry.is_vector and not (self.turning or self.axis or self.is_rate_of_pair)
+        return self.entry.is_vector and not (self.turning or self.axis or self.along or self.is_rate_of_pair)
 
     @property
     def heads(self) -> tuple[str, ...]:
@@ -274,6 +276,27 @@ class Symbol:
         return self.measure.order if self.entry.of_pose else None
 
     @property
+    def is_position(self) -> bool:
+        """Whether it is an angle, a travel, or another position."""
+        return self.scope == "position"
+
+    @property
+    def is_angle_of_link(self) -> bool:
+        """Whether it is the angle of a link, which may turn on and on."""
+        return self.kind == "theta" and not self.other
+
+    @property
+    def is_of_output(self) -> bool:
+        """Whether it is the angle of a link or the travel of a sliding pair."""
+        return self.is_angle_of_link or self.kind == "s"
+
+    @property
+    def is_unsigned(self) -> bool:
+        """Whether its number is never negative, and zero only at a least value: a size, a distance, an angle of at most
+        90 degrees."""
+        return self.is_vector or self.entry.distance or self.entry.acute
+
+    @property
     def scope(self) -> Scope:
         return self.entry.scope
 
@@ -294,7 +317,7 @@ class Symbol:
     @property
     def whole(self) -> Symbol:
         """The vector of which it is a component; itself where it is no component."""
-        return replace(self, axis="") if self.axis else self
+        return replace(self, axis="", along=False) if self.axis or self.along else self
 
     @property
     def opposite(self) -> Symbol:

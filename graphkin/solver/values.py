@@ -44,6 +44,9 @@ def value_of(motion: Motion, symbol: Symbol) -> Array:
     CallError : the symbol names nothing here
     Unsolvable : a load acts on a part of a stroke, or a flywheel is asked for, and the driver makes no whole turn
     """
+    if symbol.along:
+        vector, sense = value_of(motion, symbol.whole), senses_along(motion, symbol)
+        return np.asarray(vector.real if sense is None else (vector * sense.conjugate()).real)
     if symbol.scope not in ("force", "cycle"):
         return motion.value(symbol)
     if symbol.axis:
@@ -65,8 +68,12 @@ def settled_value(motion: Motion, symbol: Symbol) -> Array:
     value, measure = value_of(motion, symbol), symbol.measure
     if symbol.is_load:
         return settled(value, forces_of(motion).floors[measure.length])
-    # points seen from each other have the errors of two places
-    return motion.settled(value, measure, 1.0 if measure.angle or symbol.kind == "place" else 2.0)
+    return motion.settled(value, measure, ends_of(symbol))
+
+
+def ends_of(symbol: Symbol) -> float:
+    """The number of places whose errors a quantity has: two for points seen from each other."""
+    return 1.0 if symbol.measure.angle or symbol.kind == "place" else 2.0
 
 
 def settled(value: Array, floor: Array) -> Array:

@@ -22,7 +22,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.search import greatest_and_least
 from graphkin.solver import DriverRange, Motion
 from graphkin.study.extremes import Extreme
-from graphkin.study.quantities import Quantity
+from graphkin.study.quantities import course_of
 from graphkin.study.turn import TurnStudy
 from graphkin.words import Phrase, rich_text, say, word
 from graphkin.words.symbols import RichText, Words, sign, spaced
@@ -102,20 +102,20 @@ class Axis(ABC):
         """The coordinates of places on the axis."""
 
     @abstractmethod
-    def values(self, quantity: Quantity, places: Array) -> Array:
+    def values(self, quantity: Symbol, places: Array) -> Array:
         """A quantity at places (SI), NaN where it is missing."""
 
-    def shown(self, quantity: Quantity, places: Array, values: Array) -> Array:
+    def shown(self, quantity: Symbol, places: Array, values: Array) -> Array:
         """Values (SI) in units of the figure."""
-        return np.asarray(quantity.unit(self.scene).of(values))
+        return np.asarray(quantity.unit(self.scene.units).of(values))
 
-    def extremes(self, quantity: Quantity, places: Array, values: Array) -> tuple[Extreme, Extreme]:
+    def extremes(self, quantity: Symbol, places: Array, values: Array) -> tuple[Extreme, Extreme]:
         """The greatest and the least of a sampled course (SI); a size within the error from its place is 0."""
         within = FINE * float(np.ptp(places))
         (top, greatest), (bottom, least) = greatest_and_least(
             lambda at: self.values(quantity, at), places, values, within
         )
-        if quantity.is_size and least > 0.0:  # nought where it grows steadily to both sides, as an edge does
+        if quantity.is_vector and least > 0.0:  # nought where it grows steadily to both sides, as an edge does
             near, far = self.values(quantity, bottom + within * np.array([-1.0, 1.0, -10.0, 10.0])).reshape(2, 2)
             least = 0.0 if np.nanmax([*near, least]) < 0.3 * np.nanmin([*far, np.inf]) else least
         return Extreme("max", top, self.driver(top), greatest), Extreme("min", bottom, self.driver(bottom), least)
@@ -202,38 +202,38 @@ class DriverAxis(Axis):
         along = np.where(along > high * (1 - 1e-12), 0.0, along)
         return np.asarray(np.degrees(along if reach.sense > 0 else high - along))
 
-    def values(self, quantity: Quantity, places: Array) -> Array:
-        return quantity.values(self.reach, self.reach.motion(places, extended=False))
+    def values(self, quantity: Symbol, places: Array) -> Array:
+        return course_of(quantity, self.reach, self.reach.motion(places, extended=False))
 
-    def shown(self, quantity: Quantity, places: Array, values: Array) -> Array:
+    def shown(self, quantity: Symbol, places: Array, values: Array) -> Array:
         """Values (SI) in units of the figure; an angle of a link without a jump along the axis."""
         values = np.asarray(values, dtype=float)
         if quantity.kind == "theta" and self.reach.full:
             values = np.where(places < self.first - 1e-12, values + self.gain(quantity), values)
-            left = quantity.values(self.reach, self.beside_ends)[2]
+            left = course_of(quantity, self.reach, self.beside_ends)[2]
             values = values - 2 * np.pi * np.rint(left / (2 * np.pi))
         return super().shown(quantity, places, values)
 
-    def gain(self, quantity: Quantity) -> float:
+    def gain(self, quantity: Symbol) -> float:
         """The change of an angle over the whole range, in whole turns, taken near the ends, which may be dead
         points."""
-        first, last = quantity.values(self.reach, self.beside_ends)[:2]
+        first, last = course_of(quantity, self.reach, self.beside_ends)[:2]
         return float(2 * np.pi * np.rint((last - first) / (2 * np.pi)))
 
     def driver(self, place: float) -> float:
         value = float(self.reach.value(np.array(place)))
         return value % math.tau if self.reach.full and self.reach.turns <= 1 else value
 
-    def curve(self, quantity: Quantity, offsets: Array, values: Array) -> Array:
+    def curve(self, quantity: Symbol, offsets: Array, values: Array) -> Array:
         """The curve of a quantity from its values (SI): of a whole turn the axis ends where it begins, a turn later."""
         x, shown = self.at(offsets), self.shown(quantity, offsets, values)
         if self.reach.full:
             x[0], x[-1] = self.ends
             if quantity.kind == "theta":
-                shown[-1] = shown[0] + quantity.unit(self.scene).of(self.gain(quantity))
+                shown[-1] = shown[0] + quantity.unit(self.scene.units).of(self.gain(quantity))
         return np.stack([x, shown], axis=1)
 
-    def points(self, quantity: Quantity, pairs: Sequence[tuple[float, float]]) -> Array:
+    def points(self, quantity: Symbol, pairs: Sequence[tuple[float, float]]) -> Array:
         """Offsets and values (SI) as points of a panel."""
         if not len(pairs):
             return EMPTY
@@ -260,7 +260,7 @@ class Panel:
     jumps : the points after which the curve jumps
     """
 
-    quantity: Quantity
+    quantity: Symbol
     title: Words
     curve: Array
     dots: Array
@@ -279,7 +279,7 @@ class Panel:
 
 
 def panel_of(
-    axis: Axis, quantity: Quantity, curve: Array, extremes: Sequence[Extreme], bounded: bool = True,
+    axis: Axis, quantity: Symbol, curve: Array, extremes: Sequence[Extreme], bounded: bool = True,
     dots: Array = EMPTY, laid_over: Array = EMPTY, jumps: Sequence[int] = (),
 ) -> Panel:  # fmt: skip
     """The panel of a quantity over an axis, in units of the figure; the span of a force includes zero.
@@ -308,7 +308,7 @@ def panel_of(
 
 
 def motion_panel(
-    turn: TurnStudy, axis: DriverAxis, quantity: Quantity, dots: Sequence[tuple[float, float]] = (),
+    turn: TurnStudy, axis: DriverAxis, quantity: Symbol, dots: Sequence[tuple[float, float]] = (),
     laid_over: Sequence[tuple[float, float]] = (),
 ) -> Panel:  # fmt: skip
     """The panel of a quantity of the motion over the driver.
@@ -319,7 +319,7 @@ def motion_panel(
         else measured
     """
     traced = next((t for t in turn.curves if t.quantity == quantity), None)
-    curve = axis.curve(quantity, axis.offsets, quantity.values(turn.reach, axis.motion))
+    curve = axis.curve(quantity, axis.offsets, course_of(quantity, turn.reach, axis.motion))
     extremes = [e for e in (traced.extremes if traced else ()) if e.kind != "end"]
     panel = panel_of(axis, quantity, curve, extremes, turn.reach.full or quantity.is_position,
                      axis.points(quantity, dots), axis.points(quantity, laid_over))  # fmt: skip
@@ -331,23 +331,22 @@ def lettered(scene: Mechanism, symbol: Symbol) -> RichText:
     return Notation(scene.question.sheet.convention).vector(symbol)
 
 
-def quantity_title(scene: Mechanism, quantity: Quantity) -> RichText:
+def quantity_title(scene: Mechanism, quantity: Symbol) -> RichText:
     """Symbol and unit of a quantity."""
-    return lettered(scene, quantity.symbol) + f" ({quantity.unit(scene).written})"
+    return lettered(scene, quantity) + f" ({quantity.unit(scene.units).written})"
 
 
-def _allowed(quantity: Quantity, scene: Mechanism) -> tuple[tuple[float, float] | None, float | None]:
+def _allowed(quantity: Symbol, scene: Mechanism) -> tuple[tuple[float, float] | None, float | None]:
     """The limits (degrees) of a transmission or pressure angle; for a cam's follower the scene's limits in its rise,
     and in its fall."""
-    symbol = quantity.symbol
-    cam = next((c for c in scene.cams if symbol.kind == "pressure" and c.follower == symbol.link), None)
+    cam = next((c for c in scene.cams if quantity.kind == "pressure" and c.follower == quantity.link), None)
     if cam is not None and any(cam.allowed):
         rise, fall = (math.degrees(limit) if limit else None for limit in cam.allowed)
         return (0.0, float(rise or fall or 0.0)), fall if rise else None
     return _usual(quantity), None
 
 
-def _usual(quantity: Quantity) -> tuple[float, float] | None:
+def _usual(quantity: Symbol) -> tuple[float, float] | None:
     return {"gamma": (LEAST_GAMMA, 90.0), "pressure": (0.0, 90.0 - LEAST_GAMMA)}.get(quantity.kind)
 
 
@@ -374,12 +373,12 @@ def span_of(curve: Array, dots: Array = EMPTY, bounded: bool = True) -> tuple[fl
 # the painter
 
 
-def figure_name(quantities: Sequence[Quantity]) -> str:
+def figure_name(quantities: Sequence[Symbol]) -> str:
     """The name of the figure of a quantity, or of an output with its rates."""
     quantity = quantities[0]
     if len(quantities) == 1:
-        return f"diagram-{quantity.name.replace('/', '-').replace('@', '')}"
-    return f"motion-{'link' if quantity.kind == 'theta' else 'slide'}-{quantity.of.replace('/', '-')}"
+        return f"diagram-{str(quantity).replace('/', '-').replace('@', '')}"
+    return f"motion-{'link' if quantity.kind == 'theta' else 'slide'}-{quantity.pair.replace('/', '-')}"
 
 
 def chart_page(
@@ -394,12 +393,12 @@ def chart_page(
     title : of a quantity, if it is not the diagram of what its panel shows
     """
     scene, quantity = axis.scene, panels[0].quantity
-    of, about = quantity.name, {"quantity": quantity.name}
+    of, about = str(quantity), {"quantity": str(quantity)}
     title = title or rich_text(Phrase("diagram of", quantity=panels[0].title), language)
     if len(panels) > 1:
         mover = "link" if quantity.kind == "theta" else "slide"
-        of = say(Phrase(f"motion of {mover}", **{mover: quantity.of.split("/")[0]}), language)
-        title, about = of, {"output": quantity.of}
+        of = say(Phrase(f"motion of {mover}", **{mover: quantity.pair.split("/")[0]}), language)
+        title, about = of, {"output": quantity.pair}
     tall = THIRD if len(panels) > 1 else ALONE
 
     def paint(figure: chart.Figure) -> None:
@@ -408,7 +407,7 @@ def chart_page(
         chart.add_legend(figure, complex(LEFT, TOP - 9.5), [*legend_of(panels, language), *marks])
         for k, panel in enumerate(panels):
             top, last = TOP + k * (tall + GAP), k == len(panels) - 1
-            name = panel.quantity.name.replace("/", "-")
+            name = str(panel.quantity).replace("/", "-")
             without = word("list comma", language) + word(panel.without_bound, language)
             headed = panel.title + without if panel.unbounded else panel.title
             box = Box(LEFT, top, WIDTH - RIGHT, top + tall)

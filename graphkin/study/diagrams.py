@@ -32,17 +32,17 @@ from graphkin.solver.values import FlywheelStudy
 from graphkin.study import charts
 from graphkin.study.force_diagrams import flywheel_page, force_page, polar_page
 from graphkin.study.graphical import drawn, on_paper, ordinate_chains
-from graphkin.study.quantities import Quantity, rates_of
+from graphkin.study.quantities import course_of, rates_of
 from graphkin.study.turn import Output, TurnStudy
 from graphkin.words import Phrase, rich_text, say, word
 from graphkin.words.symbols import Words, sign
 
-LaidOver = Mapping[Quantity, Sequence[tuple[float, float]]]
+LaidOver = Mapping[Symbol, Sequence[tuple[float, float]]]
 """Values measured elsewhere: offset of the driver's range and value (SI)."""
 
 
 def diagrams(
-    turn: TurnStudy, language: str = "en", positions: int = 12, asked: Sequence[Quantity] = (),
+    turn: TurnStudy, language: str = "en", positions: int = 12, asked: Sequence[Symbol] = (),
     over: LaidOver = MappingProxyType({}),
 ) -> dict[str, ChartPage | Drawing]:
     """The motion diagrams of each output and the curve of each coupler point, by name of file; if quantities are asked
@@ -85,11 +85,11 @@ def diagrams(
     return pages | _balance_pages(turn, language)
 
 
-def _force_pages(turn: TurnStudy, quantity: Quantity, language: str) -> dict[str, ChartPage | Drawing]:
+def _force_pages(turn: TurnStudy, quantity: Symbol, language: str) -> dict[str, ChartPage | Drawing]:
     """A force or a moment over the driver; of a force the polar diagram too."""
     name = charts.figure_name([quantity])
     pages: dict[str, ChartPage | Drawing] = {name: force_page(turn.reach, quantity, language)}
-    if quantity.is_size:
+    if quantity.is_vector:
         pages[name.replace("diagram", "polar", 1)] = polar_page(turn.reach, quantity, language)
     return pages
 
@@ -99,7 +99,7 @@ def _balance_pages(turn: TurnStudy, language: str) -> dict[str, ChartPage | Draw
     pages: dict[str, ChartPage | Drawing] = {}
     for force in forces_named(turn.scene):
         if force.kind in ("F", "M") and not force.other:
-            pages[f"diagram-{force}"] = force_page(turn.reach, Quantity(force), language)
+            pages[f"diagram-{force}"] = force_page(turn.reach, force, language)
     if isinstance(turn.flywheel, FlywheelStudy):
         pages["flywheel"] = flywheel_page(turn.reach, turn.flywheel, language)
     return pages
@@ -121,19 +121,19 @@ def _motion_page(
     return charts.chart_page(axis, panels, _facts(turn, output, language), language, limits)
 
 
-def _apart(turn: TurnStudy, quantity: Quantity, over: Sequence[tuple[float, float]], language: str) -> list[str]:
+def _apart(turn: TurnStudy, quantity: Symbol, over: Sequence[tuple[float, float]], language: str) -> list[str]:
     """The deviation of values from elsewhere from theory, if there are any: root of the mean square, and the
     greatest."""
     if not over:
         return []
     at, read = np.array(over, dtype=float).T
-    deviation = read - np.asarray(quantity.values(turn.reach, turn.reach.motion(at)), dtype=float)
+    deviation = read - np.asarray(course_of(quantity, turn.reach, turn.reach.motion(at)), dtype=float)
     if quantity.measure.is_angle:
         deviation = np.remainder(deviation + np.pi, 2 * np.pi) - np.pi
     deviation = np.abs(deviation[np.isfinite(deviation)])
     if not len(deviation):
         return []
-    unit = quantity.unit(turn.scene)
+    unit = quantity.unit(turn.scene.units)
     sizes = np.sqrt(np.mean(deviation**2)), deviation.max()
     mean, greatest = (_said(float(size), unit, 3) for size in sizes)
     return [say(Phrase("laid over apart", values=len(deviation), mean=mean, greatest=greatest), language)]
@@ -144,7 +144,7 @@ def _facts(turn: TurnStudy, output: Output, language: str) -> list[Words]:
     scene, quantity, stroke = turn.scene, output.quantity, output.stroke
     if stroke is None:
         return [word(output.without, language)]
-    unit = quantity.unit(scene)
+    unit = quantity.unit(scene.units)
     kind = "swing" if quantity.kind == "theta" else "stroke"
     facts: list[Words] = [say(Phrase(f"{kind} is", **{kind: _said(stroke, unit)}), language)]
     back = turn.quick_return(output)
@@ -164,8 +164,8 @@ def _said(value: float, unit: Unit, digits: int = 6) -> str:
 
 
 def measured(
-    reach: DriverRange, outputs: Sequence[Quantity], count: int = 12
-) -> dict[Quantity, list[tuple[float, ...]]]:
+    reach: DriverRange, outputs: Sequence[Symbol], count: int = 12
+) -> dict[Symbol, list[tuple[float, ...]]]:
     """For each output (its angle or travel) the readings of the drawing at evenly spread positions.
 
     Returns
@@ -175,8 +175,8 @@ def measured(
     """
     scene = reach.scene
     known = {chain[0]: chain for chain in ordinate_chains(scene) if len(chain) == 3}
-    chains = {q: known[q.symbol] for q in outputs if q.symbol in known}
-    readings: dict[Quantity, list[tuple[float, ...]]] = {q: [] for q in outputs}
+    chains = {q: known[q] for q in outputs if q in known}
+    readings: dict[Symbol, list[tuple[float, ...]]] = {q: [] for q in outputs}
     asked = [on_paper(scene, symbol)[0] for chain in chains.values() for symbol in chain]
     low, high = reach.ends
     count *= max(reach.turns, 1)

@@ -13,10 +13,11 @@ from typing import Literal
 
 import numpy as np
 
+from graphkin.scene.symbol import Symbol
 from graphkin.search import SAME, Pieces, Turn, angles_between, extrapolated, places_between, resolve
 from graphkin.solver import DriverRange, Motion
 from graphkin.solver.algebra.pose import Array
-from graphkin.study.quantities import Quantity, rates_of
+from graphkin.study.quantities import course_of, of_extrapolated, of_smooth, rates_of, smooth_course
 
 NOTHING = 5e-11
 """A driver value this small (rad, m) is 0: no extreme of an acceleration is placed better; of a position at an end of a
@@ -61,7 +62,7 @@ class Traced:
     """A quantity over the driver's range: its extremes in the order of the motion, and its zeros (driver);
     ``unbounded`` if it grows without bound towards an end of the range."""
 
-    quantity: Quantity
+    quantity: Symbol
     extremes: tuple[Extreme, ...]
     zeros: tuple[float, ...]
     constant: float | None = None
@@ -87,7 +88,7 @@ class Traced:
 class Curve:
     """A quantity, and its index among the curves that represent it."""
 
-    quantity: Quantity
+    quantity: Symbol
     pieces: Pieces
     k: int
 
@@ -95,7 +96,7 @@ class Curve:
     def zeros(self) -> Array:
         """The parameters at which it is zero, in increasing order; of the angle between two links, whatever whole turns
         one has made against the other, those at which they stand alike; none of a link's own angle."""
-        if self.quantity.is_angle:
+        if self.quantity.is_angle_of_link:
             return np.zeros(0)
         if self.quantity.kind != "theta":
             return self.pieces.zeros(self.k)
@@ -155,7 +156,7 @@ class CurveParameter:
         nearer and nearer to the end."""
         value = np.nan if self._away[which] else float(curve.pieces.at(self.range[which], curve.k))
         if np.isfinite(value):
-            return curve.quantity.of_smooth(value)
+            return of_smooth(curve.quantity, value)
         (low, high), steps = self.range, np.arange(1.0, 9.0)
         if self._away[which]:
             parts = HAIR * 2.0 ** np.arange(2, 18)
@@ -169,14 +170,14 @@ class CurveParameter:
             values = self._beside_end(curve.quantity, which, parts[reached[0]] * steps)
         else:
             near = self.offset(high - STEPS_TO_END * steps if which else low + STEPS_TO_END * steps)
-            values = curve.quantity.values(self.reach, self.reach.motion(near))
-        return curve.quantity.of_extrapolated(extrapolated(values.tolist(), steps.tolist())[0])
+            values = course_of(curve.quantity, self.reach, self.reach.motion(near))
+        return of_extrapolated(curve.quantity, extrapolated(values.tolist(), steps.tolist())[0])
 
-    def _beside_end(self, quantity: Quantity, which: int, parts: Array) -> Array:
+    def _beside_end(self, quantity: Symbol, which: int, parts: Array) -> Array:
         """A quantity at parts of the range beside its lower or upper end."""
         low, high = self.reach.ends
         near = high - parts * (high - low) if which else low + parts * (high - low)
-        return quantity.values(self.reach, self.reach.motion(near))
+        return course_of(quantity, self.reach, self.reach.motion(near))
 
     def offset(self, parameter: Array) -> Array:
         return np.asarray(parameter) if self.reach.full else places_between(parameter, *self.reach.ends)
@@ -204,7 +205,7 @@ def driver_value(reach: DriverRange, offset: float) -> float:
     return 0.0 if abs(value) < NOTHING else value
 
 
-def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[Traced, ...]:
+def trace(reach: DriverRange, quantities: Sequence[Symbol]) -> tuple[Traced, ...]:
     """Find all extremes and zeros of quantities; a mechanism that is singular throughout has none."""
     way = CurveParameter(reach)
     places = [q for q in quantities if q.is_position]
@@ -217,9 +218,9 @@ def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[Traced, .
             here[key] = reach.motion(way.offset(parameter), extended=False)
         return here[key]
 
-    def resolved(own: Sequence[Quantity], floor: Array, weight: Array | None = None) -> list[Curve]:
+    def resolved(own: Sequence[Symbol], floor: Array, weight: Array | None = None) -> list[Curve]:
         def columns(parameter: Array) -> tuple[Array, Array]:
-            values, errors = zip(*(q.smooth(reach, at(parameter)) for q in own), strict=True)
+            values, errors = zip(*(smooth_course(q, reach, at(parameter)) for q in own), strict=True)
             return np.stack(values, axis=1), np.stack(errors, axis=1)
 
         pieces = resolve(columns, *way.range, reach.full, floor, weight, way.seams)
@@ -231,7 +232,7 @@ def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[Traced, .
         curves += resolved(places, np.array([reach.scene.size**q.measure.length for q in places]))
     if rates:
         # near the end of a motion, a distance x away, velocities grow as x^-1/2 and accelerations as x^-3/2
-        power = np.array([(2.0 * q.measure.order - 1.0) * (2 if q.is_size else 1) for q in rates])
+        power = np.array([(2.0 * q.measure.order - 1.0) * (2 if q.is_vector else 1) for q in rates])
         curves += resolved(rates, _floor(reach, rates), None if reach.full else power * _grow(reach, rates))
     traced = _traced(way, curves) if reach.full else _beside_ends(reach, _traced(way, curves))
     found = {t.quantity: t for t in traced if t.constant is None or np.isfinite(t.constant)}
@@ -239,25 +240,25 @@ def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[Traced, .
 
 
 def _values(
-    reach: DriverRange, quantities: Sequence[Quantity], offsets: Sequence[Array], extended: bool = False,
+    reach: DriverRange, quantities: Sequence[Symbol], offsets: Sequence[Array], extended: bool = False,
     unit: bool = False,
 ) -> list[Array]:
     """Quantities at offsets of their own, any number for each, all from one motion; with ``unit`` for a driver of rate
     1."""
     ends = np.cumsum([0, *map(len, offsets)]).tolist()
     motion = reach.motion(np.concatenate([*offsets, np.zeros(1)]), unit=unit, extended=extended)
-    return [q.values(reach, motion)[a:b] for q, (a, b) in zip(quantities, pairwise(ends), strict=True)]
+    return [course_of(q, reach, motion)[a:b] for q, (a, b) in zip(quantities, pairwise(ends), strict=True)]
 
 
-def _grow(reach: DriverRange, rates: Sequence[Quantity]) -> Array:
+def _grow(reach: DriverRange, rates: Sequence[Symbol]) -> Array:
     """Whether rates grow without bound towards the lower and the upper end, if it is known there, shape (2, n)."""
     low, high = reach.ends
     motion = reach.motion(low + (high - low) * np.concatenate([NEAR, 1.0 - NEAR]), extended=False)
-    nearest, next_ = np.abs([q.values(reach, motion) for q in rates]).T.reshape(2, 2, -1).swapaxes(0, 1)
+    nearest, next_ = np.abs([course_of(q, reach, motion) for q in rates]).T.reshape(2, 2, -1).swapaxes(0, 1)
     return np.asarray(~(nearest <= GROWS * next_) & np.array(reach.limited)[:, None])
 
 
-def _floor(reach: DriverRange, rates: Sequence[Quantity]) -> Array:
+def _floor(reach: DriverRange, rates: Sequence[Symbol]) -> Array:
     """For each rate the size of such rates in this mechanism: smaller values within rounding are zero."""
     size = reach.scene.size
     motion = reach.motion(np.linspace(*reach.ends, 62)[1:-1], extended=False)
@@ -267,7 +268,7 @@ def _floor(reach: DriverRange, rates: Sequence[Quantity]) -> Array:
     for order, (turns, moves) in enumerate((("omega", "v"), ("alpha", "a")), 1):
         turning.append(max(omega**order, *(_usual(getattr(p, turns)) for p in poses)))
         moving.append(max(turning[order] * size, *(_usual(getattr(p, moves)) for p in poses)))
-    usual = [(turning if q.measure.angle else moving)[q.measure.order] ** (2 if q.is_size else 1) for q in rates]
+    usual = [(turning if q.measure.angle else moving)[q.measure.order] ** (2 if q.is_vector else 1) for q in rates]
     return np.array(usual) * 1e-3
 
 
@@ -284,8 +285,8 @@ def _traced(way: CurveParameter, curves: Sequence[Curve]) -> list[Traced]:
     found = []
     for curve in (c for c in curves if c.quantity in constant):
         quantity = curve.quantity
-        nothing = not quantity.is_position and quantity.smooth(reach, start)[0][0] == 0.0
-        found.append(Traced(quantity, (), (), 0.0 if nothing else float(quantity.values(reach, start)[0])))
+        nothing = not quantity.is_position and smooth_course(quantity, reach, start)[0][0] == 0.0
+        found.append(Traced(quantity, (), (), 0.0 if nothing else float(course_of(quantity, reach, start)[0])))
     moving = [c for c in curves if c.quantity not in constant]
     for curve, extremes, zeros in zip(moving, _extremes(way, moving), _zeros(way, moving), strict=True):
         quantity = curve.quantity
@@ -321,7 +322,7 @@ def _beside_ends(reach: DriverRange, curves: Sequence[Traced]) -> list[Traced]:
     part = np.concatenate([NEAR, np.sin(np.linspace(0.0, np.pi / 2, SAMPLES)[1:-1]) ** 2, 1.0 - NEAR[::-1]])
     motion, found = reach.motion(low + (high - low) * part), list[Traced]()
     for curve in curves:
-        values = curve.quantity.values(reach, motion)
+        values = course_of(curve.quantity, reach, motion)
         size, known = np.abs(values), values[np.isfinite(values)]
         slack = LOCAL * float(np.max(np.abs(known), initial=0.0))
         most, least = float(np.max(known, initial=-np.inf)) - slack, float(np.min(known, initial=np.inf)) + slack
@@ -335,13 +336,13 @@ def _beside_ends(reach: DriverRange, curves: Sequence[Traced]) -> list[Traced]:
     return found
 
 
-def _constant(way: CurveParameter, curves: Sequence[Curve]) -> set[Quantity]:
+def _constant(way: CurveParameter, curves: Sequence[Curve]) -> set[Symbol]:
     """Quantities that do not change; of rates those that are the same wherever they are finite."""
     found = {c.quantity for c in curves if c.pieces.is_constant(c.k)}
     low, high = way.range
     motion = way.reach.motion(way.offset(np.linspace(low, high, 34)[1:-1]), extended=False)
     for quantity in (c.quantity for c in curves if not c.quantity.is_position):
-        values, errors = quantity.smooth(way.reach, motion)
+        values, errors = smooth_course(quantity, way.reach, motion)
         known = np.isfinite(values)
         values, errors = values[known], np.broadcast_to(errors, known.shape)[known]
         room = 1e-12 * np.max(np.abs(values), initial=0.0) + np.where(np.isfinite(errors), errors, 0.0)
@@ -355,7 +356,7 @@ def _polished(way: CurveParameter, curves: Sequence[Curve], turns: Sequence[Sequ
     reach = way.reach
     low, high = reach.ends
     found = [way.offset(np.array([turn.place for turn in own])) for own in turns]
-    which = [k for k, c in enumerate(curves) if c.quantity.order == 0 and len(found[k])]
+    which = [k for k, c in enumerate(curves) if c.quantity.is_of_output and len(found[k])]
     both = [q for k in which for q in rates_of(curves[k].quantity)[1:]]
     rates = _values(reach, both, [found[k] for k in which for _ in range(2)], unit=True) if which else []
     for k, rate, second in zip(which, rates[::2], rates[1::2], strict=True):
@@ -374,7 +375,7 @@ def _extremes(way: CurveParameter, curves: Sequence[Curve]) -> list[tuple[Extrem
     low, high = reach.ends
     # a rate that rests along a dwell is at no extreme there; a size is, for it is nowhere less
     turns = [
-        [turn for turn in c.pieces.turns(c.k, c.quantity.is_position or c.quantity.is_size)
+        [turn for turn in c.pieces.turns(c.k, c.quantity.is_position or c.quantity.is_vector)
          if turn.at_seam or len(way.inside(np.array([turn.place])))]
         for c in curves
     ]  # fmt: skip
@@ -391,7 +392,7 @@ def _extremes(way: CurveParameter, curves: Sequence[Curve]) -> list[tuple[Extrem
         for turn, place, value in zip(own, places.tolist(), fine.tolist(), strict=True):
             # at a jump both values stand at one place
             # and where a group stands in line, at a change point, the solver refuses
-            value = curve.quantity.of_smooth(turn.value) if turn.at_seam or np.isnan(value) else value
+            value = of_smooth(curve.quantity, turn.value) if turn.at_seam or np.isnan(value) else value
             kind: Literal["max", "min"] = "max" if turn.sense > 0 else "min"
             inner.append(Extreme(kind, place, driver_value(reach, place), value, rest=turn.rest))
         found.append((*ends[0], *inner, *ends[1]))

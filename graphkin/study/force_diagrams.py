@@ -20,10 +20,10 @@ from graphkin.scene.model import forces_named
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange
 from graphkin.solver.forces import forces_of
-from graphkin.solver.values import FlywheelStudy, load_edges, needed_moment
+from graphkin.solver.values import FlywheelStudy, load_edges, needed_moment, value_of
 from graphkin.study import charts
 from graphkin.study.extremes import Extreme
-from graphkin.study.quantities import Quantity
+from graphkin.study.quantities import course_of
 from graphkin.words import Phrase, rich_text, say, word
 from graphkin.words.symbols import Words, sign, spaced
 
@@ -55,21 +55,21 @@ def whole_turn(axis: charts.DriverAxis) -> charts.Array:
     return np.unique(np.concatenate([axis.offsets, beside[(beside > low) & (beside < high)]]))
 
 
-def force_panel(axis: charts.DriverAxis, quantity: Quantity, offsets: charts.Array) -> charts.Panel:
+def force_panel(axis: charts.DriverAxis, quantity: Symbol, offsets: charts.Array) -> charts.Panel:
     """A moment, or the size of a force, over the driver, with its greatest and its least value."""
-    values = quantity.values(axis.reach, axis.reach.motion(offsets))
+    values = course_of(quantity, axis.reach, axis.reach.motion(offsets))
     curve, extremes = axis.curve(quantity, offsets, values), _extremes(axis, quantity, offsets, values)
     away = any(math.isinf(e.value) for e in extremes)
     panel = charts.panel_of(axis, quantity, curve, extremes, bounded=not away, jumps=jumps_of(curve))
     return replace(panel, unbounded=away)
 
 
-def force_page(reach: DriverRange, quantity: Quantity, language: str) -> chart.ChartPage:
+def force_page(reach: DriverRange, quantity: Symbol, language: str) -> chart.ChartPage:
     """The diagram of a moment, or of the size of a force, over the driver."""
     axis = charts.DriverAxis(reach)
     panel = force_panel(axis, quantity, whole_turn(axis))
-    title = rich_text(Phrase("diagram of", quantity=charts.lettered(reach.scene, quantity.symbol)), language)
-    units = quantity.unit(reach.scene).written
+    title = rich_text(Phrase("diagram of", quantity=charts.lettered(reach.scene, quantity)), language)
+    units = quantity.unit(reach.scene.units).written
     return charts.chart_page(axis, [panel], (), language, title=title, units=units)
 
 
@@ -81,7 +81,7 @@ def jumps_of(curve: charts.Array) -> list[int]:
     return np.flatnonzero((step < 1e-5 * float(np.ptp(x))) & (leap > 1e-6 * wide)).tolist()
 
 
-def force_extremes(reach: DriverRange) -> dict[str, tuple[Quantity, tuple[Extreme, ...]]]:
+def force_extremes(reach: DriverRange) -> dict[str, tuple[Symbol, tuple[Extreme, ...]]]:
     """The greatest and the least of each joint force by size, and of each couple and balance that is not zero, over the
     driver's range (SI); infinite where it grows without bound, at an end of the motion or where a balance does no work.
 
@@ -89,7 +89,7 @@ def force_extremes(reach: DriverRange) -> dict[str, tuple[Quantity, tuple[Extrem
     ------
     Unsolvable : a load acts on a part of a stroke, and the driver makes no whole turn
     """
-    quantities = [Quantity(force) for force in forces_named(reach.scene) if force.kind in ("F", "M")]
+    quantities = [force for force in forces_named(reach.scene) if force.kind in ("F", "M")]
     if not quantities:
         return {}
     axis = charts.DriverAxis(reach)
@@ -97,16 +97,16 @@ def force_extremes(reach: DriverRange) -> dict[str, tuple[Quantity, tuple[Extrem
     motion = reach.motion(offsets)
     forces = forces_of(motion)
     most = max(float(np.nanmax(np.abs(value), initial=0.0)) for value in forces.values.values())
-    extremes = dict[str, tuple[Quantity, tuple[Extreme, ...]]]()
+    extremes = dict[str, tuple[Symbol, tuple[Extreme, ...]]]()
     for quantity in quantities:
-        value = forces.value(quantity.symbol)
+        value = forces.value(quantity)
         if value is not None and np.nanmax(np.abs(value), initial=0.0) > NOUGHT * most:
-            extremes[quantity.name] = quantity, _extremes(axis, quantity, offsets, quantity.values(reach, motion))
+            extremes[str(quantity)] = quantity, _extremes(axis, quantity, offsets, course_of(quantity, reach, motion))
     return extremes
 
 
 def _extremes(
-    axis: charts.DriverAxis, quantity: Quantity, offsets: charts.Array, values: charts.Array
+    axis: charts.DriverAxis, quantity: Symbol, offsets: charts.Array, values: charts.Array
 ) -> tuple[Extreme, ...]:
     """The greatest and the least of a force or moment (SI), a single value of a constant; infinite where it grows
     without bound, at an end of the motion or inside."""
@@ -143,7 +143,7 @@ _Away: TypeAlias = tuple[float, float]
 
 
 def _away_at_ends(
-    axis: charts.DriverAxis, quantity: Quantity, offsets: charts.Array, values: charts.Array
+    axis: charts.DriverAxis, quantity: Symbol, offsets: charts.Array, values: charts.Array
 ) -> Iterator[_Away]:
     """The ends of the motion towards which a force grows without bound."""
     usual = float(np.nanmedian(np.abs(values)))
@@ -157,7 +157,7 @@ def _away_at_ends(
 
 
 def _away_inside(
-    axis: charts.DriverAxis, quantity: Quantity, offsets: charts.Array, values: charts.Array
+    axis: charts.DriverAxis, quantity: Symbol, offsets: charts.Array, values: charts.Array
 ) -> Iterator[_Away]:
     """The places inside the motion towards which a force grows without bound, as where a balance does no work: with the
     reciprocal of the distance from there, hundredfold at a hundredth."""
@@ -178,15 +178,15 @@ def _away_inside(
             yield place, math.copysign(1.0, value)
 
 
-def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> chart.ChartPage:
+def polar_page(reach: DriverRange, quantity: Symbol, language: str) -> chart.ChartPage:
     """The polar diagram of a force: the end of its vector, drawn from one pole, over the way of the driver."""
     scene, axis = reach.scene, charts.DriverAxis(reach)
-    offsets, unit = whole_turn(axis), quantity.unit(scene)
+    offsets, unit = whole_turn(axis), quantity.unit(scene.units)
     panel = force_panel(axis, quantity, offsets)
     x, sizes = panel.curve.T
-    vector = np.asarray(unit.of(quantity.whole(reach.motion(offsets))), dtype=complex)
+    vector = np.asarray(unit.of(value_of(reach.motion(offsets), quantity)), dtype=complex)
     jumps = sorted({j for part in (vector.real, vector.imag) for j in jumps_of(np.stack([x, part], axis=1))})
-    name = charts.lettered(scene, quantity.symbol)
+    name = charts.lettered(scene, quantity)
     title = rich_text(Phrase("polar diagram of", force=name), language)
     mark = "°" if scene.drivers[0].turns else f" {scene.units.length}"
     facts: list[Words] = [name + word("colon", language) + word(panel.without_bound, language)]
@@ -207,7 +207,7 @@ def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> chart.C
     def paint(figure: chart.Figure) -> None:
         chart.add_words(figure, *charts.heading(scene, title, facts, language))
         box = Box(charts.LEFT, charts.TOP - 4.0, charts.LEFT + side, charts.TOP - 4.0 + side)
-        axes = chart.add_panel(figure, box, quantity.name.replace("/", "-"), name + f" ({unit.text})", f"({unit.text})")
+        axes = chart.add_panel(figure, box, str(quantity).replace("/", "-"), name + f" ({unit.text})", f"({unit.text})")
         axes.set_xlim(middle.real - span / 2, middle.real + span / 2)
         axes.set_ylim(middle.imag - span / 2, middle.imag + span / 2)
         chart.count_steps(axes.xaxis)
@@ -224,9 +224,9 @@ def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> chart.C
         chart.add_labels(axes, labels, toward=toward)
 
     return chart.ChartPage(
-        charts.WIDTH, charts.TOP + side + 16.0, paint, title=f"{quantity.name}: {charts.title_of(scene, language)}",
+        charts.WIDTH, charts.TOP + side + 16.0, paint, title=f"{quantity}: {charts.title_of(scene, language)}",
         desc=str(facts[0]), lang=language,
-        metadata={"scene": scene.name, "units": unit.text, "quantity": quantity.name},
+        metadata={"scene": scene.name, "units": unit.text, "quantity": str(quantity)},
     )  # fmt: skip
 
 
@@ -239,7 +239,7 @@ def flywheel_page(reach: DriverRange, study: FlywheelStudy, language: str) -> ch
     """The page of a flywheel."""
     scene, axis = reach.scene, charts.DriverAxis(reach)
     per, moment, inertia = scene.units.newtons, scene.units.of("moment").written, scene.units.of("inertia").written
-    offsets, moments = whole_turn(axis), Quantity(Symbol("M", link=study.link))
+    offsets, moments = whole_turn(axis), Symbol("M", link=study.link)
     curve = axis.curve(moments, offsets, needed_moment(reach, offsets))
     (x, needed), driving = curve.T, study.driving / per
     # gained since the axis begins, by the trapezoidal rule: for the eye

@@ -29,7 +29,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import DriverRange
 from graphkin.study.charts import lettered, number, title_of
-from graphkin.study.quantities import Quantity
+from graphkin.study.quantities import course_of
 from graphkin.table import Column, Table
 from graphkin.words import Phrase, rich_text, say, word
 from graphkin.words.symbols import Words, sign, spaced
@@ -183,14 +183,14 @@ def graphical(reach: DriverRange, name: str, way: Way) -> Chords:
     per_y = unit.si * next_of_series(float(unit.of(np.max(np.abs(values), initial=1e-300))) / TALL)
     y = values / per_y
     widths = np.diff(x)
-    exact = np.asarray(Quantity(result).values(reach, reach.motion(at)), dtype=float)
+    exact = np.asarray(course_of(result, reach, reach.motion(at)), dtype=float)
     means = np.zeros(0)
     if way == "derivative":
         slopes = np.diff(y) / widths
         pole = next((h for h in POLES if h * np.max(np.abs(slopes)) <= TALL), POLES[-1])
         rays = slopes * pole
         ordinates, per_found = rays, per_y / (per_x * pole)
-        means = np.diff(np.asarray(Quantity(given).values(reach, reach.motion(nodes)), dtype=float)) / (per_x * widths)
+        means = np.diff(np.asarray(course_of(given, reach, reach.motion(nodes)), dtype=float)) / (per_x * widths)
     else:
         # so that the broken line stays on the paper
         steps = y * widths

@@ -14,11 +14,12 @@ from graphkin.drawing.chart import ChartPage
 from graphkin.files import Json
 from graphkin.scene.drivers import time_span
 from graphkin.scene.model import Mechanism
+from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion, over_time
 from graphkin.structure import Structure
 from graphkin.study.charts import Axis, Panel, chart_page, figure_name, number, panel_of
 from graphkin.study.extremes import Extreme
-from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
+from graphkin.study.quantities import course_of, link_quantities, slide_quantities
 from graphkin.study.turn import output_links, output_slides
 from graphkin.words import Phrase, rich_text, say, word
 from graphkin.words.symbols import RichText
@@ -67,15 +68,15 @@ class TimeAxis(Axis):
     def at(self, places: Array) -> Array:
         return places
 
-    def course(self, quantity: Quantity) -> Array:
+    def course(self, quantity: Symbol) -> Array:
         """A quantity over ``times`` (SI), NaN where it is missing."""
-        return np.asarray(quantity.values(None, self.motion), dtype=float)
+        return np.asarray(course_of(quantity, None, self.motion), dtype=float)
 
-    def values(self, quantity: Quantity, places: Array) -> Array:
+    def values(self, quantity: Symbol, places: Array) -> Array:
         low, high = self.ends
         within = (places >= low) & (places <= high)  # a law says nothing of what comes before and after it
         values = np.full(np.shape(places), np.nan)
-        values[within] = quantity.values(None, over_time(self.structure, places[within], extended=False))
+        values[within] = course_of(quantity, None, over_time(self.structure, places[within], extended=False))
         if not quantity.measure.is_angle:
             return values
         # whole turns as on the curve
@@ -88,13 +89,13 @@ class TimeStudy:
     """The motion of outputs over time: ``groups`` of quantities, each shown on a page."""
 
     axis: TimeAxis
-    groups: tuple[tuple[Quantity, ...], ...]
+    groups: tuple[tuple[Symbol, ...], ...]
 
     @cached_property
-    def extremes(self) -> dict[Quantity, tuple[Extreme, ...]]:
+    def extremes(self) -> dict[Symbol, tuple[Extreme, ...]]:
         """The least and the greatest value of each quantity, none of a constant one; their offset and driver is the
         time (s)."""
-        extremes = dict[Quantity, tuple[Extreme, ...]]()
+        extremes = dict[Symbol, tuple[Extreme, ...]]()
         for quantity in (q for quantities in self.groups for q in quantities):
             values = self.axis.course(quantity)
             good = values[np.isfinite(values)]
@@ -106,7 +107,7 @@ class TimeStudy:
         """A page for each group of quantities over the time."""
         axis, facts = self.axis, [self._fact(language)]
 
-        def panel(quantity: Quantity) -> Panel:
+        def panel(quantity: Symbol) -> Panel:
             shown = axis.shown(quantity, axis.times, axis.course(quantity))
             return panel_of(axis, quantity, np.stack([axis.times, shown], axis=1), self.extremes[quantity])
 
@@ -123,14 +124,14 @@ class TimeStudy:
         """The least and the greatest value of each quantity, with their moments, as lines of text."""
         lines = [self._fact(language)]
         for quantity, extremes in self.extremes.items():
-            unit = quantity.unit(self.axis.scene)
+            unit = quantity.unit(self.axis.scene.units)
             ends = []
             for e in extremes:
                 key = "least at time" if e.kind == "min" else "greatest at time"
                 value = unit.said(e.value)
                 ends.append(say(Phrase(key, quantity=value, time=number(e.offset)), language))
             if extremes:
-                lines.append(f"  {quantity.name}{word('colon', language)}{word('list comma', language).join(ends)}")
+                lines.append(f"  {quantity}{word('colon', language)}{word('list comma', language).join(ends)}")
         return lines
 
     @cached_property
@@ -138,14 +139,14 @@ class TimeStudy:
         """The study as plain data: scene units, radians, seconds."""
         scene, outputs = self.axis.scene, dict[str, Json]()
         for quantity, extremes in self.extremes.items():
-            ends, unit = {"min": "least", "max": "greatest"}, quantity.unit(scene, radians=True)
-            outputs[quantity.name] = {
+            ends, unit = {"min": "least", "max": "greatest"}, quantity.unit(scene.units, radians=True)
+            outputs[str(quantity)] = {
                 ends[e.kind]: {"value": unit.of(e.value), "time": e.offset} for e in extremes
             }
         return {"title": scene.question.title, "time": [*self.axis.ends], "outputs": outputs}
 
 
-def study_time(structure: Structure, asked: Sequence[Quantity] = ()) -> TimeStudy:
+def study_time(structure: Structure, asked: Sequence[Symbol] = ()) -> TimeStudy:
     """The study over time of the asked quantities, each on a page; else of the drivers and every output with its
     rates."""
     axis, scene = TimeAxis(structure), structure.scene

@@ -22,6 +22,7 @@ from graphkin.jobs import Checkpoints, Progress, Workers, key_of
 from graphkin.scene import mechanism_of
 from graphkin.scene.drivers import moments, moves_by_law
 from graphkin.scene.model import Dimension, Mechanism, dimensions, same_but_for_dimensions
+from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, Motion, driver_range, over_time, structure_of
 from graphkin.solver.algebra.pose import Array
 from graphkin.solver.compiled.kernel import pays
@@ -32,7 +33,7 @@ from graphkin.solver.values import settled
 from graphkin.structure import Structure
 from graphkin.study.designs import Designs, Value, applied
 from graphkin.study.prepared_designs import PreparedMechanisms
-from graphkin.study.quantities import Parts, Quantity, Words, all_that_moves, motion_table, word_column
+from graphkin.study.quantities import Parts, Words, all_that_moves, motion_table, parts_of, word_column
 from graphkin.table import Column, Table, Tabled, Values, parquet_of_csv, table_of_csv
 from graphkin.words import from_others
 
@@ -63,13 +64,13 @@ class FollowedDesign:
     """
 
     scene: Mechanism
-    asked: tuple[Quantity, ...] = ()
+    asked: tuple[Symbol, ...] = ()
     at: tuple[tuple[str, float], ...] = ()
 
     @classmethod
     def prepared(cls, engine: PreparedMechanism) -> FollowedDesign:
         """A mechanism that is prepared already, whatever its quantities."""
-        design = cls(engine.structure.scene, tuple(map(Quantity, (*engine.wanted, *engine.solved))))
+        design = cls(engine.structure.scene, (*engine.wanted, *engine.solved))
         design.__dict__.update(structure=engine.structure, reach=engine.range, engine=engine)
         return design
 
@@ -78,7 +79,7 @@ class FollowedDesign:
         return structure_of(self.scene)
 
     @cached_property
-    def watched(self) -> tuple[Quantity, ...]:
+    def watched(self) -> tuple[Symbol, ...]:
         """The quantities of the table."""
         return self.asked or all_that_moves(self.structure)
 
@@ -99,13 +100,13 @@ class FollowedDesign:
     def engine(self) -> PreparedMechanism | None:
         """The mechanism prepared for the asked quantities; None if all are asked, or one that the formulas do not give,
         if a larger group has no closed form, or if it starts elsewhere than the scene."""
-        if not self.asked or not all(w.can_be_prepared for w in self.asked):
+        if not self.asked or not all(map(_is_prepared, self.asked)):
             return None
         if self.at or self.scene.question.positions is not None or moves_by_law(self.scene):
             return None
         if not all(e.explicit for e in self.structure.elements):
             return None
-        ready = prepare(self.structure, [w.symbol for w in self.asked], self.scene.units, along=self.reach)
+        ready = prepare(self.structure, self.asked, self.scene.units, along=self.reach)
         return None if ready.solved else ready  # a redundant link is none of its
 
     @cached_property
@@ -114,9 +115,9 @@ class FollowedDesign:
         places = dict[str, tuple[tuple[int, ...], str]]()
         names = () if self.engine is None else self.engine.names
         for quantity in self.asked if names else ():
-            unit, rows = quantity.unit(self.scene).text, tuple(map(names.index, quantity.symbol.heads))
-            places |= {head: ((k,), unit) for head, k in zip(quantity.symbol.heads, rows, strict=True)}
-            places[quantity.name] = rows, unit
+            unit, rows = quantity.unit(self.scene.units).text, tuple(map(names.index, quantity.heads))
+            places |= {head: ((k,), unit) for head, k in zip(quantity.heads, rows, strict=True)}
+            places[str(quantity)] = rows, unit
         return places
 
     def table(self, n: int, first: int, last: int, arrays: Arrays | None = None) -> Table:
@@ -132,7 +133,7 @@ class FollowedDesign:
             motion = over_time(self.structure, times)
         else:
             motion = self.reach.motion(self.reach.table_offsets(n, np.arange(first, last)))
-        parts = tuple(w.parts(None if times is not None else self.reach, motion) for w in self.watched)
+        parts = tuple(parts_of(w, None if times is not None else self.reach, motion) for w in self.watched)
         motion = self._known(motion)
         return self._rows(first, motion.values, parts, motion.status, motion.why, times)
 
@@ -145,7 +146,7 @@ class FollowedDesign:
         """
         assert self.engine is not None
         by_head = dict(zip(self.engine.names, map(settled, columns, self.engine.residues), strict=False))
-        parts, rows = tuple(tuple(by_head[head] for head in w.symbol.heads) for w in self.watched), len(values)
+        parts, rows = tuple(tuple(by_head[head] for head in w.heads) for w in self.watched), len(values)
         absent = [gone for gone in missing if len(gone[0])]
         if not absent:
             return self._rows(first, values, parts, ["ok"], [""])
@@ -158,7 +159,7 @@ class FollowedDesign:
                 # why there is nothing there the solver says, and it has the last word on whether there is
                 some, motion = without[k : k + BLOCK], design.reach.motion(offset[k : k + BLOCK])
                 for watched, components in zip(self.watched, parts, strict=True):
-                    for component, solved in zip(components, watched.parts(design.reach, motion), strict=True):
+                    for component, solved in zip(components, parts_of(watched, design.reach, motion), strict=True):
                         component[some] = solved
                 known = self._known(motion)
                 status[some], why[some] = known.status.tolist(), known.why
@@ -171,7 +172,7 @@ class FollowedDesign:
     def blank(self, first: int, last: int, status: str = "", why: str = "") -> Table:
         """The table of positions without values."""
         nothing = np.full(last - first, np.nan)
-        parts = tuple((nothing,) * (1 + w.is_vector) for w in self.watched)
+        parts = tuple((nothing,) * len(w.heads) for w in self.watched)
         values = np.stack([nothing] * len(self.scene.drivers), axis=1)
         times = nothing if moves_by_law(self.scene) and self.engine is None else None
         return self._rows(first, values, parts, [status], [why], times)
@@ -183,6 +184,13 @@ class FollowedDesign:
         return motion_table(
             self.scene, self.watched, bool(self.asked), first, values, parts, status, why, times
         )
+
+
+def _is_prepared(quantity: Symbol) -> bool:
+    """Whether a prepared mechanism gives a quantity as tables show it: none of rates along guides, and no angle, which
+    is continuous over a turn."""
+    given = quantity.order is not None and quantity.kind != "theta"
+    return given and not (quantity.is_rate_of_pair or quantity.axis)
 
 
 Missing = tuple[Array, FollowedDesign | tuple[str, str], Array]

@@ -22,7 +22,7 @@ from graphkin.solver.path.driver_range import Extremes
 from graphkin.solver.values import FlywheelStudy, flywheel_of
 from graphkin.structure import Driven, Dyad, DyadKind, Pair, Structure
 from graphkin.study.extremes import Extreme, Traced, trace
-from graphkin.study.quantities import Quantity, link_quantities, rates_of, slide_quantities
+from graphkin.study.quantities import course_of, link_quantities, rates_of, slide_quantities
 
 EQUAL = 1e-9
 """Lengths that differ by less than this part of the longest count as equal: a change point."""
@@ -68,7 +68,7 @@ class Output:
         return min(equal, key=lambda e: (e.driver + EQUALLY_FAR) % math.tau)
 
     @property
-    def quantity(self) -> Quantity:
+    def quantity(self) -> Symbol:
         return self.position.quantity
 
     @property
@@ -92,7 +92,7 @@ class Output:
             return "does not move"
         if self.followed:
             return "nowhere limited"
-        return "turns on" if self.quantity.is_angle else "slides on"
+        return "turns on" if self.quantity.is_angle_of_link else "slides on"
 
     @property
     def unbounded(self) -> bool:
@@ -390,7 +390,7 @@ class TurnStudy:
         return ends.ratio, ends.lag
 
 
-def study_turn(reach: DriverRange, asked: Sequence[Quantity] = (), everything: bool = True) -> TurnStudy:
+def study_turn(reach: DriverRange, asked: Sequence[Symbol] = (), everything: bool = True) -> TurnStudy:
     """Study the whole range.
 
     Parameters
@@ -412,7 +412,7 @@ def study_turn(reach: DriverRange, asked: Sequence[Quantity] = (), everything: b
             others = [q for link in scene.links for q in link_quantities(link.name)]
             others += [q for s in own_slides(scene, start.slides) for q in slide_quantities(s.key)]
         wanted += [q for q in others if q not in wanted]
-    groups = {Quantity(Symbol("transmission", name="-".join(d.links))): d for d in reach.structure.dyads.values()}
+    groups = {Symbol("transmission", name="-".join(d.links)): d for d in reach.structure.dyads.values()}
     traced = trace(reach, (*wanted, *groups))
     outputs = tuple(_output(reach, t) for t in traced if t.quantity in mains)
     known = (t for t in traced if t.quantity in groups and not (t.least is None and t.constant is None))
@@ -452,10 +452,10 @@ def output_slides(motion: Motion) -> tuple[str, ...]:
 def _output(reach: DriverRange, position: Traced) -> Output:
     if position.constant is not None or not (reach.full or not all(reach.limited)):
         return Output(position)
-    at_ends = position.quantity.values(reach, reach.at_ends)
+    at_ends = course_of(position.quantity, reach, reach.at_ends)
     turned = float(np.diff(at_ends)[0])
     if reach.full:
-        return Output(position, turned if position.quantity.is_angle and abs(turned) > 1.0 else 0.0)
+        return Output(position, turned if position.quantity.is_angle_of_link and abs(turned) > 1.0 else 0.0)
     # where the motion is followed no further, it comes back if its own limits hold it there
     places, room = [e.value for e in position.extremes], BESIDE * (1.0 + abs(turned))
     open_ends = at_ends[~np.array(reach.limited)]

@@ -89,7 +89,7 @@ def to_json(turn: TurnStudy) -> dict[str, Json]:
             }
             for least in turn.transmission
         ],
-        "curves": {t.quantity.name: _curve(turn, t) for t in turn.curves},
+        "curves": {str(t.quantity): _curve(turn, t) for t in turn.curves},
         **_forces(turn),
         **_flywheel(turn),
     }
@@ -106,9 +106,9 @@ def _forces(turn: TurnStudy) -> dict[str, Json]:
     except Unsolvable as stop:
         return {"forces": {}, "why_no_forces": stop.why}
     return {"forces": {
-        name: {"unit": quantity.unit(turn.scene).text, "extremes": [
+        name: {"unit": quantity.unit(turn.scene.units).text, "extremes": [
             {"kind": e.kind, "driver": _driver(turn.scene, e.driver),
-             **_known(quantity.unit(turn.scene).of(e.value), "grows without bound there")}
+             **_known(quantity.unit(turn.scene.units).of(e.value), "grows without bound there")}
             for e in extremes
         ]} for name, (quantity, extremes) in found.items()
     }}  # fmt: skip
@@ -124,7 +124,7 @@ def _driver(scene: Mechanism, value: float) -> float:
 
 
 def _extreme(turn: TurnStudy, traced: Traced, extreme: Extreme) -> dict[str, Json]:
-    value = traced.quantity.unit(turn.scene, radians=True).of(extreme.value)
+    value = traced.quantity.unit(turn.scene.units, radians=True).of(extreme.value)
     return {
         "kind": extreme.kind,
         "driver": _driver(turn.scene, extreme.driver),
@@ -136,26 +136,26 @@ def _extreme(turn: TurnStudy, traced: Traced, extreme: Extreme) -> dict[str, Jso
 def _curve(turn: TurnStudy, traced: Traced) -> dict[str, Json]:
     scene = turn.scene
     data: dict[str, Json] = {
-        "unit": traced.quantity.unit(scene, radians=True).text,
+        "unit": traced.quantity.unit(scene.units, radians=True).text,
         "extremes": [_extreme(turn, traced, e) for e in traced.extremes],
     }
-    if not traced.quantity.is_angle:  # where a turning link points along x is not sought
+    if not traced.quantity.is_angle_of_link:  # where a turning link points along x is not sought
         data["zeros"] = [_driver(scene, z) for z in traced.zeros]
     if traced.constant is not None:
-        data["constant"] = traced.quantity.unit(scene, radians=True).of(traced.constant)
+        data["constant"] = traced.quantity.unit(scene.units, radians=True).of(traced.constant)
     return data
 
 
 def _output(turn: TurnStudy, output: Output) -> dict[str, Json]:
     scene, quantity = turn.scene, output.quantity
-    name = quantity.of
+    name = quantity.pair
     data: dict[str, Json] = {
         "link" if quantity.kind == "theta" else "slide": name,
         "limit_positions": [_extreme(turn, output.position, e) for e in output.position.extremes],
     }
     stroke, back = output.stroke, turn.quick_return(output)
     what = "swing" if quantity.kind == "theta" else "stroke"
-    data[what] = None if stroke is None else quantity.unit(scene, radians=True).of(stroke)
+    data[what] = None if stroke is None else quantity.unit(scene.units, radians=True).of(stroke)
     data["K"], data["theta"] = back if back else (None, None)
     if stroke is None:
         data["why"] = word(output.without, "en")
@@ -174,9 +174,9 @@ def design_row(turn: TurnStudy) -> dict[str, float | str | None]:
         cells[f"range_{name} ({unit.text})"] = unit.of(value) if limited or turn.reach.full else None
     for output in turn.outputs:
         quantity, stroke = output.quantity, output.stroke
-        name = quantity.of
+        name = quantity.pair
         key = f"swing_{name} (deg)" if quantity.kind == "theta" else f"stroke_{name} ({length})"
-        cells[key] = None if stroke is None else quantity.unit(scene).of(stroke)
+        cells[key] = None if stroke is None else quantity.unit(scene.units).of(stroke)
         back = turn.quick_return(output)
         cells[f"K_{name}"] = back[0] if back else None
     for least in turn.transmission:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import permutations
 from typing import Any
 
@@ -12,6 +13,7 @@ from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
 from graphkin.solver import Motion, solve
+from graphkin.solver.values import value_of
 from tests import scenes
 
 pytestmark = pytest.mark.quick
@@ -175,3 +177,15 @@ def test_coriolis_and_the_rest_make_the_acceleration_between_any_two_links(sourc
             scale = abs(ak) + abs(ar)
             assert value(motion, f"a_{name}") == pytest.approx(ak + ar, rel=1e-9, abs=1e-9 * scale)
     assert told
+
+
+@pytest.mark.parametrize("kind", ["v", "a"])
+def test_a_vector_along_an_inclined_guide_has_the_sign_and_size_of_the_rate_of_its_pair(kind: str) -> None:
+    motion = solve(mechanism_of({
+        "frame": {"name": "4", "points": {"A": [0, 0]}, "guides": {"h": {"through": [0, 0], "angle": 150}}},
+        "links": {"1": {"points": ["A", "B"], "length": 20}, "2": {"points": ["B", "C"], "length": 60},
+                  "3": {"points": ["C"], "on": "4.h"}},
+        "driver": {"link": "1", "angle": 60, "omega": 10},
+    }))  # fmt: skip
+    rate = Symbol.parse(f"{kind}_3/4")
+    assert value_of(motion, rate) == pytest.approx(value_of(motion, replace(Symbol.parse(f"{kind}_C"), along=True)))

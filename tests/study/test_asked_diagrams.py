@@ -14,7 +14,7 @@ from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import driver_range
 from graphkin.study.charts import DriverAxis
-from graphkin.study.quantities import Quantity
+from graphkin.study.quantities import course_of
 
 
 def test_what_is_asked_alone_is_drawn_alone() -> None:
@@ -97,8 +97,8 @@ def test_the_pressure_angle_of_a_cams_follower_is_swept_with_what_the_scene_allo
 
 def test_the_diagram_of_the_angle_between_two_links_has_no_leap_of_a_turn() -> None:
     reach = driver_range(mechanism_of("four-bar-coupler-point"))
-    axis, angle = DriverAxis(reach), Quantity(Symbol.parse("theta_2/1"))
-    curve = axis.curve(angle, axis.offsets, angle.values(reach, axis.motion))
+    axis, angle = DriverAxis(reach), Symbol.parse("theta_2/1")
+    curve = axis.curve(angle, axis.offsets, course_of(angle, reach, axis.motion))
     assert np.abs(np.diff(curve[:, 1])).max() < 1.0
 
 

@@ -18,7 +18,7 @@ from graphkin.errors import Unsolvable
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.solver import driver_range
 from graphkin.study.diagrams import coupler_points, diagrams, measured
-from graphkin.study.quantities import link_quantities, slide_quantities
+from graphkin.study.quantities import course_of, link_quantities, slide_quantities
 from graphkin.study.turn import TurnStudy, study_turn
 from tests import scenes
 from tests.drawing.chart_words import off_the_page, overlapping
@@ -49,8 +49,8 @@ def test_values_measured_off_the_polygons_are_those_of_the_solver(name: str) -> 
     for quantity, rows in measured(reach, quantities, 4).items():
         motion = reach.motion(np.array([r[0] for r in rows]))
         of = link_quantities if quantity.kind == "theta" else slide_quantities
-        for k, q in enumerate(of(quantity.of)):
-            assert [r[k + 1] for r in rows] == pytest.approx(q.values(reach, motion).tolist(), rel=1e-9, abs=1e-9)
+        for k, q in enumerate(of(quantity.pair)):
+            assert [r[k + 1] for r in rows] == pytest.approx(course_of(q, reach, motion).tolist(), rel=1e-9, abs=1e-9)
 
 
 def test_every_output_has_a_diagram_and_every_coupler_point_a_curve() -> None:
@@ -113,10 +113,10 @@ def test_the_curve_shows_the_values_of_the_solver() -> None:
     reach = driver_range(mechanism_of("shaper-scheme-2"))
     figure = pages("shaper-scheme-2", positions=0)["motion-slide-6-1"].figure()
     for quantity in slide_quantities("6/1"):
-        curve = lines(figure, quantity.name.replace("/", "-"))["curve"]
+        curve = lines(figure, str(quantity).replace("/", "-"))["curve"]
         sense = np.sign(reach.driver.values[1])
         offsets = ((np.radians(curve[1:-1, 0]) - reach.start[0]) * sense) % (2 * np.pi)
-        right = quantity.values(reach, reach.motion(offsets)) * 1e3
+        right = course_of(quantity, reach, reach.motion(offsets)) * 1e3
         assert right == pytest.approx(curve[1:-1, 1], rel=1e-7, abs=1e-6 * np.ptp(right))
 
 
@@ -124,7 +124,7 @@ def test_extremes_are_marked_where_they_are_and_say_how_much() -> None:
     turn = turn_of("shaper-scheme-2")
     page = pages("shaper-scheme-2", positions=0)["motion-slide-6-1"]
     axes = next(a for a in page.figure().axes if a.get_gid() == "v_6-1")
-    found = next(t for t in turn.curves if t.quantity.name == "v_6/1").extremes
+    found = next(t for t in turn.curves if str(t.quantity) == "v_6/1").extremes
     marked = {(line.get_marker(), *np.round(line.get_xydata()[0], 6)) for line in axes.lines
               if line.get_marker() in ("^", "v")}
     assert marked == {("^" if e.kind == "max" else "v", round(np.degrees(e.driver), 6), round(e.value * 1e3, 6))
@@ -134,7 +134,7 @@ def test_extremes_are_marked_where_they_are_and_say_how_much() -> None:
 
 def test_limit_positions_are_lines_through_all_panels() -> None:
     turn = study_turn(driver_range(mechanism_of("shaper-scheme-2")))
-    output = next(o for o in turn.outputs if o.quantity.of == "6/1")
+    output = next(o for o in turn.outputs if o.quantity.pair == "6/1")
     page = diagrams(turn, positions=0)["motion-slide-6-1"]
     right = sorted(np.degrees([output.low.driver, output.high.driver]))
     for axes in page.figure().axes:

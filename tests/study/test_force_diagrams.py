@@ -18,7 +18,6 @@ from graphkin.solver import driver_range
 from graphkin.solver.values import flywheel_of, load_edges, needed_moment
 from graphkin.study.charts import DriverAxis
 from graphkin.study.force_diagrams import force_panel, whole_turn
-from graphkin.study.quantities import Quantity
 
 FORCES = Path(__file__).parent.parent / "validation" / "forces"
 SHAPER, ENGINE = FORCES / "shaper-scheme-2.toml", FORCES / "engine.toml"
@@ -94,7 +93,7 @@ def test_forces_jump_where_the_cut_begins_and_ends():
 
 def test_both_values_stand_at_a_jump_of_the_diagram():
     axis = DriverAxis(reach_of(crank(-100)))
-    x, moment = force_panel(axis, Quantity(Symbol.parse("M_1")), whole_turn(axis)).curve.T
+    x, moment = force_panel(axis, Symbol.parse("M_1"), whole_turn(axis)).curve.T
     for place in (45, 135):
         assert {0.0, 100.0} == set(moment[np.abs(x - place) < 1e-4].round(6).tolist())
 

@@ -27,7 +27,6 @@ from graphkin.scene import library_text, mechanism_of
 from graphkin.scene.symbol import Symbol
 from graphkin.study import sweeps
 from graphkin.study.designs import designs_of
-from graphkin.study.quantities import Quantity
 from graphkin.study.sweeps import FollowedDesign, Outcome, Sweep, collect, write_tables
 
 
@@ -49,8 +48,8 @@ def run(
         return write_tables(sweep, folder, workers, parquet, progress)
 
 
-def watched(name: str) -> Quantity:
-    return Quantity(Symbol.parse(name))
+def watched(name: str) -> Symbol:
+    return Symbol.parse(name)
 
 
 def new_plan() -> Sweep:

@@ -17,7 +17,8 @@ from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import driver_range
-from graphkin.study.quantities import Quantity
+from graphkin.study.extremes import trace
+from graphkin.study.quantities import course_of
 from graphkin.study.turn import Output, TurnStudy, four_bar_class, study_turn
 from graphkin.study.turn_data import to_json
 from tests import scenes
@@ -123,7 +124,7 @@ def test_position_at_the_end_of_the_motion_keeps_its_digits() -> None:
 
 
 def test_rates_that_grow_without_bound_have_no_zeros_there() -> None:
-    alpha = next(t for t in turn_of("sixbar-AE70").curves if t.quantity.name == "alpha_4")
+    alpha = next(t for t in turn_of("sixbar-AE70").curves if str(t.quantity) == "alpha_4")
     assert alpha.zeros == (0.0,)
 
 
@@ -267,15 +268,15 @@ def test_inversion_is_named(scene: str, name: str) -> None:
 @pytest.mark.parametrize("name", ["fourbar-150-500-300-400", "shaper-scheme-2", "slotter-75-150"])
 def test_extremes_of_velocity_lie_where_the_acceleration_is_zero(name: str) -> None:
     turn = turn_of(name)
-    curves = {t.quantity.name: t for t in turn.curves}
-    key = slider(turn).quantity.of if name != "fourbar-150-500-300-400" else None
+    curves = {str(t.quantity): t for t in turn.curves}
+    key = slider(turn).quantity.pair if name != "fourbar-150-500-300-400" else None
     speed, push = (curves["v_" + key], curves["a_" + key]) if key else (curves["omega_3"], curves["alpha_3"])
     assert sorted(push.zeros) == pytest.approx(sorted(e.driver for e in speed.extremes), abs=1e-12)
 
 
 def test_extremes_of_acceleration_are_found_off_the_grid() -> None:
     # greatest |a| of a crank in line with its slot: at both ends of the stroke
-    curve = next(t for t in turn_of("sine-mechanism").curves if t.quantity.name == "a_3/4")
+    curve = next(t for t in turn_of("sine-mechanism").curves if str(t.quantity) == "a_3/4")
     assert [math.pi / 2, 3 * math.pi / 2] == pytest.approx(sorted(e.driver for e in curve.extremes), abs=1e-10)
 
 
@@ -287,7 +288,7 @@ def test_no_value_of_a_fine_grid_exceeds_the_extremes(name: str) -> None:
     for output in turn.outputs:
         if output.low is None or output.high is None:
             continue
-        values = output.quantity.values(turn.reach, motion)
+        values = course_of(output.quantity, turn.reach, motion)
         room = 1e-11 * max(1.0, abs(output.high.value))
         assert output.low.value - room <= np.nanmin(values)
         assert np.nanmax(values) <= output.high.value + room
@@ -375,7 +376,7 @@ def follower(by: str, angle: float) -> TurnStudy:
 @pytest.mark.parametrize("angle", [0.0, 37.0, 100.0, 150.0])
 @pytest.mark.parametrize("by", ["harmonic", "cycloidal", "345", "4567"])
 def test_a_follower_with_dwells_is_at_rest_where_they_begin_and_end(by: str, angle: float) -> None:
-    speed = next(c for c in follower(by, angle).curves if c.quantity.kind == "v" and c.quantity.of == "2/0")
+    speed = next(c for c in follower(by, angle).curves if c.quantity.kind == "v" and c.quantity.pair == "2/0")
     assert [0, 100, 150, 350] == pytest.approx(sorted(math.degrees(z) for z in speed.zeros), abs=1e-10)
 
 
@@ -400,7 +401,7 @@ def test_K_of_a_follower_is_that_of_rise_and_fall_without_dwells(by: str, angle:
 @pytest.mark.parametrize("angle", [0.0, 37.0, 100.0])
 def test_an_acceleration_that_jumps_has_its_extremes_at_the_jumps(angle: float) -> None:
     curves = follower("harmonic", angle).curves
-    found = next(c for c in curves if c.quantity.kind == "a" and c.quantity.of == "2/0").extremes
+    found = next(c for c in curves if c.quantity.kind == "a" and c.quantity.pair == "2/0").extremes
     rise, fall = (math.pi**2 * 0.02 * 10**2 / (2 * wide**2) for wide in (RISE, FALL))
     expected = {(0, "max", rise), (100, "min", -rise), (150, "min", -fall), (350, "max", fall)}
     assert [x for e in sorted(expected) for x in (e[0], e[2])] == pytest.approx(
@@ -411,7 +412,7 @@ def test_an_acceleration_that_jumps_has_its_extremes_at_the_jumps(angle: float) 
 
 @pytest.mark.parametrize("angle", [0.0, 37.0, 350.0])
 def test_an_acceleration_that_jumps_to_zero_is_zero_from_there_on(angle: float) -> None:
-    found = next(c for c in follower("harmonic", angle).curves if c.quantity.kind == "a" and c.quantity.of == "2/0")
+    found = next(c for c in follower("harmonic", angle).curves if c.quantity.kind == "a" and c.quantity.pair == "2/0")
     assert [0, 50, 100, 150, 250, 350] == pytest.approx(sorted(math.degrees(z) for z in found.zeros), abs=1e-10)
 
 
@@ -447,7 +448,7 @@ angle = ANGLE
 omega = 10
 """.replace("ANGLE", str(angle))
     curves = study_turn(driver_range(mechanism_of_text(text, "cam"))).curves
-    found = next(c for c in curves if c.quantity.kind == "a" and c.quantity.of == "4/0")
+    found = next(c for c in curves if c.quantity.kind == "a" and c.quantity.pair == "4/0")
     # the bar at half of its rise: the law of cosines gives where it stands at the base circle
     start = math.pi - math.acos((0.09**2 + arm**2 - 0.035**2) / (2 * 0.09 * arm))
     theta, omega = start - swing / 2, -2 * swing * 10 / RISE
@@ -461,7 +462,7 @@ omega = 10
 
 
 def test_a_parabolic_law_has_the_acceleration_of_its_halves() -> None:
-    found = next(c for c in follower("parabolic", 20.0).curves if c.quantity.kind == "a" and c.quantity.of == "2/0")
+    found = next(c for c in follower("parabolic", 20.0).curves if c.quantity.kind == "a" and c.quantity.pair == "2/0")
     assert found.greatest is not None
     assert found.least is not None
     size = 4 * 0.02 * 10**2 / RISE**2
@@ -478,7 +479,7 @@ def test_a_slider_in_line_with_its_crank_has_no_quick_return_at_all(angle, crank
                   "3": {"points": ["C"], "on": "0.g"}},
         "driver": {"link": "1", "angle": angle + 50, "omega": 10},
     })))  # fmt: skip
-    (one,) = (turn.quick_return(o) for o in turn.outputs if o.quantity.of == "3/0")
+    (one,) = (turn.quick_return(o) for o in turn.outputs if o.quantity.pair == "3/0")
     assert (1.0, 0.0) == one
 
 
@@ -505,7 +506,7 @@ def stephenson_three(**driver: float) -> dict[str, object]:
     ("name", "zeros"), [("alpha_3", [1.59131]), ("alpha_4", []), ("omega_3", []), ("omega_4", [32.0892])]
 )
 def test_what_stays_finite_where_another_group_ends_the_motion_has_no_zero_there(name: str, zeros: list[float]) -> None:
-    traced = {t.quantity.name: t for t in study_turn(driver_range(mechanism_of(stephenson_three()))).curves}
+    traced = {str(t.quantity): t for t in study_turn(driver_range(mechanism_of(stephenson_three()))).curves}
     assert zeros == pytest.approx(np.degrees(traced[name].zeros).tolist(), abs=1e-4)
 
 
@@ -518,10 +519,10 @@ def test_zeros_over_a_limited_range_are_the_changes_of_sign(angle: float, alpha:
     motion = study.reach.motion(offset, extended=False)
     for one in study.curves:
         if one.constant is None and one.quantity.kind in ("omega", "alpha"):
-            values = one.quantity.values(study.reach, motion)
+            values = course_of(one.quantity, study.reach, motion)
             at = np.flatnonzero(values[:-1] * values[1:] < 0)
             seen = np.sort((study.reach.value(offset[at]) + study.reach.value(offset[at + 1])) / 2)
-            assert seen.tolist() == pytest.approx(sorted(one.zeros), abs=2e-3), one.quantity.name
+            assert seen.tolist() == pytest.approx(sorted(one.zeros), abs=2e-3), str(one.quantity)
 
 
 SWUNG: dict[str, object] = {
@@ -537,7 +538,7 @@ SWUNG: dict[str, object] = {
 
 
 def test_no_zero_and_no_extreme_is_invented_where_a_slide_is_only_not_followed_further() -> None:
-    curves = {t.quantity.name: t for t in study_turn(driver_range(mechanism_of(SWUNG))).curves}
+    curves = {str(t.quantity): t for t in study_turn(driver_range(mechanism_of(SWUNG))).curves}
     alpha, omega = curves["alpha_2"], curves["omega_2"]
     # tan theta = 40 / x: omega is greatest at x = 0, and alpha at x = 40 / sqrt 3 to either side
     assert [0.0] == pytest.approx(alpha.zeros, abs=1e-12)
@@ -549,7 +550,7 @@ def test_no_zero_and_no_extreme_is_invented_where_a_slide_is_only_not_followed_f
 @pytest.mark.parametrize(("name", "key"), [("elliptic-trammel", "s_3/4"), ("scissor-lift", "s_8/1"),
                                            ("scissor-lift", "theta_2")])  # fmt: skip
 def test_what_is_nought_at_an_end_of_the_motion_is_told_as_0(name: str, key: str) -> None:
-    curve = next(t for t in turn_of(name).curves if t.quantity.name == key)
+    curve = next(t for t in turn_of(name).curves if str(t.quantity) == key)
     assert 0.0 in [e.value for e in curve.extremes if e.kind == "end"]
 
 
@@ -569,7 +570,7 @@ def test_an_extreme_a_hundredth_of_a_degree_from_the_end_of_the_motion_is_found(
         },
         "driver": {"link": "2", "angle": 130.03, "omega": 10},
     })))  # fmt: skip
-    slider = next(t for t in study.curves if t.quantity.name == "s_6/1")
+    slider = next(t for t in study.curves if str(t.quantity) == "s_6/1")
     places = [math.degrees(e.driver) for e in slider.extremes if e.kind != "end"]
     assert any(abs(place - 19.2707) < 2e-3 for place in places)
 
@@ -599,14 +600,14 @@ def test_a_mechanism_that_stands_nowhere_has_no_outputs() -> None:
 def test_an_angle_has_its_value_at_an_end_where_other_links_go_away() -> None:
     # link 1 turns against link 4 as its driver does, while blocks run off their guides: from end to end half a turn
     turn = study_turn(driver_range(as_scene(redriven(7014))))
-    position = next(output for output in turn.outputs if output.quantity.of == "1")
+    position = next(output for output in turn.outputs if output.quantity.pair == "1")
     assert math.pi == pytest.approx(position.stroke, abs=1e-9)
-    assert "goes away" == next(output.without for output in turn.outputs if output.quantity.of == "3/0")
+    assert "goes away" == next(output.without for output in turn.outputs if output.quantity.pair == "3/0")
 
 
 def test_a_rate_that_only_rounding_moves_is_constant() -> None:
     turn = study_turn(driver_range(as_scene(redriven(7014))))
-    alpha = next(traced for traced in turn.curves if traced.quantity.name == "alpha_1")
+    alpha = next(traced for traced in turn.curves if str(traced.quantity) == "alpha_1")
     assert -5.707581566305764 == pytest.approx(alpha.constant, rel=1e-9)
 
 
@@ -618,8 +619,8 @@ def test_an_end_that_cannot_be_computed_is_not_said_to_go_away() -> None:
 
 def test_an_acceleration_that_is_least_along_a_flat_bottom_has_its_least_value_there() -> None:
     reach = driver_range(mechanism_of("slotter-75-150"))
-    size = Quantity(Symbol.parse("a_B"))
-    fine = size.values(reach, reach.motion(np.linspace(0.0, math.tau, 721)))
+    size = Symbol.parse("a_B")
+    fine = course_of(size, reach, reach.motion(np.linspace(0.0, math.tau, 721)))
     course = next(t for t in study_turn(reach, [size]).curves if t.quantity == size)
     assert course.least is not None
     assert (fine.min(), 0.75 * math.tau) == pytest.approx((course.least.value, course.least.offset), rel=1e-6)
@@ -627,7 +628,7 @@ def test_an_acceleration_that_is_least_along_a_flat_bottom_has_its_least_value_t
 
 def test_no_zero_is_told_where_rounding_hides_a_rate_near_an_end() -> None:
     turn = study_turn(driver_range(mechanism_of(random_scene(190021, ("PRP", "RRP", "pin"), "slot", True))))
-    course = next(t for t in turn.curves if t.quantity.name == "alpha_5")
+    course = next(t for t in turn.curves if str(t.quantity) == "alpha_5")
     assert [0.249575382] == pytest.approx(course.zeros, abs=1e-9)
 
 
@@ -639,14 +640,14 @@ def test_a_range_of_another_assembly_that_overlaps_that_of_the_motion_is_told_be
 
 def test_no_extreme_is_told_where_a_rate_only_grows_towards_an_end() -> None:
     reach = driver_range(mechanism_of(redriven(17029)))
-    rate = Quantity(Symbol.parse("v_P8/1"))
+    rate = Symbol.parse("v_P8/1")
     course = next(t for t in study_turn(reach, [rate]).curves if t.quantity == rate)
     assert ["min", "max", "min", "max"] == [e.kind for e in course.extremes]
 
 
 @pytest.mark.parametrize(("name", "zeros"), [("gamma_2-3", 0), ("pressure_3", 2)])
 def test_an_angle_of_90_degrees_at_most_is_zero_only_where_it_is_least(name: str, zeros: int) -> None:
-    angle = Quantity(Symbol.parse(name))
+    angle = Symbol.parse(name)
     turn = study_turn(driver_range(mechanism_of("four-bar-coupler-point")), [angle])
     assert zeros == len(next(t for t in turn.curves if t.quantity == angle).zeros)
 
@@ -654,13 +655,13 @@ def test_an_angle_of_90_degrees_at_most_is_zero_only_where_it_is_least(name: str
 def test_an_angle_at_an_end_where_other_links_go_away_has_eleven_digits() -> None:
     # at both ends, half a turn apart, link 7 stands the same way
     turn = study_turn(driver_range(as_scene(redriven(7014))))
-    swing = next(output for output in turn.outputs if output.quantity.of == "7").position
+    swing = next(output for output in turn.outputs if output.quantity.pair == "7").position
     low, *_, high = (e.value for e in swing.extremes if e.kind == "end")
     assert low == pytest.approx(high, abs=1e-11)
 
 
 def test_a_distance_that_goes_away_at_an_end_is_not_zero_where_it_is_least() -> None:
-    distance = Quantity(Symbol.parse("d_P3/P6"))
+    distance = Symbol.parse("d_P3/P6")
     turn = study_turn(driver_range(mechanism_of(random_scene(190121, ("RRP", "PRP"), "slot", False))), [distance])
     course = next(t for t in turn.curves if t.quantity == distance)
     assert () == course.zeros
@@ -679,7 +680,7 @@ def test_the_rate_of_a_contra_parallelogram_has_its_extremes_in_line() -> None:
         "sketch": {"C": [30, -40]},
     }  # fmt: skip
     turn = study_turn(driver_range(mechanism_of(scene)))
-    rate, second = (next(t for t in turn.curves if t.quantity.name == name) for name in ("omega_3", "alpha_3"))
+    rate, second = (next(t for t in turn.curves if str(t.quantity) == name) for name in ("omega_3", "alpha_3"))
     assert [0.0, math.pi] == pytest.approx(sorted(zero % math.tau for zero in second.zeros), abs=1e-8)
     assert [-25.0, -1.0] == pytest.approx(sorted(e.value for e in rate.extremes), abs=1e-7)
 
@@ -687,7 +688,7 @@ def test_the_rate_of_a_contra_parallelogram_has_its_extremes_in_line() -> None:
 def test_angles_at_both_ends_where_other_links_go_away_are_each_of_its_own_end() -> None:
     # by polynomials through ten and twelve positions of the solver
     turn = study_turn(driver_range(as_scene(redriven(7007))))
-    swing = next(output for output in turn.outputs if output.quantity.of == "5").position
+    swing = next(output for output in turn.outputs if output.quantity.pair == "5").position
     ends = [e.value for e in swing.extremes if e.kind == "end"]
     assert [-3.98568951327, 0.09813559657] == pytest.approx(ends, abs=1e-10)
 
@@ -730,3 +731,12 @@ def test_of_two_limit_positions_equally_far_the_one_at_the_smaller_angle_of_the_
     outputs = graphkin.sweep(TOGGLE, at=at, positions=4).data["outputs"]
     (output,) = [output for output in outputs if output.get("slide") == "5/0"]
     assert output["K"] == pytest.approx(drawn["K_5/0"], rel=1e-9)
+
+
+def test_a_distance_that_comes_to_nothing_is_0_there_and_nowhere_else() -> None:
+    scene = scenes.four_bar(150, 500, 300, 400, sketch={"C": [500, 290]})
+    scene["frame"]["points"]["Q"] = [90, 120]
+    (distance,) = trace(driver_range(mechanism_of(scene)), [Symbol.parse("d_B/Q")])
+    assert distance.least is not None
+    assert (0.0, pytest.approx(math.atan2(120, 90), abs=1e-12)) == (distance.least.value, distance.zeros[0])
+    assert 1 == len(distance.zeros)
