@@ -77,10 +77,10 @@ def known_symbol(where: str, text: str, scene: Mechanism | Reading, drawn: bool 
 
 def _drawn_instead(symbol: Symbol, scene: Mechanism | Reading) -> str:
     """The quantities of a drawing that tell one that only tables give."""
-    if symbol.kind == "place" and symbol.of:
-        return f"x_{symbol.of.point}, y_{symbol.of.point}"
     if symbol.axis:
         return str(symbol.whole)
+    if symbol.entry.instead and symbol.of:
+        return symbol.entry.instead.format(point=symbol.of.point, names=str(symbol).partition("_")[2])
     pair = next((pair for pair in scene.slides if pair.key == symbol.pair), None)
     if pair is None:  # of a point on an outline
         return f"{symbol.kind}_{symbol.link}/{symbol.link}@{symbol.other}"

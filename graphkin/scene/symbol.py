@@ -79,6 +79,7 @@ class Kind:
     flywheel.  ``letter`` is its letter in print, where it is not its name, ``mark`` a sign above it.  ``of_pose`` tells
     a place, an angle, a travel or a derivative of one by time; with ``of_pairs`` sliding pairs have it too, along the
     guide and with a sign.  A ``distance`` and an ``acute`` angle, of at most 90 degrees, are never negative.
+    ``instead`` names the quantities that a drawing has for one that tables alone give.
     """
 
     name: str
@@ -93,6 +94,7 @@ class Kind:
     mark: str = ""
     distance: bool = False
     acute: bool = False
+    instead: str = ""
 
     @property
     def sign(self) -> str:
@@ -138,7 +140,7 @@ KINDS = {
 
 _OF_ALL = {
     **KINDS,
-    "place": Kind("place", "length", "points", "motion", "C or B@3", of_pose=True),
+    "place": Kind("place", "length", "points", "motion", "C or B@3", of_pose=True, instead="x_{point}, y_{point}"),
     "transmission": Kind("transmission", "angle", "links", "position", "4-5", letter="γ", acute=True),
 }
 """With the place of a point, which has no letter of its own, and what only a group as a whole has."""
@@ -263,7 +265,7 @@ class Symbol:
     def is_of_tables(self) -> bool:
         """Whether only tables give it: the place of a point, a component, a rate of a sliding pair; no drawing has
         these by themselves."""
-        return self.kind == "place" or self.axis != "" or self.is_rate_of_pair
+        return self.entry.instead != "" or self.axis != "" or self.is_rate_of_pair
 
     @property
     def is_load(self) -> bool:

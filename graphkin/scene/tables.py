@@ -186,6 +186,11 @@ class Measure(NamedTuple):
     force: int = 0
     mass: int = 0
 
+    def usual(self, size: float, rate: Any, second: Any) -> Any:
+        """The size of such values of motion in a mechanism (SI): of its ``size`` (m), by the ``rate`` of its drivers
+        (rad/s) and their ``second`` rate with the square of the rate (rad/s2)."""
+        return size**self.length * (second * rate ** (self.order - 2) if self.order > 1 else rate**self.order)
+
     @property
     def is_of_motion(self) -> bool:
         """Whether it is a length or an angle, or a derivative of one by time."""

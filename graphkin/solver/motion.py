@@ -227,8 +227,8 @@ class Motion:
             return self.settled(value.real, measure, ends) + 1j * self.settled(value.imag, measure, ends)
         if not measure.is_of_motion:
             return value
-        whole = (1.0, *self.driven)[measure.order] * self.scene.size**measure.length
-        least = self._added[measure.order] if measure.length else 0.0
+        whole = measure.usual(self.scene.size, *self.driven)
+        least = self._added[measure.order] if measure.length and measure.order < len(self._added) else 0.0
         large = np.abs(value)
         small = self.ok & (large <= ends * SLIGHT * whole)
         if not small.any():

@@ -96,8 +96,8 @@ class PreparedMechanism:
         def left(symbol: Symbol) -> float:
             if symbol in self.solved:
                 return 0.0
-            whole = scene.size**symbol.measure.length * (1.0, rate, second + rate**2)[symbol.measure.order]
-            return RESIDUE * whole * self._factor(symbol)
+            usual: float = symbol.measure.usual(scene.size, rate, second + rate**2)
+            return RESIDUE * usual * self._factor(symbol)
 
         return np.array([left(symbol) for symbol in self.columns_of.values()])
 

@@ -383,10 +383,10 @@ VALUES: Mapping[str, Callable[[AnyPosed, Symbol], Any]] = {
 
 def bound_of_symbol(posed: Posed, symbol: Symbol, bounds: Mapping[str, ErrorBound[Array]]) -> Array:
     """The error bound of a quantity (SI), shape (n,), by the bounds of the links; infinite where it is unknown: of
-    rates of sliding pairs and of parts of accelerations."""
+    rates of sliding pairs, of parts of accelerations, and beyond second rates."""
     frame = posed.structure.scene.frame.name
     order = 0 if symbol.kind in ("x", "y", "d") else symbol.order
-    if order is None or symbol.is_rate_of_pair:
+    if order is None or order > 2 or symbol.is_rate_of_pair:
         return np.full(np.shape(next(iter(bounds.values())).angle), np.inf)
     known = {frame: ErrorBound(*(np.zeros(1),) * 6), **bounds}
 

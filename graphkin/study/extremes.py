@@ -14,6 +14,7 @@ from typing import Literal
 import numpy as np
 
 from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import Measure
 from graphkin.search import SAME, Pieces, Turn, angles_between, extrapolated, places_between, resolve
 from graphkin.solver import DriverRange, Motion
 from graphkin.solver.algebra.pose import Array
@@ -264,12 +265,15 @@ def _floor(reach: DriverRange, rates: Sequence[Symbol]) -> Array:
     motion = reach.motion(np.linspace(*reach.ends, 62)[1:-1], extended=False)
     poses = [motion.poses[link.name] for link in reach.scene.links]
     omega = max(_usual(p.omega) for p in poses)
-    turning, moving = [1.0], [size]
-    for order, (turns, moves) in enumerate((("omega", "v"), ("alpha", "a")), 1):
-        turning.append(max(omega**order, *(_usual(getattr(p, turns)) for p in poses)))
-        moving.append(max(turning[order] * size, *(_usual(getattr(p, moves)) for p in poses)))
-    usual = [(turning if q.measure.angle else moving)[q.measure.order] ** (2 if q.is_vector else 1) for q in rates]
-    return np.array(usual) * 1e-3
+    fields = {1: ("omega", "v"), 2: ("alpha", "a")}
+
+    def usual(measure: Measure) -> float:
+        here = [max(_usual(getattr(p, name)) for p in poses) for name in fields.get(measure.order, ())]
+        turning, moving = here or (0.0, 0.0)
+        turning = max(omega**measure.order, turning)
+        return turning if measure.angle else max(turning * size, moving)
+
+    return np.array([usual(q.measure) ** (2 if q.is_vector else 1) for q in rates]) * 1e-3
 
 
 def _usual(values: Array) -> float:

@@ -9,6 +9,7 @@ import pytest
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.model import Driver, Loading, LoadOn, Mechanism, SpringOn
 from graphkin.scene.scene_tables import LoadPhase
+from graphkin.scene.tables import Measure
 from tests.scenes import FOUR_BAR
 
 CRANK = Driver("1", "4", 0.5, 10.0, 0.0)
@@ -93,3 +94,11 @@ def test_a_load_on_a_stroke_acts_in_one_sense_and_jumps_where_both_meet() -> Non
     here = [(1.0, False), (0.5, True), (0.5, False), (0.1, True), (0.1, False), (0.05, True)]
     expected = [(False, True), (True, False), (False, False), (False, True), (False, False), (False, False)]
     assert expected == [load.acts_on_stroke(part, running) for part, running in here]
+
+
+@pytest.mark.parametrize(("measure", "size"), [
+    (Measure("angle", angle=1), 1.0), (Measure("length", length=1), 0.5), (Measure("velocity", length=1, order=1), 1.5),
+    (Measure("angular acceleration", angle=1, order=2), 20.0), (Measure("third rate", length=1, order=3), 30.0),
+])  # fmt: skip
+def test_values_of_motion_are_as_large_as_the_rates_of_the_drivers_make_them(measure: Measure, size: float) -> None:
+    assert size == measure.usual(0.5, rate=3.0, second=20.0)

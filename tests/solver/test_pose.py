@@ -6,7 +6,8 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from graphkin.solver.algebra.pose import Pose, rest
+from graphkin.scene.tables import Measure
+from graphkin.solver.algebra.pose import ErrorBound, Pose, rest
 
 pytestmark = pytest.mark.quick
 
@@ -57,3 +58,10 @@ def test_a_pose_on_its_inverse_is_at_rest(field: str) -> None:
 def test_a_link_that_stands_nowhere_has_neither_coordinate() -> None:
     nowhere = rest().still(1).where(np.array([False]))
     assert [True, True] == [bool(np.isnan(part[0])) for part in (nowhere.z.real, nowhere.z.imag)]
+
+
+def test_a_bound_is_known_up_to_second_rates() -> None:
+    bound = ErrorBound(*(np.full(2, float(k)) for k in range(6)))
+    assert [1.0, 1.0] == bound.of(Measure("velocity", length=1, order=1)).tolist()
+    assert [5.0, 5.0] == bound.of(Measure("angular acceleration", angle=1, order=2)).tolist()
+    assert [np.inf, np.inf] == bound.of(Measure("third rate", length=1, order=3)).tolist()

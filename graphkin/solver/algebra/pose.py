@@ -224,8 +224,10 @@ class ErrorBound(Generic[R]):
         return ErrorBound(*(a + b for a, b in zip(self, other, strict=True)))
 
     def of(self, measure: Measure) -> R:
-        """The bound of a length, an angle, or a derivative of one by time."""
-        return (self.of_turning if measure.angle else self.of_point)[measure.order]
+        """The bound of a length, an angle, or a derivative of one by time; infinite beyond the second."""
+        known = self.of_turning if measure.angle else self.of_point
+        unknown: Any = np.full(np.shape(self.position), np.inf)
+        return known[measure.order] if measure.order < len(known) else unknown  # type: ignore[no-any-return]
 
     @property
     def of_point(self) -> tuple[R, R, R]:
