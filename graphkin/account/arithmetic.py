@@ -26,7 +26,6 @@ from graphkin.construction.board.steps import (
 from graphkin.construction.position.links_on_paper import pushed_by_driver
 from graphkin.plane import added_up
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.scene.tables import Units
 from graphkin.words.symbols import RichText, Words, sign
 from graphkin.words.written import (
     FINER,
@@ -46,7 +45,6 @@ from graphkin.words.written import (
 )
 
 SAME_RATE = 1e-12  # of rates: what rounding leaves of the difference of two that are the same
-RATE_UNITS = {"omega": Units().of("angular velocity").written, "alpha": Units().of("angular acceleration").written}
 
 
 def scale_of(sheet: Sheet, diagram: DiagramName) -> float:
@@ -120,7 +118,7 @@ def rate_sum(sheet: Sheet, step: RateStep, units: bool = True) -> str:
     size, arm, value = (printed(one) for one in divided)
     unit = unit_of(sheet, step.diagram).written
     of, over = (f" {unit}", f" {sheet.scene.units.rates.length}") if units else ("", "")
-    return f"{size}{of} / {arm}{over} = {value} {RATE_UNITS[step.kind]}"
+    return f"{size}{of} / {arm}{over} = {value} {step.unit}"
 
 
 def _divided(sheet: Sheet, step: RateStep) -> tuple[str, str, str] | None:
@@ -149,9 +147,8 @@ def _divided(sheet: Sheet, step: RateStep) -> tuple[str, str, str] | None:
 
 def plan_sum(step: RateStep) -> str:
     """``30.00 mm × 0.25 (rad/s)/mm = 7.5 rad/s``: a rate read from the plan of a train."""
-    unit = RATE_UNITS[step.kind]
     length, scale = on_paper(step.mm), amount(step.per_mm, 12)
-    return f"{length} mm × {scale} ({unit})/mm = {product(length, scale)} {unit}"
+    return f"{length} mm × {scale} ({step.unit})/mm = {product(length, scale)} {step.unit}"
 
 
 @dataclass(frozen=True)

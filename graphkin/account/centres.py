@@ -180,7 +180,7 @@ def _speed(centres: Centres, rate: str, length: str, carried: int) -> tuple[str,
     units = centres.scene.units.rates
     per_mm = amount(centres.sheet.scales.length / units.metres)
     speed = written.product(rate, length, per_mm, carried=carried)
-    return f"{per_mm} {units.length}/mm", f"{speed} {units.length}/s"
+    return f"{per_mm} {units.length}/mm", units.of("velocity").beside(speed)
 
 
 def _pins_on_guides(centres: Centres) -> Iterator[tuple[str, str, str, str]]:

@@ -10,7 +10,6 @@ from functools import cached_property
 from typing import ClassVar, get_args
 
 from graphkin.account.arithmetic import (
-    RATE_UNITS,
     bound,
     divisions,
     laid_sum,
@@ -368,7 +367,7 @@ class InPolygon(Telling):
 
     def _rate_sums(self) -> Iterable[Words]:
         step = self.of_rate
-        value = rate_sum(self.sheet, step) or f"{number(abs(step.value), MOST)} {RATE_UNITS[step.kind]}"
+        value = rate_sum(self.sheet, step) or f"{number(abs(step.value), MOST)} {step.unit}"
         return (rate(step.kind, self.turning_links[0]) + f" = {value}",)
 
     def _rate_lines(self, language: str) -> Iterator[RichText]:
@@ -376,15 +375,15 @@ class InPolygon(Telling):
         step, rates = self.of_rate, self.sheet.rates[self.of_rate.kind]
         value = step.value if step.held else rates[step.link].value
         rule = self.account.symbol(step.symbol) + " / " + self.account.letters.length(step.points)
-        shown = bound(rate_sum(self.sheet, step, units=False)) or f"{number(abs(value), 5)} {RATE_UNITS[step.kind]}"
+        shown = bound(rate_sum(self.sheet, step, units=False)) or f"{number(abs(value), 5)} {step.unit}"
         names = (rate(step.kind, name) for name in self.turning_links)
         yield spaced(" =\u00a0", (*names, rule, shown)) + _turning(value, language)
 
     def _held_still_lines(self, language: str) -> Iterator[RichText]:
         """``ω_32 = 0.1437 rad/s, clockwise, drawn apart, with one link held still``."""
         step = self.of_rate
-        if step.kind in RATE_UNITS:
-            value = f"{number(abs(step.value), 5)} {RATE_UNITS[step.kind]}{_turning(step.value, language)}"
+        if step.kind in ("omega", "alpha"):
+            value = f"{number(abs(step.value), 5)} {step.unit}{_turning(step.value, language)}"
             yield rate(step.kind, step.link + step.held) + f" = {value},  {term('held still', language)}"
 
     def _plan_lines(self, language: str) -> Iterator[RichText]:

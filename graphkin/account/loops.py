@@ -22,6 +22,7 @@ from graphkin.errors import CallError
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene_tables import Convention
+from graphkin.scene.symbol import KINDS
 from graphkin.structure.loops import Loop, LoopArrow, LoopBlock, Root, loops_in_numbers
 from graphkin.structure.model import Coordinate
 from graphkin.words import Phrase, rich_text, say, word
@@ -139,20 +140,21 @@ def _in_units(block: LoopBlock, scene: Mechanism) -> LoopBlock:
 
 def matrices(block: LoopBlock, scene: Mechanism) -> Iterator[MatrixEquation]:
     """The velocity and the acceleration equation of loops that are solved together, with this position's numbers."""
-    length, in_units = scene.units.rates.length, _in_units(block, scene)
+    in_units = _in_units(block, scene)
     weights = [1.0 if kind == "travel" else scene.size / scene.units.rates.metres for kind, _ in block.unknowns]
     rows = tuple(tuple(number(x, 6) for x in row) for row in _clean(in_units.matrix.tolist()))
-    for key, right, values, letters, after in (
-        ("loop velocities", in_units.velocity, in_units.rates, ("omega", "v"), ("rad/s", f"{length}/s")),
-        ("loop accelerations", in_units.acceleration, in_units.second_rates, ("alpha", "a"),
-         ("rad/s²", f"{length}/s²")),
-    ):  # fmt: skip
+    for key, right, values, letters in (
+        ("loop velocities", in_units.velocity, in_units.rates, ("omega", "v")),
+        ("loop accelerations", in_units.acceleration, in_units.second_rates, ("alpha", "a")),
+    ):
+        units = [scene.units.of(KINDS[letter].measure) for letter in letters]
         travels = [kind == "travel" for kind, _ in block.unknowns]
         indices = (name.replace("/", "") for _, name in block.unknowns)
         names = [(sign if t else rate)(letters[t], index) for t, index in zip(travels, indices, strict=True)]
         most = max(map(abs, (*right, *np.multiply(weights, values))), default=0.0)
         kept = [x if w * abs(x) > ROUNDING * most else 0.0 for w, x in zip(weights, values, strict=True)]
-        solution = [n + f" = {number(x, 7)} {after[t]}" for n, t, x in zip(names, travels, kept, strict=True)]
+        rows_of = zip(names, travels, kept, strict=True)
+        solution = [n + f" = {units[t].beside(number(x, 7))}" for n, t, x in rows_of]
         (column,) = _clean([right.tolist()])
         yield MatrixEquation(key, rows, tuple(names), tuple(number(x, 6) for x in column), tuple(solution))
 

@@ -44,13 +44,14 @@ def report_text(checked: Checked, language: str) -> str:
         of = say(Phrase("group of links", links=group), language)
         lines.append(f"{of}{colon}{plain_said(assembly, language)}")
     lines += [say(said, language) for said in passed_words(scene, checked.passed)]
-    unit, scales = scene.units.rates.length, checked.scales
+    scales = checked.scales
+    per_mm = ", ".join(scene.units.of(name).beside(f"{scales[name]:g}") for name in ("velocity", "acceleration"))
     # what was drawn by itself, with a link held still
     steps_apart = [f"{s.number:3}  {plain_said(s.phrase, language)}" for s in sheet.held_still]
     held_still = [word("held still", language), *steps_apart, ""] if steps_apart else []
     lines += [
         "",
-        f"1 mm = {scales['length']:g} mm, {scales['velocity']:g} {unit}/s, {scales['acceleration']:g} {unit}/s²",
+        f"1 mm = {scales['length']:g} mm, {per_mm}",
         "",
         *held_still,
         word("steps", language),
@@ -112,9 +113,9 @@ def lever_lines(checked: Checked, language: str) -> list[str]:
             if row is None:
                 continue
             moment = balance.kind == "M"
-            unit = f"{units.force} m" if moment else units.force
+            unit = balance.unit(units)
             values = lever.value if moment else abs(lever.value), row.measured if moment else abs(row.measured)
-            by_lever, by_polygons = (f"{amount(float(v.real) / units.newtons, MOST)} {unit}" for v in values)
+            by_lever, by_polygons = (f"{amount(unit.of(float(v.real)), MOST)} {unit.text}" for v in values)
             said = Phrase("lever balance", lever=f"{row.symbol} = {by_lever}", polygons=by_polygons)
             lines.append(say(said, language))
     return list(dict.fromkeys(lines))

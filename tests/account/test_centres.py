@@ -33,6 +33,7 @@ def test_the_told_rates_multiply_up_to_the_exact_ones(name: str) -> None:
         if phrase.key == "centre speed":
             symbol, rate, arm, scale = (phrase.gaps[gap] for gap in ("symbol", "rate", "length", "scale"))
             told = float(str(rate)) * float(str(arm)) * float(str(scale).split()[0]) * metres
+            assert str(phrase.gaps["speed"]).endswith(f" {found.scene.units.rates.length}/s")
             carried = written.figures(str(rate), str(arm))
             assert told == pytest.approx(exact[str(symbol)], rel=max(2e-3, 10.0 ** (1 - carried)))
 

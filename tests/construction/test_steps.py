@@ -16,6 +16,7 @@ from graphkin.construction.board.steps import (
     EndStep,
     PlaceStep,
     RateStep,
+    RateTrial,
     Ray,
     Reason,
     Step,
@@ -119,3 +120,12 @@ def test_a_gap_of_a_sentence_is_filled_with_an_argument_of_the_step_by_its_name(
 def test_of_a_frame_without_points_only_its_guides_are_marked(name: str, sentence: str) -> None:
     first = draft(mechanism_of(name)).steps[0]
     assert say(first.phrase).endswith(sentence)
+
+
+def test_rates_that_trials_assume_and_find_are_told_with_their_units() -> None:
+    steps = draft(mechanism_of("contour-four-bars")).steps
+    told = [say(step.phrase, "en") for step in steps if isinstance(step, RateTrial | Superposed)]
+    assert "trial polygon 1: omega_3 = −6 rad/s is assumed" in told[0]
+    assert told[2].endswith("omega_3 = −6.6584 rad/s")
+    assert "trial polygon 1: alpha_3 = −250 rad/s² is assumed" in told[3]
+    assert told[5].endswith("alpha_3 = −289.26 rad/s²")

@@ -14,7 +14,8 @@ from typing import Any, Literal, Self, TypeAlias, TypeVar
 
 from graphkin.plane import Pose
 from graphkin.scene.scene_tables import Diagram
-from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.scene.symbol import KINDS, PointRef, Symbol
+from graphkin.scene.tables import Units
 from graphkin.words import Phrase, gaps_of, listed, say, sense_of, word
 from graphkin.words.symbols import RichText, Words, rate, sign, spaced
 from graphkin.words.written import MOST, amount, computed, figures, increase, on_paper, printed, product, true_minus
@@ -470,6 +471,11 @@ class RateStep(Step):
         return f"{math.degrees(self.value) if self.kind == 'angle' else self.value:.6g}"
 
     @property
+    def unit(self) -> str:
+        """The unit of the rate of a link, in print."""
+        return Units().of(KINDS[self.kind].measure).written
+
+    @property
     def sense(self) -> object:
         """The sense of turning."""
         return sense_of(self.value)
@@ -778,7 +784,6 @@ def end_of(vector: Symbol | None) -> Phrase:
 
 def _assumed(rates: Sequence[tuple[Symbol, float]]) -> dict[str, object]:
     """The first of some rates as a symbol, and its value with the others."""
-    (first, value), *rest = rates
-    units = {"omega": " rad/s", "alpha": " rad/s²"}
-    more = "".join(f", {symbol} = {printed(amount(v, 5))}{units.get(symbol.kind, '')}" for symbol, v in rest)
-    return {"first": first, "values": f"{printed(amount(value, 5))}{units.get(first.kind, '')}{more}"}
+    values = [(symbol, symbol.unit(Units()).beside(printed(amount(value, 5)))) for symbol, value in rates]
+    more = [f", {symbol} = {value}" for symbol, value in values[1:]]
+    return {"first": rates[0][0], "values": "".join((values[0][1], *more))}

@@ -24,6 +24,8 @@ from graphkin.drawing.text import plain, rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.scene.model import Mechanism
 from graphkin.scene.pairs import PlacedGear
+from graphkin.scene.symbol import KINDS
+from graphkin.scene.tables import Units
 from graphkin.words import Phrase, languages, word
 from graphkin.words.symbols import RichText, Words, rate, sign, spaced
 from graphkin.words.written import amount, on_paper, printed, product
@@ -64,7 +66,7 @@ def _page(page: FigurePage, plan: TrainPlan) -> Drawing:
     body = column(page.prose(why), *lines, row(_table(page, plan), scale, gap=4.0), gap=GAP)
     size, speed = plan.length / sheet.scene.units.metres, plan.speed / sheet.scene.units.rates.metres
     scales = {"length": size, plan.order: speed, "omega" if velocity else "alpha": plan.turning}
-    kind, unit, _ = _rates(plan)
+    kind, unit = _rates(plan)
     angular: Words = sign("μ", rate(kind, "")) + f" = {number(plan.turning)} ({unit})/mm"
     if page.convention in ("us", "british"):
         times, head = (1, "1 mm") if page.convention == "us" else (10, "1 cm")
@@ -77,9 +79,10 @@ def _page(page: FigurePage, plan: TrainPlan) -> Drawing:
     )  # fmt: skip
 
 
-def _rates(plan: TrainPlan) -> tuple[str, str, str]:
-    """The kind of the rates of a plan, their unit, and the suffix of a length in the unit of its speeds."""
-    return ("omega", "rad/s", "/s") if plan.order == "velocity" else ("alpha", "rad/s²", "/s²")
+def _rates(plan: TrainPlan) -> tuple[str, str]:
+    """The kind of the rates of a plan, and their unit."""
+    kind = "omega" if plan.order == "velocity" else "alpha"
+    return kind, Units().of(KINDS[kind].measure).written
 
 
 def _train(page: FigurePage, plan: TrainPlan, k: int) -> Block:
@@ -147,7 +150,7 @@ def foot(line: RateStep) -> float:
 
 def _rate_scale(sheet: Sheet, plan: TrainPlan) -> Piece:
     """Parallels to the lines through the pole, which stands at 0, down to the scale."""
-    plate, deep, (kind, *_) = Plate(), -1j * plan.pole, _rates(plan)
+    plate, deep, (kind, _) = Plate(), -1j * plan.pole, _rates(plan)
     shown = _plan_lines(sheet, plan)
     feet = [0.0, *map(foot, shown)]
     plate.line("construction", min(feet) - 4.0 + deep, max(feet) + 4.0 + deep, strokes.OUTLINE)
@@ -176,7 +179,7 @@ def _plan_lines(sheet: Sheet, plan: TrainPlan) -> list[RateStep]:
 
 def _table(page: FigurePage, plan: TrainPlan) -> Block:
     """The readings of the rate scale: mm, and the rate."""
-    (kind, unit, tail), units, rows = _rates(plan), page.sheet.scene.units.rates, []
+    (kind, unit), along, rows = _rates(plan), page.sheet.scene.units.of(plan.order), []
     tried = {symbol.link for symbol, _ in plan.trial.found} if plan.trial else ()
     for line in _plan_lines(page.sheet, plan):
         read = on_paper(line.mm)
@@ -185,7 +188,7 @@ def _table(page: FigurePage, plan: TrainPlan) -> Block:
         if line.reason == "given on plan" and line.link not in tried:
             turning = f"{number(line.value, 5)} {page.term('plan given')}"
         rows.append((line.link, read, turning))
-    rows += [(key, on_paper(step.mm), f"{number(step.value / units.metres, 5)} {units.length}{tail}")
+    rows += [(key, on_paper(step.mm), along.beside(number(step.value / along.si, 5)))
              for key, step in plan.travels.items()]  # fmt: skip
     rates = rate(kind, "") + f", {unit}"
     heads: list[list[Words]] = [[word("plan link", each), "mm", rates] for each in languages(page.language)]
