@@ -30,6 +30,7 @@ from graphkin.construction.board.sheet import Sheet
 from graphkin.drawing.boxes import FigurePage
 from graphkin.drawing.figures import figure_kinds
 from graphkin.drawing.figures.positions import shown_positions
+from graphkin.drawing.place.obstacles import short_buffers
 from graphkin.errors import CallError, Problem, Unsolvable, as_list, unfit
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
@@ -226,6 +227,7 @@ SUPPLIES: Mapping[str, Callable[[Drawn], tuple[Any, ...] | None]] = {
 nothing of it."""
 
 
+@short_buffers()
 def drawn_figure(drawn: Drawn, name: str) -> Drawing | None:
     """A figure by its name; None where it has no content."""
     figure = figure_kinds()[name]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.place.obstacles import Obstacles, clearest, first_free, free_boxes
+from graphkin.drawing.place.obstacles import Obstacles, clearest, first_free, free_boxes, short_buffers
 
 PANEL = Box(0.0, 0.0, 100.0, 100.0)
 HALF = 3 + 2j
@@ -70,3 +70,11 @@ def test_the_cheapest_of_many_places_is_found_though_the_dearest_are_not_looked_
     middles = np.array([[complex(5, k)] for k in range(200)])
     prices = np.array([0.001 * k for k in range(200)])
     assert room == clearest(prices, ((middles, room, 1.0),), WALL)
+
+
+def test_the_buffer_of_numpy_is_as_it_was_after_an_error_in_a_figure_too():
+    usual = np.getbufsize()
+    with pytest.raises(KeyError), short_buffers():
+        assert usual > np.getbufsize()
+        raise KeyError
+    assert usual == np.getbufsize()

@@ -35,7 +35,7 @@ PUSHED, PUSH = 200, 10.0
 ROUNDS = 6
 TRIED, LOOKED_AT = 45, 100  # places tried that others stand in, and places that these may make room in
 ROUNDING = 1e-6  # mm
-LOT = 8  # places of all labels looked at together for some in which no label stands
+LOT = 4  # places of all labels looked at together for some in which no label stands
 IN_THE_WAY = 2  # labels that make room for another at most
 NOTHING = Obstacles()
 
@@ -84,6 +84,7 @@ class Placement:
         self.panel = LabelPanel(labels, panel, obstacles, marks)
         self.lacking = [MISSING[min(label.rank, len(MISSING) - 1)] for label in labels]
         self.stands, self.paid = [NOWHERE] * len(labels), [*self.lacking]
+        self.met, self.moved = np.empty((len(labels), 0), dtype=bool), set[int]()
         self.telling = False  # whether a list may tell labels by their ends
         self.outlines = np.empty((2, 20, 0))
         self._list_places()
@@ -156,9 +157,9 @@ class Placement:
         table, known = self.panel.places, self.outlines.shape[2]
         if known == len(table.costs):
             return
-        self.outlines = np.concatenate((self.outlines, outlined(table.forms[:, :, known:], SPACE)), axis=2)
-        self.met = np.zeros((len(self.labels), len(table.costs)), dtype=bool)
-        self.moved = {i for i, k in enumerate(self.stands) if k not in (NOWHERE, TOLD)}
+        new = outlined(table.forms[:, :, known:], SPACE)
+        self.outlines = np.concatenate((self.outlines, new), axis=2)
+        self.met = np.hstack((self.met, intersections(self.outlines.take(self.stands, axis=2), new)))
         self.costs = table.costs + KEY_COST * (table.owners >= len(self.labels))
         self.numbers = [self.panel.numbers[i] for i in range(len(self.labels))]
         for i, request in self.panel.keys.items():
