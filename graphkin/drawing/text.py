@@ -36,7 +36,7 @@ def plain(text: str, size: float = LETTER, italic: bool = False, bold: bool = Fa
     return (Run(folded, 0.0, 0.0, size, italic, bold),) if folded else ()
 
 
-@lru_cache(maxsize=1024)
+@lru_cache(maxsize=8192)
 def rich(text: Words, size: float = LETTER, bold: bool = False) -> tuple[Run, ...]:
     """Words and symbols set as runs in order."""
     runs: list[Run] = []

@@ -18,7 +18,17 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Arc, Line, Polygon, Run, Segment, Text, page_direction
 from graphkin.drawing.ink.symbols import POINTER, arrowhead
-from graphkin.drawing.place.obstacles import Flags, Floats, Indices, Obstacles, Points, meets
+from graphkin.drawing.place.obstacles import (
+    Flags,
+    Floats,
+    Indices,
+    Obstacles,
+    Points,
+    boxes_of,
+    meets,
+    segments_of,
+    stand_on,
+)
 from graphkin.drawing.text import CAP_HEIGHT, plain, text_box
 from graphkin.plane import cross
 
@@ -145,10 +155,10 @@ class DimensionClearance:
 
     def __init__(self, obstacles: Obstacles, panel: Box | None) -> None:
         self.panel = panel
-        self.segments, self.dashed = _segments(obstacles.solid), _segments(obstacles.dashed)
-        self.areas = _boxes(obstacles.areas)
-        self.numbers = _boxes(())  # of dimensions, over which nothing runs
-        self.heads = _boxes(())  # arrowheads of dimensions, over which extension lines of others may run
+        self.segments, self.dashed = segments_of(obstacles.solid), segments_of(obstacles.dashed)
+        self.areas = boxes_of(obstacles.areas)
+        self.numbers = boxes_of(())  # of dimensions, over which nothing runs
+        self.heads = boxes_of(())  # arrowheads of dimensions, over which extension lines of others may run
         corners = [z for box in obstacles.areas for z in box.corners] + [z for s in obstacles.solid for z in s]
         self.content = Box.around(corners) if corners else Box(0, 0, 0, 0)
 
@@ -175,10 +185,10 @@ class DimensionClearance:
             return None
         clear = fits if over else fits[~runs_over[fits]]
         chosen = left[int((clear if clear.size else fits)[0])]
-        self.segments = np.concatenate((self.segments, _segments([*chosen.lines, *_ends(chosen.extensions)])))
-        numbers = _boxes(chosen.numbers)
+        self.segments = np.concatenate((self.segments, segments_of([*chosen.lines, *_ends(chosen.extensions)])))
+        numbers = boxes_of(chosen.numbers)
         self.areas, self.numbers = np.hstack((self.areas, numbers)), np.hstack((self.numbers, numbers))
-        self.heads = np.hstack((self.heads, _boxes(chosen.heads)))
+        self.heads = np.hstack((self.heads, boxes_of(chosen.heads)))
         return chosen.parts
 
     def _inside(self, choice: _Choice) -> bool:
@@ -189,15 +199,17 @@ class DimensionClearance:
         """Whether dimensions stand on strokes; arrowheads may lie on lines, and lines over strokes that they may
         cross."""
         bad = np.zeros(len(choices), dtype=bool)
-        of_numbers, numbers = _owned([choice.numbers for choice in choices], _boxes)
-        of_heads, heads = _owned([choice.heads for choice in choices], _boxes)
-        of_lines, lines = _owned([choice.lines for choice in choices], _segments)
+        of_numbers, numbers = _owned([choice.numbers for choice in choices], boxes_of)
+        of_heads, heads = _owned([choice.heads for choice in choices], boxes_of)
+        of_lines, lines = _owned([choice.lines for choice in choices], segments_of)
         taken = np.hstack((self.areas, self.heads))
         own, boxes = (of_numbers, numbers) if on_lines else (
             np.concatenate((of_numbers, of_heads)), np.hstack((numbers, heads)))  # fmt: skip
-        bad[own[_stand_on(boxes, taken)]] = True
-        bad[own[meets(self.segments, boxes[0], boxes[1] + SPACE)[1]]] = True
-        bad[of_heads[_stand_on(heads, taken if over_lines else self.numbers)]] = True
+        reach = boxes[1] + SPACE
+        bad[own[stand_on(boxes[0], reach, taken).nonzero()[0]]] = True
+        bad[own[meets(self.segments, boxes[0], reach)[1]]] = True
+        under = taken if over_lines else self.numbers
+        bad[of_heads[stand_on(heads[0], heads[1] + SPACE, under).nonzero()[0]]] = True
         if not crossing:
             bad[of_lines[_run_over(lines, np.hstack((self._symbols(over_lines), self.heads)), 0.4)]] = True
         if not crossing and not over_lines:
@@ -218,9 +230,9 @@ class DimensionClearance:
                 others = (part for part in choice.parts if not any(part is line for line in choice.extensions))
                 found.append(choice._replace(parts=(*kept, *others), extensions=kept))
         bad, over = np.zeros((2, len(found)), dtype=bool)
-        of_numbers, numbers = _owned([choice.numbers for choice in found], _boxes)
-        of_beyond, extensions = _owned([_ends(choice.extensions) for choice in found], _segments)
-        of_all, lines = _owned([[*choice.lines, *_ends(choice.extensions)] for choice in found], _segments)
+        of_numbers, numbers = _owned([choice.numbers for choice in found], boxes_of)
+        of_beyond, extensions = _owned([_ends(choice.extensions) for choice in found], segments_of)
+        of_all, lines = _owned([[*choice.lines, *_ends(choice.extensions)] for choice in found], segments_of)
         line, number = meets(lines, numbers[0], numbers[1])
         bad[of_all[line[of_all[line] == of_numbers[number]]]] = True  # past the end of a short one stands the next
         if crossing:
@@ -239,7 +251,8 @@ class DimensionClearance:
         """Extension lines, each beginning clear of its own point's symbols; None where too little is left."""
         lengths = [abs(line.end - line.start) for line in lines]
         ways = [(line.end - line.start) / length for line, length in zip(lines, lengths, strict=True)]
-        near = _segments([(line.start, line.start + AROUND_POINT * way) for line, way in zip(lines, ways, strict=True)])
+        ends = [(line.start, line.start + AROUND_POINT * way) for line, way in zip(lines, ways, strict=True)]
+        near = segments_of(ends)
         starts = np.full(len(lines), -TRIM)
         np.maximum.at(starts, *_crossings(near, self.segments))
         # the symbols on the point end where the line leaves their boxes
@@ -275,13 +288,6 @@ def _owned(each: Sequence[Sequence[_Thing]], arrays: Callable[[Sequence[_Thing]]
     return np.repeat(np.arange(len(each)), [len(some) for some in each]), arrays([one for some in each for one in some])
 
 
-def _stand_on(boxes: Points, taken: Points) -> Indices:
-    """Whether boxes stand on taken boxes, shape (boxes,)."""
-    offset, reach = boxes[0][:, None] - taken[0], boxes[1][:, None] + SPACE + taken[1]
-    found: Indices = ((np.abs(offset.real) < reach.real) & (np.abs(offset.imag) < reach.imag)).nonzero()[0]
-    return found
-
-
 def _run_over(lines: Points, boxes: Points, space: float) -> Indices:
     """Whether lines come nearer to a box than a space (mm), shape (lines,)."""
     return meets(lines, boxes[0], boxes[1] + space * (1 + 1j))[0]
@@ -289,15 +295,6 @@ def _run_over(lines: Points, boxes: Points, space: float) -> Indices:
 
 def _ends(lines: Sequence[Line]) -> list[Segment]:
     return [(line.start, line.end) for line in lines]
-
-
-def _segments(ends: Sequence[Segment]) -> Points:
-    return np.array(ends, dtype=complex).reshape(-1, 2)
-
-
-def _boxes(boxes: Sequence[Box]) -> Points:
-    """Middles and half sizes of boxes, shape (2, boxes)."""
-    return np.array([(box.centre, complex(box.width, box.height) / 2) for box in boxes], dtype=complex).reshape(-1, 2).T
 
 
 def _either_side(one: Floats, other: Floats) -> Flags:

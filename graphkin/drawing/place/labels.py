@@ -26,6 +26,7 @@ from graphkin.drawing.place.obstacles import (
     in_rows,
     joined,
     near,
+    segments_of,
     separated,
     sides,
     sides_around,
@@ -157,14 +158,18 @@ def intersections(ones: Floats, others: Floats) -> Flags:
     near &= ones[:, 8:12, :, None] >= others[:, 12:16, None]
     near = near[0] & near[1]
     met: Flags = near[0]
-    pairs = np.flatnonzero((near[1] | near[2] | near[3]) & ~met)
-    _, over, under, leaders = near.reshape(4, -1).take(pairs, axis=1)
-    row, column = np.divmod(pairs, met.shape[1])
-    one, other = (labels[:, :4].take(some, axis=2) for labels, some in ((ones, row), (others, column)))
-    for hit, lead, box in ((over, one, other), (under, other, one)):
-        hit &= ~separated(box[:, 0] - lead[:, 2], box[:, 1] + LEADER_SPACE, lead[:, 3] - lead[:, 2])
-    leaders &= crosses(one[:, 2], one[:, 3], other[:, 2], other[:, 3])
-    met.ravel()[pairs] = over | under | leaders
+    for closer, leads in zip(near[1:], ("one", "other", "both"), strict=True):
+        pairs = (closer > met).ravel().nonzero()[0]
+        if not pairs.size:
+            continue
+        row = pairs // met.shape[1]
+        one, other = (ones[:, :4].take(row, axis=2), others[:, :4].take(pairs - row * met.shape[1], axis=2))
+        if leads == "both":
+            hit = crosses(one[:, 2], one[:, 3], other[:, 2], other[:, 3])
+        else:
+            led, box = (one, other) if leads == "one" else (other, one)
+            hit = ~separated(box[:, 0] - led[:, 2], box[:, 1] + LEADER_SPACE, led[:, 3] - led[:, 2])
+        met.ravel()[pairs] = hit
     return met
 
 
@@ -406,7 +411,7 @@ def ends(mark: Mark) -> Segment:
 
 def _ends(segments: Sequence[Segment]) -> tuple[Floats, Floats]:
     """Starts and ends of segments, in rows."""
-    start, end = np.array(segments, dtype=complex).reshape(-1, 2).T
+    start, end = segments_of(segments).T
     return in_rows(start), in_rows(end)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Segment, Text, on_page
-from graphkin.drawing.place.obstacles import Obstacles, distances, first_free, meets
+from graphkin.drawing.place.obstacles import Obstacles, boxes_of, distances, first_free, meets
 from graphkin.drawing.text import SMALLEST, plain, text_box
 
 LEAST_NUMBERED = 5.0  # mm: a shorter vector has no room for a number
@@ -96,9 +96,8 @@ def beside_ring(
     hold = np.clip(across, -half.real, half.real) + 1j * np.clip(down, -half.imag, half.imag)
     middles = ends + AROUND_NUMBER * WAYS + hold
     leaders = np.stack(np.broadcast_arrays(edges, ends), axis=-1)[UNLED:].reshape(-1, 2)
-    others = [area for area in around.areas if area.distance(centre) > 0.0]
-    areas = np.array([(area.centre, complex(area.width, area.height) / 2) for area in others]).reshape(-1, 2)
-    middles[UNLED:].reshape(-1)[meets(leaders, areas[:, 0], areas[:, 1])[0]] = np.nan
+    others = boxes_of(area for area in around.areas if area.distance(centre) > 0.0)
+    middles[UNLED:].reshape(-1)[meets(leaders, *others)[0]] = np.nan
     (place,) = first_free([middles.ravel()], [half], around, AROUND_NUMBER, panel)
     if place is None:
         return None

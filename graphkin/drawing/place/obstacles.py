@@ -49,6 +49,25 @@ def in_rows(points: Points) -> Floats:
     return np.array((points.real, points.imag))
 
 
+def segments_of(ends: Sequence[Segment]) -> Points:
+    """Segments as an array, shape (segments, 2)."""
+    return np.array(ends, dtype=complex).reshape(-1, 2)
+
+
+def boxes_of(boxes: Iterable[Box]) -> Points:
+    """Middles and half sizes of boxes, shape (2, boxes)."""
+    held = [(box.centre, complex(box.width, box.height) / 2) for box in boxes]
+    return np.array(held, dtype=complex).reshape(-1, 2).T
+
+
+def stand_on(middles: Points, reach: Points, taken: Points) -> Flags:
+    """Whether boxes of these middles and half sizes (rows) stand on taken boxes, shape (2, columns); one of nan stands
+    on none."""
+    offset, room = middles[:, None] - taken[0], reach[:, None] + taken[1]
+    met: Flags = (np.abs(offset.real) < room.real) & (np.abs(offset.imag) < room.imag)
+    return met
+
+
 def sides(middles: Floats, halves: Floats) -> Sides:
     """The sides of boxes of these middles and half sizes, in rows."""
     return *(middles - halves), *(middles + halves)
@@ -188,20 +207,14 @@ def first_free(
         open_ = (free[first : first + size] & ~np.isnan(places)).nonzero()[0]
         found.append(int(open_[0]) if open_.size else None)
         if open_.size:  # it is in the way of those that come behind it
-            offset, room = middles - places[open_[0]], reach + own
-            free &= (np.abs(offset.real) >= room.real) | (np.abs(offset.imag) >= room.imag)
+            free &= ~stand_on(middles, reach, np.array([(places[open_[0]],), (own,)]))[:, 0]
     return found
 
 
 def _covered(middles: Points, reach: Points, around: Obstacles) -> Flags:
     """Whether boxes of these middles and half sizes are covered."""
-    lines = np.array((*around.solid, *around.dashed), dtype=complex).reshape(-1, 2)
-    covered: Flags = np.zeros(len(middles), dtype=bool)
-    covered[meets(lines, middles, reach)[1]] = True
-    if around.areas:
-        areas = np.array([(box.centre, complex(box.width, box.height) / 2) for box in around.areas])
-        offset, room = middles[:, None] - areas[:, 0], reach[:, None] + areas[:, 1]
-        covered |= ((np.abs(offset.real) < room.real) & (np.abs(offset.imag) < room.imag)).any(axis=1)
+    covered: Flags = np.any(stand_on(middles, reach, boxes_of(around.areas)), axis=1)
+    covered[meets(segments_of((*around.solid, *around.dashed)), middles, reach)[1]] = True
     return covered
 
 
@@ -252,7 +265,7 @@ def clearest_arc(
     -------
     centre, radius (mm) and middle direction (rad), and the segments from which others keep clear of it
     """
-    ends = np.array(around, dtype=complex).reshape(-1, 2)
+    ends = segments_of(around)
     reach = radius + ARC_RADII[-1] - ARC_RADII[0] + LABEL_AT + CLEAR_LABEL
     near = ends[(distances(np.array(centres, dtype=complex), ends) < reach).any(axis=0)]
     radii = np.array([radius + r - ARC_RADII[0] for r in ARC_RADII])
