@@ -27,7 +27,7 @@ from graphkin.drawing.font import FAMILY, FOLDER, Style, face_rules, families, h
 from graphkin.drawing.ink.primitives import Line, Stroke, Text
 from graphkin.drawing.place.labels import Label, Mark
 from graphkin.drawing.place.obstacles import Obstacles
-from graphkin.drawing.place.placement import place
+from graphkin.drawing.place.placement import Placement
 from graphkin.drawing.text import rich, start_runs, width
 from graphkin.drawing.write.drawing import Kept
 from graphkin.drawing.write.pdf import CHINESE, MM_PER_INCH, SvgPage
@@ -316,7 +316,7 @@ def add_labels(
             Label(Text(0j, rich(words, size)), mark, directions)
             for (words, _), mark, directions in zip(labels, marks, liked, strict=True)
         ]
-        placed = place(asked, panel, obstacles)
+        placed = Placement(asked, panel, obstacles).placed
         if all(label_placed.clear for label_placed in placed):
             break
     for k, label_placed in enumerate(placed, 1):

@@ -18,7 +18,7 @@ from graphkin.drawing.ink.symbols import turning_pair, vector_group
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.obstacles import Obstacles
 from graphkin.drawing.place.piece import obstacles_of
-from graphkin.drawing.place.placement import Placement, place
+from graphkin.drawing.place.placement import Placement
 from graphkin.drawing.text import rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.drawing.write.svg import svg_bytes
@@ -29,6 +29,10 @@ PANEL = Box(5.0, 5.0, 155.0, 105.0)
 
 def label(markup: str, mark, *toward: float) -> Label:
     return Label(Text(0j, rich(noted(markup))), mark, toward)
+
+
+def place(*given):
+    return Placement(*given).placed
 
 
 def polygon(tips: list[complex], pole: complex = 30 + 70j):

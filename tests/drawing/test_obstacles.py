@@ -73,8 +73,12 @@ def test_the_cheapest_of_many_places_is_found_though_the_dearest_are_not_looked_
 
 
 def test_the_buffer_of_numpy_is_as_it_was_after_an_error_in_a_figure_too():
+    @short_buffers()
+    def failing():
+        raise KeyError(np.getbufsize())
+
     usual = np.getbufsize()
-    with pytest.raises(KeyError), short_buffers():
-        assert usual > np.getbufsize()
-        raise KeyError
+    with pytest.raises(KeyError) as stop:
+        failing()
+    assert usual > stop.value.args[0]
     assert usual == np.getbufsize()

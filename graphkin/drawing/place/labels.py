@@ -8,7 +8,7 @@ box and segment contacts.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeAlias
 
@@ -118,12 +118,6 @@ class Places(NamedTuple):
     gaps: Floats
     bad: Flags
     owners: Indices
-
-    @classmethod
-    def stacked(cls, tables: Iterable[Places]) -> Places:
-        """The places of several tables, one after the other."""
-        columns: Any = (np.concatenate(column, axis=-1) for column in zip(*tables, strict=True))
-        return cls(*columns)
 
     def picked(self, some: Indices) -> Places:
         """Some of the places."""
@@ -266,7 +260,8 @@ class LabelPanel:
 
     def add(self, places: Places) -> None:
         """Add places to the table."""
-        self.places = Places.stacked((self.places, places))
+        columns: Any = (np.concatenate(both, axis=-1) for both in zip(self.places, places, strict=True))
+        self.places = Places(*columns)
 
     def _around(self, some: Sequence[int], around_points: Floats, around_vectors: Floats) -> Places:
         """Places of some requests around their marks, without leaders and obstacles.

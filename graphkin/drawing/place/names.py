@@ -64,7 +64,7 @@ def _most(count: int) -> int:
 def named(
     labels: Sequence[Label], panel: Box, obstacles: Obstacles, marks: Sequence[Mark]
 ) -> tuple[tuple[Primitive, ...], tuple[Label, ...]]:
-    """Labels in their places with their leaders, parameters as for `labels.place`; those of a crowd listed by their
+    """Labels in their places with their leaders, parameters as for `Placement`; those of a crowd listed by their
     keys; and the labels with remaining faults."""
     placement = Placement(labels, panel, obstacles, marks)
     placed, crowded = placement.placed, placement.crowded

@@ -115,7 +115,7 @@ def separated(offset: Floats, half: Floats, along: Floats) -> Flags:
 
     Parameters
     ----------
-    off : from the start of each segment to the middle of its box, shape (2, n) (mm), as the others
+    offset : from the start of each segment to the middle of its box, shape (2, n) (mm), as the others
     half : half the size of the box
     along : from the start of the segment to its end
     """

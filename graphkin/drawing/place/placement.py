@@ -54,24 +54,13 @@ class Placed:
     keyed: bool = False
 
 
-def place(
-    labels: Sequence[Label], panel: Box, obstacles: Obstacles = NOTHING, marks: Sequence[Mark] = ()
-) -> tuple[Placed, ...]:
-    """Give labels their places, in their order, without those given up; the same input gives the same places.
+class Placement:
+    """Places of labels; the same input gives the same places.
 
-    Parameters
-    ----------
     labels : in the order of importance among equals
     panel : no label leaves it
     obstacles : the strokes already drawn
     marks : further points and segments for which a label could be mistaken, besides those of the labels
-    """
-    return Placement(labels, panel, obstacles, marks).placed
-
-
-class Placement:
-    """The labels' places; parameters as for `place`.
-
     stands : the number of each label's place in the table of its panel
     paid : what each label costs there (mm)
     met : the places (columns) that labels (rows) leave no room in where they stand, but for those just ``moved``
