@@ -243,8 +243,9 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
         lines += _output(turn, output, language)
     for least in turn.transmission:
         where = word("same everywhere", language)
-        if least.driver is not None:
-            where = f"{driver.key} = {scene.unit_of(driver).said(least.driver)}"
+        if least.drivers:
+            places = map(scene.unit_of(driver).said, least.drivers)
+            where = f"{driver.key} = {word('list comma', language).join(places)}"
         pressure = say(Phrase("greatest pressure", angle=f"{math.degrees(least.pressure):.6g}°"), language)
         names = f"{least.group.kind} {', '.join(least.group.links)}"
         angle = f"{math.degrees(least.angle):.6g}°"

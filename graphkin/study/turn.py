@@ -28,6 +28,10 @@ EQUAL = 1e-9
 """Lengths that differ by less than this part of the longest count as equal: a change point."""
 
 
+SAME_ANGLE = 1e-9
+"""Transmission angles (rad) that differ by less are equally small."""
+
+
 @dataclass(frozen=True)
 class Output:
     """A link that the mechanism moves about the frame or along it.
@@ -107,11 +111,11 @@ class Output:
 
 @dataclass(frozen=True)
 class Least:
-    """The least transmission angle of a group (rad), and the value of the driver there (None if it never changes)."""
+    """The least transmission angle of a group (rad), and the values of the driver there (none if it never changes)."""
 
     group: Dyad
     angle: float
-    driver: float | None
+    drivers: tuple[float, ...]
 
     @property
     def pressure(self) -> float:
@@ -422,8 +426,11 @@ def study_turn(reach: DriverRange, asked: Sequence[Symbol] = (), everything: boo
 
 
 def _least(group: Dyad, angle: Traced) -> Least:
-    at = angle.least
-    return Least(group, angle.constant or 0.0, None) if at is None else Least(group, at.value, at.driver)
+    if angle.least is None:
+        return Least(group, angle.constant or 0.0, ())
+    least = angle.least.value
+    places = [e.driver for e in angle.extremes if e.kind != "max" and abs(e.value - least) <= SAME_ANGLE]
+    return Least(group, least, tuple(places))
 
 
 def output_links(scene: Mechanism) -> tuple[str, ...]:

@@ -84,8 +84,8 @@ def to_json(turn: TurnStudy) -> dict[str, Json]:
                 "kind": least.group.kind,
                 "least_angle": least.angle,
                 "greatest_pressure_angle": least.pressure,
-                "driver": None if least.driver is None else _driver(scene, least.driver),
-                **({"why": "the same in every position"} if least.driver is None else {}),
+                "driver": _driver(scene, least.drivers[0]) if least.drivers else None,
+                **({} if least.drivers else {"why": "the same in every position"}),
             }
             for least in turn.transmission
         ],

@@ -85,6 +85,12 @@ def test_least_transmission_angle_of_the_four_bar() -> None:
     )
 
 
+def test_the_least_transmission_angle_is_told_at_every_place_of_it() -> None:
+    assert [math.pi / 2, 3 * math.pi / 2] == pytest.approx(turn_of("rotating-guide-bar").transmission[0].drivers)
+    boom = graphkin.sweep("boom-lifted", positions=2)  # in line with its pivots at both ends, 400 on 360.555
+    assert "1, 2, 3: 0° (2/3 = 39.4449 mm, 760.555 mm)" in boom.text
+
+
 def test_in_a_change_point_the_transmission_angle_is_zero() -> None:
     assert study_turn(driver_range(mechanism_of_text(scenes.PARALLELOGRAM, "p"))).transmission[0].angle == 0.0
 
@@ -589,7 +595,7 @@ def test_the_least_transmission_angle_is_told_where_the_ends_of_the_range_cannot
     turn = study_turn(driver_range(as_scene(redriven(seed))))
     assert least == pytest.approx([math.degrees(found.angle) for found in turn.transmission], abs=1e-4)
     assert all(found.angle >= 0.0 for found in turn.transmission)
-    drivers = [None if found.driver is None else math.degrees(found.driver) for found in turn.transmission]
+    drivers = [math.degrees(found.drivers[0]) if found.drivers else None for found in turn.transmission]
     assert places == [None if at is None else pytest.approx(at, abs=1e-3) for at in drivers]
 
 
