@@ -24,6 +24,8 @@ from graphkin.words import Phrase, say
 FULL = ("right", "within drafting accuracy", "right from own values")
 PARTS = ("equations", "drawing", "values")
 COUNTED = (*FULL, "wrong", "missing", "not readable")
+NAMED = 0.005
+"""Of the value of a slip: a stated value that lies farther off is said to."""
 Person = tuple[Answers, tuple[Judged, ...]]
 
 
@@ -54,8 +56,7 @@ class JudgedValue(Known):
         unit = symbol.unit(scene.units)
         return cls(
             symbol, unit.text, unit.of(judged.printed.value), unit.of(judged.exact), judged.deviation, judged.verdict,
-            unit.of(judged.bound), "" if judged.looks_like is None else say(judged.looks_like, language),
-            judged.follows_from,
+            unit.of(judged.bound), _guessed(judged, language), judged.follows_from,
         )  # fmt: skip
 
     def _values(self) -> tuple[tuple[str, Value | None], ...]:
@@ -63,6 +64,15 @@ class JudgedValue(Known):
 
     def _words(self) -> tuple[str, ...]:
         return self.verdict, self.looks_like
+
+
+def _guessed(judged: Judged, language: str) -> str:
+    """The slip of a value in words, with its distance from what the slip gives where that is more than rounding."""
+    if judged.looks_like is None:
+        return ""
+    if judged.apart is None or judged.apart < NAMED:
+        return say(judged.looks_like, language)
+    return say(Phrase("slip nearly", slip=judged.looks_like, percent=f"{100 * judged.apart:.1g}"), language)
 
 
 # -- points, and what a class did ------------------------------------------------------------------------------------

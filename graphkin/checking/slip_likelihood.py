@@ -108,7 +108,8 @@ class Judged:
     the size of the vector (SI).  ``bound`` is the error of a pencil drawing (0 where it cannot be predicted, infinite
     where a drawing has no bound: then a value that is not right is "not judged", unless a slip explains it to the
     digit), ``line`` the positive sense of a vector that has one.  ``follows_from`` are earlier wrong values of the same
-    person from which it follows.  ``gap`` is, for a wrong angle or travel, the vector loop that gives it, and the
+    person from which it follows.  ``apart`` is how far it lies from the value of its slip, over that value, where it
+    was drawn badly besides.  ``gap`` is, for a wrong angle or travel, the vector loop that gives it, and the
     loop's gap with all stated values in it (m).
     """
 
@@ -119,6 +120,7 @@ class Judged:
     line: complex | None = None
     looks_like: Phrase | None = None
     follows_from: tuple[Symbol, ...] = ()
+    apart: float | None = None
     gap: tuple[str, float] | None = None
 
     @property
@@ -177,6 +179,7 @@ class Judged:
         by_chance = CHANCE * 2 * within / max(abs(self.printed.value), abs(self.exact))
         near = suspects.drawn & (deviation <= reach) & (0.5 * self.printed.step <= reach)
         near &= (suspects.shares > SURE * by_chance) & ~self._changes_nothing(values)
+        near &= deviation < abs(self.off)  # else it is the right value that was drawn badly
         if not near.any():
             return None
         least = np.maximum(np.maximum(deviation, reach / 3), self.printed.step / 2)

@@ -309,3 +309,28 @@ def test_a_value_that_no_drawing_determines_is_not_said_to_lie_beside_a_dead_poi
     }  # fmt: skip
     (value,) = graphkin.audit(train).data["values"]
     assert (None, True) == (value["verdict"], value["why"].startswith("the error of a drawing may be larger here"))
+
+
+STEPHENSON = {
+    "frame": {"points": {"A": [0, 0], "D": [90, 0]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 30},
+        "2": {"points": ["B", "C"], "length": 80, "at": {"E": [60, 40]}},
+        "3": {"points": ["D", "C"], "length": 60},
+    },
+    "sketch": {"C": [90, 60]},
+    "driver": {"link": "1", "angle": 75, "omega": 8, "alpha": 20},
+}
+
+
+@pytest.mark.parametrize(
+    ("symbol", "said", "looks_like"),
+    [
+        ("v_C", "205.0", ""),  # 196.97, and 195.10 in x, from which it is farther
+        ("v_E", "99.4", "the value of another quantity: v_C/B (3 % off)"),  # 96.48
+        ("v_E", "96.488", "the value of another quantity: v_C/B"),
+    ],
+)
+def test_a_guessed_slip_is_nearer_than_the_right_value_and_its_distance_is_named(symbol, said, looks_like):
+    (value,) = graphkin.audit(STEPHENSON, answers={"Ann": {symbol: said}})[symbol]
+    assert ("wrong", looks_like) == (value.verdict, value.looks_like)
