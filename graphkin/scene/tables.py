@@ -242,8 +242,8 @@ class Unit(NamedTuple):
         return f"{number}{'' if self.text == 'deg' else ' '}{self.written}".rstrip()
 
     def said(self, value: float) -> str:
-        """A value (SI) in this unit, to six figures, with the unit beside it."""
-        return self.beside(f"{self.of(value):.6g}")
+        """A value (SI) in this unit, to six figures, with the unit beside it; 0 has no sign."""
+        return self.beside(f"{self.of(value) + 0.0:.6g}")
 
 
 LENGTHS: Mapping[str, float] = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}

@@ -311,6 +311,10 @@ def needed_moment(reach: DriverRange, offset: Array) -> Array:
     return np.asarray(np.sum([one.power(moved) for one in forces.balancing], axis=0))
 
 
+NO_WORK = 1e-12
+"""Of the work done and taken in a cycle: a sum that is less is nothing but rounding."""
+
+
 def flywheel_of(reach: DriverRange) -> FlywheelStudy:
     """The flywheel that a scene asks for.
 
@@ -340,6 +344,7 @@ def _found(reach: DriverRange) -> FlywheelStudy:
         raise _without(Phrase("the balance does no work in some position"), Phrase("balance at the driver"))
     cycle = float(edges[-1] - edges[0])
     driving = float(work.sum()) / cycle
+    driving = 0.0 if abs(driving) * cycle < NO_WORK * float(np.abs(work).sum()) else driving
     crossings = _balanced(reach, edges, driving)
     places = np.array(sorted({0.0, cycle, *crossings}))
     stored = np.concatenate([[0.0], np.cumsum(driving * np.diff(edges) - work)])

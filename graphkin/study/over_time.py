@@ -141,7 +141,7 @@ class TimeStudy:
         for quantity, extremes in self.extremes.items():
             ends, unit = {"min": "least", "max": "greatest"}, quantity.unit(scene.units, radians=True)
             outputs[str(quantity)] = {
-                ends[e.kind]: {"value": unit.of(e.value), "time": e.offset} for e in extremes
+                ends[e.kind]: {"value": unit.of(e.value) + 0.0, "time": e.offset} for e in extremes
             }
         return {"title": scene.question.title, "time": [*self.axis.ends], "outputs": outputs}
 

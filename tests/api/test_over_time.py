@@ -235,3 +235,13 @@ def test_of_laws_of_unlike_length_the_shorter_ends_with_an_extreme_of_its_own():
     drivers = [{"link": link, "time": 1, "law": {**law, "by": "parabolic"}} for link, law in laws.items()]
     outputs = graphkin.sweep({**FIVE_BAR, "driver": drivers}, find=["theta_1"]).data["outputs"]
     assert {"value": math.radians(140), "time": 1.9} == pytest.approx(outputs["theta_1"]["greatest"])
+
+
+def test_a_greatest_rate_of_nothing_has_no_sign():
+    laws = {"1": {"from": 60, "to": 140, "duration": 1}, "3": {"from": 100, "to": 40, "duration": 1.4}}
+    drivers = [{"link": link, "time": 0.4, "law": {**law, "by": "cycloidal"}} for link, law in laws.items()]
+    bars = {**FIVE_BAR["links"], "2": {"points": ["B", "C"], "length": 150}, "4": {"points": ["D", "C"], "length": 140}}
+    scene = {**FIVE_BAR, "links": bars, "sketch": {"C": [60, 180]}, "driver": drivers}
+    swept = graphkin.sweep(scene, find=["omega_2"], positions=3)
+    assert "greatest 0 rad/s at 0 s" in swept.text
+    assert "0.0" == repr(swept.data["outputs"]["omega_2"]["greatest"]["value"])

@@ -211,3 +211,21 @@ def test_every_place_within_a_turn_towards_which_a_force_grows_without_bound_is_
     *away, _ = graphkin.sweep(scene, positions=4).data["forces"]["F_1/2"]["extremes"]
     still = math.asin(13 / 110), math.pi + math.asin(13 / 50)
     assert [(None, pytest.approx(place, abs=1e-6)) for place in still] == [(e["value"], e["driver"]) for e in away]
+
+
+def test_the_driving_moment_of_loads_that_do_no_work_in_a_turn_is_nothing():
+    scene = {
+        "frame": {"points": {"A": [0, 0], "D": [200, 40]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 50},
+            "2": {"points": ["B", "C"], "length": 180},
+            "3": {"points": ["D", "C"], "length": 110},
+        },
+        "sketch": {"C": [180, 140]},
+        "driver": {"link": "1", "angle": 200, "rpm": 150},
+        "masses": {"3": {"at": "C", "mass": 5}},
+        "gravity": {},
+        "loads": {"T": {"on": "3", "moment": -40}},
+        "flywheel": {"on": "1", "delta": 0.04},
+    }
+    assert "constant driving moment 0 N m;" in graphkin.sweep(scene, positions=2).text
