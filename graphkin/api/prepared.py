@@ -98,10 +98,6 @@ class Prepared(Tabled, OfScene):
         """The values at the scene's own position: one row."""
         return self._here.table
 
-    def driver_values(self, n: int) -> Reals:
-        """The values of the first driver at which ``sweep(n)`` computes, shape (n,)."""
-        return np.asarray(self.own_unit.of(self.ready.range.grid(n).values))
-
     @cached_property
     def own_unit(self) -> Unit:
         """The unit of the first driver."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from abc import abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import fields
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, Self, TypeVar
@@ -144,9 +143,6 @@ class Result(Tabled):
     def __hash__(self) -> int:
         # equal results have equal tables
         return hash((type(self), self.table))
-
-    def __getstate__(self) -> dict[str, object]:
-        return {field.name: getattr(self, field.name) for field in fields(self)}  # type: ignore[arg-type]
 
 
 def named(rows: Mapping[str, T], name: str, why: Wording = "", where: str = "") -> T:

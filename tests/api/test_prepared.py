@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import pickle
 import sys
 from importlib.util import find_spec
 
@@ -235,6 +236,16 @@ def test_bounds_of_a_component_a_distance_and_an_angle_between_links_follow_from
     assert bound("A") + bound("C") + rounding == pytest.approx(bound("d_A/C"), rel=1e-12, abs=0)
     of_angles = np.degrees(16 * 2.0**-53)
     assert bound("theta_3") + bound("theta_4") - of_angles == pytest.approx(bound("theta_3/4"), rel=1e-12, abs=0)
+
+
+def test_the_values_of_a_sweep_with_bounds_are_those_of_its_names_alone():
+    bounded, alone = (graphkin.prepare("shaper-scheme-2", find=["v_C", "omega_4"], bounds=b) for b in (True, False))
+    assert alone.sweep(4).values.tolist() == bounded.sweep(4).values.tolist()
+
+
+def test_bounds_go_with_a_sweep_to_another_process():
+    samples = graphkin.prepare("shaper-scheme-2", find=["v_C"], bounds=True).sweep(4)
+    assert samples.bound("v_C").tolist() == pickle.loads(pickle.dumps(samples)).bound("v_C").tolist()
 
 
 def test_bounds_of_what_nobody_estimates_are_unknown():

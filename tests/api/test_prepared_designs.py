@@ -149,18 +149,33 @@ def test_compiled_designs_are_those_of_numpy():
     ("source", "asked", "designs"),
     [
         (FOUR_BAR, ["v_C", "omega_3"], {"links.1.length": [150.0, 250.0, 1000.0]}),  # one with ends, one that is none
+        (applied(FOUR_BAR, ("links.1.length",), (250.0,)), ["v_C"], {"driver.angle": [20.0, 100.0]}),
         (tomllib.loads(scenes.FIVE_BAR), ["omega_3"], {"driver.2.angle": [60.0, 100.0]}),
     ],
 )
 def test_the_table_of_designs_is_the_table_of_a_sweep_over_them(source, asked, designs):
-    swept = graphkin.sweep(source, positions=5, find=asked, designs=designs).table
-    table = graphkin.prepare(source, find=asked).over(designs).sweep(5).table
+    swept = graphkin.sweep(source, positions=12, find=asked, designs=designs).table
+    table = graphkin.prepare(source, find=asked).over(designs).sweep(12).table
     assert (swept.heads, swept.index) == (table.heads, table.index)
     for column, other in zip(swept.columns, table.columns, strict=True):
         if column.is_text:
             assert column.values.tolist() == other.values.tolist()
         else:
             np.testing.assert_allclose(column.values, other.values, rtol=1e-9, err_msg=column.head)
+
+
+def test_positions_and_whether_they_are_solved_are_read_alike_from_a_table_and_from_arrays():
+    designs = {"links.1.length": [150.0, 250.0]}  # the second has ends
+    made = graphkin.sweep(FOUR_BAR, positions=5, find=["v_C"], designs=designs).over
+    ready = graphkin.prepare(FOUR_BAR, find="v_C").over(designs).sweep(5)
+    assert made.ok.tolist() == ready.ok.tolist()
+    assert (True, False) == (made.ok[0].all(), made.ok[1].all())
+    np.testing.assert_allclose(made.driver, np.broadcast_to(ready.driver, (2, 5)), rtol=1e-9)
+
+
+def test_designs_at_a_position_have_that_value_of_the_driver_not_their_own():
+    table = graphkin.prepare(SHAPER, find="omega_4").over({"driver.angle": [30.0, 50.0]}).at(70).table
+    assert [70.0, 70.0] == table["driver_2"].tolist()
 
 
 @pytest.mark.parametrize(("length", "rows"), [(80, [80.0]), ([80, 90], [80.0, 90.0])])

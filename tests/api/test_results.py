@@ -158,6 +158,8 @@ def test_what_is_prepared_says_the_position_of_the_scene():
 
 def test_two_results_of_different_positions_differ():
     assert graphkin.solve(SIXBAR) != graphkin.solve(SIXBAR, at=51)
+    ready = graphkin.prepare(SIXBAR, find="v_D")
+    assert ready.columns([50]) != ready.columns([51])
 
 
 CENTIMETRES = four_bar(

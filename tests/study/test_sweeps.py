@@ -226,6 +226,10 @@ def test_a_sweep_in_memory_is_the_one_in_the_file(plan: Sweep, whole: Path) -> N
     assert (whole / "table.csv").read_text() == table.csv()
 
 
+def test_a_sweep_is_made_when_its_table_is_read(plan: Sweep, whole: Path) -> None:
+    assert (whole / "table.csv").read_text() == plan.table.csv()
+
+
 @pytest.mark.parametrize("name", ["fourbar-150-500-300-400", "sixbar-AE70", "wheel-on-rail", "triad-slider"])
 def test_a_design_takes_its_range_to_another_process(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     scene = mechanism_of(name)
