@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import graphkin
+from graphkin.api.report_text import report_text
 
 SHAPER = Path(__file__).parent.parent / "validation" / "forces" / "shaper-scheme-2.toml"
 R34, BALANCE = 12766.4256127, -539.785613917  # public values at position 7
@@ -148,3 +149,9 @@ def test_a_force_goes_away_without_bound_where_the_balance_does_no_work():
     assert [pytest.approx(4000 / 50), pytest.approx(4000 / 110)] == [e["value"] for e in forces["F_4/3"]]
     assert [pytest.approx(np.pi), 0] == [e["driver"] for e in forces["F_4/3"]]
     assert "F_1/2 (N): grows without bound at 0°, 180°; minimum 133.333 @ " in swept.text
+
+
+def test_the_balance_by_the_lever_is_told_in_the_units_of_the_scene():
+    checked = graphkin.check(graphkin.read("shaper-forces").replace("units", {"force": "kN"}))
+    moment = f"{checked['M_2'].measured:.2f}"
+    assert f"M_2 = {moment} kN m by the lever, {moment} kN m by the polygons" in report_text(checked, "en")

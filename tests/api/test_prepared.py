@@ -232,6 +232,7 @@ def test_bounds_of_a_component_a_distance_and_an_angle_between_links_follow_from
     bound = samples.bound
     assert bound("C").tolist() == bound("x_C").tolist()
     assert bound("a_C").tolist() == bound("a_C.x").tolist()
+    assert np.isfinite(bound("a_C")).all()
     rounding = 2.0**-51 * samples["d_A/C"]
     assert bound("A") + bound("C") + rounding == pytest.approx(bound("d_A/C"), rel=1e-12, abs=0)
     of_angles = np.degrees(16 * 2.0**-53)

@@ -141,3 +141,8 @@ def test_a_wheel_on_a_carrier_that_is_found_later_has_the_rate_of_willis():
     result = check(FOUND_LATER)
     carrier = result["omega_5"].measured
     assert carrier - 1.5 * (10 - carrier) == pytest.approx(result["omega_6"].measured, rel=1e-9)
+
+
+def test_speeds_of_a_rack_stand_in_the_table_of_the_plan_in_the_units_of_the_scene():
+    figures = draw(TRAINS["a rack that is driven"][0] | {"units": {"length": "cm"}}, figures=["plan"]).figures
+    assert [">320 cm/s<" in figures["plan"]._repr_svg_(), ">240 cm/s²<" in figures["plan-2"]._repr_svg_()] == [True] * 2
