@@ -16,13 +16,13 @@ from graphkin.errors import Problem, did_you_mean
 from graphkin.plane import cross, cross_arcs, degrees, direction, dot
 from graphkin.scene.bodies import Reading, references
 from graphkin.scene.model import Driver, PlacedLink
-from graphkin.scene.pairs import HigherPair, PlacedContact, PlacedGuide, SlidingPair
+from graphkin.scene.pairs import HigherPair, PlacedContact, PlacedGear, PlacedGuide, SlidingPair
 from graphkin.scene.scene_tables import Compass, Disc, Guide, Link, Polar
 from graphkin.scene.tables import in_si
 from graphkin.words import Phrase, joined
 
 GIVEN_TWICE = 1e-6
-"""Of the size: so far two statements of one place may lie apart."""
+"""Of the size: so far two statements of one place may lie apart; of an angle its sine."""
 FARTHEST = 4e10
 """So many times the shortest bar places may lie away: beyond, sixteen digits leave less than five of the bar."""
 Places = Mapping[str, complex]
@@ -533,6 +533,59 @@ def check_all_found(position: StatedPosition) -> None:
         for key in missing:
             position.reading.say(f"{body.where}.{key}", "where link lies does not follow from what",
                                  "draw two points of link or give it", body=body.name)
+
+
+def check_contacts(touching: Iterable[HigherPair], position: StatedPosition) -> None:
+    """Note outlines that do not touch where given places put them: centres too far apart, or not a radius off the face,
+    on its side."""
+    for c in (pair for pair in touching if isinstance(pair, PlacedContact)):
+        known = [z for centre in c.centres if (z := position.places.get(centre)) is not None]
+        if len(known) < len(c.centres):
+            continue
+        if not c.flat:
+            distance, wanted = abs(known[1] - known[0]), abs(c.apart)
+            key = "puts the centres apart"
+        else:
+            body, guide = position.bodies[c.face], position.bodies[c.face].guides.get(c.guide)
+            local = body.in_own_axes(known[0])
+            if guide is None or local is None:
+                continue
+            distance, wanted = dot(local - guide.through, guide.direction * c.normal_to_face), c.radii[0]
+            key = "puts the centre to the left of the face" if c.left else "puts the centre to the right of the face"
+        if abs(distance - wanted) > position.tolerance:
+            drawn = Phrase(key, distance=position.number(distance), given=position.number(wanted))
+            position.reading.say(f"contacts.{c.name}", "what is drawn", "correct a place a radius or the side",
+                                 value=drawn)
+
+
+def check_held_distances(touching: Iterable[HigherPair], position: StatedPosition) -> None:
+    """Note wheels whose carrier holds them at another distance than their radii give, or at none; pitch lines that
+    are not parallel to their slide; centres on the other body."""
+    reading, bodies = position.reading, position.bodies.items()
+    points, guides = {name: body.local for name, body in bodies}, {name: body.guides for name, body in bodies}
+    for c in (pair for pair in touching if isinstance(pair, PlacedContact)):
+        where = f"contacts.{c.name}"
+        if not c.flat and c.carrier:
+            first, second = (points[c.carrier][centre] for centre in c.centres)
+            held, wanted = abs(second - first), abs(c.apart)
+            if abs(held - wanted) > GIVEN_TWICE * max(map(abs, c.radii)):
+                radii = {"held": f"{held / reading.metres:.10g}", "wanted": f"{wanted / reading.metres:.10g}"}
+                reading.say(where, Phrase("link holds the centres apart the radii make", carrier=c.carrier, **radii),
+                            "correct a radius or the distance")
+        if not c.flat and c.centres[0] == c.centres[1]:
+            reading.say(where, "both outlines have the same centre", "two centres lie apart")
+    for g in (pair for pair in touching if isinstance(pair, PlacedGear)):
+        where, carried = f"gears.{g.name}", points[g.carrier]
+        if not g.is_rack:
+            if abs(carried[g.axes[1]] - carried[g.axes[0]]) == 0:
+                reading.say(where, "both axes lie at the same place", "two wheels have axes apart")
+            continue
+        height, tilt, far = g.rack_place(reading.slides, points, guides)
+        if abs(tilt) > GIVEN_TWICE:
+            reading.say(where, "the pitch line is not parallel to the", "name a guide of link along which it",
+                        slide=g.slide, wheels=g.wheels[1])
+        elif abs(height) <= GIVEN_TWICE * max(far, 1e-300):
+            reading.say(where, "the wheel's axis lies on the pitch line", "the distance of the two is the radius")
 
 
 def check_distances(position: StatedPosition) -> None:

@@ -44,7 +44,7 @@ from graphkin.scene.model import Mechanism, PlacedLink, Question, no_force
 from graphkin.scene.pictures import background_of, scans_of
 from graphkin.scene.scene_tables import SCENE, Guide, Link, SceneTables
 from graphkin.scene.tables import file_table_by_name, path_name, path_of_key, plain, tidy, value_at
-from graphkin.scene.touching import cams_of, check_contacts, check_distances, discs_of, touching_of
+from graphkin.scene.touching import cams_of, discs_of, touching_of
 from graphkin.words import Phrase, Wording, from_others
 
 # -- files -------------------------------------------------------------------------------------------------------------
@@ -283,14 +283,14 @@ def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[Sce
         places.check_starts(position)
     if not problems and position.drawn:
         places.check_agreement(position)
-        check_contacts(touching, position)
+        places.check_contacts(touching, position)
     if not problems:
         places.check_all_found(position)
         places.check_distances(position)
     reading = replace(reading, places={name: body.local for name, body in position.bodies.items()})
-    cams = cams_of(reading, position) if file.cams else ()
+    cams = cams_of(reading, position.bodies[reading.frame.name].guides, position.drawn) if file.cams else ()
     if touching and not problems:
-        check_distances(touching, position)
+        places.check_held_distances(touching, position)
     values = [position.value_of(driver) for driver in driven.values()]
     tables = () if problems else ((reading.frame.name, None), *reading.links.items())
     bodies = [position.placed(link_name, discs, link) for link_name, link in tables]

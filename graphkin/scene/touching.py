@@ -5,7 +5,7 @@ follower; names are looked up, radii get the signs with which they meet, the car
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from graphkin.errors import Problem, did_you_mean
@@ -13,20 +13,19 @@ from graphkin.plane import cross, dot
 from graphkin.scene.bodies import Reading
 from graphkin.scene.laws import FollowerLaw, LiftPiece, form_of
 from graphkin.scene.pairs import (
-    HigherPair,
     LawCam,
     PlacedContact,
     PlacedGear,
+    PlacedGuide,
     SlidingFollower,
     SwingingFollower,
 )
-from graphkin.scene.position import StatedPosition
 from graphkin.scene.scene_tables import Cam, Contact, Disc, Gear, LawPiece
 from graphkin.scene.tables import in_si
 from graphkin.words import Phrase, joined
 
 AGREE = 1e-6
-"""Of the greatest length: so far two statements of one may lie apart; of an angle its sine."""
+"""Of the greater length: so far a given offset may lie from that which the guide makes."""
 
 
 def touching_of(reading: Reading, discs: Discs) -> tuple[PlacedContact | PlacedGear, ...]:
@@ -230,71 +229,26 @@ def _axis(reading: Reading, wheel: str, carrier: str) -> str:
     return next((p for p in reading.points.get(wheel, ()) if p in held), "")
 
 
-def check_contacts(touching: Iterable[HigherPair], position: StatedPosition) -> None:
-    """Note outlines that do not touch where given places put them: centres too far apart, or not a radius off the face,
-    on its side."""
-    for c in (pair for pair in touching if isinstance(pair, PlacedContact)):
-        known = [z for centre in c.centres if (z := position.places.get(centre)) is not None]
-        if len(known) < len(c.centres):
-            continue
-        if not c.flat:
-            distance, wanted = abs(known[1] - known[0]), abs(c.apart)
-            key = "puts the centres apart"
-        else:
-            body, guide = position.bodies[c.face], position.bodies[c.face].guides.get(c.guide)
-            local = body.in_own_axes(known[0])
-            if guide is None or local is None:
-                continue
-            distance, wanted = dot(local - guide.through, guide.direction * c.normal_to_face), c.radii[0]
-            key = "puts the centre to the left of the face" if c.left else "puts the centre to the right of the face"
-        if abs(distance - wanted) > position.tolerance:
-            drawn = Phrase(key, distance=position.number(distance), given=position.number(wanted))
-            position.reading.say(f"contacts.{c.name}", "what is drawn", "correct a place a radius or the side",
-                                 value=drawn)
-
-
-def check_distances(touching: Iterable[HigherPair], position: StatedPosition) -> None:
-    """Note wheels whose carrier holds them at another distance than their radii give, or at none; pitch lines that
-    are not parallel to their slide; centres on the other body."""
-    reading, bodies = position.reading, position.bodies.items()
-    points, guides = {name: body.local for name, body in bodies}, {name: body.guides for name, body in bodies}
-    for c in (pair for pair in touching if isinstance(pair, PlacedContact)):
-        where = f"contacts.{c.name}"
-        if not c.flat and c.carrier:
-            first, second = (points[c.carrier][centre] for centre in c.centres)
-            held, wanted = abs(second - first), abs(c.apart)
-            if abs(held - wanted) > AGREE * max(map(abs, c.radii)):
-                radii = {"held": f"{held / reading.metres:.10g}", "wanted": f"{wanted / reading.metres:.10g}"}
-                reading.say(where, Phrase("link holds the centres apart the radii make", carrier=c.carrier, **radii),
-                            "correct a radius or the distance")
-        if not c.flat and c.centres[0] == c.centres[1]:
-            reading.say(where, "both outlines have the same centre", "two centres lie apart")
-    for g in (pair for pair in touching if isinstance(pair, PlacedGear)):
-        where, carried = f"gears.{g.name}", points[g.carrier]
-        if not g.is_rack:
-            if abs(carried[g.axes[1]] - carried[g.axes[0]]) == 0:
-                reading.say(where, "both axes lie at the same place", "two wheels have axes apart")
-            continue
-        height, tilt, far = g.rack_place(reading.slides, points, guides)
-        if abs(tilt) > AGREE:
-            reading.say(where, "the pitch line is not parallel to the", "name a guide of link along which it",
-                        slide=g.slide, wheels=g.wheels[1])
-        elif abs(height) <= AGREE * max(far, 1e-300):
-            reading.say(where, "the wheel's axis lies on the pitch line", "the distance of the two is the radius")
-
-
 # -- cams --------------------------------------------------------------------------------------------------------------
 
 Line = tuple[str, complex, complex]
 """A guide of the frame on which a link slides: the key of the pair, a point of it (m), its sense."""
 
 
-def cams_of(reading: Reading, position: StatedPosition) -> tuple[LawCam, ...]:
-    """The cams of a file; their problems are noted."""
-    frame, file = position.bodies[reading.frame.name], reading.file
-    rails = {s.link: (s.key, frame.guides.get(s.guide)) for s in reading.slides if s.on == frame.name}
+def cams_of(
+    reading: Reading, guides: Mapping[str, PlacedGuide], given: Mapping[str, complex]
+) -> tuple[LawCam, ...]:
+    """The cams of a file; their problems are noted.
+
+    Parameters
+    ----------
+    guides : of the frame
+    given : places of points that the file draws (m)
+    """
+    file = reading.file
+    rails = {s.link: (s.key, guides.get(s.guide)) for s in reading.slides if s.on == reading.frame.name}
     lines = {name: (pair, rail.through, rail.direction) for name, (pair, rail) in rails.items() if rail is not None}
-    drawn = {p: complex(*place) * reading.metres for p, place in file.sketch.items()} | dict(position.drawn)
+    drawn = {p: complex(*place) * reading.metres for p, place in file.sketch.items()} | dict(given)
     moved: dict[str, str] = {}
     cams = []
     for name, cam in reading.file.cams.items():
