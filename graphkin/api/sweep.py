@@ -403,7 +403,7 @@ def _elsewhere(scene: Mechanism, measured: AnswersLike) -> dict[Symbol, list[tup
     column has signs, its place along the guide on which it lies."""
     from graphkin.checking.answers import as_answers
     from graphkin.solver import solve
-    from graphkin.solver.values import senses_along
+    from graphkin.solver.forces import senses_along
 
     rows, _ = as_answers(scene, measured)
     if any(row.at is None for row in rows):

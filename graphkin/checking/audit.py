@@ -33,8 +33,7 @@ from graphkin.checking.slips import CANCELLING, NOTHING, Evidence
 from graphkin.scene.symbol import Line, PointRef, Printed, Symbol, Value
 from graphkin.solver import Motion, listed_points
 from graphkin.solver.algebra.pose import Array
-from graphkin.solver.forces import forces_of
-from graphkin.solver.values import senses_along, value_of
+from graphkin.solver.forces import forces_of, senses_along, value_of
 from graphkin.words import Phrase
 
 RIGHT_SHARE = 0.7  # drawn values that are right but for drafting errors

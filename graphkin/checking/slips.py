@@ -29,8 +29,8 @@ from graphkin.scene.model import LinkMass, Loading, LoadOn, Mechanism, PlacedLin
 from graphkin.scene.pairs import HigherPair, PlacedGear
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.solver import Motion, solve
-from graphkin.solver.forces import forces_of
-from graphkin.solver.values import as_drawn, exact_values, senses_along, value_of
+from graphkin.solver.forces import forces_of, senses_along, value_of
+from graphkin.solver.values import as_drawn, exact_values
 from graphkin.words import Phrase
 
 NOTHING = 1e-9  # of the greatest value of its sort: what is smaller is zero

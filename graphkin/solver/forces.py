@@ -5,7 +5,8 @@ Each moving link is cut free: the loads on it, its inertia force -m a and inerti
 are the pair forces and as many balances as the mechanism has drivers (Sun Huan, Mechanical Principles, ch. 4; Norton,
 Design of Machinery, ch. 11).
 
-The known actions on the links of a motion: inertia forces, weights, loads, each at its place while it acts.
+The known actions on the links of a motion: inertia forces, weights, loads, each at its place while it acts.  Values
+of the motion and of its forces by symbol.
 """
 
 from __future__ import annotations
@@ -16,14 +17,15 @@ from functools import cached_property
 
 import numpy as np
 
-from graphkin.errors import Unsolvable
+from graphkin.errors import CallError, Unsolvable
 from graphkin.plane import cross
-from graphkin.scene.model import EDGE, ForceJoint, LoadOn, SpringOn, joints
+from graphkin.scene.model import EDGE, ForceJoint, LoadOn, SpringOn, joints, no_force
 from graphkin.scene.pairs import Meeting
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.algebra.constraints import solve_all
 from graphkin.solver.algebra.pose import Array, known_where
 from graphkin.solver.motion import SLIGHT, Motion
+from graphkin.solver.quantities import part_along
 from graphkin.solver.touching import touch_of
 from graphkin.structure import Pair
 from graphkin.words import Phrase, Wording
@@ -472,3 +474,70 @@ def _acting(motion: Motion, load: LoadOn) -> tuple[Array, Array]:
         part = (travel - low) / (high - low) if high > low else np.zeros(len(motion))
         acts, edge = load.acts_on_stroke(part, np.sign(speed) == phase.sense)
     return np.asarray(acts), np.asarray(edge)
+
+
+# -- values by symbol --------------------------------------------------------------------------------------------------
+
+
+def value_of(motion: Motion, symbol: Symbol) -> Array:
+    """A quantity of the motion or a force by its symbol: complex for vectors, real for others (SI), shape (n,).
+
+    Raises
+    ------
+    CallError : the symbol names nothing here
+    Unsolvable : a load acts on a part of a stroke, and the driver makes no whole turn
+    """
+    if symbol.along:
+        vector, sense = value_of(motion, symbol.whole), senses_along(motion, symbol)
+        return np.asarray(vector.real if sense is None else (vector * sense.conjugate()).real)
+    if symbol.scope != "force":
+        return motion.value(symbol)
+    if symbol.axis:
+        return np.asarray(part_along(symbol.axis, value_of(motion, symbol.whole)))
+    problem = no_force(motion.scene, str(symbol), symbol)
+    if problem is not None:
+        raise CallError(problem)
+    found = forces_of(motion).value(symbol)
+    if found is None:
+        raise CallError.of(str(symbol), "is read off the drawing alone", "ask check for it")
+    return found
+
+
+def settled_value(motion: Motion, symbol: Symbol) -> Array:
+    """A quantity as `value_of` gives it, 0 where it is rounding alone."""
+    value, measure = value_of(motion, symbol), symbol.measure
+    if symbol.is_load:
+        return settled(value, forces_of(motion).floors[measure.length])
+    return motion.settled(value, measure, ends_of(symbol))
+
+
+def ends_of(symbol: Symbol) -> float:
+    """The number of places whose errors a quantity has: two for points seen from each other."""
+    return 1.0 if symbol.measure.angle or symbol.kind == "place" else 2.0
+
+
+def settled(value: Array, floor: Array) -> Array:
+    """Values, 0 where they are not above what rounding amounts to; complex ones by their parts."""
+    if np.iscomplexobj(value):
+        return settled(value.real, floor) + 1j * settled(value.imag, floor)
+    return np.asarray(np.where(np.abs(value) <= floor, 0.0, value))
+
+
+def senses_along(motion: Motion, symbol: Symbol) -> Array | None:
+    """Unit vectors of the positive sense of a velocity or acceleration that lies along the straight guide of a sliding
+    pair, shape (n,): of a point of the sliding link in the frame, and of coincident points relative to each other; None
+    for another symbol."""
+    of, to, frame = symbol.of, symbol.to, motion.scene.frame.name
+    if of is None or symbol.seen or symbol.kind not in ("v", "a", "ar"):
+        return None
+    for slide in motion.slides:
+        if slide.guide.curvature:
+            continue
+        if to is None:
+            mine = motion.structure.links[slide.a].points if slide.a in motion.structure.links else {}
+            along = slide.b == frame and (of.link == slide.a or (not of.link and of.point in mine))
+        else:
+            along = slide.pin == of.point == to.point and {of.link, to.link} - {""} <= {slide.a, slide.b}
+        if along:
+            return np.asarray(motion.poses[slide.b].u * slide.guide.direction)
+    return None

@@ -20,12 +20,11 @@ from graphkin.solver.compiled.engine import SINGULAR, State, positions
 from graphkin.solver.compiled.kernel import LONG, Kernel
 from graphkin.solver.compiled.program import DimensionedProgram, Program, program_of
 from graphkin.solver.drivers import GivenValues, UniformGrid, quarter
-from graphkin.solver.forces import forces_of
+from graphkin.solver.forces import forces_of, settled_value, value_of
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.path.dead_points import singular
 from graphkin.solver.path.driver_range import DriverRange, range_of
 from graphkin.solver.quantities import Posed, bound_of_symbol, formula_of_symbol
-from graphkin.solver.values import settled_value, value_of
 from graphkin.structure import Structure
 
 CHUNK = 16384  # positions in a piece, so that all columns of one stay in the cache

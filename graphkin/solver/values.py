@@ -26,81 +26,14 @@ from graphkin.scene.scene_tables import LoadPhase
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.search import changes
 from graphkin.solver.algebra.pose import Array, Pose, aimed
-from graphkin.solver.forces import Action, Forces, actions, balances, forces_of, without_line
+from graphkin.solver.forces import Action, Forces, actions, balances, forces_of, value_of, without_line
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import SLIGHT, Motion, listed_points, own_slides
 from graphkin.solver.path.driver_range import DriverRange, range_of
-from graphkin.solver.quantities import part_along, value_of_symbol
+from graphkin.solver.quantities import value_of_symbol
 from graphkin.solver.touching import Measure, measured
 from graphkin.structure import Dyad, LargerGroup, Structure, links_for, part_of
 from graphkin.words import Phrase, Wording, say
-
-
-def value_of(motion: Motion, symbol: Symbol) -> Array:
-    """A quantity of the motion or a force by its symbol: complex for vectors, real for others (SI), shape (n,).
-
-    Raises
-    ------
-    CallError : the symbol names nothing here
-    Unsolvable : a load acts on a part of a stroke, or a flywheel is asked for, and the driver makes no whole turn
-    """
-    if symbol.along:
-        vector, sense = value_of(motion, symbol.whole), senses_along(motion, symbol)
-        return np.asarray(vector.real if sense is None else (vector * sense.conjugate()).real)
-    if symbol.scope not in ("force", "cycle"):
-        return motion.value(symbol)
-    if symbol.axis:
-        return np.asarray(part_along(symbol.axis, value_of(motion, symbol.whole)))
-    problem = no_force(motion.scene, str(symbol), symbol)
-    if problem is not None:
-        raise CallError(problem)
-    if symbol.scope == "cycle":
-        wheel = flywheel_of(range_of(structure_of(motion.structure)))
-        return np.full(len(motion), wheel.excess if symbol.kind == "excess" else wheel.inertia)
-    found = forces_of(motion).value(symbol)
-    if found is None:
-        raise CallError.of(str(symbol), "is read off the drawing alone", "ask check for it")
-    return found
-
-
-def settled_value(motion: Motion, symbol: Symbol) -> Array:
-    """A quantity as `value_of` gives it, 0 where it is rounding alone."""
-    value, measure = value_of(motion, symbol), symbol.measure
-    if symbol.is_load:
-        return settled(value, forces_of(motion).floors[measure.length])
-    return motion.settled(value, measure, ends_of(symbol))
-
-
-def ends_of(symbol: Symbol) -> float:
-    """The number of places whose errors a quantity has: two for points seen from each other."""
-    return 1.0 if symbol.measure.angle or symbol.kind == "place" else 2.0
-
-
-def settled(value: Array, floor: Array) -> Array:
-    """Values, 0 where they are not above what rounding amounts to; complex ones by their parts."""
-    if np.iscomplexobj(value):
-        return settled(value.real, floor) + 1j * settled(value.imag, floor)
-    return np.asarray(np.where(np.abs(value) <= floor, 0.0, value))
-
-
-def senses_along(motion: Motion, symbol: Symbol) -> Array | None:
-    """Unit vectors of the positive sense of a velocity or acceleration that lies along the straight guide of a sliding
-    pair, shape (n,): of a point of the sliding link in the frame, and of coincident points relative to each other; None
-    for another symbol."""
-    of, to, frame = symbol.of, symbol.to, motion.scene.frame.name
-    if of is None or symbol.seen or symbol.kind not in ("v", "a", "ar"):
-        return None
-    for slide in motion.slides:
-        if slide.guide.curvature:
-            continue
-        if to is None:
-            mine = motion.structure.links[slide.a].points if slide.a in motion.structure.links else {}
-            along = slide.b == frame and (of.link == slide.a or (not of.link and of.point in mine))
-        else:
-            along = slide.pin == of.point == to.point and {of.link, to.link} - {""} <= {slide.a, slide.b}
-        if along:
-            return np.asarray(motion.poses[slide.b].u * slide.guide.direction)
-    return None
 
 
 def exact_values(motion: Motion, symbols: Iterable[Symbol]) -> dict[Symbol, Value]:
@@ -117,13 +50,24 @@ def exact_values(motion: Motion, symbols: Iterable[Symbol]) -> dict[Symbol, Valu
             values[symbol] = _of_turn(_range_here(motion), symbol)
         elif scope == "force" and no_force(motion.scene.whole, str(symbol), symbol) is None:
             values[symbol] = _of_forces_here(motion, symbol)
+        elif scope == "cycle":
+            values[symbol] = _of_cycle(motion, symbol)
         else:
-            of_motion = scope not in ("force", "cycle") and not symbol.axis
+            of_motion = scope != "force" and not symbol.axis
             exact = (value_of_symbol(posed, symbol) if of_motion else value_of(motion, symbol))[0]
             if symbol.kind == "d" and math.isnan(exact):  # the centre of links at rest: that of any motion
                 exact = growing(motion).value(symbol)[0]
             values[symbol] = complex(exact) if np.iscomplexobj(exact) else float(exact)
     return values
+
+
+def _of_cycle(motion: Motion, symbol: Symbol) -> float:
+    """The excess work (J) or the moment of inertia of the flywheel (kg m2)."""
+    problem = no_force(motion.scene, str(symbol), symbol)
+    if problem is not None:
+        raise CallError(problem)
+    wheel = flywheel_of(range_of(structure_of(motion.structure)))
+    return wheel.excess if symbol.kind == "excess" else wheel.inertia
 
 
 def _of_turn(reach: DriverRange, symbol: Symbol) -> float:

@@ -19,8 +19,8 @@ from graphkin.drawing.ink.primitives import Stroke
 from graphkin.scene.model import forces_named
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange
-from graphkin.solver.forces import forces_of
-from graphkin.solver.values import FlywheelStudy, load_edges, needed_moment, value_of
+from graphkin.solver.forces import forces_of, value_of
+from graphkin.solver.values import FlywheelStudy, load_edges, needed_moment
 from graphkin.study import charts
 from graphkin.study.extremes import Extreme
 from graphkin.study.quantities import course_of

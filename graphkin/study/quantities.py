@@ -13,9 +13,8 @@ from graphkin.scene.model import Mechanism, forces_named
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import DriverRange, Motion, listed_points, own_slides
 from graphkin.solver.algebra.pose import Array
-from graphkin.solver.forces import forces_of
+from graphkin.solver.forces import ends_of, forces_of, settled_value, value_of
 from graphkin.solver.quantities import all_slides
-from graphkin.solver.values import ends_of, settled_value, value_of
 from graphkin.structure import Structure, links_for
 from graphkin.table import Column, Table
 from graphkin.words import Wording

@@ -26,10 +26,9 @@ from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, Motion, driver_range, over_time, structure_of
 from graphkin.solver.algebra.pose import Array
 from graphkin.solver.compiled.kernel import pays
-from graphkin.solver.forces import forces_of
+from graphkin.solver.forces import forces_of, settled
 from graphkin.solver.path.named_positions import first_position, standing
 from graphkin.solver.prepared import PreparedMechanism, prepare
-from graphkin.solver.values import settled
 from graphkin.structure import Structure
 from graphkin.study.designs import Designs, Value, applied
 from graphkin.study.prepared_designs import PreparedMechanisms

@@ -13,7 +13,7 @@ from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
 from graphkin.solver import Motion, solve
-from graphkin.solver.values import value_of
+from graphkin.solver.forces import value_of
 from tests import scenes
 
 pytestmark = pytest.mark.quick

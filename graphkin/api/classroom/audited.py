@@ -37,7 +37,8 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.solver import Motion, driver_range, solved_here, structure_of
-from graphkin.solver.values import exact_values, value_of
+from graphkin.solver.forces import value_of
+from graphkin.solver.values import exact_values
 from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
