@@ -56,7 +56,8 @@ class JudgedValue(Known):
         unit = symbol.unit(scene.units)
         return cls(
             symbol, unit.text, unit.of(judged.printed.value), unit.of(judged.exact), judged.deviation, judged.verdict,
-            unit.of(judged.bound), _guessed(judged, language), judged.follows_from,
+            unit.of(judged.bound), "" if judged.looks_like is None else say(judged.looks_like, language),
+            judged.follows_from,
         )  # fmt: skip
 
     def _values(self) -> tuple[tuple[str, Value | None], ...]:
@@ -64,15 +65,6 @@ class JudgedValue(Known):
 
     def _words(self) -> tuple[str, ...]:
         return self.verdict, self.looks_like
-
-
-def _guessed(judged: Judged, language: str) -> str:
-    """The slip of a value in words, with its distance from what the slip gives where that is more than rounding."""
-    if judged.looks_like is None:
-        return ""
-    if judged.apart is None or judged.apart < NAMED:
-        return say(judged.looks_like, language)
-    return say(Phrase("slip nearly", slip=judged.looks_like, percent=f"{100 * judged.apart:.1g}"), language)
 
 
 # -- points, and what a class did ------------------------------------------------------------------------------------
@@ -216,6 +208,8 @@ def _value(scene: Mechanism, judged: Judged, language: str) -> Row:
         row["why"] = say(Phrase("nothing to judge by"), language)
     if value.looks_like:
         row["looks_like"] = value.looks_like
+        if judged.apart is not None and judged.apart >= NAMED:
+            row["looks_like_off_pct"] = float(f"{100.0 * judged.apart:.1g}")
     if judged.gap is not None:
         row["loop_gap"] = {"loop": judged.gap[0], "gap": _plain(judged.gap[1] / scene.units.metres)}
     if value.follows_from:

@@ -106,12 +106,12 @@ def test_a_value_beside_a_dead_point_that_has_the_other_sign_is_wrong_all_the_sa
     assert "wrong" == value["verdict"]
 
 
-@pytest.mark.parametrize(("off", "said"), [(1.0, "sign"), (1.04, "sign (4 % off)"), (1.06, "sign (6 % off)")])
-def test_a_wrong_sign_in_a_drawing_that_is_off_too_is_recognised(off: float, said: str) -> None:
+@pytest.mark.parametrize(("off", "percent"), [(1.0, None), (1.04, 4.0), (1.06, 6.0)])
+def test_a_wrong_sign_in_a_drawing_that_is_off_too_is_recognised(off: float, percent: float | None) -> None:
     exact = graphkin.check("slider-crank-offset")["alpha_2"].exact.real
     scene = graphkin.read("slider-crank-offset").replace("printed", {"alpha_2": float(f"{-exact * off:.4g}")})
     (value,) = graphkin.audit(scene).data["values"]
-    assert ("wrong", said) == (value["verdict"], value.get("looks_like"))
+    assert ("wrong", "sign", percent) == (value["verdict"], value["looks_like"], value.get("looks_like_off_pct"))
 
 
 def test_a_large_whole_number_rounded_beside_a_dead_point_is_not_called_wrong() -> None:

@@ -116,10 +116,13 @@ class Audited(OfScene, Result):
             own = {"person": who.person, "id": who.id, "variant": who.variant, "at": _cell(who.at)}
             lead = [own[key] for key in self._named]
             for row in rows_of(self.mechanism, who, judged, self.language):
-                percent, gap = row["deviation_pct"], row.get("loop_gap")
-                deviation = f"{round(percent, 2) + 0.0:+.2f} %" if isinstance(percent, float) else ""
+                off, gap = row["deviation_pct"], row.get("loop_gap")
+                deviation = f"{round(off, 2) + 0.0:+.2f} %" if isinstance(off, float) else ""
                 verdict = word(str(row["verdict"] or "not judged"), self.language)
                 said = str(row.get("looks_like", row.get("why", "") if row["verdict"] == "not readable" else ""))
+                if "looks_like_off_pct" in row:
+                    percent = f"{row['looks_like_off_pct']:g}"
+                    said = say(Phrase("slip nearly", slip=said, percent=percent), self.language)
                 if isinstance(gap, dict):
                     open_ = Phrase("loop open", loop=gap["loop"], gap=f"{gap['gap']:.4g} {self.mechanism.units.length}")
                     mark = word("list semicolon", self.language)
