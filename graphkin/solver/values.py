@@ -51,7 +51,7 @@ def exact_values(motion: Motion, symbols: Iterable[Symbol]) -> dict[Symbol, Valu
         elif scope == "force" and no_force(motion.scene.whole, str(symbol), symbol) is None:
             values[symbol] = _of_forces_here(motion, symbol)
         elif scope == "cycle":
-            values[symbol] = _of_cycle(motion, symbol)
+            values[symbol] = float(of_cycle(motion, symbol)[0])
         else:
             of_motion = scope != "force" and not symbol.axis
             exact = (value_of_symbol(posed, symbol) if of_motion else value_of(motion, symbol))[0]
@@ -61,13 +61,19 @@ def exact_values(motion: Motion, symbols: Iterable[Symbol]) -> dict[Symbol, Valu
     return values
 
 
-def _of_cycle(motion: Motion, symbol: Symbol) -> float:
-    """The excess work (J) or the moment of inertia of the flywheel (kg m2)."""
+def of_cycle(motion: Motion, symbol: Symbol) -> Array:
+    """The excess work (J) or the moment of inertia of the flywheel (kg m2), the same at all positions: shape (n,).
+
+    Raises
+    ------
+    CallError : the scene has no flywheel
+    Unsolvable : the driver makes no whole turn
+    """
     problem = no_force(motion.scene, str(symbol), symbol)
     if problem is not None:
         raise CallError(problem)
     wheel = flywheel_of(range_of(structure_of(motion.structure)))
-    return wheel.excess if symbol.kind == "excess" else wheel.inertia
+    return np.full(len(motion), wheel.excess if symbol.kind == "excess" else wheel.inertia)
 
 
 def _of_turn(reach: DriverRange, symbol: Symbol) -> float:

@@ -15,6 +15,7 @@ from graphkin.solver import DriverRange, Motion, listed_points, own_slides
 from graphkin.solver.algebra.pose import Array
 from graphkin.solver.forces import ends_of, forces_of, settled_value, value_of
 from graphkin.solver.quantities import all_slides
+from graphkin.solver.values import of_cycle
 from graphkin.structure import Structure, links_for
 from graphkin.table import Column, Table
 from graphkin.words import Wording
@@ -32,14 +33,14 @@ def course_of(quantity: Symbol, reach: DriverRange | None, motion: Motion) -> Ar
     if quantity.kind == "theta":
         angle, other = motion.angle if reach is None else partial(reach.angle, motion), quantity.other
         return angle(quantity.link) - angle(other) if other else angle(quantity.link)
-    value = value_of(motion, quantity)
+    value = (of_cycle if quantity.scope == "cycle" else value_of)(motion, quantity)
     return np.abs(value) if quantity.is_vector else np.asarray(value.real)
 
 
 def parts_of(quantity: Symbol, reach: DriverRange | None, motion: Motion) -> tuple[Array, ...]:
     """The values of a quantity in a motion (alone, or of a range) in the table's units, 0 where they are rounding
     alone: one array, or a vector's components."""
-    if quantity.is_angle_of_link:
+    if quantity.is_angle_of_link or quantity.scope == "cycle":
         value = motion.settled(course_of(quantity, reach, motion), quantity.measure)
     else:
         value = settled_value(motion, quantity)

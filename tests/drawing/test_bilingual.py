@@ -40,7 +40,7 @@ def test_formulas_in_another_order_keep_the_sentences_apart():
 def test_a_sentence_without_a_formula_stands_in_each_language_whole():
     said = Phrase(
         "given spring", name="R", point=sign("A"), link="3", other_point=sign("B"), other_link="4", rate="1.6 N/mm",
-        length="60 mm", preload="12 N", force=sign("P"),
+        free="60 mm", preload="12 N", force=sign("P"),
     )  # fmt: skip
     assert (rich_text(said, "en"), rich_text(said, "zh")) == in_all(said, "both")
 
