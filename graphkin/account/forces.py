@@ -517,7 +517,9 @@ def _lever_sum(sheet: Sheet, lever: Lever, carried: int) -> LeverSum:
         size = amount(abs(row.acting.force) / sheet.scene.units.newtons, carried)
         moment = product(size, arm, carried=carried) if row.arm else "0"
         rows.append((row, size, arm, "-" * (row.moment < 0) + moment))
-    total = sum((Decimal(moment) for *_, moment in rows), Decimal(0))
+    moments = [Decimal(moment) for *_, moment in rows if moment != "0"]
+    places = max((int(moment.as_tuple().exponent) for moment in moments), default=0)  # of the row with the fewest
+    total = sum(moments, Decimal(0)).quantize(Decimal(1).scaleb(places))
     return tuple(rows), total, amount(abs(lever.unknown.moment) / per_mm, carried)
 
 

@@ -148,7 +148,8 @@ def test_the_sum_on_a_lever_is_that_of_its_rows_and_gives_the_balance_as_they_ar
     (head,) = (k for k, text in enumerate(words) if text.startswith("moment about the pole, "))
     moments = [Decimal(row) for row in words[head + 4 :: 4] if re.fullmatch(r"-?[\d.]+", row)]
     balance = re.search(r"(-?[\d.]+) k?N·m by the lever", " ".join(words))
-    assert Decimal(total) == abs(sum(moments)) == Decimal(f"{sense}1") * sum(moments)
+    coarsest = max((moment for moment in moments if moment), key=lambda moment: moment.as_tuple().exponent)
+    assert Decimal(f"{sense}{total}") == sum(moments).quantize(coarsest)
     assert balance is not None
     assert balance[1].strip("-") == amount(float(Decimal(total) / Decimal(arm)), 5)
 
