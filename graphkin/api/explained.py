@@ -19,6 +19,7 @@ from graphkin.files import Json
 from graphkin.scene.model import Driver, Mechanism, PlacedLink, forces_named
 from graphkin.scene.pairs import told
 from graphkin.scene.scene import SceneLike
+from graphkin.scene.tables import Unit
 from graphkin.structure import LargerGroup, Structure, mobility_of
 from graphkin.table import Table
 from graphkin.words import Phrase, Wording, about, class_of, listed, sense_of, word
@@ -214,18 +215,26 @@ def _mobility(scene: Mechanism) -> Phrase:
 
 def _driver(scene: Mechanism, driver: Driver) -> Phrase:
     at = scene.unit_of(driver).said(driver.values[0])
-    rate = driver.values[1]
+    _, rate, second = driver.values
     if driver.law is not None:
         at = f"{at} ({_number(driver.law.time)} / {_number(driver.law.duration)} s)"
     if driver.turns:
         rpm = _number(abs(rate) * 30 / math.pi)
         turning = Phrase("explained turning rate", sense=sense_of(rate), rate=_number(abs(rate)), rpm=rpm)
         said = turning if rate else Phrase("explained at rest")
+        growth = Phrase("explained turning growth", sense=sense_of(second), rate=_number(abs(second)))
+        said = Phrase("explained accelerated", motion=said, growth=growth) if second else said
         return Phrase("explained turns", link=driver.link, base=driver.relative_to, value=at, motion=said)
-    sense = "at rest" if not rate else "forward" if rate > 0 else "back"
-    speed = scene.units.of("velocity")
-    said = Phrase(f"explained {sense}", speed=_number(speed.of(abs(rate))), unit=speed.text)
+    said = _along(rate, scene.units.of("velocity"))
+    if second:
+        said = Phrase("explained accelerated", motion=said, growth=_along(second, scene.units.of("acceleration")))
     return Phrase("explained slides", slide=driver.key, value=at, motion=said)
+
+
+def _along(rate: float, unit: Unit) -> Phrase:
+    """The velocity or acceleration of a driven slide (SI) in a unit, along or against its guide."""
+    sense = "at rest" if not rate else "forward" if rate > 0 else "back"
+    return Phrase(f"explained {sense}", speed=_number(unit.of(abs(rate))), unit=unit.text)
 
 
 def _groups(structure: Structure, scene: Mechanism) -> Iterator[Phrase]:

@@ -37,6 +37,27 @@ def test_a_six_bar_is_explained_joint_by_joint() -> None:
 
 
 @pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"driver.alpha": 20}, "clockwise with 10 rad/s (95.493 rpm), accelerated counter-clockwise with 20 rad/s2"),
+        ({"driver.alpha": -3, "driver.omega": 0}, "and stands still, accelerated clockwise with 3 rad/s2"),
+    ],
+)
+def test_the_acceleration_of_a_turning_driver_is_told(changes: dict[str, float], said: str) -> None:
+    scene = graphkin.read("sixbar-guide-40deg")
+    for key, value in changes.items():
+        scene = scene.replace(key, value)
+    (driver,) = graphkin.explain(scene).data["drivers"]
+    assert f"link 1 turns relative to link 6, now at 50°, {said}" == driver
+
+
+def test_the_acceleration_of_a_driven_slide_is_told_along_its_guide() -> None:
+    scene = graphkin.read("boom-lifted").replace("driver.acceleration", -7)
+    (driver,) = graphkin.explain(scene).data["drivers"]
+    assert driver.endswith("along the guide's sense with 60 mm/s, accelerated against the guide's sense with 7 mm/s2")
+
+
+@pytest.mark.parametrize(
     ("name", "group"),
     [
         ("geneva-step", "link 2 and the block at B: RPR, class II"),
