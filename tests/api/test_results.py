@@ -242,6 +242,17 @@ def test_what_is_not_determined_is_no_0():
     assert [1e-9] == beside.settled(np.full(1, 1e-9), MEASURES["angular acceleration"]).tolist()
 
 
+@pytest.mark.parametrize("unit", ["mm", "m"])
+@pytest.mark.parametrize(("part", "left"), [(0.5e-9, 0.0), (2e-9, 1e-12)])
+def test_a_bound_is_slight_beside_the_velocity_of_a_point_as_far_off_as_the_mechanism_is_large(unit, part, left):
+    scene = graphkin.read(four_bar(40, 110, 80, 120)).to_dict() | {"units": {"length": unit}}
+    motion = graphkin.solve(scene, at=60).motion
+    rate = abs(motion.scene.drivers[0].values[1])
+    off = replace(motion.bound, velocity=np.full(1, part * motion.scene.size * rate))
+    with patch.object(Accuracy, "of", lambda *given, **more: off):
+        assert [left] == graphkin.solve(scene, at=60).motion.settled(np.full(1, 1e-12), MEASURES["velocity"]).tolist()
+
+
 def minus_before_nought(data: object) -> list[str]:
     return re.findall(r"(?<![\w.])-0(?:\.0+)?(?![\d.eE])", json.dumps(data, default=str))
 

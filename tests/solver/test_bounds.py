@@ -295,6 +295,19 @@ def test_errors_grow_beside_a_dead_point_no_more_than_is_told(part: float) -> No
             assert all(change <= float(bound[0]) for change, bound in zip(changes, most, strict=True)), link
 
 
+def test_bounds_of_velocities_grow_by_the_cube_of_the_growth_of_places_of_accelerations_by_the_fifth_power() -> None:
+    known = solve(driven_slide(7.99)).accuracy
+    given = replace(known.structure), known.poses, known.drive, known.slack, known.refined
+    angles = []
+    for growth in (1.0, 2.0):
+        with patch.object(
+            bounds, "_growth", lambda inverse, *_, by=growth: (np.ones(1, bool), by * np.eye(inverse.shape[1])[None])
+        ):
+            most = bounds.error_bounds(*given)["1"]
+        angles.append(np.concatenate((most.angle, most.omega, most.alpha)))
+    assert [2**1, 2**3, 2**5] == pytest.approx((angles[1] / angles[0]).tolist(), rel=1e-9)
+
+
 def test_what_is_computed_in_fifty_digits_is_rounded_once() -> None:
     own = solve(driven_slide(7.999999999))
     assert own.accuracy.refined.all()

@@ -175,6 +175,16 @@ def test_a_rack_goes_as_far_as_the_pitch_circle_rolls():
     assert {"pitch_point": [0, 40], "radii": [40, None]} == here["gears"]["g"]
 
 
+def test_a_wheel_on_a_carriage_turns_clockwise_as_it_goes_along_a_rack_below_it():
+    carriage = {
+        "frame": {"guides": {"h": {"through": [0, 0], "angle": 0}, "r": {"through": [0, -40], "angle": 0}}},
+        "links": {"1": {"points": ["A", "P"], "length": 15}, "2": {"points": ["A"], "on": "0.h"}},
+        "gears": {"g": {"between": ["1", "0.r"], "teeth": [20, "rack"], "carrier": "2"}},
+        "driver": {"slide": "2", "travel": 5, "velocity": 80},
+    }
+    assert [-2.0] == pytest.approx(solve(carriage)["omega_1"], rel=1e-13)
+
+
 def test_prepared_wheels_move_as_solved_ones():
     from graphkin import prepare
 

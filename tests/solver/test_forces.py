@@ -8,6 +8,7 @@ import random
 import tomllib
 from dataclasses import replace
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ import pytest
 import graphkin
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol
+from graphkin.solver import forces as kinetostatics
 from graphkin.solver.cams import cam_angle, cam_at
 from graphkin.solver.touching import pitch_point
 from tests import with_tables
@@ -438,3 +440,27 @@ def test_the_link_of_a_pin_bears_the_force_of_a_circular_slot(of):
         bears = on_slot if link == of else 0
         expected = bears - forces[f"Fi_{link}"] - forces[f"G_{link}"]
         assert expected == pytest.approx(forces[f"F_0/{link}"], abs=1e-9 * abs(on_slot))
+
+
+def settled_values(motion, name, values):
+    """What a quantity is settled to if it has these values."""
+    found = []
+    for value in values:
+        with patch.object(kinetostatics, "value_of", lambda *_, value=value: np.full(1, value)):
+            found += kinetostatics.settled_value(motion, Symbol.parse(name)).tolist()
+    return found
+
+
+@pytest.mark.parametrize(("name", "which"), [("F_5/6", 0), ("M_6/1", 1)])
+def test_a_force_is_0_below_the_bound_of_forces_and_a_moment_below_that_of_moments(name, which):
+    solved = graphkin.solve("shaper-forces")
+    below, above = (part * float(solved.forces.bound[which][0]) for part in (0.9, 1.1))
+    assert [0.0, above] == settled_values(solved.motion, name, (below, above))
+
+
+@pytest.mark.parametrize(("name", "ends"), [("v_C/B", 2), ("C", 1), ("omega_4", 1)])
+def test_a_velocity_seen_from_a_point_is_0_below_the_errors_of_both_and_a_place_below_its_alone(name, ends):
+    motion = graphkin.solve("shaper-forces").motion
+    bound = float(motion.bound.of(Symbol.parse(name).measure)[0])
+    below, above = (part * ends * bound for part in (0.9, 1.1))
+    assert [0.0, above] == settled_values(motion, name, (below, above))
