@@ -63,7 +63,8 @@ def scenes(n: int = 10_000) -> None:
         scene = structure.scene
         moving = dict.fromkeys(p for link in scene.links for p in link.points if p not in scene.frame.points)
         asked = [f"{kind}{point}" for kind in ("", "v_", "a_") for point in list(moving)[-2:]]
-        ready, public = prepare(structure, asked), graphkin.prepare(structure.scene, find=asked, fast=True)
+        ready = prepare(structure, [*map(Symbol.parse, asked)])
+        public = graphkin.prepare(structure.scene, find=asked, fast=True)
         bare, given = Kernel(ready.code, ready.turns, True), ready.range.grid(n).given
         out = np.empty((len(ready.asked), n))
         took = best({
