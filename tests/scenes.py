@@ -18,6 +18,19 @@ def four_bar(crank: float, coupler: float, rocker: float, ground: float, **more:
     } | more
 
 
+def slider_crank(crank: float, rod: float, **more: Any) -> dict[str, Any]:
+    """An in-line slider-crank, the crank at 50 deg with 10 rad/s, unless ``more`` says otherwise (mm)."""
+    return {
+        "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": "A", "angle": 0}}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": crank},
+            "2": {"points": ["B", "C"], "length": rod},
+            "3": {"points": ["C"], "on": "0.h"},
+        },
+        "driver": {"link": "1", "angle": 50, "omega": 10},
+    } | more
+
+
 FOUR_BAR = """
 [frame]
 points = { A = [0, 0], D = [400, 0] }

@@ -7,16 +7,9 @@ import pytest
 import graphkin
 from graphkin.account.headings import describe, structure_words
 from graphkin.scene import mechanism_of
+from tests.scenes import slider_crank
 
-SLIDER_CRANK = {
-    "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": "A", "angle": 0}}},
-    "links": {
-        "1": {"points": ["A", "B"], "length": 30},
-        "2": {"points": ["B", "C"], "length": 80},
-        "3": {"points": ["C"], "on": "0.h"},
-    },
-    "driver": {"link": "1", "angle": 60, "omega": 1e-9},
-}
+SLIDER_CRANK = slider_crank(30, 80, driver={"link": "1", "angle": 60, "omega": 1e-9})
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,7 @@ import pytest
 import graphkin
 from graphkin.errors import CallError
 from tests.command import run
+from tests.scenes import slider_crank
 
 pytestmark = pytest.mark.quick
 
@@ -80,15 +81,6 @@ def test_a_component_that_cancels_is_zero():
 def test_a_value_in_the_unit_of_its_head_is_shown_with_it(tmp_path):
     table = tmp_path / "answers.csv"
     table.write_text("name,v_C (m/s),omega_2 (rpm),a_C (mm/s2)\nAnn,0.94888,22.79 cw,5907.2\n", encoding="utf-8")
-    scene = {
-        "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": "A", "angle": 0}}},
-        "links": {
-            "1": {"points": ["A", "B"], "length": 100},
-            "2": {"points": ["B", "C"], "length": 280},
-            "3": {"points": ["C"], "on": "0.h"},
-        },
-        "driver": {"link": "1", "angle": 50, "omega": 10},
-    }
-    audited = graphkin.audit(scene, answers=str(table))
+    audited = graphkin.audit(slider_crank(100, 280), answers=str(table))
     assert ["0.94888 m/s", "22.79 cw (rpm)", "5907.2"] == list(audited.table["printed"])
     assert ["right"] * 3 == list(audited.table["verdict"])

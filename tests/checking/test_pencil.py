@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Any
 
 import pytest
 
@@ -21,6 +20,7 @@ from graphkin.scene import library, library_text, mechanism_of, mechanism_of_tex
 from graphkin.scene.model import PlacedLink
 from graphkin.scene.scene_tables import Tools
 from graphkin.scene.symbol import Symbol
+from tests.scenes import slider_crank
 
 SIXBAR = "sixbar-guide-40deg"
 SEEDS = 100  # a reading that is off is so in all that use it: of a short series few drawings count for many
@@ -155,18 +155,8 @@ def test_points_of_a_link_that_fall_into_one_are_pricked_once_and_others_for_the
 
 def test_a_pencil_s_forces_have_the_scale_of_the_exact_drawing() -> None:
     def planned(moment: float) -> Plan:
-        scene: dict[str, Any] = {
-            "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": "A", "angle": 0}}},
-            "links": {
-                "1": {"points": ["A", "B"], "length": 100},
-                "2": {"points": ["B", "C"], "length": 280},
-                "3": {"points": ["C"], "on": "0.h"},
-            },
-            "driver": {"link": "1", "angle": 50, "omega": 10},
-            "loads": {"M": {"on": "1", "moment": moment}},
-            "balance": {"on": "3", "at": "C", "angle": 180},
-        }
-        return plan(mechanism_of(scene))
+        loads = {"M": {"on": "1", "moment": moment}}
+        return plan(mechanism_of(slider_crank(100, 280, loads=loads, balance={"on": "3", "at": "C", "angle": 180})))
 
     def scale(moment: float) -> float:
         return force_scales(execute(planned(moment)))[()]
