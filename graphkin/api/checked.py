@@ -8,16 +8,26 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from graphkin.api.arguments import At, as_scene, asked_here, drawn_symbols, hand_of, placed, value_at
+from graphkin.api.arguments import (
+    At,
+    as_scene,
+    asked_here,
+    asked_symbols,
+    drawn_symbols,
+    hand_of,
+    placed,
+    value_at,
+)
 from graphkin.api.results import OfScene, Result, named
 from graphkin.checking.readings import report_on
 from graphkin.checking.report import Compared, ReadValue, Report, reading_row, without_residues
 from graphkin.construction import EXACT, Instrument, Plan, Sheet, execute, plan
+from graphkin.errors import Unsolvable
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import part_of
+from graphkin.structure import Structure, part_of
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, say
 
@@ -119,6 +129,7 @@ class Checked(OfScene, Result):
                 str(s): float(s.unit(scene.units, radians=True).of(v)) for s, v in self.over_turn.items()
             }} if self.over_turn else {}),
             **({"advice": say(self.advice)} if self.advice else {}),
+            **({"forces": None, "why": str(self.sheet.without_forces)} if self.sheet.without_forces else {}),
             **construction,
         }
 
@@ -213,7 +224,26 @@ def check(
     hand, here = hand_of(given.question.sheet, instrument, seed), asked_here(asked)
     structure = solver.structure_of(given)
     motion = solver.solved_here(structure, values, here)
-    return with_elsewhere(checked(plan(structure, values, here), motion, hand), asked, seed)
+    planned = plan_of(structure, values, here, asked_symbols(given, find))
+    return with_elsewhere(checked(planned, motion, hand), asked, seed)
+
+
+def plan_of(
+    structure: Structure, values: Mapping[str, float] | None, asked: Sequence[Symbol], by_name: Sequence[Symbol]
+) -> Plan:
+    """The plan of a drawing: of the motion alone, where a load acts on a part of a stroke without a whole turn and
+    no force is asked for by name.
+
+    Raises
+    ------
+    Unsolvable : a position that cannot be assembled; no whole turn for what is asked by name
+    """
+    try:
+        return plan(structure, values, asked)
+    except Unsolvable as stop:
+        if stop.status != "no whole turn" or any(s.scope in ("force", "cycle") for s in by_name):
+            raise
+        return plan(structure, values, asked_here(by_name), without_forces=stop)
 
 
 def checked(planned: Plan, motion: Motion, hand: Instrument, at_contacts: bool = True) -> Checked:

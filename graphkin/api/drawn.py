@@ -13,6 +13,7 @@ from graphkin.api.arguments import (
     At,
     as_scene,
     asked_here,
+    asked_symbols,
     drawn_symbols,
     driver_values,
     for_paper,
@@ -22,7 +23,7 @@ from graphkin.api.arguments import (
     unknown_words,
 )
 from graphkin.api.cams import cam_made, cam_table
-from graphkin.api.checked import Checked, checked, with_elsewhere
+from graphkin.api.checked import Checked, checked, plan_of, with_elsewhere
 from graphkin.api.report_text import report_text
 from graphkin.api.results import OfScene, Result
 from graphkin.construction import EXACT, Instrument, Plan, execute, plan
@@ -82,7 +83,8 @@ class Drawn(OfScene, Result):
     @property
     def whole(self) -> Plan:
         """The plan of all links at the scales of the drawing."""
-        return replace(plan(self.plan.structure, self.checked.sheet.drivers, ()), scales=self.plan.scales)
+        planned = plan(self.plan.structure, self.checked.sheet.drivers, (), without_forces=self.plan.without_forces)
+        return replace(planned, scales=self.plan.scales)
 
     @property
     def _hand(self) -> Instrument:
@@ -102,8 +104,8 @@ class Drawn(OfScene, Result):
         """The check with forces, or the reason why they cannot be found."""
         if self.checked.sheet.has_forces:
             return self.checked
-        if not self.mechanism.loading:
-            return None
+        if self.plan.without_forces or not self.mechanism.loading:
+            return self.plan.without_forces
         try:
             return checked(self.whole, solved_here(self.plan.structure, self.checked.sheet.drivers), self._hand)
         except Unsolvable as stop:
@@ -306,7 +308,7 @@ def draw(
     hand = hand_of(given.question.sheet, instrument, seed)
     structure = solver.structure_of(given)
     motion = solved_here(structure, values, asked_here(asked))
-    planned = plan(structure, values, asked_here(asked))
+    planned = plan_of(structure, values, asked_here(asked), asked_symbols(given, find))
     whole = with_elsewhere(checked(planned, motion, hand), asked, seed)
     by_name = figures is not None
     drawn = Drawn(whole, planned, motion, wanted, seed, language, convention, driver, places, by_name)

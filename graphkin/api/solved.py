@@ -31,7 +31,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.structure import mobility_of
 from graphkin.study.quantities import columns_of, parts_of
 from graphkin.table import Values
-from graphkin.words import Phrase
+from graphkin.words import Phrase, say
 
 if TYPE_CHECKING:
     from graphkin.account.loops import LoopText
@@ -123,10 +123,24 @@ class Solved(OfScene, Result):
 
     @property
     def forces(self) -> Forces | None:
-        """All forces; None for a scene without masses and loads."""
+        """All forces; None for a scene without masses and loads, and where a load acts on a part of a stroke without
+        a whole turn."""
+        return None if isinstance(self._forces, Unsolvable) else self._forces
+
+    @property
+    def without_forces(self) -> Phrase | None:
+        """The sentence on forces that are not known at any position."""
+        stop = self._forces
+        return Phrase("forces not known", why=stop.reason) if isinstance(stop, Unsolvable) else None
+
+    @cached_property
+    def _forces(self) -> Forces | Unsolvable | None:
         from graphkin.solver.forces import forces_of
 
-        return forces_of(self._moved) if self._moved.scene.loading else None
+        try:
+            return forces_of(self._moved) if self._moved.scene.loading else None
+        except Unsolvable as stop:
+            return stop
 
     @property
     def said(self) -> Phrase:
@@ -206,6 +220,8 @@ class Solved(OfScene, Result):
                 entry["name"] = name
             if self.times:
                 entry["time"] = self.times[k]
+            if self.without_forces and entry["status"] == "ok":
+                entry |= {"forces": None, "moments": None, "why": say(self.without_forces)}
             if self.find:
                 kept = ("driver", "time", "name", "status", "why", "error_bound")
                 entry = {key: entry[key] for key in kept if key in entry}

@@ -269,6 +269,8 @@ def _print_solution(solved: Solved, lang: str | None) -> None:
                 continue
             for table in tables:
                 print_table(*table)
+    if (without := solved.without_forces) and not solved.find:
+        tell(say(without, language))
 
 
 @command(

@@ -67,7 +67,8 @@ class Plan:
     these, each in its assembly; ``assembly`` is that of the elements, with the values at the triangles' pairs;
     ``limits`` are the limit positions of asked quantities, on paper of the mechanism's size.  ``acting`` and
     ``growing`` as in `Sheet`. With ``touching`` sliding contacts are drawn themselves, not their replacements.
-    ``made`` is the drawing by exact hands, at scales of its own; None until it is drawn.
+    ``without_forces`` is the reason why no forces are drawn. ``made`` is the drawing by exact hands, at scales of its
+    own; None until it is drawn.
     """
 
     structure: Structure
@@ -82,6 +83,7 @@ class Plan:
     acting: Mapping[str, bool | None] = field(default_factory=dict)
     growing: tuple[Sheet, ...] = ()
     touching: bool = False
+    without_forces: Unsolvable | None = None
     scales: Scales = NATURAL
     made: Sheet | None = None
 
@@ -104,7 +106,13 @@ class Plan:
     @cached_property
     def has_forces(self) -> bool:
         """Whether forces can be drawn: there are masses or loads, and all that they need is drawn."""
-        return bool(self.structure.scene.loading) and self.is_whole
+        return bool(self.structure.scene.loading) and self.is_whole and self.without_forces is None
+
+    @property
+    def forces_not_known(self) -> Phrase | None:
+        """The sentence on why no forces are drawn."""
+        stop = self.without_forces
+        return None if stop is None else Phrase("forces not known", why=stop.reason)
 
     @property
     def loads_on_strokes(self) -> dict[Symbol, LoadOn]:
@@ -156,14 +164,16 @@ class Plan:
             if scene.replacing.keys().isdisjoint(self.exact.poses):
                 return self._touching()
             poses = {name: pose.scaled(self.exact.scales.length) for name, pose in self.exact.poses.items()}
-            other = _plan(analyse(pins_on_circles(scene, poses, self.values)), self.asked)
+            replaced = analyse(pins_on_circles(scene, poses, self.values))
+            other = _plan(replaced, self.asked, without_forces=self.without_forces)
             return other._touching() or other
         whole = scene.whole
         barred = bool(scene.replacing.keys() - whole.by_name.keys())
         if not barred and not whole.contacts and not any(cam.flat for cam in whole.cams):
             return None
         values = {d.key: self.values[d.key] for d in whole.drivers}
-        other = _plan(cams_in_place(analyse(whole), self.asked, values, bars=False), self.asked)
+        placed = cams_in_place(analyse(whole), self.asked, values, bars=False)
+        other = _plan(placed, self.asked, without_forces=self.without_forces)
         return other._touching() or (other if barred else None)
 
     def _touching(self) -> Plan | None:
@@ -256,6 +266,7 @@ def finished(planned: Plan, polygons: Polygons) -> Sheet:
         limits=limits,
         readings=dict(board.readings),
         has_forces=planned.has_forces,
+        without_forces=planned.forces_not_known,
     )
     return without_residues(sheet) if board.instrument.faultless else sheet
 
@@ -354,20 +365,24 @@ def plan(
     find: Iterable[Symbol] | None = None,
     room: Room | None = None,
     near: Sheet | None = None,
+    without_forces: Unsolvable | None = None,
 ) -> Plan:
-    """Plan a drawing, and carry it out exactly; parameters and errors as for `draft`."""
+    """Plan a drawing, and carry it out exactly; parameters and errors as for `draft`.
+
+    ``without_forces`` is the reason why none shall be drawn.
+    """
     structure = analyse(scene.whole)
     scene = structure.scene
     asked = tuple(scene.question.find if find is None else find)
     if scene.cams:
         values = {d.key: (at or {}).get(d.key, d.values[0]) for d in scene.drivers}
         structure, near = cams_in_place(structure, asked, values), None
-    return _plan(structure, asked, at, room, near)
+    return _plan(structure, asked, at, room, near, without_forces)
 
 
 def _plan(
     structure: Structure, asked: tuple[Symbol, ...], at: Mapping[str, float] | None = None, room: Room | None = None,
-    near: Sheet | None = None,
+    near: Sheet | None = None, without_forces: Unsolvable | None = None,
 ) -> Plan:  # fmt: skip
     """The plan for a mechanism without cams."""
     scene = structure.scene
@@ -391,7 +406,8 @@ def _plan(
     here = {d.key: values[d.key] for d in opened.scene.drivers}
     assembly = assembly_at(opened, elements, here, start)
     assembly = replace(assembly, values={**values, **assembly.values})
-    return _planned(Plan(structure, opened, asked, elements, assembly, triangles), room)
+    first = Plan(structure, opened, asked, elements, assembly, triangles, without_forces=without_forces)
+    return _planned(first, room)
 
 
 def _planned(planned: Plan, room: Room | None) -> Plan:

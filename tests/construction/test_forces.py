@@ -469,18 +469,44 @@ def test_forces_of_hosts_and_guests_are_those_of_the_solver(scene):
     assert (True, []) == judged(scene)
 
 
-def test_a_load_on_a_part_of_a_stroke_that_no_whole_turn_has_is_refused_by_its_name():
+def rocking_press(**tables):
+    """A press whose crank does not turn fully, with a load on a part of the ram's stroke."""
     scene = tomllib.loads((LIBRARY / "toggle-press-force.toml").read_text(encoding="utf-8"))
     scene["links"]["1"]["length"] = 260  # it does not turn fully
     scene["driver"]["angle"] = 40
     scene["sketch"]["B"] = [80, -230]
     del scene["flywheel"]
+    return {**scene, **tables}
+
+
+def test_a_load_on_a_part_of_a_stroke_that_no_whole_turn_has_is_refused_by_its_name():
+    scene = rocking_press()
     problem = r"^loads.W.when.stroke: belongs to a whole turn.*; give when = \{ driver = \[from, to\] \}, values of the"
-    for call in (graphkin.check, lambda scene: graphkin.solve(scene, find=["F_2/3"])):
+    for call in (graphkin.check, graphkin.solve, graphkin.draw):
         with pytest.raises(Unsolvable, match=problem):
-            call(scene)
+            call(scene, find=["F_2/3"])
+    with pytest.raises(Unsolvable, match=problem):
+        graphkin.draw(scene, figures=["forces"]).figures["forces"]
     assert graphkin.solve(scene, find=["v_C"])["v_C"] == pytest.approx(642.688j, abs=1e-3)
     assert graphkin.centres(scene).ok
+
+
+@pytest.mark.parametrize("find", [[], ["v_C"]])
+def test_the_motion_is_told_where_a_load_has_no_stroke_and_the_forces_are_refused_in_a_sentence(find):
+    scene = rocking_press(find=find)
+    sentence = "The forces are not known: loads.W.when.stroke: belongs to a whole turn, "
+    (position,) = graphkin.solve(scene).data["positions"]
+    assert (None, None, "ok") == (position["forces"], position["moments"], position["status"])
+    assert position["why"].startswith(sentence)
+    assert -642.688 == pytest.approx(position["slides"]["5/6"]["velocity"], abs=1e-3)
+    drawn = graphkin.draw(scene)
+    for checked in (graphkin.check(scene), drawn.checked):
+        assert 642.688j == pytest.approx(checked["v_C"].exact, abs=1e-3)
+        assert checked.ok
+        assert checked.data["why"].startswith(sentence)
+        assert checked.data["forces"] is None
+    assert {"forces", "lever"} == set(drawn.not_drawn)
+    assert {"mechanism", "velocity"} <= set(drawn.figures)
 
 
 # -- groups with a scale of their own ----------------------------------------------------------------------------------

@@ -234,6 +234,7 @@ class Sheet:
     readings : the lengths (mm) that an erring hand has read for the construction, of vectors by their symbols
         (`either_way`), of the mechanism by the two points
     has_forces : whether forces can be drawn from it: there are masses or loads, and all that they need is drawn
+    without_forces : the sentence on why none are drawn where the scene has loads
     force_scales : N for one mm of force polygons, for erring hands as on the exact drawing; empty: as polygons fit
     inertias : inertia forces by link
     forces : the drawn forces, once, or twice if a load begins or ends exactly here
@@ -263,6 +264,7 @@ class Sheet:
     trains: tuple[TrainPlan, ...] = ()
     readings: Mapping[Symbol | frozenset[str], float] = field(default_factory=dict)
     has_forces: bool = False
+    without_forces: Phrase | None = None
     force_scales: Mapping[tuple[str, ...], float] = field(default_factory=dict)
     inertias: Mapping[str, Inertia] = field(default_factory=dict)
     forces: tuple[ForceState, ...] = ()
@@ -309,8 +311,10 @@ class Sheet:
 
     @property
     def notes(self) -> tuple[Phrase, ...]:
-        """The remarks as phrases, each once; at last the scales of force polygons that have their own."""
-        return (*dict.fromkeys(remark.phrase for remark in self.remarks), *self.force_notes)
+        """The remarks as phrases, each once; at last the reason why there are no forces, or the scales of force
+        polygons that have their own."""
+        without = () if self.without_forces is None else (self.without_forces,)
+        return (*dict.fromkeys(remark.phrase for remark in self.remarks), *without, *self.force_notes)
 
     @property
     def force_notes(self) -> tuple[Phrase, ...]:
