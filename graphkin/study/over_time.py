@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -15,6 +15,7 @@ from graphkin.files import Json
 from graphkin.scene.drivers import time_span
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
+from graphkin.search import extrapolated
 from graphkin.solver import Motion, over_time
 from graphkin.structure import Structure
 from graphkin.study.charts import Axis, Panel, chart_page, figure_name, number, panel_of
@@ -43,11 +44,21 @@ class TimeAxis(Axis):
     @cached_property
     def times(self) -> Array:
         """Moments that show the motion: even ones, seams of laws, and just before them."""
+        even = np.linspace(*self.ends, POINTS)
+        return np.unique(np.concatenate([even, self._seams, self._seams - self._before]))
+
+    @cached_property
+    def _seams(self) -> Array:
+        """The moments (s) inside the time at which one piece of a law follows another."""
         low, high = self.ends
-        seams = [t for d in self.scene.drivers if d.law is not None for p in d.law.parts for t in (p.start, p.end)]
-        inner = np.array([t for t in seams if low < t < high])
-        even = np.linspace(low, high, POINTS)
-        return np.unique(np.concatenate([even, inner, inner - BEFORE * (high - low)]))
+        parts = [part for driver in self.scene.drivers if driver.law is not None for part in driver.law.parts]
+        return np.array([t for part in parts for t in (part.start, part.end) if low < t < high])
+
+    @property
+    def _before(self) -> float:
+        """How long before a seam the piece before it is looked at (s)."""
+        low, high = self.ends
+        return BEFORE * (high - low)
 
     @cached_property
     def motion(self) -> Motion:
@@ -71,6 +82,20 @@ class TimeAxis(Axis):
     def course(self, quantity: Symbol) -> Array:
         """A quantity over ``times`` (SI), NaN where it is missing."""
         return np.asarray(course_of(quantity, None, self.motion), dtype=float)
+
+    def extremes(self, quantity: Symbol, places: Array, values: Array) -> tuple[Extreme, Extreme]:
+        """As of every axis; just before a seam of laws at the seam itself, with the value to which the piece comes."""
+        top, bottom = super().extremes(quantity, places, values)
+        return self._at_seam(quantity, top), self._at_seam(quantity, bottom)
+
+    def _at_seam(self, quantity: Symbol, extreme: Extreme) -> Extreme:
+        steps = np.arange(1.0, 4.0)
+        for seam in self._seams:
+            if -2 * self._before < extreme.offset - seam < 0.0:
+                before = self.values(quantity, seam - self._before * steps)
+                value, _ = extrapolated(before.tolist(), steps.tolist())
+                return replace(extreme, offset=float(seam), driver=float(seam), value=value)
+        return extreme
 
     def values(self, quantity: Symbol, places: Array) -> Array:
         low, high = self.ends

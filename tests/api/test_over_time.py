@@ -245,3 +245,16 @@ def test_a_greatest_rate_of_nothing_has_no_sign():
     swept = graphkin.sweep(scene, find=["omega_2"], positions=3)
     assert "greatest 0 rad/s at 0 s" in swept.text
     assert "0.0" == repr(swept.data["outputs"]["omega_2"]["greatest"]["value"])
+
+
+def test_an_extreme_just_before_a_seam_of_the_law_stands_at_the_seam_with_the_value_to_which_its_piece_comes():
+    law = {"from": 0, "pieces": [{"to": 0.3, "rise": 40, "by": "parabolic"}, {"to": 1.0}]}
+    least = graphkin.sweep(crank(time=0.4, law=law), positions=5).data["outputs"]["a_3/0"]["least"]
+    angle, rate, second = (math.radians(40) * part for part in (1 / 2, 2 / 0.3, 4 / 0.3**2))
+
+    def place(time):  # as the first half of the rise goes on
+        turned = angle + rate * time + second * time**2 / 2
+        return 24 * mpmath.cos(turned) + mpmath.sqrt(58**2 - (24 * mpmath.sin(turned) + 16) ** 2)
+
+    assert 0.15 == pytest.approx(least["time"], abs=1e-16)
+    assert float(mpmath.diff(place, 0, 2)) == pytest.approx(least["value"], rel=1e-12)
