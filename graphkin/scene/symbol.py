@@ -245,8 +245,10 @@ class Symbol:
 
     @property
     def heads(self) -> tuple[str, ...]:
-        """The names of its columns; a vector and a place have two."""
-        return (f"{self}.x", f"{self}.y") if self.is_vector or self.kind == "place" else (str(self),)
+        """The names of its columns; a vector ("v_B.x", "v_B.y") and a place ("x_B", "y_B") have two."""
+        if self.kind == "place":
+            return f"x_{self}", f"y_{self}"
+        return (f"{self}.x", f"{self}.y") if self.is_vector else (str(self),)
 
     @property
     def is_rate_of_pair(self) -> bool:

@@ -51,9 +51,8 @@ def parts_of(quantity: Symbol, reach: DriverRange | None, motion: Motion) -> tup
 def columns_of(quantity: Symbol, scene: Mechanism, parts: Sequence[Array], sizes: bool = True) -> list[Column]:
     """The columns of a quantity, from its ``parts``; with ``sizes`` the size of a velocity, acceleration or force
     before them."""
-    unit, name, heads = quantity.unit(scene.units).text, str(quantity), quantity.heads
-    heads = (f"x_{name}", f"y_{name}") if quantity.kind == "place" else heads
-    made = [Column(head, part, unit, name) for head, part in zip(heads, parts, strict=True)]
+    unit, name = quantity.unit(scene.units).text, str(quantity)
+    made = [Column(head, part, unit, name) for head, part in zip(quantity.heads, parts, strict=True)]
     return [Column(name, np.abs(parts[0] + 1j * parts[1]), unit, name), *made] if sizes and quantity.is_vector else made
 
 

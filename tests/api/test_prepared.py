@@ -262,6 +262,13 @@ def test_a_quantity_asked_twice_has_its_column_and_its_bound_once():
     assert alone.sweep(4).bound("omega_4").tolist() == ready.sweep(4).bound("omega_4").tolist()
 
 
+def test_the_coordinates_of_a_point_have_the_columns_of_tables_and_share_them_with_the_place():
+    ready = graphkin.prepare("shaper-scheme-2", find=["C", "x_C"])
+    assert ("x_C", "y_C") == ready.names
+    assert {"x_C (mm)", "y_C (mm)"} <= set(graphkin.solve("shaper-scheme-2", find=["C"]).table.heads)
+    assert graphkin.solve("shaper-scheme-2", at=15)["C"][0] == pytest.approx(complex(*ready.at(15)), rel=1e-12)
+
+
 def test_a_force_and_its_component_share_a_column():
     ready = graphkin.prepare("shaper-forces", find=["F_5/6.y", "F_5/6", "M_2"])
     assert ("F_5/6.y", "F_5/6.x", "M_2") == ready.names
