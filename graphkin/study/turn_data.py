@@ -85,6 +85,7 @@ def to_json(turn: TurnStudy) -> dict[str, Json]:
                 "least_angle": least.angle,
                 "greatest_pressure_angle": least.pressure,
                 "driver": _driver(scene, least.drivers[0]) if least.drivers else None,
+                **({"drivers": [_driver(scene, x) for x in least.drivers]} if least.drivers else {}),
                 **({} if least.drivers else {"why": "the same in every position"}),
             }
             for least in turn.transmission

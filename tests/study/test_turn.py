@@ -89,6 +89,9 @@ def test_the_least_transmission_angle_is_told_at_every_place_of_it() -> None:
     assert [math.pi / 2, 3 * math.pi / 2] == pytest.approx(turn_of("rotating-guide-bar").transmission[0].drivers)
     boom = graphkin.sweep("boom-lifted", positions=2)  # in line with its pivots at both ends, 400 on 360.555
     assert "1, 2, 3: 0° (2/3 = 39.4449 mm, 760.555 mm)" in boom.text
+    (told,) = boom.data["transmission"]
+    assert [39.4449, 760.555] == pytest.approx(told["drivers"], rel=1e-6)
+    assert told["driver"] == told["drivers"][0]
 
 
 def test_in_a_change_point_the_transmission_angle_is_zero() -> None:
