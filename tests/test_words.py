@@ -118,7 +118,7 @@ def test_a_rate_of_the_table_takes_its_index_into_its_symbol():
 def test_symbols_side_by_side_are_one_and_those_of_the_table_keep_their_indices():
     said = Phrase("tangent", **{"points.0": sign("A"), "points.1": sign("B"), "mm": "12", "pairs.0": "3"})
     assert "over $AB$ as diameter" in repr(rich_text(said, "en"))
-    assert "turn B2 back" in rich_text(Phrase("design trial", pair="2"), "en").plain("")
+    assert "turn B2 back" in rich_text(Phrase("design trial", point=sign("B", "2")), "en").plain("")
 
 
 def test_dollar_signs_and_braces_of_a_name_are_no_marks_of_symbols():

@@ -13,7 +13,7 @@ from functools import cached_property
 from typing import Any, ClassVar, TypeVar
 
 from graphkin.account.arithmetic import times_scale
-from graphkin.account.notation import Notation, pole
+from graphkin.account.notation import Notation, notation_of, pole
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import (
     GIVEN,
@@ -238,6 +238,11 @@ class Account:
     def _named(self) -> Mapping[DiagramName, tuple[NamedPoint, ...]]:
         diagrams: tuple[DiagramName, ...] = ("velocity", "acceleration")
         return {diagram: PolygonPoints(self.sheet, diagram, self.letters).named for diagram in diagrams}
+
+
+def account_of(sheet: Sheet) -> Account:
+    """The account of a sheet in the letters of its scene's convention."""
+    return Account(sheet, notation_of(sheet, sheet.scene.question.sheet.convention))
 
 
 KindOfStep = TypeVar("KindOfStep", bound=Step)

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 from graphkin.api.arguments import MOST_SEED, ON_SHEETS, hand_of, known_words, whole_number
 from graphkin.api.results import Result, named
 from graphkin.checking.closed_form import FoundLength, compare_lengths
-from graphkin.construction.synthesis import DesignSheet, construct
+from graphkin.construction import Sheet
+from graphkin.construction.synthesis import construct
 from graphkin.errors import Unsolvable
 from graphkin.files import Json
 from graphkin.plane import degrees, direction, unit
@@ -51,7 +52,7 @@ class Designed(Result):
 
     given: Design
     found: Synthesis
-    sheet: DesignSheet
+    sheet: Sheet
     rows: tuple[FoundLength, ...]
     language: str | None = None
 
@@ -163,7 +164,7 @@ class Designed(Result):
             "kind": self.given.task.kind,
             "ok": self.ok,
             "units": {"length": self.given.units.length},
-            "scales": {"length": self.sheet.scale},
+            "scales": {"length": self.sheet.scales.length},
             "lengths": dict(self.found.lengths),
             "points": {name: [z.real, z.imag] for name, z in self.found.pivots.items()},
             "readings": [
@@ -280,5 +281,5 @@ def design(
     scale = design_scale(given, natural)
     hand = hand_of(given.sheet, instrument, seed)
     sheet = construct(given.task, scale, hand)
-    rows = compare_lengths(sheet, synthesis.lengths, hand, given.sheet.tools)
+    rows = compare_lengths(given.task, sheet, synthesis.lengths, given.sheet.tools)
     return Designed(given, synthesis, sheet, rows, language).saved(out, formats)

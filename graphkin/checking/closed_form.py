@@ -13,9 +13,10 @@ import numpy as np
 
 from graphkin.checking.report import COVERAGE
 from graphkin.checking.uncertainty import deviations
-from graphkin.construction import EXACT, Instrument
+from graphkin.construction import Instrument, Sheet
+from graphkin.construction.board.instruments import EXACT_NAME
 from graphkin.construction.cam_sheet import CamSheet, division
-from graphkin.construction.synthesis import DesignSheet, construct
+from graphkin.construction.synthesis import construct, measured
 from graphkin.construction.touching import CamStation
 from graphkin.errors import Unsolvable
 from graphkin.scene.designs import DesignTask
@@ -53,25 +54,26 @@ def predict_lengths(task: DesignTask, scale: float, name: str, tools: Tools) -> 
 
     def read(hand: Instrument) -> Mapping[str, float] | None:
         with suppress(Unsolvable):
-            return construct(task, scale, hand).lengths
+            return measured(construct(task, scale, hand))
         return None
 
     return deviations(read, name, tools)
 
 
 def compare_lengths(
-    sheet: DesignSheet, exact: Mapping[str, float], instrument: Instrument = EXACT, tools: Tools | None = None
+    task: DesignTask, sheet: Sheet, exact: Mapping[str, float], tools: Tools | None = None
 ) -> tuple[FoundLength, ...]:
     """Compare the measured lengths with the exact ones (in the task's unit), in their order."""
     expected: Mapping[str, float] = {}
-    if instrument is not EXACT:
-        expected = predict_lengths(sheet.task, sheet.scale, instrument.name, tools or Tools())
+    lengths, scale = measured(sheet), sheet.scales.length
+    if sheet.instrument != EXACT_NAME:
+        expected = predict_lengths(task, scale, sheet.instrument, tools or Tools())
     least = AGREES * max(exact.values())
     rows = []
     for symbol, value in exact.items():
-        mm = sheet.lengths[symbol]
-        tolerance = max(least, COVERAGE * expected.get(symbol, 0.0) * sheet.scale)
-        rows.append(FoundLength(symbol, mm, mm * sheet.scale, value, tolerance))
+        mm = lengths[symbol]
+        tolerance = max(least, COVERAGE * expected.get(symbol, 0.0) * scale)
+        rows.append(FoundLength(symbol, mm, mm * scale, value, tolerance))
     return tuple(rows)
 
 

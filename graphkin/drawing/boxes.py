@@ -42,6 +42,7 @@ LEAST = 114.0  # least width of a page between its margins
 INDENT = 8.0  # of a paragraph behind its number
 TOLD = ("told",)  # the class of what is said of a figure
 BAR = 50.0  # length of the check bar
+Say = Callable[[Phrase, str], RichText]
 
 
 @dataclass(frozen=True)
@@ -251,6 +252,7 @@ def without_titles(children: tuple[Primitive, ...]) -> tuple[Primitive, ...]:
 def worked_page(
     names: Iterable[str], given: Words, drawn: Sequence[Block], steps: Sequence[Phrase], results: Block,
     notes: Iterable[Wording], scale: Words, *, title: str, said: Words, language: str, metadata: Mapping[str, object],
+    say: Say = rich_text,
 ) -> Drawing:  # fmt: skip
     """The page of a worked task, of the width `WORKED` inside: the given data, its drawings, its numbered steps in each
     language, the results, notes, and the foot.
@@ -259,10 +261,11 @@ def worked_page(
     ----------
     names : of the task, in each language in which it has one
     title, said : of the figure as a key of the table of words, and the figure in words
+    say : the sentence of a step in a language
     """
     own, every = dict.fromkeys(names), languages(language)
     told = [
-        column(*(numbered(number, rich_text(step, each), WORKED, STEP, step=number)
+        column(*(numbered(number, say(step, each), WORKED, STEP, step=number)
                  for number, step in enumerate(steps, 1))) for each in every
     ]  # fmt: skip
     lines = [
@@ -275,10 +278,10 @@ def worked_page(
     )  # fmt: skip
 
 
-def spoken(phrases: Iterable[Phrase], language: str) -> str:
+def spoken(phrases: Iterable[Phrase], language: str, say: Say = rich_text) -> str:
     """Sentences in the first language of a figure, for readers who do not see it."""
     first = languages(language)[0]
-    sentences = (whole_sentence(rich_text(phrase, first), first).plain("") for phrase in phrases)
+    sentences = (whole_sentence(say(phrase, first), first).plain("") for phrase in phrases)
     return word("between sentences", first).join(sentences)
 
 

@@ -26,12 +26,13 @@ from graphkin.construction.board.steps import (
     TrialCurve,
     VectorStep,
 )
+from graphkin.construction.tasks import TaskStep
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol
 from graphkin.words import area, say
 
 pytestmark = pytest.mark.quick
-NO_LENGTHS = {"value", "other", "plan", "per_mm", "number", "equation"}
+NO_LENGTHS = {"value", "other", "plan", "per_mm", "number", "equation", "angles", "K"}
 
 
 def in_turn(value: object) -> tuple[float, ...]:
@@ -44,6 +45,7 @@ def reasons() -> set[str]:
 
 @pytest.mark.parametrize(("kind", "lengths"), [
     (Step, set()), (PlaceStep, {"mm", "radii"}), (VectorStep, {"mm"}), (EndStep, set()), (RateStep, {"mm"}),
+    (TaskStep, {"mm", "lengths"}),
 ])  # fmt: skip
 def test_a_number_of_a_step_is_a_length_on_paper_that_a_scale_changes_or_is_known_to_be_none(
     kind: type[Step], lengths: set[str]
@@ -87,7 +89,7 @@ def test_places_of_a_stroke_grow_and_its_direction_stays() -> None:
 @pytest.mark.parametrize("stroke", get_args(Stroke))
 def test_a_place_of_a_stroke_is_one_that_a_scale_changes(stroke: type) -> None:
     places = {f.name for f in fields(stroke) if "complex" in str(f.type) or f.type == "float"}
-    assert {"along"} >= places - LENGTHS
+    assert {"along", "value"} >= places - LENGTHS
 
 
 @pytest.mark.parametrize("name", library()[::6])

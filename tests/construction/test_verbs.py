@@ -15,7 +15,7 @@ from graphkin.construction import draft, trains
 from graphkin.construction.board.instruments import Instrument
 from graphkin.construction.cam_sheet import division
 from graphkin.construction.forces import force_readings, force_scales, with_forces
-from graphkin.construction.synthesis import construct
+from graphkin.construction.synthesis import construct, measured
 from graphkin.scene import mechanism_of
 from graphkin.scene.designs import design_of, designs
 from tests.construction.test_trains import TRAINS
@@ -118,6 +118,6 @@ def test_in_cams(name):
 @pytest.mark.parametrize("name", designs())
 def test_in_syntheses(name):
     task = design_of(name).task
-    scale = max(construct(task).lengths.values()) / 100.0
+    scale = max(measured(construct(task)).values()) / 100.0
     given = {"compass"} if task.kind == "guide-bar" else set()  # takes the rod, whose length is no result
-    assert given == unseen(lambda hand: construct(task, scale, hand).lengths)
+    assert given == unseen(lambda hand: measured(construct(task, scale, hand)))

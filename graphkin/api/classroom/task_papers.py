@@ -9,11 +9,13 @@ from functools import partial
 from pathlib import Path
 
 from graphkin.account.headings import number
+from graphkin.account.voice import account_of
 from graphkin.api.arguments import known_words, own_folder
 from graphkin.api.cams import CamMade
 from graphkin.api.designed import Designed
 from graphkin.checking.closed_form import predict_cam, predict_lengths
 from graphkin.checking.report import COVERAGE
+from graphkin.construction.tasks import length_letters
 from graphkin.drawing.figures.constructions import (
     asked_words,
     cam_given,
@@ -117,12 +119,12 @@ def _result(
 def design_papers(designed: Designed, formats: Sequence[str]) -> Mapping[str, bytes]:
     """Problem sheet, worked solution and key of a synthesis, as files."""
     given, sheet = designed.given, designed.sheet
-    language, unit = designed.language or given.sheet.language, given.units.length
-    spread = predict_lengths(given.task, sheet.scale, "pencil", given.sheet.tools)
+    language, unit, scale = designed.language or given.sheet.language, given.units.length, sheet.scales.length
+    account, spread = account_of(sheet), predict_lengths(given.task, scale, "pencil", given.sheet.tools)
     results = []
     for row in designed.rows:
-        name = row.symbol if row.symbol == "ram" else sign(row.symbol)
-        deviation = spread.get(row.symbol, math.inf) * sheet.scale
+        name = length_letters(row.symbol)
+        deviation = spread.get(row.symbol, math.inf) * scale
         results.append(_result(name, unit, number(row.measured), number(row.exact), row.exact, deviation))
     find = spaced(", ", (cells["quantity"] for cells in results))
     return _papers(
@@ -131,7 +133,7 @@ def design_papers(designed: Designed, formats: Sequence[str]) -> Mapping[str, by
                in_each(language, lambda each: labelled("find", find, each))),
         start=(construction_picture(given, sheet, language, 1),),
         whole={said("design figure", language): construction_picture(given, sheet, language)},
-        steps=[in_each(language, partial(rich_text, phrase)) for phrase, _ in sheet.steps],
+        steps=[in_each(language, partial(account.say, step.phrase)) for step in sheet.steps],
         results=results,
         notes=_notes(designed, language),
         language=language,

@@ -232,7 +232,7 @@ class Sheet:
         a unit rate
     trains : the velocity plans of rolling links, at scales of their own
     readings : the lengths (mm) that an erring hand has read for the construction, of vectors by their symbols
-        (`either_way`), of the mechanism by the two points
+        (`either_way`), of the mechanism by the two points; of a synthesis those that any hand has read
     has_forces : whether forces can be drawn from it: there are masses or loads, and all that they need is drawn
     without_forces : the sentence on why none are drawn where the scene has loads
     force_scales : N for one mm of force polygons, for erring hands as on the exact drawing; empty: as polygons fit
@@ -243,15 +243,15 @@ class Sheet:
     scene: Mechanism
     structure: Structure
     instrument: str
-    drivers: Mapping[str, float]
     scales: Scales
-    poses: Mapping[str, Pose]
     points: Mapping[PointRef, complex]
-    ends: Mapping[str, Mapping[PointRef, complex]]
-    rates: Mapping[str, Mapping[str, Rate]]
     steps: tuple[Step, ...]
-    equations: tuple[Equation, ...]
-    assembly: Mapping[Phrase, Phrase]
+    drivers: Mapping[str, float] = field(default_factory=dict)
+    poses: Mapping[str, Pose] = field(default_factory=dict)
+    ends: Mapping[str, Mapping[PointRef, complex]] = field(default_factory=dict)
+    rates: Mapping[str, Mapping[str, Rate]] = field(default_factory=dict)
+    equations: tuple[Equation, ...] = ()
+    assembly: Mapping[Phrase, Phrase] = field(default_factory=dict)
     noticed: tuple[Remark, ...] = ()
     causes: tuple[tuple[int, Cause], ...] = ()
     left_out: tuple[Phrase, ...] = ()
@@ -288,20 +288,21 @@ class Sheet:
             raise ValueError(f"a sheet drawn by {self.instrument} is drawn anew at other scales")
         if scales == self.scales:
             return self
-        k: dict[DiagramName, float] = {name: self.scales.of(name) / scales.of(name) for name in DIAGRAMS}
+        k: dict[str, float] = {name: self.scales.of(name) / scales.of(name) for name in DIAGRAMS}
         length, *fast = k.values()
         return replace(
             self,
             scales=scales, inertias={}, forces=(),
             poses={name: pose.scaled(length) for name, pose in self.poses.items()},
             points={ref: z * length for ref, z in self.points.items()},
-            ends={order: {ref: z * k[order] for ref, z in self.ends[order].items()} for order in ORDERS},
+            ends={order: {ref: z * k[order] for ref, z in ends.items()} for order, ends in self.ends.items()},
             rates={kind: {name: rate.scaled(times, length) for name, rate in rates.items()}
-                   for (kind, rates), times in zip(self.rates.items(), fast, strict=True)},
+                   for (kind, rates), times in zip(self.rates.items(), fast, strict=False)},
             noticed=tuple(remark.scaled(k[remark.diagram]) for remark in self.noticed),
             steps=tuple(step.scaled(k[step.diagram]) for step in self.steps),
             held_still=tuple(step.scaled(k[step.diagram]) for step in self.held_still),
             limits={pair: (low.scaled(length), high.scaled(length)) for pair, (low, high) in self.limits.items()},
+            readings={ends: mm * length for ends, mm in self.readings.items()},
         )
 
     @property

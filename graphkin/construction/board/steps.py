@@ -152,7 +152,7 @@ Part = Literal["", "t", "n"]
 Value = TypeVar("Value")
 LENGTHS = {
     "tail", "tip", "through", "to", "centre", "radius", "at", "a", "b", "curve", "corners", "mm", "radii", "apart",
-    "origin", "poses", "low", "high", "less", "span", "strokes", "terms",
+    "origin", "poses", "low", "high", "less", "span", "strokes", "terms", "lengths",
 }  # fmt: skip
 """Places and lengths on paper (mm), and what has such, which a scale changes; a direction stays."""
 
@@ -216,7 +216,19 @@ class Term(OnPaper):
 
 DiagramName = Diagram | Literal["force"]
 Verb = Literal["mark", "lay off", "line", "cross", "image", "read", "join", "carry over", "trial", "divide"]
-Reason = Role | Literal[
+TaskReason = Literal[
+    "design places", "design pivots",  # mark
+    "design stroke", "design swing", "design limit positions", "design centres", "design bar limits", "design pairs",
+    "design reckoned",  # lay off
+    "design sagitta",  # line
+    "design centre", "design parallel", "design arc", "design line", "design crank circle", "design feet",
+    "design bar ends", "design ram", "design bisectors", "design reciprocals",  # cross
+    "design theta", "design measured",  # read
+    "design halve", "design inverted",  # carry over
+    "design trial",  # trial
+]  # fmt: skip
+"""Reasons of steps of a task with a construction of its own."""
+Reason = TaskReason | Role | Literal[
     "frame", "points", "whole link", "pitch point", "letter",  # mark
     "angle", "travel", "rolling",  # lay off; and vectors, by their part in the equation
     "path", "guide", "tangent", "direction",  # line
@@ -528,6 +540,9 @@ def phrase_of(cause: Cause) -> Phrase:
 
 # -- strokes -----------------------------------------------------------------------------------------------------------
 
+LineKind = Literal["given", "construction", "limit", "mechanism"]
+"""Lines that a task gives, help lines, bars in other positions, and the mechanism that is found."""
+
 
 @dataclass(frozen=True)
 class Vector(OnPaper):
@@ -557,26 +572,40 @@ class Ray(OnPaper):
     through: complex
     along: complex
     to: complex | None
-    direction: Direction
-    symbol: Symbol
+    direction: Direction = NO_DIRECTION
+    symbol: Symbol = NO_SYMBOL
 
 
 @dataclass(frozen=True)
 class CompassArc(OnPaper):
-    """A compass arc about ``centre`` through the point ``at`` that it finds."""
+    """A compass arc about ``centre`` through the point ``at`` that it finds; or the ``whole`` circle."""
 
     centre: complex
     radius: float
     at: complex
+    whole: bool = False
 
 
 @dataclass(frozen=True)
 class Bar(OnPaper):
-    """A line of the mechanism or of a construction from a to b."""
+    """A line of the mechanism or of a construction from a to b, of a task by its ``kind``."""
 
     a: complex
     b: complex
-    link: str
+    link: str = ""
+    kind: LineKind = "construction"
+
+
+@dataclass(frozen=True)
+class Angle(OnPaper):
+    """An angle at a place, with its value (rad) and its name, from the leg through ``a`` to that through ``b``,
+    counter-clockwise."""
+
+    at: complex
+    a: complex
+    b: complex
+    value: float
+    name: str = ""
 
 
 @dataclass(frozen=True)
@@ -590,10 +619,12 @@ class TrialCurve(OnPaper):
 
 @dataclass(frozen=True)
 class Mark(OnPaper):
-    """A named point of a figure.  ``ref`` without a point name is the pole."""
+    """A named point of a figure, of a task perhaps a ``fixed`` pivot.  ``ref`` without a point name is the pole, on the
+    mechanism a point without a name."""
 
     ref: PointRef
     at: complex
+    fixed: bool = False
 
 
 @dataclass(frozen=True)
@@ -604,7 +635,7 @@ class Image(OnPaper):
     corners: tuple[complex, ...]
 
 
-Stroke = Vector | TrialCurve | Ray | CompassArc | Bar | Mark | Image
+Stroke = Vector | TrialCurve | Ray | CompassArc | Bar | Angle | Mark | Image
 
 
 # -- trials ------------------------------------------------------------------------------------------------------------

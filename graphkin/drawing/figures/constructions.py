@@ -11,14 +11,17 @@ import cmath
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from graphkin.account.headings import number, term
+from graphkin.account.voice import account_of
 from graphkin.checking.closed_form import FoundLength
 from graphkin.construction.board.scales import extent_of, fitting_scale
+from graphkin.construction.board.sheet import Sheet
+from graphkin.construction.board.steps import Angle, Bar, CompassArc, Mark, Ray
+from graphkin.construction.board.steps import Stroke as DrawnStroke
 from graphkin.construction.cam_sheet import CamSheet, cam_sheet
-from graphkin.construction.synthesis import DesignSheet, DesignStroke
+from graphkin.construction.tasks import length_letters
 from graphkin.construction.touching import CamStation
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import STEP, WORKED, Block, FigurePage, picture, row, spoken, table, worked_page
@@ -62,8 +65,8 @@ ROOM = 9.0  # mm around the construction, for names
 PANEL = (168.0, 128.0)  # mm that the construction may fill
 FAR, WHOLE = 2.2, 1.3  # a help point, or the whole of a circle, that makes the figure so many times larger is cut off
 _LINES: dict[str, Stroke] = {
-    "given": strokes.LINK, "construction": strokes.CONSTRUCTION, "direction": strokes.DIRECTION,
-    "limit": Stroke(0.35, (3.0, 1.0)), "mechanism": Stroke(0.7),
+    "given": strokes.LINK, "construction": strokes.CONSTRUCTION, "limit": Stroke(0.35, (3.0, 1.0)),
+    "mechanism": Stroke(0.7),
 }  # fmt: skip
 
 
@@ -84,23 +87,24 @@ class Confirmed:
         return number(value) + {"deg": "°", "": ""}.get(self.unit, f" {self.unit}")
 
 
-def design_scale(design: Design, natural: DesignSheet) -> float:
+def design_scale(design: Design, natural: Sheet) -> float:
     """Units of length for one mm of paper: the file's own, or the finest of the series at which the construction fits;
     ``natural`` is the construction at any scale."""
     if design.sheet.length_scale:
         return design.sheet.length_scale / (design.units.metres * 1e3)
     box = _content(natural)
-    return fitting_scale((box.width, box.height), PANEL, natural.scale)
+    return fitting_scale((box.width, box.height), PANEL, natural.scales.length)
 
 
-def _content(sheet: DesignSheet) -> Box:
+def _content(sheet: Sheet) -> Box:
     """The box to be shown (mm, y down): all points, without far help points."""
-    far = [sheet.points[name] for name in ("O",) if name in sheet.points]
-    near = [s.places[0] for s in sheet.strokes if s.kind in ("point", "pivot") and s.name != "O"]
-    near += [z for s in sheet.strokes if s.kind in _LINES and s.kind != "direction" for z in s.places if z not in far]
+    made = [stroke for step in sheet.steps for stroke in step.strokes]
+    far = [s.at for s in made if isinstance(s, Mark) and s.ref.point == "O"]
+    near = [s.at for s in made if isinstance(s, Mark) and s.ref.point != "O"]
+    near += [z for s in made if isinstance(s, Bar) for z in (s.a, s.b) if z not in far]
     box = Box.around(map(on_page, near))
-    circles = [Box.around((on_page(s.places[0]),)).grown(s.size)
-               for s in sheet.strokes if s.kind == "circle" and len(s.places) == 1]  # fmt: skip
+    circles = [Box.around((on_page(s.centre),)).grown(s.radius)
+               for s in made if isinstance(s, CompassArc) and s.whole]  # fmt: skip
     for most, more in (*((FAR, Box.around((on_page(z),))) for z in far), *((WHOLE, circle) for circle in circles)):
         wider = box.joined(more)
         if max(wider.width, wider.height) <= most * max(box.width, box.height):
@@ -109,7 +113,7 @@ def _content(sheet: DesignSheet) -> Box:
 
 
 def design_figure(
-    design: Design, sheet: DesignSheet, rows: Sequence[FoundLength], confirmed: Sequence[Confirmed],
+    design: Design, sheet: Sheet, rows: Sequence[FoundLength], confirmed: Sequence[Confirmed],
     notes: Iterable[Phrase], language: str,
 ) -> Drawing:  # fmt: skip
     """Draw a synthesis on a page of its own.
@@ -121,26 +125,27 @@ def design_figure(
     language : "en", "zh" or "both"
     """
     unit, names = design.units.length, (design.title_in(each) or design.name for each in languages(language))
-    steps = [phrase for phrase, _ in sheet.steps]
+    account, steps = account_of(sheet), [step.phrase for step in sheet.steps]
     lengths = "; ".join(f"{row.symbol} = {row.measured:.6g} {unit}" for row in rows)
-    facts = {"kind": design.task.kind, "units": {"length": unit, "paper": "mm"}, "instrument": sheet.hand.name}
+    facts = {"kind": design.task.kind, "units": {"length": unit, "paper": "mm"}, "instrument": sheet.instrument}
     return worked_page(
         names, asked_words(design, language), [_construction(sheet)], steps,
-        _tables(design, sheet.scale, rows, confirmed, language), notes, _design_scale(design, sheet),
-        title="design figure", said=f"{spoken(steps, language)} {lengths}", language=language,
-        metadata=_design_facts(design, sheet) | facts,
+        _tables(design, sheet.scales.length, rows, confirmed, language), notes, _design_scale(design, sheet),
+        title="design figure", said=f"{spoken(steps, language, account.say)} {lengths}", language=language,
+        metadata=_design_facts(design, sheet) | facts, say=account.say,
     )  # fmt: skip
 
 
-def _design_scale(design: Design, sheet: DesignSheet) -> str:
-    return f"1 mm = {number(sheet.scale)} {design.units.length}"
+def _design_scale(design: Design, sheet: Sheet) -> str:
+    return f"1 mm = {number(sheet.scales.length)} {design.units.length}"
 
 
-def _design_facts(design: Design, sheet: DesignSheet) -> dict[str, object]:
-    return {"figure": "design", "design": design.name, "scales": {"length": sheet.scale}, "graphkin": __version__}
+def _design_facts(design: Design, sheet: Sheet) -> dict[str, object]:
+    scales = {"length": sheet.scales.length}
+    return {"figure": "design", "design": design.name, "scales": scales, "graphkin": __version__}
 
 
-def construction_picture(design: Design, sheet: DesignSheet, language: str, upto: int | None = None) -> Drawing:
+def construction_picture(design: Design, sheet: Sheet, language: str, upto: int | None = None) -> Drawing:
     """The construction by itself, up to a step, on a figure of the size of the whole."""
     return picture(_construction(sheet, upto), "design figure", language, _design_facts(design, sheet),
                    _design_scale(design, sheet))  # fmt: skip
@@ -176,61 +181,67 @@ def _at(z: complex) -> str:
     return f"({number(z.real)}, {number(z.imag)})"
 
 
-def _construction(sheet: DesignSheet, upto: int | None = None) -> Block:
+def _construction(sheet: Sheet, upto: int | None = None) -> Block:
     """The construction, up to a step, in the room of the whole."""
     content = _content(sheet)
 
     def drawn(room: Box) -> Piece:
         plate = Plate()
-        for step, (_, made) in enumerate(sheet.steps[:upto], 1):
-            _draw(plate, made, step, room)
+        for step in sheet.steps[:upto]:
+            _draw(plate, step.strokes, step.number, room)
         return plate.piece
 
     return centred(content, WORKED, max(content.height, 40.0) + 2 * ROOM, drawn)
 
 
-def _draw(plate: Plate, made: Sequence[DesignStroke], step: int, room: Box) -> None:
+def _draw(plate: Plate, made: Sequence[DrawnStroke], step: int, room: Box) -> None:
     """The strokes of a step, cut at the room: help lines, and over them the mechanism with its points."""
     lines: list[Primitive] = []
     for stroke in made:
-        at, *others = stroke.places
-        if stroke.kind in _LINES:
-            cut = cut_to((Line(on_page(a), on_page(b), _LINES[stroke.kind]) for a, b in pairwise(stroke.places)), room)
-            if stroke.kind not in ("given", "mechanism"):
-                lines += cut
-                continue
-            for line in cut:
-                plate.put("mechanism", line, step=step)
-        elif stroke.kind == "circle":
-            lines += _arcs(at, stroke.size, others, room)
-        elif stroke.kind == "angle":
-            first, second = (cmath.phase(z - at) for z in others)
-            second += TURN * (second < first)
-            radius, middle = min(12.0, 0.4 * abs(others[0] - at)), (first + second) / 2
-            lines.append(Arc(on_page(at), radius, first, second, strokes.DIMENSION))
-            said = (sign(stroke.name) + " = " if stroke.name else "") + f"{number(stroke.size)}°"
-            plate.name(rich(said, 2.8), at + (radius + 1.0) * cmath.rect(1.0, middle), toward=(middle,), rank=1)
-        elif room.distance(on_page(at)) == 0.0:
-            pivot, radius = stroke.kind == "pivot", 0.9 if stroke.name else 0.5
-            shape = symbols.fixed_pivot(on_page(at)) if pivot else symbols.turning_pair(on_page(at), radius=radius)
-            id = f"point-{stroke.name}" if stroke.name else ""
-            plate.put("mechanism", *shape, id=id, classes=("point",), step=step)
-            if id:
-                plate.name(rich(sign(stroke.name[0], stroke.name[1:])), at, f"label-{id}", step=step)
+        match stroke:
+            case Bar(a, b, _, kind):
+                cut = cut_to((Line(on_page(a), on_page(b), _LINES[kind]),), room)
+                if kind not in ("given", "mechanism"):
+                    lines += cut
+                    continue
+                for line in cut:
+                    plate.put("mechanism", line, step=step)
+            case Ray(through, _, to) if to is not None:
+                lines += cut_to((Line(on_page(through), on_page(to), strokes.DIRECTION),), room)
+            case CompassArc():
+                lines += _arcs(stroke, room)
+            case Angle(at, a, b, value, name):
+                first, second = cmath.phase(a - at), cmath.phase(b - at)
+                second += TURN * (second < first)
+                radius, middle = min(12.0, 0.4 * abs(a - at)), (first + second) / 2
+                lines.append(Arc(on_page(at), radius, first, second, strokes.DIMENSION))
+                said = (sign(name) + " = " if name else "") + f"{number(math.degrees(value))}°"
+                plate.name(rich(said, 2.8), at + (radius + 1.0) * cmath.rect(1.0, middle), toward=(middle,), rank=1)
+            case Mark(ref, at) if room.distance(on_page(at)) == 0.0:
+                _point(plate, ref.point, on_page(at), stroke.fixed, step)
     if lines:
         plate.put("construction", *lines, classes=("strokes",), step=step)
 
 
-def _arcs(centre: complex, radius: float, near: Sequence[complex], room: Box) -> list[Primitive]:
-    """The part of a circle in the room, or its arcs near points."""
-    middle = on_page(centre)
+def _point(plate: Plate, name: str, at: complex, fixed: bool, step: int) -> None:
+    """A point or a fixed pivot, with its name if it has one."""
+    shape = symbols.fixed_pivot(at) if fixed else symbols.turning_pair(at, radius=0.9 if name else 0.5)
+    id = f"point-{name}" if name else ""
+    plate.put("mechanism", *shape, id=id, classes=("point",), step=step)
+    if name:
+        plate.name(rich(sign(name[0], name[1:])), on_page(at), f"label-{id}", step=step)
+
+
+def _arcs(drawn: CompassArc, room: Box) -> list[Primitive]:
+    """The part of a whole circle in the room, or an arc near its point."""
+    middle, radius = on_page(drawn.centre), drawn.radius
 
     def arc(start: float, end: float) -> Arc:
         return Arc(middle, radius, start, end, strokes.CONSTRUCTION)
 
-    if near:
-        half = min(0.35, 6.0 / radius)
-        return [arc(angle - half, angle + half) for angle in (cmath.phase(z - centre) for z in near)]
+    if not drawn.whole:
+        half, angle = min(0.35, 6.0 / radius), cmath.phase(drawn.at - drawn.centre)
+        return [arc(angle - half, angle + half)]
     if room.holds(Box.around((middle,)).grown(radius)):
         return [Circle(middle, radius, stroke=strokes.CONSTRUCTION)]
     cuts: list[float] = []
@@ -251,7 +262,7 @@ def _tables(
     lengths = table(
         [[word("length found", each), word("on paper", each), f"{word('measured', each)} ({unit})",
           f"{word('exact', each)} ({unit})"] for each in every],
-        [[length.symbol if length.symbol == "ram" else sign(length.symbol), on_paper(length.on_paper),
+        [[length_letters(length.symbol), on_paper(length.on_paper),
           printed(product(on_paper(length.on_paper), per)), number(length.exact)] for length in rows],
         (26.0, 24.0, 28.0, 28.0), layer="answers",
     )  # fmt: skip

@@ -1,0 +1,81 @@
+"""Tasks with a construction of their own: their steps are scaled and told as all others."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass
+from typing import get_args
+
+import pytest
+
+from graphkin.construction import EXACT, Scales, pencil
+from graphkin.construction.board.sheet import Sheet
+from graphkin.construction.board.steps import TaskReason
+from graphkin.construction.synthesis import construct, measured
+from graphkin.scene.designs import design_of, designs
+from graphkin.scene.scene_tables import Tools
+from graphkin.words import area, say
+
+pytestmark = pytest.mark.quick
+PLACES = [{"B": [10, 60], "angle": 10}, {"B": [35, 80], "angle": -8}, {"B": [70, 82], "angle": -35}]
+TASKS = {name: design_of(name).task for name in designs()}
+TASKS |= {
+    "pivots": design_of({"design": {"kind": "three-positions", "BC": 80, "positions": PLACES, "A": [11, -35],
+                                    "D": [57, 28]}}).task,
+    "even": design_of({"design": {"kind": "crank-rocker", "swing": 60, "rocker": 75, "K": 1, "frame": 100}}).task,
+}  # fmt: skip
+
+
+def numbers(value: object) -> Iterator[complex]:
+    """All numbers of a value, in order."""
+    if isinstance(value, float | complex):
+        yield value
+    elif isinstance(value, tuple):
+        for part in value:
+            yield from numbers(part)
+    elif is_dataclass(value):
+        for field in fields(value):
+            yield from numbers(getattr(value, field.name))
+
+
+def size(task: object) -> float:
+    return max(measured(construct(task)).values()) / 100.0  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_a_synthesis_at_another_scale_is_the_one_drawn_there(name: str) -> None:
+    task, scale = TASKS[name], size(TASKS[name])
+    there = construct(task, scale / 2.5)
+    scaled = construct(task, scale).at(Scales(scale / 2.5, 1.0, 1.0))
+    assert [*numbers(there.steps)] == pytest.approx([*numbers(scaled.steps)], rel=1e-9, abs=1e-9)
+    assert there.points == pytest.approx(scaled.points, rel=1e-9, abs=1e-9)
+    assert measured(there) == pytest.approx(measured(scaled), rel=1e-9)
+    assert [str(step.phrase) for step in there.steps] == [str(step.phrase) for step in scaled.steps]
+
+
+def test_a_synthesis_by_hands_that_err_is_drawn_anew_at_another_scale() -> None:
+    sheet = construct(TASKS["even"], 1.0, pencil(Tools(), 1))
+    with pytest.raises(ValueError, match="drawn anew"):
+        sheet.at(Scales(2.0, 1.0, 1.0))
+
+
+def drawn() -> Iterator[Sheet]:
+    """Every kind of task."""
+    for task in TASKS.values():
+        yield construct(task, size(task), EXACT)
+
+
+def test_every_reason_of_a_task_is_drawn_with_one_verb_and_told_in_words_of_its_table() -> None:
+    verbs: dict[str, set[str]] = {}
+    for step in (step for sheet in drawn() for step in sheet.steps):
+        verbs.setdefault(step.reason, set()).add(step.verb)
+        assert {step.sentence} <= area("synthesis").keys()
+        assert all(say(step.phrase, language) for language in ("en", "zh"))
+    assert {*get_args(TaskReason)} == verbs.keys()
+    assert [] == [reason for reason, of in verbs.items() if len(of) > 1]
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_steps_of_a_task_are_numbered_in_their_order(name: str) -> None:
+    steps = construct(TASKS[name], size(TASKS[name])).steps
+    assert [*range(1, len(steps) + 1)] == [step.number for step in steps]
