@@ -15,8 +15,8 @@ from graphkin.account.notation import Notation
 from graphkin.account.voice import Account, Telling
 from graphkin.construction.board.sheet import Equation, Sheet
 from graphkin.construction.board.steps import PlaceStep, PointNames, Reason, Step, Term, Vector, VectorStep
+from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Pair
 from graphkin.words import Phrase, languages, sense_of, word
 from graphkin.words.symbols import RichText, rate, spaced
 from graphkin.words.written import pointing
@@ -184,7 +184,7 @@ def _rests(sheet: Sheet, ref: PointRef) -> bool:
 
 def _coincident(of: PointRef, to: PointRef, slide: Pair) -> Phrase:
     """The reason for two points that coincide under a sliding pair, or at a pin in a slot, where no link slides."""
-    if slide.higher and slide.pin is not None:
+    if slide.higher:
         return Phrase("why in slot", point=of, other=to, pin=PointRef(slide.pin), link=slide.b)
     return Phrase("why coincident", point=of, other=to, block=slide.a, guide=slide.b)
 

@@ -187,13 +187,13 @@ def _pins_on_guides(centres: Centres) -> Iterator[tuple[str, str, str, str]]:
     """Pins that slide along guides of moving links: the point, the link whose pin it is, the link that slides with it
     (the same for a pin in a slot) and the link with the guide."""
     scene, frame = centres.scene, centres.scene.frame.name
-    yield from ((pin.point, pin.of, pin.of, pin.on) for pin in scene.pins if frame not in (pin.of, pin.on))
+    yield from ((pin.pin, pin.of, pin.of, pin.b) for pin in scene.pins if frame not in pin.bodies)
     for pair in scene.slidings:
-        guiding = pair.on.split(".")[0]
-        for point in scene.by_name[pair.link].points:
-            others = [n for n in scene.holders[point] if n not in (pair.link, guiding, frame)]
+        guiding = pair.b.split(".")[0]
+        for point in scene.by_name[pair.a].points:
+            others = [n for n in scene.holders[point] if n not in (pair.a, guiding, frame)]
             if others and guiding != frame:
-                yield point, others[0], pair.link, guiding
+                yield point, others[0], pair.a, guiding
                 break
 
 

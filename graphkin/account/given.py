@@ -20,7 +20,7 @@ from graphkin.construction.forces.position import DrawnPosition
 from graphkin.plane import degrees
 from graphkin.scene.drivers import moment_of
 from graphkin.scene.model import Driver, LoadOn, Mechanism, PlacedLink, SpringOn
-from graphkin.scene.pairs import PlacedGuide, SlidingPair
+from graphkin.scene.pairs import Pair, PlacedGuide
 from graphkin.scene.scene_tables import LoadPhase
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Driven, RollingRelation
@@ -240,9 +240,9 @@ def _shape(scene: Mechanism, link: PlacedLink, letters: Notation) -> Iterator[Ph
             yield Phrase("guide on link at", guide=name, link=link.name, **at, angle=angle)
 
 
-def along_its_guide(scene: Mechanism, link: PlacedLink) -> list[SlidingPair]:
+def along_its_guide(scene: Mechanism, link: PlacedLink) -> list[Pair]:
     """The sliding pairs in which a link slides on others."""
-    return [pair for pair in scene.slidings if pair.link == link.name]
+    return [pair for pair in scene.slidings if pair.a == link.name]
 
 
 def off_its_guide(scene: Mechanism, link: PlacedLink) -> list[str]:
@@ -270,7 +270,7 @@ def _carries_its_axis(scene: Mechanism, link: PlacedLink) -> bool:
 
 def _ridden(scene: Mechanism) -> set[tuple[str, str]]:
     """The guides on which links or pins slide, with the links that have them."""
-    return {(s.on, s.guide) for s in scene.slides}
+    return {(s.b, s.guide.name) for s in scene.slides}
 
 
 def _axis_counts(scene: Mechanism, link: PlacedLink) -> bool:
@@ -279,11 +279,11 @@ def _axis_counts(scene: Mechanism, link: PlacedLink) -> bool:
     return turned or _carries_its_axis(scene, link) or bool(used_guides(scene, link))
 
 
-def _guide_name(scene: Mechanism, pair: SlidingPair, letters: Notation) -> Words:
-    if pair.guide:
-        return letters.guide(pair.guide, scene.frame.name)
-    on = scene.by_name[pair.on]
-    return sign("x") if pair.on == scene.frame.name else _own(on, letters)
+def _guide_name(scene: Mechanism, pair: Pair, letters: Notation) -> Words:
+    if pair.guide.name:
+        return letters.guide(pair.guide.name, scene.frame.name)
+    on = scene.by_name[pair.b]
+    return sign("x") if pair.b == scene.frame.name else _own(on, letters)
 
 
 def _own(link: PlacedLink, letters: Notation) -> Words:
@@ -291,7 +291,7 @@ def _own(link: PlacedLink, letters: Notation) -> Words:
     return letters.bar(link.bar) if len(link.bar) == 2 else link.name
 
 
-def _axis(scene: Mechanism, link: PlacedLink, pairs: list[SlidingPair], letters: Notation) -> Wording:
+def _axis(scene: Mechanism, link: PlacedLink, pairs: list[Pair], letters: Notation) -> Wording:
     """The line from which angles on a link count: its bar, the guide on which it slides, else its own axis."""
     if len(link.bar) == 2:
         return _own(link, letters)

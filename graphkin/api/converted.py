@@ -141,15 +141,14 @@ def _bodies(scene: Mechanism) -> Bodies:
         first, turn = next(iter(link.points), None), cmath.rect(1.0, float(motion.angle(link.name)[0]))
         poses[link.name] = (0j if first is None else made.places[first]), turn
     for pair in scene.slides:
-        body = pair.of or pair.link
-        if pair.pin is None:
-            made.lost.append(Phrase("lost slide without point", link=body, on=pair.on))
+        if not pair.pin:
+            made.lost.append(Phrase("lost slide without point", link=pair.body, on=pair.b))
             continue
-        line = scene.by_name[pair.on].guides[pair.guide]
-        origin, turn = poses[pair.on]
+        line = pair.guide
+        origin, turn = poses[pair.b]
         through, angle = origin + turn * line.through / unit, cmath.phase(turn * line.direction)
         made.slides.append(
-            BodySlide(_name(scene, body), pair.pin, _name(scene, pair.on), through, angle, bool(pair.of))
+            BodySlide(_name(scene, pair.body), pair.pin, _name(scene, pair.b), through, angle, bool(pair.of))
         )
     made.lost += [told(pair, "left behind") for pair in scene.higher_pairs]
     made.lost += [Phrase("lost redundant link", link=link.name) for link in scene.links if link.redundant]

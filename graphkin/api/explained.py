@@ -159,7 +159,7 @@ def _links(scene: Mechanism) -> Iterator[Phrase]:
         if len(own) == 2:
             length = _number((link.length or 0.0) / scene.units.metres)
             yield Phrase("explained bar", link=link.name, bar="".join(own), length=length, unit=scene.units.length)
-        elif link.name in blocks or any(s.link == link.name for s in scene.slidings):
+        elif link.name in blocks or any(s.a == link.name for s in scene.slidings):
             block = Phrase("explained block without point", link=link.name)
             yield Phrase("explained block", link=link.name, point=own[0]) if own else block
         elif own and link.name in roles:

@@ -315,8 +315,8 @@ def _driven(scene: Mechanism, driver: Driver) -> list[str]:
             return [p for p in link.points if p not in scene.frame.points]
     if not driver.turns:
         slide = next((s for s in scene.slidings if s.key == driver.key), None)
-        if slide is not None and slide.on == scene.frame.name:
-            return list(scene.by_name[slide.link].points)
+        if slide is not None and slide.b == scene.frame.name:
+            return list(scene.by_name[slide.a].points)
     return []
 
 
@@ -384,7 +384,7 @@ def _driver(motion: Motion, point: str, to: complex) -> dict[str, float]:
             turn = math.degrees(cmath.phase((to - centre) / (now - centre)))
             return {driver.key: math.degrees(float(motion.values[0][index])) + turn}
         slide = next(s for s in scene.slidings if s.key == driver.key)
-        along = scene.frame.guides[slide.guide].direction
+        along = slide.guide.direction
         travel = float(motion.values[0][index]) + dot(to - now, along)
         return {driver.key: travel / scene.units.metres}
     return {}
@@ -420,8 +420,8 @@ def _polar(scene: Mechanism, key: str, entry: Tables, before: complex, now: comp
 def _on_guide(scene: Mechanism, point: str, to: complex) -> complex:
     """The foot of a place on the guide of the frame on which the point's block slides."""
     for slide in scene.slidings:
-        if slide.on == scene.frame.name and scene.by_name[slide.link].points.get(point) == 0j:
-            guide = scene.frame.guides[slide.guide]
+        if slide.b == scene.frame.name and scene.by_name[slide.a].points.get(point) == 0j:
+            guide = slide.guide
             return guide.through + dot(to - guide.through, guide.direction) * guide.direction
     return to
 

@@ -343,10 +343,10 @@ def _permanent(links: Centres) -> Iterator[Centre]:
             z = links.point(point)
             yield Centre(links.pair(a, b), "permanent", chart.at(z), z, joint=point)
     for s in links.scene.slidings:
-        if s.link in poses and s.on in poses:
-            place = chart.towards(1j * poses[s.on].axis * links.scene.by_name[s.on].guides[s.guide].direction)
+        if s.a in poses and s.b in poses:
+            place = chart.towards(1j * s.along(poses))
             far = chart.direction(place)
-            yield Centre(links.pair(s.link, s.on), "permanent", place, direction=far, joint=s.key)
+            yield Centre(links.pair(s.a, s.b), "permanent", place, direction=far, joint=s.key)
     for touch in links.touching.rolling():
         yield Centre(links.pair(*touch.links), "permanent", chart.at(touch.at), touch.at, joint=touch.name, rolls=True)
 
@@ -356,12 +356,11 @@ def _normals(links: Centres) -> Iterator[CentreRelation]:
     contacts."""
     scene, poses = links.scene, links.poses
     for pin in scene.pins:
-        if pin.of in poses and pin.on in poses and pin.of != pin.on:
-            guide = scene.by_name[pin.on].guides[pin.guide]
-            along = poses[pin.on].axis * guide.direction
-            at, start = links.touching.place(pin.of, pin.point), poses[pin.on].place(guide.through * links.mm)
+        if pin.of in poses and pin.b in poses and pin.of != pin.b:
+            along = pin.along(poses)
+            at, start = links.touching.place(pin.of, pin.pin), poses[pin.b].place(pin.guide.through * links.mm)
             line = links.chart.line(start + along * dot(at - start, along), 1j * along)
-            yield CentreRelation(links.pair(pin.of, pin.on), line, ROUNDING, (pin.key,))
+            yield CentreRelation(links.pair(pin.of, pin.b), line, ROUNDING, (pin.key,))
     for contact, touch in links.touching.contacts():
         if not contact.rolling:
             line = links.chart.line(touch.at, touch.normal)
@@ -578,7 +577,7 @@ def _driven(centres: Centres, driver: Driver) -> dict[str, Turning]:
         return {}
     once, reach = centre.place[2], 1.0
     if slide is not None:
-        at = centres.point(slide.pin) if slide.higher and slide.pin else chart.middle
+        at = centres.point(slide.pin) if slide.higher else chart.middle
         along = slide.along(centres.poses)
         once = dot(chart.velocity(centre.place, 1.0, at), along) / centres.mm
         reach = (abs(at - chart.middle) + chart.unit) / centres.mm

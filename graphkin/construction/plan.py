@@ -601,7 +601,7 @@ def opened_at_triangles(structure: Structure) -> Structure:
 
 def _held(scene: Mechanism, triangle: DrivenTriangle) -> Mechanism:
     """The links of a triangle alone, with the held link as the frame."""
-    alone = without(scene, {link.name for link in scene.links} - {triangle.held, *triangle.links})
+    alone = without(scene, scene.by_name.keys() - {triangle.held, *triangle.links})
     links = tuple(link for link in alone.links if link.name != triangle.held)
     frame = scene.by_name[triangle.held]
     return replace(alone, frame=frame, links=links, drivers=(triangle.driver,), sketch={}, drawn={})

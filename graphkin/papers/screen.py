@@ -56,6 +56,7 @@ from graphkin.papers.documents import (
 from graphkin.papers.html import blocks_html, rendered, said_html, whole_page, words_html
 from graphkin.papers.lesson import MECHANISM, Lesson, rows_in_order
 from graphkin.papers.pictures import POLYGONS, ROOM, bare_picture, equation_picture
+from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion, solve
 from graphkin.solver.algebra.pose import Array
@@ -437,16 +438,16 @@ def motion_data(
     ]
     driver = scene.drivers[0]
     unit = scene.units.metres if "/" in driver.key else math.pi / 180.0
-    guides = dict.fromkeys((s.on, s.guide) for s in scene.slides)
+    guides = {(s.b, s.guide.name): s for s in scene.slides}.values()
     return {
         "at": [round(float(v) / unit, 3) for v in motion.values[rows, 0]],
         "driver": str(sign("s" if "/" in driver.key else "φ", driver.key)),
         "unit": f" {scene.units.length}" if "/" in driver.key else "°",
         "bars": bars,
-        "lines": [[place(end) for end in _guide(motion, on, guide, size, length)] for on, guide in guides],
+        "lines": [[place(end) for end in _guide(motion, slide, size, length)] for slide in guides],
         "points": [[number, str(letters.point(p))] for p, number in shared.items()],
         "fixed": sorted(fixed.values()),
-        "blocks": [[places.get((s.link, s.pin or ""), -1)] for s in scene.slidings if (s.link, s.pin or "") in places],
+        "blocks": [[places[s.a, s.pin]] for s in scene.slidings if (s.a, s.pin) in places],
         "centres": list(_centres(motion, place, tracks, letters, size, length)),
         "velocity": _vectors(motion, sheet, letters, "velocity", place),
         "acceleration": _vectors(motion, sheet, letters, "acceleration", place),
@@ -454,14 +455,14 @@ def motion_data(
     }
 
 
-def _guide(motion: Motion, on: str, guide: str, size: float, length: float) -> list[Array]:
+def _guide(motion: Motion, slide: Pair, size: float, length: float) -> list[Array]:
     """Both ends of a guide: through the whole mechanism for a guide of the frame, along the link for a guide of a
     link."""
-    placed = motion.link(on).guides[guide]
-    if on == motion.scene.frame.name:
+    placed = slide.guide
+    if slide.b == motion.scene.frame.name:
         ends = (placed.through / length + sense * size * placed.direction for sense in (-1, 1))
         return [np.full(len(motion.ok), end) for end in ends]
-    pose, reach = motion.poses[on], 0.6 * size
+    pose, reach = motion.poses[slide.b], 0.6 * size
     start = (pose.z + pose.u * placed.through) / length
     return [start + along * pose.u * placed.direction for along in (-0.15 * reach, reach)]
 

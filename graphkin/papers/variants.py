@@ -30,12 +30,13 @@ from graphkin.papers.paper import paper_plan
 from graphkin.plane import cross
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
+from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import put_at, value_at
 from graphkin.solver import Motion, solve
 from graphkin.solver.path.named_positions import standing
 from graphkin.solver.values import exact_values
-from graphkin.structure import Dyad, LargerGroup, Pair, analyse
+from graphkin.structure import Dyad, LargerGroup, analyse
 from graphkin.words import Phrase, Wording, as_data, from_data
 
 LEAST_READING = 10.0  # mm on paper
@@ -122,7 +123,7 @@ def _led(scene: Mechanism) -> Iterator[Symbol]:
     """The rates of the links that follow the drivers, if they are not given, and the motion of the last point."""
     drivers = {d.key.partition("/")[0] for d in scene.drivers}
     led = [link for link in scene.links if link.name not in drivers]
-    sliding = {pair.link for pair in scene.slidings}
+    sliding = {pair.a for pair in scene.slidings}
     unsteady = any(d.values[2] for d in scene.drivers)
     followers = {cam.follower for cam in scene.cams}
     for link in led:

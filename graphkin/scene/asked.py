@@ -84,9 +84,8 @@ def _drawn_instead(symbol: Symbol, scene: Mechanism | Reading) -> str:
     pair = next((pair for pair in scene.slides if pair.key == symbol.pair), None)
     if pair is None:  # of a point on an outline
         return f"{symbol.kind}_{symbol.link}/{symbol.link}@{symbol.other}"
-    link = pair.of or pair.link
-    point = pair.point or next(iter(scene.points.get(link, ())), "B")
-    return f"{symbol.kind}_{point}@{link}/{point}@{symbol.other}"
+    point = pair.pin or next(iter(scene.points.get(pair.body, ())), "B")
+    return f"{symbol.kind}_{point}@{pair.body}/{point}@{symbol.other}"
 
 
 def spelling_of(scene: Mechanism | Reading) -> Spelling:

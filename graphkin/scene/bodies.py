@@ -18,7 +18,7 @@ from typing import TypeVar
 
 from graphkin.errors import Problem, SceneError, did_you_mean
 from graphkin.plane import direction
-from graphkin.scene.pairs import CircularSlot, SlidingPair
+from graphkin.scene.pairs import CircularSlot, Pair, PlacedGuide
 from graphkin.scene.scene_tables import (
     TOUCHING,
     Compass,
@@ -76,7 +76,7 @@ class Reading:
     links: Mapping[str, Link]
     pins: Mapping[str, Pin]
     slots: tuple[CircularSlot, ...] = ()
-    slides: tuple[SlidingPair, ...] = ()
+    slides: tuple[Pair, ...] = ()
     places: Mapping[str, Mapping[str, complex]] = field(default_factory=dict)
 
     @cached_property
@@ -319,9 +319,9 @@ def _circle_of_references(link: Link) -> list[str]:
 # -- pairs -------------------------------------------------------------------------------------------------------------
 
 
-def sliding_pairs(reading: Reading) -> tuple[SlidingPair, ...]:
+def sliding_pairs(reading: Reading) -> tuple[Pair, ...]:
     """The sliding pairs of the file; what is wrong with them is noted."""
-    pairs: list[SlidingPair] = []
+    pairs: list[Pair] = []
     for name, link in reading.links.items():
         if link.on is None:
             lost = name in reading.unsure or reading.lost_under("links", name, "on")
@@ -339,7 +339,8 @@ def sliding_pairs(reading: Reading) -> tuple[SlidingPair, ...]:
             on, _, guide = ref.partition(".")
             problem = reading.no_guide(f"links.{name}.on", ref) or _sliding_problem(name, on, link, reading, pairs)
             if not reading.wrong(problem):
-                pairs.append(SlidingPair(name, on, guide, direction(angle), link.points[0] if link.points else None))
+                pin = link.points[0] if link.points else ""
+                pairs.append(Pair.sliding(name, on, PlacedGuide(guide), direction(angle), pin))
     return tuple(pairs)
 
 
@@ -347,11 +348,11 @@ def _angles(angles: float | Sequence[float] | None) -> list[float]:
     return [angles] if isinstance(angles, int | float) else list(angles or [])
 
 
-def _sliding_problem(name: str, on: str, link: Link, reading: Reading, pairs: list[SlidingPair]) -> Problem | None:
+def _sliding_problem(name: str, on: str, link: Link, reading: Reading, pairs: list[Pair]) -> Problem | None:
     where = f"links.{name}.on"
     if on == name:
         return Problem(where, "link slides on itself", "name the link that guides it", name=name)
-    if any({p.link, p.on} == {name, on} for p in pairs):
+    if any({p.a, p.b} == {name, on} for p in pairs):
         return Problem(where, "link already has a sliding pair with link", "two links have one sliding pair at most",
                        name=name, on=on)
     if link.points and link.points[0] in reading.points.get(on, ()):
@@ -360,9 +361,9 @@ def _sliding_problem(name: str, on: str, link: Link, reading: Reading, pairs: li
     return None
 
 
-def pins_in_slots(reading: Reading) -> tuple[SlidingPair, ...]:
+def pins_in_slots(reading: Reading) -> tuple[Pair, ...]:
     """The pins in slots of a file of which the sliding pairs are known; what is wrong with them is noted."""
-    pins: list[SlidingPair] = []
+    pins: list[Pair] = []
     for point, pin in reading.pins.items():
         where = f"pins.{point}"
         unknown = reading.wrong(
@@ -376,18 +377,18 @@ def pins_in_slots(reading: Reading) -> tuple[SlidingPair, ...]:
             if f"{point}/{on}" in reading.pairs:
                 reading.say(where, "is also the name of a sliding pair", "rename link", point=point, on=on)
             elif not unknown:
-                pins.append(SlidingPair.of_pin(point, pin.of, on, guide))
+                pins.append(Pair.of_pin(point, pin.of, on, PlacedGuide(guide)))
     return tuple(pins)
 
 
 def _pin_problem(
-    where: str, point: str, pin: Pin, ref: str, reading: Reading, pins: list[SlidingPair]
+    where: str, point: str, pin: Pin, ref: str, reading: Reading, pins: list[Pair]
 ) -> Problem | None:
     on = ref.partition(".")[0]
     found: Wording
     if on == pin.of:
         found, wanted = Phrase("is a guide of link itself", ref=ref, on=on), Phrase("name the guide of another link")
-    elif any(p.point == point and p.on == on for p in pins):
+    elif any(p.pin == point and p.b == on for p in pins):
         found = Phrase("runs twice in link", point=point, on=on)
         wanted = Phrase("one slot of link or a turning pair", on=on)
     elif point in reading.points.get(on, ()):

@@ -67,7 +67,7 @@ def drives(reading: Reading) -> dict[str, model.Driver]:
                 near=si.near,
             )
         else:
-            ends = {pair.key: (pair.link, pair.on) for pair in reading.slides}
+            ends = {pair.key: (pair.a, pair.b) for pair in reading.slides}
             sliding, on = ends.get(name, (name, ""))  # of a pin in a slot its block
             drivers[where] = model.Driver(
                 sliding, on, value, si.velocity or 0.0, si.acceleration, name, distance, law=law, near=si.near
@@ -189,8 +189,8 @@ def _pair_of(where: str, driver: DrivenSlide, reading: Reading, lost: set[str]) 
     if driver.velocity is None and driver.law is None and not lost & {"velocity", "law"}:
         reading.say(f"{where}.velocity", "is missing", "write velocity per second it may be 0")
     what, _, on = driver.slide.partition("/")
-    pairs = {p.key: p.on for p in reading.slides if p.link == what}
-    pairs = pairs or {p.key: p.on for p in reading.slides if p.of and p.point == what}
+    pairs = {p.key: p.b for p in reading.slides if p.a == what}
+    pairs = pairs or {p.key: p.b for p in reading.slides if p.of and p.pin == what}
     keys = [pair for pair, rail in pairs.items() if rail in (on or rail,) and rail == (driver.relative_to or rail)]
     known = reading.pairs
     meant, link, here = keys[0] if len(keys) == 1 else driver.slide, reading.links.get(what), f"{where}.slide"

@@ -20,10 +20,10 @@ from graphkin.scene.pairs import (
     CircularSlot,
     HigherPair,
     LawCam,
+    Pair,
     PlacedContact,
     PlacedGear,
     PlacedGuide,
-    SlidingPair,
 )
 from graphkin.scene.scene_tables import (
     Disc,
@@ -375,7 +375,7 @@ class Mechanism:
     name: str
     frame: PlacedLink
     links: tuple[PlacedLink, ...]
-    slides: tuple[SlidingPair, ...]
+    slides: tuple[Pair, ...]
     drivers: tuple[Driver, ...]
     units: Units = field(default_factory=Units)
     sketch: Mapping[str, complex] = field(default_factory=dict)
@@ -386,8 +386,8 @@ class Mechanism:
     starts: Mapping[str, float] = field(default_factory=dict)
     slots: tuple[CircularSlot, ...] = ()
     question: Question = field(default_factory=Question)
-    slidings: tuple[SlidingPair, ...] = field(init=False, repr=False, compare=False)
-    pins: tuple[SlidingPair, ...] = field(init=False, repr=False, compare=False)
+    slidings: tuple[Pair, ...] = field(init=False, repr=False, compare=False)
+    pins: tuple[Pair, ...] = field(init=False, repr=False, compare=False)
     contacts: tuple[PlacedContact, ...] = field(init=False, repr=False, compare=False)
     gears: tuple[PlacedGear, ...] = field(init=False, repr=False, compare=False)
     cams: tuple[LawCam, ...] = field(init=False, repr=False, compare=False)
@@ -412,7 +412,7 @@ class Mechanism:
         return {slot.bar: slot for slot in self.slots if not slot.block}
 
     @property
-    def pairs(self) -> tuple[SlidingPair | CircularSlot | HigherPair, ...]:
+    def pairs(self) -> tuple[Pair | CircularSlot | HigherPair, ...]:
         """All pairs but turning pairs: sliding pairs, pins in slots, what runs along a circle, and what touches."""
         slots = (slot for slot in self.slots if slot.of or slot.block)  # the others stand for cams
         return *self.slides, *slots, *self.higher_pairs
@@ -469,11 +469,13 @@ class Mechanism:
             tuple(pair for pair in self.higher_pairs if isinstance(pair, kind))
             for kind in (PlacedContact, PlacedGear, LawCam)
         )
+        by_name = {link.name: link for link in each}
+        slides = [replace(pair, guide=by_name[pair.b].guides[pair.guide.name]) for pair in self.slides]
         self.__dict__.update(
             contacts=contacts, gears=gears, cams=cams, contact_at={contact.name: contact for contact in contacts},
             acting=tuple(p for p in self.higher_pairs if self.instead_of is None or not p.by_law),
-            slidings=tuple(pair for pair in self.slides if not pair.of), pins=tuple(p for p in self.slides if p.of),
-            by_name={link.name: link for link in each},
+            slides=tuple(slides), slidings=tuple(s for s in slides if not s.of), pins=tuple(s for s in slides if s.of),
+            by_name=by_name,
             order={link.name: i for i, link in enumerate((*self.links, self.frame))},
             holders={point: tuple(names) for point, names in holders.items()},
             size=self._size() if self.instead_of is None else self.instead_of.size,
@@ -610,7 +612,7 @@ def joints(mechanism: Mechanism) -> tuple[ForceJoint, ...]:
         hosts = hosts_at(mechanism, point, at_point)
         first = next((name for name in at_point if name not in hosts), "")
         pairs += [ForceJoint("turning", hosts.get(name, first), name, point) for name in at_point if name != first]
-    pairs += [ForceJoint("sliding", *s.bodies[::-1], s.point, s.key, not s.of)
+    pairs += [ForceJoint("sliding", *s.bodies[::-1], s.pin, s.key, not s.of)
               for s in mechanism.slides if {*s.bodies} <= here]
     pairs += [ForceJoint("touching", *pair.bodies, "" if pair.by_law else pair.name, pair=pair)
               for pair in mechanism.acting_between(here)]

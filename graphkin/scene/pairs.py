@@ -14,11 +14,11 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import ClassVar, Literal, NamedTuple, TypeAlias
 
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import Values, cross, degrees
+from graphkin.plane import Poses, Values, cross, degrees
 from graphkin.scene.laws import FollowerLaw, Lift
 from graphkin.scene.tables import Units
 from graphkin.words import Phrase, gaps_of, has_words
@@ -40,8 +40,8 @@ class PlacedGuide:
     """
 
     name: str
-    through: complex
-    direction: complex
+    through: complex = 0j
+    direction: complex = 1 + 0j
     curvature: float = 0.0
 
 
@@ -51,36 +51,75 @@ Guides: TypeAlias = Mapping[str, Mapping[str, PlacedGuide]]
 """The guides of each link, in its own axes (m)."""
 
 
-@dataclass(frozen=True)
-class SlidingPair:
-    """``link`` slides by its own origin on a guide of link ``on``, at a fixed angle; or a pin runs in the guide, and
-    ``link`` is the block without mass, POINT/GUIDING, that stands for it between the guide and the link ``of``.
+NO_GUIDE = PlacedGuide("", 0j, 0j)
+"""Where a pair has no direction in which it slides: it turns."""
+OWN_AXIS = {"": PlacedGuide("")}
+"""The one guide of a link that has no other: its own x axis."""
 
-    ``turn`` is the unit complex number by which the link's own x axis is turned from the guide's
-    sense (``angle_on``).  ``pin`` names the link's first point if it has one, or the pin that runs in the guide.
+
+@dataclass(frozen=True)
+class Pair:
+    """A lower pair of the links ``a`` and ``b``: both turn about a point, or ``a`` slides by its own origin on a guide
+    of ``b``, at a fixed angle.  Or a pin runs in the guide, or a disc on a face: then ``a`` is the block without mass,
+    POINT/GUIDING, that stands for it between the guide and the link ``of``.
+
+    Parameters
+    ----------
+    key : the point of a turning pair; SLIDING/GUIDING of a sliding one, POINT/GUIDING of a pin in a slot
+    guide : the guide of link b along which a slides; in a mechanism that of its link by the same name
+    turn : unit complex number from the guide's sense to a's own x axis (``angle_on``)
+    pin : a's first point, or the pin that runs in the guide, "" where it has no name
+    of : the link with the pin in a slot, or with the disc on a face, that the block ``a`` replaces; else ""
+
+    From these follow whether it ``turns`` or is a ``higher`` pair with such a block, both ``links``, the ``body`` of
+    the file that slides or has the pin, the ``point`` about which they turn ("" of a sliding pair) and its ``letter``,
+    R (revolute) or P (prismatic).
     """
 
-    link: str
-    on: str
-    guide: str
+    key: str
+    a: str
+    b: str
+    guide: PlacedGuide = NO_GUIDE
     turn: complex = 1 + 0j
-    pin: str | None = None
+    pin: str = ""
     of: str = ""
 
-    @classmethod
-    def of_pin(cls, point: str, of: str, on: str, guide: str) -> SlidingPair:
-        """A pin in a slot: point ``point`` of link ``of`` runs in a guide of link ``on``, one constraint."""
-        return cls(f"{point}/{on}", on, guide, pin=point, of=of)
+    turns: bool = field(init=False, repr=False, compare=False)
+    higher: bool = field(init=False, repr=False, compare=False)
+    body: str = field(init=False, repr=False, compare=False)
+    links: tuple[str, str] = field(init=False, repr=False, compare=False)
+    point: str = field(init=False, repr=False, compare=False)
+    letter: str = field(init=False, repr=False, compare=False)
 
-    @property
-    def key(self) -> str:
-        """The name of the pair: SLIDING/GUIDING, or POINT/GUIDING of a pin in a slot."""
-        return self.link if self.of else f"{self.link}/{self.on}"
+    def __post_init__(self) -> None:
+        turns = not self.guide.direction
+        self.__dict__.update(
+            turns=turns, higher=bool(self.of), body=self.of or self.a, links=(self.a, self.b),
+            point=self.key if turns else "", letter="R" if turns else "P",
+        )  # fmt: skip
+
+    @classmethod
+    def sliding(cls, a: str, b: str, guide: PlacedGuide, turn: complex = 1 + 0j, pin: str = "") -> Pair:
+        """A sliding pair: link ``a`` slides on a guide of link ``b``."""
+        return cls(f"{a}/{b}", a, b, guide, turn, pin)
+
+    @classmethod
+    def of_pin(cls, point: str, of: str, b: str, guide: PlacedGuide) -> Pair:
+        """A pin in a slot: point ``point`` of link ``of`` runs in a guide of link ``b``, one constraint."""
+        return cls(f"{point}/{b}", f"{point}/{b}", b, guide, pin=point, of=of)
+
+    def other(self, link: str) -> str:
+        """The other link of the pair."""
+        return self.b if link == self.a else self.a
+
+    def along(self, poses: Poses) -> complex:
+        """The unit vector along its guide, in the guide's sense, with the links in these poses."""
+        return poses[self.b].axis * self.guide.direction
 
     @property
     def bodies(self) -> tuple[str, str]:
         """The link that slides, or has the pin, and the link with the guide."""
-        return self.of or self.link, self.on
+        return self.body, self.b
 
     @property
     def kinds(self) -> tuple[str, ...]:
@@ -90,14 +129,9 @@ class SlidingPair:
     @property
     def gaps(self) -> dict[str, object]:
         """The names in its sentences, and the angle (degrees) of the link's own axis to the guide."""
-        link, on = self.bodies
-        return {"point": self.point, "link": link, "on": on, "guide": f"{on}.{self.guide}" if self.guide else on,
+        guide = f"{self.b}.{self.guide.name}" if self.guide.name else self.b
+        return {"point": self.pin, "link": self.body, "on": self.b, "guide": guide,
                 "angle": f"{degrees(self.turn) + 0.0:.6g}"}  # fmt: skip
-
-    @property
-    def point(self) -> str:
-        """The point that runs in the guide, "" where it has no name."""
-        return self.pin or ""
 
 
 @dataclass(frozen=True)
@@ -213,7 +247,7 @@ class PlacedContact:
         """The contact with sliding in place of rolling, None where a link holds the centres apart."""
         return None if self.carrier else replace(self, rolling=False)
 
-    def mesh(self, slidings: Sequence[SlidingPair], points: Points, guides: Guides) -> PlacedGear | None:
+    def mesh(self, slidings: Sequence[Pair], points: Points, guides: Guides) -> PlacedGear | None:
         """Rolling as a mesh of the bodies, as `PlacedGear.mesh`; None where they slide."""
         if not self.rolling:
             return None
@@ -283,7 +317,7 @@ class PlacedGear:
         """The links without which it is none, the wheels first."""
         return tuple(dict.fromkeys((*self.wheels, self.carrier)))
 
-    def mesh(self, slidings: Sequence[SlidingPair], points: Points, guides: Guides) -> PlacedGear:
+    def mesh(self, slidings: Sequence[Pair], points: Points, guides: Guides) -> PlacedGear:
         """The mesh of wheels; of a rack with the signed distance (m) of its line from the wheel's axis as the first of
         the ``teeth``, positive to the left of the guide of ``slide``.
 
@@ -295,16 +329,16 @@ class PlacedGear:
         return replace(self, teeth=(self.rack_place(slidings, points, guides)[0], None)) if self.is_rack else self
 
     def rack_place(
-        self, slidings: Sequence[SlidingPair], points: Points, guides: Guides
+        self, slidings: Sequence[Pair], points: Points, guides: Guides
     ) -> tuple[float, float, float]:
         """The distance of a rack's pitch line to the left of the wheel's axis, seen along the guide of its slide (m);
         the sine of its angle with the guide; and a length to compare with (m)."""
         pair = next(s for s in slidings if s.key == self.slide)
-        rail = guides[pair.on][pair.guide]
+        rail = guides[pair.b][pair.guide.name]
 
         def seen(link: str, z: complex) -> complex:
             # in the axes of the guide, but for the travel along it
-            return z * pair.turn if link == pair.link else (z - rail.through) / rail.direction
+            return z * pair.turn if link == pair.a else (z - rail.through) / rail.direction
 
         rack, line = self.wheels[1], guides[self.wheels[1]][self.guide]
         axis = seen(self.carrier, points[self.carrier][self.axes[0]])
@@ -460,7 +494,7 @@ class LawCam:
         kind = Phrase("cam flat" if self.flat else "cam roller" if self.roller else "cam edge")
         return {"cam": self.link, "follower": self.follower, "kind": kind, "pieces": str(len(self.law.pieces))}
 
-    def mesh(self, slidings: Sequence[SlidingPair], points: Points, guides: Guides) -> None:
+    def mesh(self, slidings: Sequence[Pair], points: Points, guides: Guides) -> None:
         """No mesh: its follower slides on it."""
 
     @property
@@ -575,7 +609,7 @@ that is ``replaced``, a sliding one for a pair that is ``unrolled``, a ``mesh`` 
 those in the file; ``kinds`` and ``gaps`` its words, ``roles`` the words for the first of its bodies, or both."""
 
 
-def told(pair: SlidingPair | CircularSlot | HigherPair, about: str) -> Phrase:
+def told(pair: Pair | CircularSlot | HigherPair, about: str) -> Phrase:
     """The sentence on a pair in a list of the table of words ("explained", "left behind", ...), by the most
     special of its kinds that has one there.
 

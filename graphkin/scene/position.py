@@ -16,7 +16,7 @@ from graphkin.errors import Problem, did_you_mean
 from graphkin.plane import cross, cross_arcs, degrees, direction, dot
 from graphkin.scene.bodies import Reading, references
 from graphkin.scene.model import Driver, PlacedLink
-from graphkin.scene.pairs import HigherPair, PlacedContact, PlacedGear, PlacedGuide, SlidingPair
+from graphkin.scene.pairs import HigherPair, Pair, PlacedContact, PlacedGear, PlacedGuide
 from graphkin.scene.scene_tables import Compass, Disc, Guide, Link, Polar
 from graphkin.scene.tables import in_si
 from graphkin.words import Phrase, joined
@@ -45,7 +45,7 @@ class Placement:
     rails: Mapping[str, Guide]
     length: float | None = None
     local: dict[str, complex] = field(default_factory=dict)
-    guides: dict[str, PlacedGuide] = field(default_factory=lambda: {"": PlacedGuide("", 0j, 1 + 0j)})
+    guides: dict[str, PlacedGuide] = field(default_factory=lambda: {"": PlacedGuide("")})
     turn: complex | None = None
     origin: complex | None = None
     arm: float = math.inf
@@ -258,22 +258,22 @@ class StatedPosition:
         redundant = link is not None and link.redundant
         return PlacedLink(name, {p: body.local[p] for p in points}, body.own, guides, redundant, outlines)
 
-    def running(self, pair: SlidingPair) -> complex | None:
+    def running(self, pair: Pair) -> complex | None:
         """The place of the point that runs in a guide (m), None if it is unknown."""
-        return self.places.get(pair.pin) if pair.pin else self.bodies[pair.link].origin
+        return self.places.get(pair.pin) if pair.pin else self.bodies[pair.a].origin
 
     def travel_of(self, key: str) -> float | None:
         """The travel of a sliding pair or pin in slot at the known position (m), None if it is not known."""
         pair = next((pair for pair in self.reading.slides if pair.key == key), None)
-        return None if pair is None else _along(self.bodies[pair.on], pair.guide, self.running(pair))
+        return None if pair is None else _along(self.bodies[pair.b], pair.guide.name, self.running(pair))
 
     def relations(self) -> Iterator[AngleBetween]:
         """The given angles between links: of sliding links, by their guides, and of drivers."""
         for pair in self.reading.slides:
-            guide = self.bodies[pair.on].guides.get(pair.guide)
+            guide = self.bodies[pair.b].guides.get(pair.guide.name)
             if not pair.of and guide is not None:
-                rail, slider = self.bodies[pair.on], self.bodies[pair.link]
-                yield f"links.{pair.link}.angle_on", slider, rail, guide.direction, pair.turn
+                rail, slider = self.bodies[pair.b], self.bodies[pair.a]
+                yield f"links.{pair.a}.angle_on", slider, rail, guide.direction, pair.turn
         for link, base, turn in self.angles:
             yield "", self.bodies[link], self.bodies[base], 1 + 0j, turn
 
@@ -297,7 +297,7 @@ def stated_position(reading: Reading, drivers: Collection[Driver]) -> StatedPosi
     given = [d for d in drivers if not math.isnan(d.value)]
     drawn = {point: complex(*place) * reading.metres for point, place in reading.file.drawn.items()}
     bodies = bodies_of(reading, drawn)
-    referred = {pair.on for pair in reading.slides}
+    referred = {pair.b for pair in reading.slides}
     referred |= {name for d in drivers if d.turns for name in d.links}
     for other in sorted(referred):  # links that were taken out for something wrong are placed nowhere
         bodies.setdefault(other, Placement(other, f"links.{other}", (), {}, {}, guides={}))
@@ -397,11 +397,11 @@ def _turn_by_angles(position: StatedPosition) -> None:
 
 def _move_by_travels(position: StatedPosition) -> None:
     for pair in position.reading.slides:
-        rail = position.bodies[pair.on]
-        guide = rail.guides.get(pair.guide)
+        rail = position.bodies[pair.b]
+        guide = rail.guides.get(pair.guide.name)
         if pair.of or pair.key not in position.travels or guide is None:
             continue
-        slider = position.bodies[pair.link]
+        slider = position.bodies[pair.a]
         along = guide.through + guide.direction * position.travels[pair.key]
         if (place := rail.world(along)) is not None and not slider.local.keys() & position.places.keys():
             position.set_origin(slider, place)
@@ -417,8 +417,8 @@ def _turn_to_positive_side(position: StatedPosition) -> bool:
     w the guide's direction in the world and s its travel, here the larger root of |k + s| = distance.
     """
     for pair in position.reading.slides:
-        rail, place = position.bodies[pair.on], position.running(pair)
-        guide = rail.guides.get(pair.guide)
+        rail, place = position.bodies[pair.b], position.running(pair)
+        guide = rail.guides.get(pair.guide.name)
         if rail.turn is not None or guide is None or place is None:
             continue
         centre = position.places.get(rail.own[0]) if rail.own else None
@@ -438,7 +438,7 @@ def _turn_to_drawn_point(position: StatedPosition) -> bool:
     """Choose the x axis of a link that has one own point and nothing measured from its axis; whether there was such a
     link."""
     slides = position.reading.slides
-    used = {p.on for p in slides if not p.guide} | {p.link for p in slides}
+    used = {p.b for p in slides if not p.guide.name} | {p.a for p in slides}
     used |= {name for link, base, _ in position.angles for name in (link, base)}
     for name, body in position.bodies.items():
         measured = any(isinstance(e, list) or (isinstance(e, Polar) and not e.toward) for e in body.at.values())
@@ -470,7 +470,7 @@ def check_starts(position: StatedPosition) -> None:
     driven = {*position.travels, *(link for link, _, _ in position.angles)}
     said = starts_of(position, ())
     for name, link in position.reading.links.items():
-        key = next((pair.key for pair in position.reading.slides if pair.link == name), name)
+        key = next((pair.key for pair in position.reading.slides if pair.a == name), name)
         if link.start is None or not driven.isdisjoint((name, key)):
             continue
         turn, travel = position.bodies[name].turn, position.travel_of(key)
@@ -498,7 +498,7 @@ def starts_of(position: StatedPosition, touching: Iterable[HigherPair]) -> dict[
     starts = dict[str, float]()
     for name, link in position.reading.links.items():
         if link.start is not None:
-            key = next((pair.key for pair in slides if pair.link == name), name)
+            key = next((pair.key for pair in slides if pair.a == name), name)
             starts[key] = link.start * position.reading.metres if key != name else math.radians(link.start)
     return {**seen, **{key: travel for key, travel in travels.items() if travel is not None}, **starts}
 
@@ -614,15 +614,15 @@ def check_agreement(position: StatedPosition) -> None:
     for body in position.bodies.values():
         _check_points(position, body)
     for pair in position.reading.slides:
-        rail, place = position.bodies[pair.on], position.running(pair)
-        guide, local = rail.guides.get(pair.guide), None if place is None else rail.in_own_axes(place)
+        rail, place = position.bodies[pair.b], position.running(pair)
+        guide, local = rail.guides.get(pair.guide.name), None if place is None else rail.in_own_axes(place)
         if guide and local is not None:
             beside = abs(cross(guide.direction, local - guide.through))
             if beside > position.tolerance * _reach(rail, local):
-                ref = f"{pair.on}.{pair.guide}" if pair.guide else pair.on
-                where = f"pins.{pair.point}.in" if pair.of else f"links.{pair.link}.on"
+                where = f"pins.{pair.pin}.in" if pair.of else f"links.{pair.a}.on"
                 position.reading.say(where, "the given places put it beside the guide",
-                                     "correct a coordinate or the guide", beside=f"{beside / metres:.6g}", ref=ref)
+                                     "correct a coordinate or the guide", beside=f"{beside / metres:.6g}",
+                                     ref=pair.gaps["guide"])
     for where, body, base, zero, turn in position.relations():
         if body.turn is not None and base.turn is not None:
             # by how far it moves the points that gave it

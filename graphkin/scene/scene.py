@@ -360,7 +360,7 @@ def as_mapping(scene: Mechanism) -> OwnTables:
 
 def _link(scene: Mechanism, link: PlacedLink, table: Link) -> Link:
     """The table of a link with all its places in its own axes; of a rolling link with its start."""
-    pairs = [pair for pair in scene.slidings if pair.link == link.name]
+    pairs = [pair for pair in scene.slidings if pair.a == link.name]
     start, angle_on = table.start, table.angle_on
     if any(pair.rolling for pair in scene.higher_pairs):
         begun = scene.starts.get(pairs[0].key if pairs else link.name)

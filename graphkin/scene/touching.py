@@ -204,9 +204,9 @@ def _gear(where: str, name: str, gear: Gear, reading: Reading) -> PlacedGear | N
     for carrier in [gear.carrier] if gear.carrier else others:
         axis = _axis(reading, first, carrier)
         if rack:
-            pair = next((s for s in reading.slides if {s.link, s.on} == {second, carrier}), None)
+            pair = next((s for s in reading.slides if {s.a, s.b} == {second, carrier}), None)
             if axis and pair:
-                sense = 1 if pair.link == second else -1
+                sense = 1 if pair.a == second else -1
                 return PlacedGear(name, (first, second), (z1, None), carrier, (axis, ""), guide, pair.key, sense)
             continue
         other = _axis(reading, second, carrier)
@@ -246,7 +246,7 @@ def cams_of(
     given : places of points that the file draws (m)
     """
     file = reading.file
-    rails = {s.link: (s.key, guides.get(s.guide)) for s in reading.slides if s.on == reading.frame.name}
+    rails = {s.a: (s.key, guides.get(s.guide.name)) for s in reading.slides if s.b == reading.frame.name}
     lines = {name: (pair, rail.through, rail.direction) for name, (pair, rail) in rails.items() if rail is not None}
     drawn = {p: complex(*place) * reading.metres for p, place in file.sketch.items()} | dict(given)
     moved: dict[str, str] = {}
@@ -334,7 +334,7 @@ def _swings(here: str, name: str, cam: Cam, reading: Reading, lines: Mapping[str
     if link is None or reading.lost_under("links", follower) or reading.lost_under("frame"):
         return None
     pivots = [p for p in link.points if p in _fixed(reading)]
-    if any(pair.link == follower and pair.on == frame for pair in reading.slides):
+    if any(pair.a == follower and pair.b == frame for pair in reading.slides):
         return None  # what is wrong with its guide is told already
     if len(pivots) != 1 or link.on is not None:
         reading.say(where, "link neither slides on a guide of the", "write on guide or points with a pivot",

@@ -75,7 +75,7 @@ def _sides(scene: Mechanism, contact: PlacedContact) -> tuple[int, str] | None:
     pivots = [p for p in scene.by_name[driver.link].points if p in scene.frame.points]
     if driver.link == contact.face or not pivots:
         return None
-    pair = next((s.key for s in scene.slidings if s.link == follower and s.on == scene.frame.name), None)
+    pair = next((s.key for s in scene.slidings if s.a == follower and s.b == scene.frame.name), None)
     turns = any(p in scene.frame.points for p in scene.by_name[follower].points)
     return (side, pair) if pair is not None else (side, follower) if turns else None
 
@@ -94,7 +94,7 @@ def _measured(reach: DriverRange, contact: PlacedContact, side: int, of: str) ->
     offset = None
     if not swings:
         pair = next(s for s in scene.slidings if s.key == of)
-        guide = scene.frame.guides[pair.guide]
+        guide = pair.guide
         at = guide.through
         if not contact.flat:
             at = reach.motion(np.zeros(1)).point(contact.centres[1 - which], follower).z[0]
@@ -135,7 +135,7 @@ def disc_course(structure: Structure, disc: DiscCam, angle: Array) -> tuple[Arra
     else:
         value = motion.slide(of)[0]
         pair = next(s for s in scene.slidings if s.key == of)
-        motion_of_follower = np.full(len(angle), scene.frame.guides[pair.guide].direction)
+        motion_of_follower = np.full(len(angle), pair.guide.direction)
     pitch = None if contact.flat else (motion.position(contact.centres[1 - side], disc.follower) - axis) * back
     pressure = angle_between(contact_normal(motion, contact), motion_of_follower)
     return np.abs(value - disc.lowest), (place - axis) * back, pitch, pressure

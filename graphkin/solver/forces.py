@@ -20,14 +20,13 @@ import numpy as np
 from graphkin.errors import CallError, Unsolvable
 from graphkin.plane import cross
 from graphkin.scene.model import EDGE, ForceJoint, LoadOn, SpringOn, joints, no_force
-from graphkin.scene.pairs import Meeting
+from graphkin.scene.pairs import Meeting, Pair
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.algebra.constraints import solve_all
 from graphkin.solver.algebra.pose import Array, known_where
 from graphkin.solver.motion import SLIGHT, Motion
 from graphkin.solver.quantities import part_along
 from graphkin.solver.touching import touch_of
-from graphkin.structure import Pair
 from graphkin.words import Phrase, Wording
 
 

@@ -13,12 +13,13 @@ import numpy as np
 
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Mechanism, PlacedLink
+from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Measure
 from graphkin.solver.algebra.bounds import BLOCK, FEW, Accuracy
 from graphkin.solver.algebra.pose import UNIT, Array, ErrorBound, Pose
 from graphkin.solver.quantities import Posed, all_slides, value_of_symbol
-from graphkin.structure import Pair, Structure
+from graphkin.structure import Structure
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, Wording
 

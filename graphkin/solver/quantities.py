@@ -17,12 +17,12 @@ import numpy as np
 from graphkin.errors import CallError, did_you_mean
 from graphkin.plane import dot
 from graphkin.scene.model import PlacedLink
+from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import PointRef, Symbol, centre_links
 from graphkin.solver.algebra.expressions import angle_of, size
 from graphkin.solver.algebra.pose import UNIT, Array, ErrorBound, Pose, R, V
 from graphkin.solver.cams import cam_at
-from graphkin.structure import Pair, Structure
-from graphkin.structure.model import slide_pair
+from graphkin.structure import Structure
 from graphkin.structure.transmission import (
     TransmissionAngle,
     joint_between,
@@ -115,8 +115,7 @@ AnyPosed = Posed[Any, Any]
 def all_slides(structure: Structure) -> tuple[Pair, ...]:
     """The sliding pairs, those of redundant links after the others."""
     have = {s.key for s in structure.slides}
-    scene = structure.scene
-    return structure.slides + tuple(slide_pair(scene, s) for s in scene.slidings if s.key not in have)
+    return structure.slides + tuple(s for s in structure.scene.slidings if s.key not in have)
 
 
 def value_of_symbol(posed: Posed, symbol: Symbol) -> Array:

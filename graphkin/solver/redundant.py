@@ -11,10 +11,9 @@ import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import Mechanism, PlacedLink
-from graphkin.scene.pairs import SlidingPair
+from graphkin.scene.pairs import Pair
 from graphkin.solver.algebra.pose import Array, ErrorBound, Pose, aimed, rest
 from graphkin.structure import Structure
-from graphkin.structure.model import slide_pair
 from graphkin.words import Phrase, links_named
 
 FITS = 1e-9
@@ -94,7 +93,7 @@ def fit(scene: Mechanism, link: PlacedLink, poses: Mapping[str, Pose]) -> Fit | 
 
 def _fit(scene: Mechanism, link: PlacedLink, poses: Mapping[str, Pose]) -> Fit | None:
     shared = {p: n for p in link.points for n in scene.holders[p] if n in poses and n != link.name}
-    slides = [s for s in scene.slidings if s.link == link.name and s.on in poses]
+    slides = [s for s in scene.slidings if s.a == link.name and s.b in poses]
     pose = _between_hinges(scene, link, shared, poses) if len(shared) > 1 else None
     if pose is None:
         pose = _on_guide(scene, link, shared, slides, poses)
@@ -107,8 +106,7 @@ def _fit(scene: Mechanism, link: PlacedLink, poses: Mapping[str, Pose]) -> Fit |
     push = _most([np.abs(p.a) + (np.abs(p.alpha) + p.omega**2) * size for p in everything])
     residuals = [[np.abs(a.z - b.z) / size, np.abs(a.v - b.v), np.abs(a.a - b.a)] for a, b in gaps]
     for s in slides:
-        pair = slide_pair(scene, s)
-        seen = poses[s.on].fixed(pair.guide.through, pair.guide.direction).inverse().of(pose)
+        seen = poses[s.b].fixed(s.guide.through, s.guide.direction).inverse().of(pose)
         turn = seen.u * np.conj(s.turn)
         residuals.append([np.abs(seen.z.imag) / size, np.abs(seen.v.imag), np.abs(seen.a.imag)])
         residuals.append([np.abs(turn - 1), np.abs(seen.omega) * size, np.abs(seen.alpha) * size])
@@ -130,11 +128,11 @@ def _between_hinges(
 
 
 def _on_guide(
-    scene: Mechanism, link: PlacedLink, shared: Mapping[str, str], slides: list[SlidingPair], poses: Mapping[str, Pose]
+    scene: Mechanism, link: PlacedLink, shared: Mapping[str, str], slides: list[Pair], poses: Mapping[str, Pose]
 ) -> Pose | None:
     if not slides:
         return None
-    pair = slide_pair(scene, slides[0])
+    pair = slides[0]
     guide = poses[pair.b].fixed(pair.guide.through, pair.guide.direction)
     u = guide.u * pair.turn
     for point, holder in shared.items():

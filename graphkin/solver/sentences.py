@@ -8,8 +8,9 @@ from functools import reduce
 import numpy as np
 
 from graphkin.scene.model import Driver, Mechanism
+from graphkin.scene.pairs import Pair
 from graphkin.solver.algebra.pose import Array
-from graphkin.structure import Dyad, LargerGroup, Pair, Structure, named_with_contact
+from graphkin.structure import Dyad, LargerGroup, Structure, named_with_contact
 from graphkin.words import Phrase, Wording
 
 ROUNDING = 5e-15

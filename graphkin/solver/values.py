@@ -191,7 +191,7 @@ def as_drawn(motion: Motion, structure: Structure) -> Motion:
         return motion
     poses = dict(motion.poses)
     for slide in structure.slides:
-        if slide.a in poses or slide.pin is None or not poses.keys() >= {slide.of, slide.b}:
+        if slide.a in poses or not poses.keys() >= {slide.of, slide.b}:
             continue  # a slide of the scene's own, or nothing asks for it
         at = poses[slide.of].fixed(structure.links[slide.of].points[slide.pin])
         guide = poses[slide.b]

@@ -13,7 +13,6 @@ from graphkin.structure.model import (
     LargerGroup,
     Mobility,
     Mover,
-    Pair,
     RollingRelation,
     Structure,
     by_drivers_alone,
@@ -31,7 +30,7 @@ from graphkin.structure.rolling import meshes_of, unrolled
 
 __all__ = [
     "Body", "Driven", "DrivenJoint", "DrivenTriangle", "Dyad", "DyadKind", "Element", "LargerGroup",
-    "Mobility", "Mover", "Pair", "RollingRelation", "Structure", "analyse", "by_drivers_alone",
+    "Mobility", "Mover", "RollingRelation", "Structure", "analyse", "by_drivers_alone",
     "cams_replaced", "driver_pair", "greatest_before", "leading", "links_for", "meshes_of", "mobility_of",
     "named_with_contact", "needed", "part_of", "pick", "pin_in_guide", "pins_on_circles", "regrouped",
     "replacement_told", "started", "unrolled", "without",

@@ -19,8 +19,8 @@ from typing import Literal, TypeVar
 
 from graphkin.errors import CallError, NoDriver, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
+from graphkin.scene.pairs import OWN_AXIS, Pair
 from graphkin.structure.model import (
-    OWN_AXIS,
     Body,
     Driven,
     DrivenJoint,
@@ -30,12 +30,10 @@ from graphkin.structure.model import (
     Element,
     LargerGroup,
     Mobility,
-    Pair,
     RollingRelation,
     Structure,
     driver_pair,
     reached,
-    slide_pair,
 )
 from graphkin.structure.replacement import replacing_link
 from graphkin.structure.rolling import followers_of, meshes_of, relations_of, rolled_by, start_drivers, unrolled
@@ -88,10 +86,10 @@ def _placed(scene: Mechanism) -> Structure:
     links.update({link.name: link for link in scene.links if not link.redundant})
     slides: list[Pair] = []
     for s in scene.slides:
-        if (s.of or s.link) in links and s.on in links:
+        if links.keys() >= {*s.bodies}:
             if s.of:
-                links[s.link] = PlacedLink(s.link, {s.point: 0j}, (s.point,), OWN_AXIS)
-            slides.append(slide_pair(scene, s))
+                links[s.a] = PlacedLink(s.a, {s.pin: 0j}, (s.pin,), OWN_AXIS)
+            slides.append(s)
     pins, touching = sum(s.higher for s in slides), scene.acting_between(links)
     for pair in touching:
         if (instead := replacing_link(pair, links)) is not None:
@@ -638,7 +636,7 @@ def driven_by(scene: Mechanism, link: str) -> Structure:
     known = [body.name for body in scene.links]
     if link not in known:
         raise CallError.of(where, "there is no link", did_you_mean(link, known), name=link)
-    slide = next((s.key for s in scene.slidings if s.link == link and s.on == frame.name), "")
+    slide = next((s.key for s in scene.slidings if s.a == link and s.b == frame.name), "")
     if not slide and not any(p in frame.points for p in scene.by_name[link].points):
         raise CallError.of(where, "neither turns about the frame nor slides on")
     return analyse(replace(scene, drivers=(Driver(link, frame.name, 0.0, 0.0, 0.0, slide), *scene.drivers[1:])))

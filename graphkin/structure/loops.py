@@ -24,7 +24,8 @@ from numpy.typing import NDArray
 
 from graphkin.errors import CallError
 from graphkin.plane import added_up, cross, dot
-from graphkin.structure.model import Coordinate, Driven, Dyad, Element, Pair, Structure
+from graphkin.scene.pairs import Pair
+from graphkin.structure.model import Coordinate, Driven, Dyad, Element, Structure
 from graphkin.words.written import roman
 
 
@@ -250,7 +251,7 @@ def _place(structure: Structure, link: str, pair: Pair) -> tuple[complex, str]:
     if pair.turns:
         return structure.links[link].points[pair.point], pair.point
     if link == pair.a:
-        return 0j, pair.pin or ""
+        return 0j, pair.pin
     at, points = pair.guide.through, structure.links[link].points
     return at, next((p for p, z in points.items() if abs(z - at) < 1e-12 * structure.scene.size), "")
 
@@ -271,7 +272,7 @@ def _arrows(structure: Structure, cycle: Sequence[Edge]) -> tuple[LoopArrow, ...
 
 
 def _travel(structure: Structure, slide: Pair, sign: float) -> LoopArrow:
-    names = _place(structure, slide.b, slide)[1], slide.pin or ""
+    names = _place(structure, slide.b, slide)[1], slide.pin
     return LoopArrow(slide.b, sign * slide.guide.direction, names if sign > 0 else names[::-1], slide.key)
 
 

@@ -13,69 +13,11 @@ from functools import cached_property
 from typing import Any, ClassVar, Literal, TypeAlias, TypeVar
 
 from graphkin.errors import CallError, did_you_mean
-from graphkin.plane import Poses, added_up
+from graphkin.plane import added_up
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
-from graphkin.scene.pairs import HigherPair, LawCam, PlacedGuide, SlidingPair
+from graphkin.scene.pairs import HigherPair, LawCam, Pair
 from graphkin.scene.symbol import Symbol, centre_links
 from graphkin.words import Phrase, about, joined, links_named, listed
-
-NO_GUIDE = PlacedGuide("", 0j, 0j)
-"""Where a pair has no direction in which it slides: it turns."""
-OWN_AXIS = {"": PlacedGuide("", 0j, 1 + 0j)}
-"""The one guide of a link that has no other: its own x axis."""
-
-
-@dataclass(frozen=True)
-class Pair:
-    """A lower pair of the links ``a`` and ``b``: both turn about a point, or ``a`` slides by its origin on ``b``.
-
-    Parameters
-    ----------
-    key : the point of a turning pair; SLIDING/GUIDING of a sliding one, POINT/GUIDING of a pin in a slot
-    guide : the guide of link b along which a slides
-    turn : unit complex number from the guide's sense to a's own x axis
-    pin : a's first point, if it has one
-    of : the link with the pin in a slot, or with the disc on a face, that the block ``a`` replaces; else ""
-
-    From these follow whether it ``turns`` or is a ``higher`` pair with such a block, both ``links``, the ``body`` of
-    the file that slides, the ``point`` about which they turn ("" of a sliding pair) and its ``letter``, R (revolute) or
-    P (prismatic).
-    """
-
-    key: str
-    a: str
-    b: str
-    guide: PlacedGuide = NO_GUIDE
-    turn: complex = 1 + 0j
-    pin: str | None = None
-    of: str = ""
-
-    turns: bool = field(init=False, repr=False, compare=False)
-    higher: bool = field(init=False, repr=False, compare=False)
-    body: str = field(init=False, repr=False, compare=False)
-    links: tuple[str, str] = field(init=False, repr=False, compare=False)
-    point: str = field(init=False, repr=False, compare=False)
-    letter: str = field(init=False, repr=False, compare=False)
-
-    def __post_init__(self) -> None:
-        turns = not self.guide.direction
-        self.__dict__.update(
-            turns=turns, higher=bool(self.of), body=self.of or self.a, links=(self.a, self.b),
-            point=self.key if turns else "", letter="R" if turns else "P",
-        )  # fmt: skip
-
-    def other(self, link: str) -> str:
-        """The other link of the pair."""
-        return self.b if link == self.a else self.a
-
-    def along(self, poses: Poses) -> complex:
-        """The unit vector along its guide, in the guide's sense, with the links in these poses."""
-        return poses[self.b].axis * self.guide.direction
-
-
-def slide_pair(scene: Mechanism, s: SlidingPair) -> Pair:
-    """A sliding pair or a pin in a slot of the file with its guide, also of a redundant link."""
-    return Pair(s.key, s.link, s.on, scene.by_name[s.on].guides[s.guide], s.turn, s.pin, s.of)
 
 
 @dataclass(frozen=True)
@@ -561,7 +503,7 @@ def without(scene: Mechanism, gone: Collection[str]) -> Mechanism:
     return replace(
         scene.keeping(lambda pair: lost.isdisjoint((*pair.members, pair.block))),
         links=tuple(link for link in scene.links if link.name not in lost),
-        slides=tuple(s for s in scene.slides if lost.isdisjoint((s.link, s.of, s.on))),
+        slides=tuple(s for s in scene.slides if lost.isdisjoint((*s.links, s.of))),
         question=replace(scene.question, find=(), stated=()),
     )
 

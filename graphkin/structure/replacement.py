@@ -21,8 +21,8 @@ from dataclasses import replace
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Poses, cross, unit
 from graphkin.scene.model import Mechanism, PlacedLink
-from graphkin.scene.pairs import CircularSlot, HigherPair, PlacedContact, PlacedGuide, SlidingPair, told
-from graphkin.structure.model import OWN_AXIS, Mobility, Pair, Structure
+from graphkin.scene.pairs import OWN_AXIS, CircularSlot, HigherPair, Pair, PlacedContact, PlacedGuide, told
+from graphkin.structure.model import Mobility, Structure
 from graphkin.words import Phrase
 
 
@@ -115,7 +115,7 @@ def cams_replaced(scene: Mechanism, poses: Poses, values: Mapping[str, float], b
     Unsolvable : a follower that does not come to its base circle, a pitch curve with a cusp
     """
     links = {link.name: link for link in scene.links}
-    pins: list[SlidingPair] = []
+    pins: list[Pair] = []
     made: dict[str, PlacedLink] = {}
     slots: list[CircularSlot] = []
     contacts: list[PlacedContact] = []
@@ -133,11 +133,11 @@ def cams_replaced(scene: Mechanism, poses: Poses, values: Mapping[str, float], b
             links[cam.link] = replace(link, points={**link.points, point: centre / turn})
             touches = not bars and abs(radius) >= SHARP * cam.base
             # the turn from the guide of a sliding follower to its own axis
-            turned = next(s.turn for s in scene.slidings if s.link == cam.follower and s.on == scene.frame.name)
+            turned = next(s.turn for s in scene.slidings if s.a == cam.follower and s.b == scene.frame.name)
             face = PlacedGuide("f", -(0.0 if touches else radius) / turned, 1j / turned)
             pin = pin_in_guide(links, point, cam.link, cam.follower, face)
             if touches:
-                contacts.append(PlacedContact(next(letters), cam.bodies, (point, pin.guide), (point,), (radius,),
+                contacts.append(PlacedContact(next(letters), cam.bodies, (point, pin.guide.name), (point,), (radius,),
                                               cam.follower, left=True, rolling=False))
             else:
                 pins.append(pin)
@@ -174,13 +174,13 @@ def cams_replaced(scene: Mechanism, poses: Poses, values: Mapping[str, float], b
 
 def pin_in_guide(
     links: dict[str, PlacedLink], point: str, of: str, on: str, guide: PlacedGuide, mark: str = "1"
-) -> SlidingPair:
+) -> Pair:
     """A pin of link ``of`` in a guide that link ``on`` is given among ``links``, with as many marks behind its name as
     make it the only guide of that name."""
     while guide.name in links[on].guides:
         guide = replace(guide, name=guide.name + mark)
     links[on] = replace(links[on], guides={**links[on].guides, guide.name: guide})
-    return SlidingPair.of_pin(point, of, on, guide.name)
+    return Pair.of_pin(point, of, on, guide)
 
 
 def _free_names(scene: Mechanism, *first: str) -> Iterator[str]:

@@ -20,8 +20,8 @@ from itertools import chain, islice, product
 
 from graphkin.plane import added_up
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
-from graphkin.scene.pairs import HigherPair, PlacedGear
-from graphkin.structure.model import Coordinate, LargerGroup, Pair, RollingRelation, Structure
+from graphkin.scene.pairs import HigherPair, Pair, PlacedGear
+from graphkin.structure.model import Coordinate, LargerGroup, RollingRelation, Structure
 
 
 def meshes_of(

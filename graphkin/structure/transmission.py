@@ -20,9 +20,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from graphkin.errors import CallError
-from graphkin.scene.pairs import PlacedContact
+from graphkin.scene.pairs import Pair, PlacedContact
 from graphkin.scene.symbol import Symbol
-from graphkin.structure.model import Dyad, Pair, Structure
+from graphkin.structure.model import Dyad, Structure
 from graphkin.words import Phrase
 
 Spot = tuple[str, complex]

@@ -205,7 +205,7 @@ def coupler_points(scene: Mechanism) -> tuple[tuple[str, str], ...]:
     """Points of couplers, links neither pivoted to the frame nor sliding on it, with their link; not points that other
     links share."""
     frame = scene.frame
-    guided = {s.link for s in scene.slidings if s.on == frame.name}
+    guided = {s.a for s in scene.slidings if s.b == frame.name}
     plain = {link.name for link in scene.links if any(p in frame.points for p in link.points)} | guided
     points: list[tuple[str, str]] = []
     for link in scene.links:

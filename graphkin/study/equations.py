@@ -18,10 +18,11 @@ import numpy as np
 
 from graphkin.errors import CallError
 from graphkin.plane import Values
+from graphkin.scene.pairs import Pair
 from graphkin.solver import Motion
 from graphkin.solver.algebra.constraints import solve_all
 from graphkin.solver.algebra.pose import Array
-from graphkin.structure import Driven, Dyad, Pair, Structure
+from graphkin.structure import Driven, Dyad, Structure
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:

@@ -55,7 +55,7 @@ def on_paper(scene: Mechanism, symbol: Symbol) -> tuple[Symbol, complex]:
     if not symbol.is_rate_of_pair:
         return symbol, 1.0 + 0j
     pair = next(pair for pair in scene.slidings if pair.key == symbol.pair)
-    return Symbol(symbol.kind, PointRef(pair.pin or "")), scene.frame.guides[pair.guide].direction
+    return Symbol(symbol.kind, PointRef(pair.pin)), pair.guide.direction
 
 
 def drawn(sheet: Sheet, symbol: Symbol) -> float | None:
@@ -123,8 +123,8 @@ def ordinate_chains(scene: Mechanism) -> Iterator[tuple[Symbol, ...]]:
     for link in scene.links:
         yield tuple(Symbol(kind, link=link.name) for kind in ("theta", "omega", "alpha"))
     for pair in scene.slidings:
-        kinds = "sva" if pair.on == scene.frame.name and pair.pin is not None else "s"
-        yield tuple(Symbol(kind, link=pair.link, other=pair.on) for kind in kinds)
+        kinds = "sva" if pair.b == scene.frame.name and pair.pin else "s"
+        yield tuple(Symbol(kind, link=pair.a, other=pair.b) for kind in kinds)
     for point in map(PointRef, scene.holders):
         for axis in ("x", "y"):
             yield Symbol(axis, point), *(Symbol(kind, point, axis=axis) for kind in "va")

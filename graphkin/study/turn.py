@@ -14,13 +14,14 @@ import numpy as np
 from graphkin.errors import Unsolvable
 from graphkin.plane import added_up
 from graphkin.scene.model import Mechanism
+from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, Motion, own_slides
 from graphkin.solver.path.driver_path import FAR, Path, Stretch, assembled, not_tried
 from graphkin.solver.path.driver_range import EQUAL as EQUALLY_FAR
 from graphkin.solver.path.driver_range import Extremes
 from graphkin.solver.values import FlywheelStudy, flywheel_of
-from graphkin.structure import Driven, Dyad, DyadKind, Pair, Structure
+from graphkin.structure import Driven, Dyad, DyadKind, Structure
 from graphkin.study.extremes import Extreme, Traced, trace
 from graphkin.study.quantities import course_of, link_quantities, rates_of, slide_quantities
 
@@ -437,7 +438,7 @@ def output_links(scene: Mechanism) -> tuple[str, ...]:
     """Links pivoted to the frame that no driver turns about it."""
     frame = scene.frame
     driven = {d.link for d in scene.drivers if d.turns_about(frame.name)}
-    sliding = {s.link for s in scene.slidings}
+    sliding = {s.a for s in scene.slidings}
     return tuple(
         link.name
         for link in scene.links

@@ -10,7 +10,7 @@ import pytest
 from graphkin.errors import SceneError
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.model import Driver, Mechanism
-from graphkin.scene.pairs import SlidingPair
+from graphkin.scene.pairs import Pair, PlacedGuide
 from graphkin.scene.spelling import read_cell
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
@@ -18,6 +18,9 @@ from graphkin.scene.tables import Units
 from .scenes import FOUR_BAR, SIX_BAR, changed
 
 pytestmark = pytest.mark.quick
+
+OWN = PlacedGuide("")
+"""The own axis of a link."""
 
 
 def read(text: str, *changes: tuple[str, str]) -> Mechanism:
@@ -103,8 +106,8 @@ def test_a_guide_of_the_frame_is_in_world_axes() -> None:
 
 def test_sliding_pairs_name_guide_and_pin() -> None:
     assert read(SIX_BAR).slidings == (
-        SlidingPair("2", "3", "", 1 + 0j, "B"), SlidingPair("4", "3", "", 1 + 0j, "D"),
-        SlidingPair("5", "6", "h", 1 + 0j, "D"))
+        Pair.sliding("2", "3", OWN, pin="B"), Pair.sliding("4", "3", OWN, pin="D"),
+        Pair.sliding("5", "6", PlacedGuide("h", -0.164j), pin="D"))
 
 
 def test_an_oldham_block_slides_on_two_links_at_two_angles() -> None:
@@ -124,7 +127,7 @@ angle = 30
 rpm = 60
 """
     assert mechanism_of_text(text, "oldham").slidings == (
-        SlidingPair("2", "1", "", 1 + 0j, None), SlidingPair("2", "3", "", 1j, None))
+        Pair.sliding("2", "1", OWN), Pair.sliding("2", "3", OWN, 1j))
 
 
 def test_one_guide_takes_its_angle_as_a_number_or_a_list() -> None:
@@ -136,7 +139,7 @@ def test_a_pin_in_two_slots_is_one_constraint_for_each() -> None:
     text = changed(SIX_BAR, ('[links.4]\npoints = ["D"]\non     = "3"\n', ""),
                    ('points = ["D"]\non     = "6.h"', 'on = "6.h"\nat = { D = [0, 0] }'))
     scene = mechanism_of_text(text + '[pins.D]\nof = "5"\nin = ["3", "1"]\n', "pin")
-    assert scene.pins == (SlidingPair.of_pin("D", "5", "3", ""), SlidingPair.of_pin("D", "5", "1", ""))
+    assert scene.pins == (Pair.of_pin("D", "5", "3", OWN), Pair.of_pin("D", "5", "1", OWN))
 
 
 def test_a_driven_angle_is_in_radians() -> None:
@@ -265,12 +268,12 @@ velocity = 60
 
 
 def test_a_swinging_block_slides_on_the_axis_of_its_rod() -> None:
-    assert mechanism_of_text(SWINGING_BLOCK, "x").slidings == (SlidingPair("3", "2", "", 1 + 0j, "C"),)
+    assert mechanism_of_text(SWINGING_BLOCK, "x").slidings == (Pair.sliding("3", "2", OWN, pin="C"),)
 
 
 def test_a_yoke_slides_by_its_own_origin_and_carries_a_slot() -> None:
-    assert [(s.key, s.guide, s.pin) for s in mechanism_of_text(SCOTCH_YOKE, "x").slidings] == [
-        ("2/3", "s", "B"), ("3/4", "x", None)]
+    assert [(s.key, s.guide.name, s.pin) for s in mechanism_of_text(SCOTCH_YOKE, "x").slidings] == [
+        ("2/3", "s", "B"), ("3/4", "x", "")]
 
 
 def test_a_cylinder_drives_by_its_travel() -> None:
@@ -280,7 +283,7 @@ def test_a_cylinder_drives_by_its_travel() -> None:
 
 def test_the_own_axis_of_the_frame_is_a_guide() -> None:
     scene = read(SCOTCH_YOKE, ('on     = "4.x"', 'on     = "4"'))
-    assert (scene.slidings[1].on, scene.slidings[1].guide) == ("4", "")
+    assert (scene.slidings[1].b, scene.slidings[1].guide.name) == ("4", "")
 
 
 def test_arrays_of_another_library_are_numbers() -> None:

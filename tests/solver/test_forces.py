@@ -70,8 +70,8 @@ def shares(mechanism, solved, symbol):
     """The link on which a force or couple of a pair acts, the one that it comes from, and where it acts."""
     motion, letter, first, second = solved.motion, symbol.kind, symbol.link, symbol.other
     point = symbol.of.point if symbol.of else ""
-    sliding = next((s for s in mechanism.slidings if (s.link, s.on) == (second, first) and point in ("", s.pin)), None)
-    pin = next((p for p in mechanism.pins if (p.of, p.on) == (second, first) and point in ("", p.point)), None)
+    sliding = next((s for s in mechanism.slidings if (s.a, s.b) == (second, first) and point in ("", s.pin)), None)
+    pin = next((p for p in mechanism.pins if (p.of, p.b) == (second, first) and point in ("", p.pin)), None)
     cam = next((c for c in mechanism.cams if (c.link, c.follower) == (first, second)), None)
     gear = next((g for g in mechanism.gears if g.wheels == (first, second)), None)
     if gear is not None:
@@ -89,7 +89,7 @@ def shares(mechanism, solved, symbol):
         pose = motion.poses[second]
         own = mechanism.by_name[second].points[sliding.pin] if sliding.pin else 0j
         return second, first, pose.z + pose.u * own
-    name = pin.point if pin is not None else common[0]
+    name = pin.pin if pin is not None else common[0]
     return second, first, motion.point(name).z
 
 
@@ -140,12 +140,11 @@ def residues(scene):
             act(link, 0j, None, moment)
             act(driver.relative_to, 0j, None, -moment)
             continue
-        pin = next((p for p in mechanism.pins if p.key == driver.key), None)
-        slide = next((s for s in mechanism.slidings if s.key == driver.key), None)
-        link, on = (pin.of, pin.on) if pin else (slide.link, slide.on)
+        slide = next(s for s in mechanism.slides if s.key == driver.key)
+        link, on = slide.bodies
         balances.add(link)
         own = mechanism.by_name[link].points
-        foot = own[pin.point] if pin else own[slide.pin] if slide.pin else 0
+        foot = own[slide.pin] if slide.pin else 0
         at = motion.poses[link].z + motion.poses[link].u * foot
         act(link, forces.value(Symbol.parse(f"F_{link}")), at)
         act(on, -forces.value(Symbol.parse(f"F_{link}")), at)

@@ -26,8 +26,9 @@ from graphkin.construction.forces.force_sheet import ForceGroup, ForceVector, Mo
 from graphkin.construction.forces.position import DrawnPosition
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, cross, dot, unit
+from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Driven, DrivenJoint, Dyad, LargerGroup, Pair
+from graphkin.structure import Driven, DrivenJoint, Dyad, LargerGroup
 from graphkin.words import links_named
 
 NORMAL, TANGENT = "n-n", "t-t"

@@ -22,8 +22,9 @@ from graphkin.construction.position.links_on_paper import travel
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot, unit
 from graphkin.scene.model import Driver, ForceJoint, LinkMass, LoadOn, SpringOn, hosts_at, joints
+from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Element, LargerGroup, Pair, Structure, analyse
+from graphkin.structure import Element, LargerGroup, Structure, analyse
 from graphkin.words import Phrase
 
 

@@ -58,8 +58,9 @@ from graphkin.construction.trains import rolled
 from graphkin.errors import Unsolvable
 from graphkin.plane import added_up, dot, unit
 from graphkin.scene.model import Driver
+from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Mover, Pair, driver_pair
+from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Mover, driver_pair
 from graphkin.words import links_named
 from graphkin.words.written import LONGEST, MOST
 
@@ -516,7 +517,7 @@ class TrialPolygons:
         plan, order = self.plan, self.order
         # no point of a sliding pair without a pin is a joint
         edges = [edge for ref in plan.graph.nodes for edge in plan.graph.edges[ref] if edge.forward and (
-            (edge.slide is not None and edge.slide.pin is None) or plan.graph.natural >= {edge.start, edge.end})]
+            (edge.slide is not None and not edge.slide.pin) or plan.graph.natural >= {edge.start, edge.end})]
         keys = [(edge, across) for edge in edges for across in (False, True)]
         try:
             trials = [self.polygon(number, rates) for number, rates in enumerate(self.rates(), 1)]

@@ -42,8 +42,9 @@ from graphkin.construction.polygons.vector_graph import (
     node,
 )
 from graphkin.plane import added_up, cross, dot, unit
+from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Pair
+from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup
 from graphkin.words.written import MOST
 
 Side = list[tuple[RelativeMotion, list[Term]]]

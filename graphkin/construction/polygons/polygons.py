@@ -41,8 +41,9 @@ from graphkin.construction.trains import TrainPlan
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.model import PlacedLink
+from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Dyad, LargerGroup, Pair, Structure
+from graphkin.structure import Dyad, LargerGroup, Structure
 from graphkin.words import Phrase
 
 RATE: Mapping[Order, Literal["omega", "alpha"]] = {"velocity": "omega", "acceleration": "alpha"}

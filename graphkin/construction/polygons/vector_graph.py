@@ -22,9 +22,9 @@ from itertools import chain, pairwise
 
 from graphkin.construction.board.steps import Direction
 from graphkin.scene.model import PlacedLink
-from graphkin.scene.pairs import PlacedContact
+from graphkin.scene.pairs import Pair, PlacedContact
 from graphkin.scene.symbol import PointRef
-from graphkin.structure import DrivenJoint, Dyad, LargerGroup, Pair, Structure
+from graphkin.structure import DrivenJoint, Dyad, LargerGroup, Structure
 from graphkin.structure.model import Coordinate
 
 LONGEST = 5  # edges of an equation

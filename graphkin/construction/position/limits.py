@@ -23,8 +23,9 @@ from graphkin.construction.position.reduced_mechanism import PlacedElements
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Poses
 from graphkin.scene.model import Mechanism
+from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Element, Pair, Structure, analyse
+from graphkin.structure import Element, Structure, analyse
 from graphkin.structure.transmission import sliding_pair
 from graphkin.words import Phrase
 

@@ -17,6 +17,7 @@ from graphkin.construction.board.steps import Bar, CompassArc, PlaceStep, Step
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Pose, Poses, added_up, cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
 from graphkin.scene.model import Driver, PlacedLink
+from graphkin.scene.pairs import Pair
 from graphkin.structure import (
     Body,
     Driven,
@@ -24,7 +25,6 @@ from graphkin.structure import (
     DyadKind,
     Element,
     LargerGroup,
-    Pair,
     RollingRelation,
     Structure,
     named_with_contact,

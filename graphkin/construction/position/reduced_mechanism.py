@@ -31,12 +31,12 @@ from graphkin.construction.position.links_on_paper import (
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Pose, Poses, cross, cross_lines, unit
 from graphkin.scene.model import Driver
+from graphkin.scene.pairs import Pair
 from graphkin.structure import (
     Driven,
     Dyad,
     Element,
     LargerGroup,
-    Pair,
     RollingRelation,
     Structure,
     regrouped,

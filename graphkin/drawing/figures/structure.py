@@ -26,7 +26,8 @@ from graphkin.drawing.place.piece import Piece, cut_to, ink_box, joined, moved_p
 from graphkin.drawing.text import plain, rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import dot
-from graphkin.structure import Driven, Dyad, Element, LargerGroup, Pair, Structure, replacement_told
+from graphkin.scene.pairs import Pair
+from graphkin.structure import Driven, Dyad, Element, LargerGroup, Structure, replacement_told
 from graphkin.words import Phrase, class_of, languages, rich_text, say
 from graphkin.words.symbols import RichText, Words, sign, spaced
 
@@ -79,7 +80,7 @@ def _diagram(sheet: Sheet, letters: Notation, spoken: str, panel: Box) -> Piece:
         if count > 2 and point in here.places:
             labels.append(Label.of(rich(f"{count} − 1", 2.4, bold=True), on_page(here.places[point]), f"badge-{point}",
                                    colour=strokes.GREY, rank=1))
-    pairs = [(f"{pin.point}-{pin.on}", pin.point) for pin in sheet.scene.whole.pins]
+    pairs = [(f"{pin.pin}-{pin.b}", pin.pin) for pin in sheet.scene.whole.pins]
     pairs += [(f"{path.point}-{path.on}", path.point) for path in sheet.scene.whole.replacing.values()]
     pairs += [(c.name, c.name) for c in sheet.scene.contacts if c.carrier or not c.rolling]
     higher = [(name, here.places[point]) for name, point in pairs if point in here.places]

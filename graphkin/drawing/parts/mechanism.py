@@ -242,7 +242,7 @@ def _joint(here: MechanismOnPaper, point: str) -> list[Primitive]:
         return [*symbols.pin(on_page(z), here.colour(moving[0]))]
     if point in here.scene.contact_at:
         return [Circle(on_page(z), 0.5, fill=strokes.BLACK)]
-    if any(p.point == point for p in here.scene.pins):
+    if any(p.pin == point for p in here.scene.pins):
         return [*symbols.pin(on_page(z), strokes.BLACK)]
     thin = strokes.OUTLINE
     return [Line(on_page(z - 1.2), on_page(z + 1.2), thin), Line(on_page(z - 1.2j), on_page(z + 1.2j), thin)]

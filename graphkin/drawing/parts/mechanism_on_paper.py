@@ -22,8 +22,7 @@ from graphkin.drawing.ink.strokes import colour_of_link
 from graphkin.drawing.ink.symbols import hull
 from graphkin.plane import cross, dot
 from graphkin.scene.model import Mechanism
-from graphkin.scene.pairs import CircularSlot, LawCam
-from graphkin.structure import Pair
+from graphkin.scene.pairs import CircularSlot, LawCam, Pair
 
 # mm: how far a bar of no fixed length goes on beyond a block, and a slot beyond its pin
 PAST_BLOCK, PAST_PIN = 9.0, 8.0

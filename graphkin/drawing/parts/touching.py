@@ -189,10 +189,9 @@ def replacing_links(here: MechanismOnPaper, clear: float = 0.0) -> tuple[Primiti
         if bar not in whole.replacing and {path.centre, path.point} <= here.places.keys():
             drawn += _dashed(here.places[path.centre], here.places[path.point], here.colour(bar), clear)
     for pin in here.scene.pins:
-        if pin not in whole.pins and pin.point in here.places:
-            along = here.sheet.poses[pin.on].axis * here.scene.by_name[pin.on].guides[pin.guide].direction
-            at = on_page(here.places[pin.point])
-            drawn += symbols.block(at, phase(along), here.colour(pin.on))
+        if pin not in whole.pins and pin.pin in here.places:
+            at = on_page(here.places[pin.pin])
+            drawn += symbols.block(at, phase(pin.along(here.sheet.poses)), here.colour(pin.b))
             drawn.append(Circle(at, symbols.JOINT_RADIUS, fill=strokes.WHITE, stroke=strokes.OUTLINE))
     for cam in whole.cams:
         added = (p for p in here.scene.by_name[cam.link].points if p not in whole.by_name[cam.link].points)

@@ -21,8 +21,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from graphkin.scene.pairs import Pair
 from graphkin.solver.algebra.pose import FIELDS, Array, Drive, Pose, rest, together, turned
-from graphkin.structure import Driven, Dyad, LargerGroup, Pair, RollingRelation, Structure
+from graphkin.structure import Driven, Dyad, LargerGroup, RollingRelation, Structure
 from graphkin.structure.model import Coordinate
 
 Jet = list[Array]

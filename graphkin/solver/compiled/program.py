@@ -11,12 +11,12 @@ from dataclasses import dataclass, field
 from decimal import Decimal
 
 from graphkin.scene.model import Driver
-from graphkin.scene.pairs import LawCam
+from graphkin.scene.pairs import LawCam, Pair
 from graphkin.solver.algebra.dyads import DyadSolution, Joints, PoseFormula, solve_dyad
 from graphkin.solver.algebra.expressions import Code, ExpressionGraph, Name, Real, Vec, components
 from graphkin.solver.algebra.pose import GIVEN, Pose
 from graphkin.solver.drivers import meant, meant_direction
-from graphkin.structure import Body, Driven, Dyad, LargerGroup, Pair, RollingRelation, Structure
+from graphkin.structure import Body, Driven, Dyad, LargerGroup, RollingRelation, Structure
 from graphkin.structure.model import Coordinate
 
 SPECIAL = (0.0, 1.0, -1.0)
