@@ -279,11 +279,19 @@ def runs_width(runs: tuple[Run, ...]) -> float:
     return max((run.x + width(run.text, run.size, run.italic, run.bold) for run in runs), default=0.0)
 
 
+BEFORE = {"start": 0.0, "middle": 0.5, "end": 1.0}
+"""The share of a text's width before its own point."""
+
+
+def start_of(text: Text) -> complex:
+    """The point of the page (mm) about which the runs of a text are set."""
+    before = BEFORE[text.anchor]
+    return text.at - before * runs_width(text.runs) if before else text.at
+
+
 def start_runs(text: Text) -> tuple[Run, ...]:
     """The runs of a text on the page: x and y become page coordinates (mm) of the start of each baseline."""
-    x, y = text.at.real, text.at.imag
-    if text.anchor != "start":
-        x -= (0.5 if text.anchor == "middle" else 1.0) * runs_width(text.runs)
+    x, y = (start := start_of(text)).real, start.imag
     return tuple(Run(run.text, x + run.x, y + run.y, run.size, run.italic, run.bold) for run in text.runs)
 
 

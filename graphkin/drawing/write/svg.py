@@ -35,7 +35,7 @@ from graphkin.drawing.ink.primitives import (
     Travel,
     class_names,
 )
-from graphkin.drawing.text import has_cjk, runs_width, start_runs, width
+from graphkin.drawing.text import BEFORE, has_cjk, start_of, width
 
 # What XML 1.0 cannot hold, and other control characters.
 _UNFIT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
@@ -249,13 +249,12 @@ class _Ink:
         return self.element("g", {"clip-path": f"url(#{name})"}, clip + self.element("image", look))
 
     def _text(self, text: Text) -> str:
-        runs, anchor = start_runs(text), ""
-        places = [(number(run.x), number(run.y)) for run in runs]
+        runs, start, anchor = text.runs, start_of(text), ""
+        places = [(number(start.real + run.x), number(start.imag + run.y)) for run in runs]
         if len(runs) == 1 and text.anchor != "start":
             # One run may stand by its own middle or end, exact in whatever face the reader has.
             anchor = text.anchor
-            share = 0.5 if anchor == "middle" else 1.0
-            places = [(number(runs[0].x + share * (runs_width(text.runs) - text.runs[0].x)), places[0][1])]
+            places = [(number(text.at.real + (1.0 - BEFORE[anchor]) * runs[0].x), places[0][1])]
         named = self._named(text.id, class_names(text))
         look = {"x": places[0][0], "y": places[0][1], **self.filled("" if self.outlines else text.colour)}
         look["font-size"] = number(max(run.size for run in runs))
@@ -263,35 +262,31 @@ class _Ink:
             look["text-anchor"] = anchor
         if not self.lang.startswith("zh") and has_cjk(text.string):
             look["xml:lang"] = "zh"
-        spans = []
-        for run, (x, y) in zip(runs, places, strict=True):
-            face = {"x": x, "y": y, "font-size": number(run.size)}
-            if run.italic:
-                face["font-style"] = "italic"
-            if run.bold:
-                face["font-weight"] = "bold"
-            spans.append(self._run(run, face, _clean(run.text), look))
+        spans = "".join([self._run(run, x, y, look) for run, (x, y) in zip(runs, places, strict=True)])
         if not self.outlines:
-            return self.element("text", {**look, **named}, "".join(spans))
-        return self._outlined(text.colour, runs, named, look, "".join(spans))
+            return self.element("text", {**look, **named}, spans)
+        return self._outlined(text, start, named, look, spans)
 
-    def _run(self, run: Run, face: dict[str, str], words: str, text: Mapping[str, str]) -> str:
-        """A run of a text of these attributes, with its length."""
+    def _run(self, run: Run, x: str, y: str, text: Mapping[str, str]) -> str:
+        """A run at its place in a text of these attributes, with its length."""
+        words = _clean(run.text)
         self.used[style_of(run.italic, run.bold)].update(words)
         long = number(width(words, run.size, run.italic, run.bold))
-        return self.element(
-            "tspan", {**face, "textLength": long, "lengthAdjust": "spacingAndGlyphs"}, _escaped(words))
+        face = f'{_face(run)} lengthAdjust="spacingAndGlyphs" textLength="{long}"'
+        return f'<tspan font-size="{number(run.size)}"{face} x="{x}" y="{y}">{_escaped(words)}</tspan>'
 
     def _outlined(
-        self, colour: str, runs: tuple[Run, ...], named: dict[str, str], look: dict[str, str], spans: str
+        self, text: Text, start: complex, named: dict[str, str], look: dict[str, str], spans: str
     ) -> str:
         """A text as paths, with the invisible text over them; only the text if no face has its letters."""
         letters = "".join(
-            outline(_clean(run.text), complex(run.x, run.y), run.size, style_of(run.italic, run.bold)) for run in runs
+            outline(_clean(run.text), start + complex(run.x, run.y), run.size, style_of(run.italic, run.bold))
+            for run in text.runs
         )
+        filled = self.filled(text.colour)
         if not letters:
-            return self.element("g", named, self.element("text", {**look, **self.filled(colour)}, spans))
-        path = self.element("path", {"d": letters, **self.filled(colour), "aria-hidden": "true"})
+            return self.element("g", named, self.element("text", {**look, **filled}, spans))
+        path = self.element("path", {"d": letters, **filled, "aria-hidden": "true"})
         return self.element("g", named, path + self.element("text", look, spans))
 
     def _named(self, id: str, classes: tuple[str, ...]) -> dict[str, str]:
@@ -338,15 +333,21 @@ class _InPage(_Ink):
             return ""
         return self._group(Group((Line(shaft.start, shaft.end, HIT),), classes=("hit",)))
 
-    def _run(self, run: Run, face: dict[str, str], words: str, text: Mapping[str, str]) -> str:
-        if face["font-size"] == text["font-size"] and (face["x"], face["y"]) == (text["x"], text["y"]):
-            face = {key: value for key, value in face.items() if key not in ("font-size", "x", "y")}  # of its text
-        return self.element("tspan", face, _escaped(words))
+    def _run(self, run: Run, x: str, y: str, text: Mapping[str, str]) -> str:
+        size = number(run.size)
+        alike = (size, x, y) == (text["font-size"], text["x"], text["y"])  # of its text
+        first, last = ("", "") if alike else (f' font-size="{size}"', f' x="{x}" y="{y}"')
+        return f"<tspan{first}{_face(run)}{last}>{_escaped(_clean(run.text))}</tspan>"
 
 
 def _clean(text: str) -> str:
     # what is printable is fit, and that is told at once
     return text if text.isprintable() else _UNFIT.sub("", text)
+
+
+def _face(run: Run) -> str:
+    """The attributes of slanted and of bold letters."""
+    return ' font-style="italic"' * run.italic + ' font-weight="bold"' * run.bold
 
 
 def _pair(point: complex) -> tuple[str, str]:
