@@ -135,15 +135,16 @@ def _writing(
 
     def on(plan: SheetPlan, size: float) -> tuple[list[Piece], Remainder]:
         whole = all_of(size)
-        parts = (_own_given, plan.given), (_own_equations, plan.equations), (_readings, plan.readings)
-        rest, pieces, rooms = whole, list[Piece](), list[Box]()
-        for part, box in parts:
-            if box is None:
-                given = given_lines(page.sheet, page.letters, page.language, plan.page.width, GIVEN[0])
-                return [], replace(whole, given=given)
-            piece, rest, _ = part_in(part, rest, box)
-            pieces.append(piece)
-            rooms.append(below(box, piece.drawn))
+        if not (plan.given and plan.equations and plan.readings):
+            given = given_lines(page.sheet, page.letters, page.language, plan.page.width, GIVEN[0])
+            return [], replace(whole, given=given)
+        data, rest, _ = part_in(_own_given, whole, plan.given)
+        written, rest, _ = part_in(_own_equations, rest, plan.equations)
+        # the same table whatever stands before it
+        table, left, _ = part_in(_readings, all_of(GIVEN[0]), plan.readings)
+        rest, pieces = replace(rest, readings=left.readings, begun=True), [data, written, table]
+        boxes = plan.given, plan.equations, plan.readings
+        rooms = [below(box, piece.drawn) for box, piece in zip(boxes, pieces, strict=True)]
         if plan.beside is not None:  # what is written there goes on from the equations
             rooms.insert(0, plan.beside)
         more = continued(page, rest, rooms)
