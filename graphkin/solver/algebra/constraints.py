@@ -195,7 +195,7 @@ def led_relation(element: Driven) -> RollingRelation:
 
 @dataclass(frozen=True)
 class Constraints:
-    """The constraints of a group at n positions of the links on which it depends.
+    """The constraints of a group at n positions of the links on which it depends, or at one position for n places.
 
     The links together are one ``Pose``, its fields of shape (n, links): the group's own first, then the others.
 
@@ -325,7 +325,7 @@ class Constraints:
         """
         layout, drive = self.layout, self.drive
         *_, gap, axis = parts or self.parts(all_, order)
-        found = np.zeros((order + 1, len(drive), layout.rows))
+        found = np.zeros((order + 1, len(all_.z), layout.rows))
         for k, way in enumerate(product(axis, [x[:, layout.joint] for x in gap])):
             found[k][:, layout.line_rows.entries] = layout.line_rows.of(way.real) / layout.size
         turn = all_.u[:, layout.one] * np.conj(all_.u[:, layout.two]) * layout.aim

@@ -200,13 +200,12 @@ def _assemblies(structure: Structure, group: LargerGroup, drive: Drive, known: M
     from graphkin.solver.algebra.larger_groups import solve_group
 
     place = _starts(structure, group, known)
-    many = Drive(*(np.repeat(x, len(place), axis=0) for x in (drive.value, drive.rate, drive.second)))
-    residual = _descended(Constraints(structure, group, known, many), place)
+    residual = _descended(Constraints(structure, group, known, drive), place)
     near = np.flatnonzero(residual < NEAR)
     if not len(near):
         return np.zeros((0, len(group.members), 3))
     found = _apart(place, near[np.argsort(residual[near] >= FOUND, kind="stable")], structure.scene.size, SAME / 4)
-    solved = solve_group(structure, group, known, many[found], place[found], rates=False)
+    solved = solve_group(structure, group, known, drive[np.zeros_like(found)], place[found], rates=False)
     return _distinct(structure, group, solved)
 
 
@@ -229,7 +228,7 @@ def _descended(system: Constraints, place: Array) -> Array:
             active, damping, matrix, turned, slope, residuals = (
                 x[on] for x in (active, damping, matrix, turned, slope, residuals)
             )
-            all_, system = replace(all_, z=all_.z[on], u=all_.u[on]), system.part(on)
+            all_ = replace(all_, z=all_.z[on], u=all_.u[on])
             if not len(active):
                 return residual
         normal = turned @ matrix
