@@ -188,7 +188,7 @@ class Account:
     sheet: Sheet
     letters: Notation
 
-    def sentence(self, phrase: Phrase, language: str) -> Words:
+    def sentence(self, phrase: Phrase, language: str) -> RichText:
         """A phrase as a sentence with its full stop."""
         return whole_sentence(self.say(phrase, language), language)
 

@@ -15,7 +15,8 @@ import numpy as np
 from graphkin.api.arguments import ON_SHEETS, for_paper, known_words
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.closed_form import CamPoints, compare_cam
-from graphkin.construction.cam_sheet import CamSheet
+from graphkin.construction import Sheet
+from graphkin.construction.cam_sheet import divisions
 from graphkin.errors import CallError, unfit
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
@@ -48,7 +49,7 @@ class CamMade:
         return study_cam(self.cam)
 
     @cached_property
-    def sheet(self) -> CamSheet:
+    def sheet(self) -> Sheet:
         """The construction at the scale of its figure."""
         from graphkin.drawing.figures.constructions import scaled_cam
 
@@ -57,7 +58,7 @@ class CamMade:
     @cached_property
     def drawn(self) -> CamPoints:
         """The drawn points compared with the computed ones."""
-        return compare_cam(self.sheet)
+        return compare_cam(self.cam, self.sheet)
 
     @property
     def ok(self) -> bool:
@@ -175,7 +176,7 @@ class CamMade:
             "least_base": None if self.wanted_base is None else self.wanted_base / metres,
             "divisions": [
                 {"number": k, "degree": math.degrees(d.degree), "lift": d.lift / lift, "pressure": d.pressure}
-                for k, d in enumerate(self.sheet.divisions)
+                for k, d in enumerate(divisions(self.sheet))
             ],
             "drawn": {"pitch": self.drawn.pitch / metres, "profile": self.drawn.profile / metres,
                       "pressure": self.drawn.pressure, "ok": self.drawn.ok},
@@ -185,7 +186,7 @@ class CamMade:
         """The cam by inversion, on a page of its own."""
         from graphkin.drawing.figures.constructions import cam_figure
 
-        return cam_figure(self.mechanism, self.sheet, self.phrases(), language)
+        return cam_figure(self.mechanism, self.cam, self.sheet, self.phrases(), language)
 
     def profile_dxf(self) -> bytes:
         """The profile true to size, in mm, as a closed curve of arcs.  Raises CallError without the extra ``cad``."""

@@ -222,7 +222,7 @@ SUPPLIES: Mapping[str, Callable[[Drawn], tuple[Any, ...] | None]] = {
     ),
     "positions": _positions,
     "cams": lambda drawn: (
-        drawn.checked.sheet, [(made.sheet, made.phrases()) for made in cam_made(drawn.mechanism)]
+        drawn.checked.sheet, [(made.cam, made.sheet, made.phrases()) for made in cam_made(drawn.mechanism)]
     ),
 }
 """The sheet and the further needs of figures, by the name under which they ask for them; None where the scene has

@@ -15,11 +15,13 @@ from graphkin.checking.report import COVERAGE
 from graphkin.checking.uncertainty import deviations
 from graphkin.construction import Instrument, Sheet
 from graphkin.construction.board.instruments import EXACT_NAME
-from graphkin.construction.cam_sheet import CamSheet, division
-from graphkin.construction.synthesis import construct, measured
+from graphkin.construction.cam_sheet import division, divisions
+from graphkin.construction.synthesis import construct
+from graphkin.construction.tasks import measured
 from graphkin.construction.touching import CamStation
 from graphkin.errors import Unsolvable
 from graphkin.scene.designs import DesignTask
+from graphkin.scene.pairs import LawCam
 from graphkin.scene.scene_tables import Tools
 from graphkin.solver.cams import cam_at
 
@@ -87,27 +89,28 @@ class CamPoints:
     ok: bool
 
 
-def compare_cam(sheet: CamSheet) -> CamPoints:
+def compare_cam(cam: LawCam, sheet: Sheet) -> CamPoints:
     """Compare every division of a drawn cam with the law's own geometry."""
-    exact = cam_at(sheet.cam, np.array([d.degree for d in sheet.divisions]))
-    point = np.array([d.point for d in sheet.divisions]) * sheet.scale
-    contact = np.array([d.contact for d in sheet.divisions]) * sheet.scale
-    angle = np.array([d.pressure for d in sheet.divisions])
+    drawn, per_mm = divisions(sheet), sheet.scales.length
+    exact = cam_at(cam, np.array([d.degree for d in drawn]))
+    point = np.array([d.point for d in drawn]) * per_mm
+    contact = np.array([d.contact for d in drawn]) * per_mm
+    angle = np.array([d.pressure for d in drawn])
     deviations = float(np.abs(point - exact.pitch).max()), float(np.abs(contact - exact.profile).max())
     turned = float(np.abs(angle - exact.pressure).max())
-    return CamPoints(*deviations, turned, max(*deviations) <= AGREES * sheet.cam.base and turned <= AGREES)
+    return CamPoints(*deviations, turned, max(*deviations) <= AGREES * cam.base and turned <= AGREES)
 
 
-def predict_cam(sheet: CamSheet, name: str, tools: Tools) -> Sequence[Mapping[str, float]]:
+def predict_cam(cam: LawCam, sheet: Sheet, name: str, tools: Tools) -> Sequence[Mapping[str, float]]:
     """Standard deviations of the "lift" (m, rad) and the "pressure" angle (rad) read at each division, drawn with an
     instrument ("pencil" or "cad"); infinite where the error of a single act makes a division impossible."""
 
     def read(drawn: CamStation, hand: Instrument) -> Mapping[str, float] | None:
-        drawn_anew = division(sheet.cam, drawn.degree, 1.0 / sheet.scale, hand)
+        drawn_anew = division(cam, drawn.degree, 1.0 / sheet.scales.length, hand)
         if drawn_anew is None:
             return None
         # a normal has no sense
         return {"lift": drawn_anew.lift, "pressure": math.remainder(drawn_anew.leaning - drawn.pressure, math.pi)}
 
-    spreads = (deviations(partial(read, drawn), name, tools) for drawn in sheet.divisions)
+    spreads = (deviations(partial(read, drawn), name, tools) for drawn in divisions(sheet))
     return [spread or {"lift": math.inf, "pressure": math.inf} for spread in spreads]

@@ -10,78 +10,66 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import replace
+from functools import partial
 
 from graphkin.construction.board.instruments import EXACT, Instrument
+from graphkin.construction.board.sheet import Sheet
+from graphkin.construction.board.steps import NO_POINT, Bar, CompassArc, Curve, Mark, Ray
+from graphkin.construction.tasks import TaskBoard, TaskStep
 from graphkin.construction.touching import CamStation, station, stations
 from graphkin.plane import cross_arcs, cross_line_arc, dot, unit
 from graphkin.scene.pairs import LawCam, SlidingFollower, SwingingFollower
-from graphkin.words import Phrase
-from graphkin.words.written import amount
 
 STEP = math.radians(15.0)
 FEWEST, MOST = 4, 12
+SHIFTED = 1e-9  # mm: a follower's line that passes nearer to the axis has no offset
 
 
-@dataclass(frozen=True)
-class CamSheet:
-    """A cam on paper, at cam degree 0, about its axis, y up.
-
-    Parameters
-    ----------
-    scale : m for one mm of paper
-    divisions : of the displacement diagram, the follower turned back about the cam at each (mm)
-    profile, pitch : closed curves (mm); the pitch curve is empty for a flat face
-    base, offset, roller : radii of circles on paper (mm); offset 0 without one, or if the follower swings
-    """
-
-    cam: LawCam
-    scale: float
-    divisions: tuple[CamStation, ...]
-    profile: tuple[complex, ...]
-    pitch: tuple[complex, ...]
-    base: float
-    offset: float
-    roller: float
-
-    @property
-    def steps(self) -> tuple[Phrase, ...]:
-        """The steps in order."""
-        cam, motion = self.cam, self.cam.motion
-        radius, shifted = amount(self.base, 4), self.offset > 1e-9
-        steps = [Phrase("cam step diagram", divisions=str(len(self.divisions)))]
-        steps.append(Phrase("cam step base", centre=cam.point, radius=radius))
-        normals = Phrase("cam step normals", centre=cam.point)
-        if isinstance(motion, SwingingFollower):
-            distance = amount(abs(self.divisions[0].line), 4)
-            steps.append(Phrase("cam step pivots", centre=cam.point, pivot=motion.pivot, distance=distance))
-            steps.append(Phrase("cam step swings", pivot=motion.pivot, tip=motion.tip))
-            normals = Phrase("cam step normals swinging", centre=cam.point, pivot=motion.pivot)
-        else:
-            if shifted:
-                steps[-1] = Phrase("cam step circles", centre=cam.point, radius=radius, offset=amount(self.offset, 4))
-            steps.append(Phrase("cam step tangents") if shifted else Phrase("cam step rays", centre=cam.point))
-            steps.append(Phrase("cam step lifts"))
-        if cam.flat:
-            return (*steps, Phrase("cam step faces"))
-        edge = Phrase("cam step rollers", radius=amount(self.roller, 4)) if cam.roller else Phrase("cam step edge")
-        return (*steps, edge, normals)
-
-
-def cam_sheet(cam: LawCam, scale: float) -> CamSheet:
-    """Draw a cam.
+def cam_sheet(cam: LawCam, scale: float) -> Sheet:
+    """Draw a cam at cam degree 0, about its axis.
 
     Parameters
     ----------
     scale : m for one mm of paper
     """
-    mm = 1.0 / scale
+    mm, board, motion = 1.0 / scale, TaskBoard(EXACT, scale=scale), cam.motion
     # where arcs only touch, rounding may part them
     divided = tuple(division(cam, degree, mm) or station(cam, degree).scaled(mm) for degree in _degrees(cam))
-    pitch = () if cam.flat else tuple(here.point * mm for here in stations(cam))
-    offset = abs(cam.motion.offset) * mm if isinstance(cam.motion, SlidingFollower) else 0.0
-    profile = tuple(here.contact * mm for here in stations(cam))
-    return CamSheet(cam, scale, divided, profile, pitch, cam.base * mm, offset, cam.roller * mm)
+    pivots = (motion.pivot, motion.tip) if isinstance(motion, SwingingFollower) else ()
+    around, step = stations(cam), partial(board.step, points=(cam.point, *pivots))
+    step("divide", "cam step diagram", divisions=divided)
+    offset = abs(motion.offset) * mm if isinstance(motion, SlidingFollower) else 0.0
+    shifted = offset > SHIFTED
+    radii = (cam.base * mm, offset) if shifted else (cam.base * mm,)
+    circles = (*radii, (cam.base - cam.roller) * mm) if cam.roller else radii
+    step("line", "cam step circles" if shifted else "cam step base",
+         *(CompassArc(0j, radius, complex(radius), whole=True) for radius in circles), lengths=radii)  # fmt: skip
+    if pivots:
+        step("mark", "cam step pivots", *(Mark(NO_POINT, d.line) for d in divided), lengths=(abs(divided[0].line),))
+        step("cross", "cam step swings", *(CompassArc(d.line, abs(d.point - d.line), d.point) for d in divided))
+    else:
+        lines = (Ray(d.line, d.way, None) for d in divided)
+        step("line", "cam step tangents" if shifted else "cam step rays", *lines)
+        step("lay off", "cam step lifts")
+    profile = Curve(tuple(here.contact * mm for here in around))
+    if cam.flat:
+        step("line", "cam step faces", *(Bar(d.point, d.contact) for d in divided), profile)
+        return board.sheet
+    if cam.roller:
+        pitch, roller = Curve(tuple(here.point * mm for here in around)), cam.roller * mm
+        rollers = (CompassArc(d.point, roller, d.contact, whole=True) for d in divided)
+        step("line", "cam step rollers", *rollers, pitch, profile, lengths=(roller,))
+    else:
+        step("line", "cam step edge", profile)
+    normals = (Ray(d.contact, d.normal, d.point) for d in divided)
+    step("line", "cam step normals swinging" if cam.turns else "cam step normals", *normals)
+    return board.sheet
+
+
+def divisions(sheet: Sheet) -> tuple[CamStation, ...]:
+    """The follower turned back about the cam at each division of its diagram (mm)."""
+    return next(step.divisions for step in sheet.steps if isinstance(step, TaskStep))
 
 
 def _degrees(cam: LawCam) -> Iterator[float]:
@@ -120,7 +108,7 @@ def division(cam: LawCam, degree: float, mm: float, hand: Instrument = EXACT) ->
     centre = None if given.centre is None else given.centre * turned
     if cam.flat:  # it touches where the perpendicular from the instant centre meets the face
         assert centre is not None
-        return drawn._replace(centre=centre, normal=drawn.way, contact=centre + drawn.way * dot(drawn.way, drawn.point))
+        return replace(drawn, centre=centre, normal=drawn.way, contact=centre + drawn.way * dot(drawn.way, drawn.point))
     if centre is None:
         normal = hand.direction(given.normal * turned)
     else:
@@ -130,7 +118,7 @@ def division(cam: LawCam, degree: float, mm: float, hand: Instrument = EXACT) ->
     if dot(normal, given.normal * turned) < 0.0:  # the line has no sense, the normal leads out of the cam
         normal = -normal
     contact = drawn.point - cam.roller * mm * normal
-    return drawn._replace(centre=centre, normal=normal, contact=contact)
+    return replace(drawn, centre=centre, normal=normal, contact=contact)
 
 
 def _on_line(cam: LawCam, given: CamStation, mm: float, base: float, hand: Instrument) -> CamStation | None:
@@ -151,7 +139,7 @@ def _on_line(cam: LawCam, given: CamStation, mm: float, base: float, hand: Instr
         start = crossed[0]
     point = hand.point(start + way * laid)
     lift = hand.read(abs(point - start)) / mm * (1 if laid >= 0 else -1)
-    return given._replace(lift=lift, line=foot, base=start, point=point, way=way)
+    return replace(given, lift=lift, line=foot, base=start, point=point, way=way)
 
 
 def _on_arc(cam: LawCam, given: CamStation, mm: float, base: float, hand: Instrument) -> CamStation | None:
@@ -169,4 +157,4 @@ def _on_arc(cam: LawCam, given: CamStation, mm: float, base: float, hand: Instru
     swing = cmath.phase(hand.read_direction(bar) / unit(start - pivot))
     lift = swing * (1 if cmath.phase(turned) * given.lift >= 0 else -1) if abs(swing) > ROUNDING else 0.0
     way = hand.direction(bar * (given.way / unit(given.point - given.line)))
-    return given._replace(lift=lift, line=pivot, base=start, point=point, way=way)
+    return replace(given, lift=lift, line=pivot, base=start, point=point, way=way)

@@ -9,28 +9,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import singledispatch
 from itertools import pairwise
-from typing import Any
 
 from graphkin.construction.board.instruments import EXACT, Instrument
-from graphkin.construction.board.sheet import Board, Sheet
-from graphkin.construction.board.steps import (
-    NO_POINT,
-    Angle,
-    Bar,
-    CompassArc,
-    LineKind,
-    Mark,
-    Ray,
-    Stroke,
-    TaskReason,
-    Verb,
-)
-from graphkin.construction.tasks import TaskStep, task_sheet
-from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import cross, cross_arcs, cross_line_arc, direction, dot, unit
+from graphkin.construction.board.sheet import Sheet
+from graphkin.construction.board.steps import NO_POINT, Angle, Bar, CompassArc, LineKind, Mark, Ray, Stroke
+from graphkin.construction.tasks import TaskBoard, not_drawn
+from graphkin.plane import cross, cross_arcs, direction, dot, unit
 from graphkin.scene.designs import (
     BarPositionsTask,
     CrankRockerTask,
@@ -41,7 +27,6 @@ from graphkin.scene.designs import (
     SliderCrankTask,
 )
 from graphkin.scene.symbol import PointRef
-from graphkin.words import Phrase
 
 SEEN = math.radians(0.05)
 """The least angle (rad) between two lines that is drawn."""
@@ -77,81 +62,6 @@ def pivots(**named: complex) -> list[Mark]:
     return [Mark(PointRef(name), at, fixed=True) for name, at in named.items()]
 
 
-def _not_drawn(what: str, finding: str, wanted: str) -> Unsolvable:
-    return Unsolvable("not drawn", Problem(what, Phrase(finding), Phrase(wanted)))
-
-
-@dataclass
-class TaskBoard(Board):
-    """The board of a synthesis.
-
-    Parameters
-    ----------
-    scale : units of the task's length for one mm
-    """
-
-    scale: float = 1.0
-
-    def step(self, verb: Verb, reason: TaskReason, *strokes: Stroke, **arguments: Any) -> None:
-        """Record a step with its strokes and arguments."""
-        self.do(TaskStep(verb, reason, strokes=strokes, **arguments))
-
-    def mm(self, length: float) -> float:
-        """A length of the task on paper."""
-        return length / self.scale
-
-    def lay_off(self, start: complex, along: complex, mm: float) -> complex:
-        """Lay off a length in a direction by the set square."""
-        return self.instrument.point(start + self.instrument.length(mm) * self.instrument.direction(along))
-
-    def lay_off_angle(self, start: complex, along: complex, mm: float) -> complex:
-        """Lay off a length in a direction by the protractor."""
-        return self.instrument.point(start + self.instrument.length(mm) * self.instrument.angle(along))
-
-    def plot(self, at: complex) -> complex:
-        """A point by its coordinates."""
-        x, y = (self.instrument.length(self.mm(side)) for side in (at.real, at.imag))
-        return self.instrument.point(complex(x, y))
-
-    def meet(self, what: str, p: complex, d: complex, q: complex, e: complex) -> complex:
-        """The crossing of two lines, each through a point along a direction.  Raises Unsolvable where they are
-        parallel."""
-        return self.instrument.crossing(what, p, d, q, e, "not drawn", "other data")
-
-    def cut(self, what: str, p: complex, d: complex, centre: complex, radius: float) -> tuple[complex, complex]:
-        """The points where a line cuts a circle, the point farther along d first.  Raises Unsolvable where it does not
-        cut it."""
-        crossings = cross_line_arc(p, d, centre, radius)
-        if crossings is None:
-            raise _not_drawn(what, "the line does not reach the circle", "other data")
-        return self.instrument.point(crossings[0]), self.instrument.point(crossings[1])
-
-    def bisector(self, a: complex, b: complex) -> tuple[complex, complex]:
-        """A point and the direction of the perpendicular bisector, drawn by two pairs of compass arcs."""
-        return self.instrument.point((a + b) / 2), self.instrument.direction(1j * unit(b - a))
-
-    def measure(self, **bars: tuple[complex, complex]) -> None:
-        """The lengths of bars off the paper (mm), each by its name."""
-        self.readings |= {ends_of(name): self.instrument.read(abs(b - a)) for name, (a, b) in bars.items()}
-
-    def told(self, *strokes: Stroke, **bars: tuple[complex, complex]) -> None:
-        """A step in which bars are measured."""
-        self.measure(**bars)
-        lengths = tuple(self.readings[ends_of(name)] for name in bars)
-        self.step("read", "design measured", *strokes, points=(*bars,), lengths=lengths)
-
-
-def ends_of(name: str) -> frozenset[str]:
-    """The points of a measured bar by its letters; a word such as "ram", of its line, is one name."""
-    return frozenset(name) if name.isupper() else frozenset((name,))
-
-
-def measured(sheet: Sheet) -> dict[str, float]:
-    """The measured lengths of a synthesis (mm on paper) by the letters of each bar; "ram": the distance of its line
-    from C."""
-    return {"".join(sorted(ends)): mm for ends, mm in sheet.readings.items() if isinstance(ends, frozenset)}
-
-
 # -- the tasks ---------------------------------------------------------------------------------------------------------
 
 
@@ -164,7 +74,7 @@ def construct(task: DesignTask, scale: float = 1.0, instrument: Instrument = EXA
     """
     paper = TaskBoard(instrument, scale=scale)
     draw(task, paper)
-    return task_sheet(paper, scale)
+    return paper.sheet
 
 
 def _theta(K: float) -> float:
@@ -248,10 +158,10 @@ def _pivot_on_circle(
     middle, radius = locus
     reach = paper.instrument.compass(paper.mm(task.frame))
     if abs(middle - D) < 1e-9 * radius:
-        raise _not_drawn("A", "the circle over c1c2 is one about d", "another k or swing")
+        raise not_drawn("A", "the circle over c1c2 is one about d", "another k or swing")
     met = cross_arcs(D, reach, middle, radius)
     if met is None:
-        raise _not_drawn("A", "the arc about d does not reach the", "another frame")
+        raise not_drawn("A", "the arc about d does not reach the", "another frame")
     A = paper.instrument.point(min(met, key=lambda z: z.real))
     paper.step("cross", "design arc", *arcs(D, reach, A), *pivots(A=A), mm=paper.mm(task.frame))
     return A
@@ -409,7 +319,7 @@ def _(task: FunctionTask, paper: TaskBoard) -> None:
     paper.step("cross", "design reciprocals", *strokes, *points(Q=corner + crossing), mm=per_one)
     across, upward = hand.read_signed(crossing.real), hand.read_signed(crossing.imag)
     if min(abs(across), abs(upward)) < 1e-9 * per_one:
-        raise _not_drawn("design.pairs", "they ask for a bar without end", "other angles")
+        raise not_drawn("design.pairs", "they ask for a bar without end", "other angles")
     crank, rocker = frame * per_one / across, frame * per_one / upward
     B = hand.point(A + hand.length(abs(crank)) * math.copysign(1.0, crank) * phi[0])
     C = hand.point(D + hand.length(abs(rocker)) * math.copysign(1.0, rocker) * psi[0])
@@ -439,7 +349,7 @@ def _trials(
         if len(cranks) == 2:
             break
     if len(cranks) < 2:
-        raise _not_drawn("design.pairs", "no trial crank tells the pairs apart", "other pairs")
+        raise not_drawn("design.pairs", "no trial crank tells the pairs apart", "other pairs")
     strokes: list[Stroke] = []
     ends = []
     for crank, reciprocal, B, moved, (p, d) in cranks:

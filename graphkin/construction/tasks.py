@@ -1,17 +1,22 @@
-"""Tasks with a construction of their own: their steps, and the sheet on which no mechanism is drawn yet."""
+"""Tasks with a construction of their own, a synthesis or a cam: their steps, and the board, without a mechanism."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 from graphkin.construction.board.scales import Scales
 from graphkin.construction.board.sheet import Board, Sheet
-from graphkin.construction.board.steps import Mark, Step
+from graphkin.construction.board.steps import Mark, Step, Stroke, TaskReason, Verb
+from graphkin.construction.touching import CamStation
+from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import cross_line_arc, unit
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.structure import analyse
+from graphkin.words import Phrase
 from graphkin.words.symbols import Words, sign, spaced
-from graphkin.words.written import on_paper
+from graphkin.words.written import amount, on_paper
 
 DECIMALS = range(2, 9)
 """Of lengths (mm) from which others are reckoned, until that is true as it is written."""
@@ -28,6 +33,7 @@ class TaskStep(Step):
     mm, lengths : lengths on paper
     angles : laid off, or between lines (rad)
     K : the ratio of the times of both strokes
+    divisions : of a cam's displacement diagram, the follower turned back about the cam at each (mm)
     """
 
     point: str = ""
@@ -36,17 +42,25 @@ class TaskStep(Step):
     lengths: tuple[float, ...] = ()
     angles: tuple[float, ...] = ()
     K: float = 0.0
+    divisions: tuple[CamStation, ...] = ()
 
     @property
     def degrees(self) -> tuple[str, ...]:
         """The angles as they are written (degrees)."""
         return tuple(f"{math.degrees(angle):.6g}" for angle in self.angles)
 
+    @property
+    def radii(self) -> tuple[str, ...]:
+        """The lengths as they are written of circles that are given (mm)."""
+        return tuple(amount(mm, 4) for mm in self.lengths)
+
     def gap(self, name: str) -> object:
         """The value of a gap in its sentence: an argument, or numbers in figures."""
         match name:
             case "K":
                 return f"{self.K:.6g}"
+            case "divisions":
+                return str(len(self.divisions))
             case "lengths":
                 read = zip(self.points, self.lengths, strict=True)
                 return spaced(",  ", (length_letters(bar) + f" = {on_paper(mm)} mm" for bar, mm in read))
@@ -73,15 +87,86 @@ def length_letters(name: str) -> Words:
     return sign(name) if name.isupper() else name
 
 
-def task_sheet(board: Board, length: float) -> Sheet:
-    """The sheet of a task.
+@dataclass
+class TaskBoard(Board):
+    """The board of a task.
 
     Parameters
     ----------
-    length : of the task's unit, for one mm of paper
+    scale : of the task's unit, of a cam m, for one mm of paper
     """
-    marks = (stroke for step in board.steps for stroke in step.strokes if isinstance(stroke, Mark))
-    return Sheet(
-        NO_MECHANISM, analyse(NO_MECHANISM), board.instrument.name, Scales(length, 1.0, 1.0),
-        {mark.ref: mark.at for mark in marks if mark.ref.point}, tuple(board.steps), readings=dict(board.readings),
-    )  # fmt: skip
+
+    scale: float = 1.0
+
+    def step(self, verb: Verb, reason: TaskReason, *strokes: Stroke, **arguments: Any) -> None:
+        """Record a step with its strokes and arguments."""
+        self.do(TaskStep(verb, reason, strokes=strokes, **arguments))
+
+    @property
+    def sheet(self) -> Sheet:
+        """The board as a sheet."""
+        marks = (stroke for step in self.steps for stroke in step.strokes if isinstance(stroke, Mark))
+        points = {mark.ref: mark.at for mark in marks if mark.ref.point}
+        return Sheet(
+            NO_MECHANISM, analyse(NO_MECHANISM), self.instrument.name, Scales(self.scale, 1.0, 1.0), points,
+            tuple(self.steps), readings=dict(self.readings),
+        )  # fmt: skip
+
+    def mm(self, length: float) -> float:
+        """A length of the task on paper."""
+        return length / self.scale
+
+    def lay_off(self, start: complex, along: complex, mm: float) -> complex:
+        """Lay off a length in a direction by the set square."""
+        return self.instrument.point(start + self.instrument.length(mm) * self.instrument.direction(along))
+
+    def lay_off_angle(self, start: complex, along: complex, mm: float) -> complex:
+        """Lay off a length in a direction by the protractor."""
+        return self.instrument.point(start + self.instrument.length(mm) * self.instrument.angle(along))
+
+    def plot(self, at: complex) -> complex:
+        """A point by its coordinates."""
+        x, y = (self.instrument.length(self.mm(side)) for side in (at.real, at.imag))
+        return self.instrument.point(complex(x, y))
+
+    def meet(self, what: str, p: complex, d: complex, q: complex, e: complex) -> complex:
+        """The crossing of two lines, each through a point along a direction.  Raises Unsolvable where they are
+        parallel."""
+        return self.instrument.crossing(what, p, d, q, e, "not drawn", "other data")
+
+    def cut(self, what: str, p: complex, d: complex, centre: complex, radius: float) -> tuple[complex, complex]:
+        """The points where a line cuts a circle, the point farther along d first.  Raises Unsolvable where it does not
+        cut it."""
+        crossings = cross_line_arc(p, d, centre, radius)
+        if crossings is None:
+            raise not_drawn(what, "the line does not reach the circle", "other data")
+        return self.instrument.point(crossings[0]), self.instrument.point(crossings[1])
+
+    def bisector(self, a: complex, b: complex) -> tuple[complex, complex]:
+        """A point and the direction of the perpendicular bisector, drawn by two pairs of compass arcs."""
+        return self.instrument.point((a + b) / 2), self.instrument.direction(1j * unit(b - a))
+
+    def measure(self, **bars: tuple[complex, complex]) -> None:
+        """The lengths of bars off the paper (mm), each by its name."""
+        self.readings |= {ends_of(name): self.instrument.read(abs(b - a)) for name, (a, b) in bars.items()}
+
+    def told(self, *strokes: Stroke, **bars: tuple[complex, complex]) -> None:
+        """A step in which bars are measured."""
+        self.measure(**bars)
+        lengths = tuple(self.readings[ends_of(name)] for name in bars)
+        self.step("read", "design measured", *strokes, points=(*bars,), lengths=lengths)
+
+
+def not_drawn(what: str, finding: str, wanted: str) -> Unsolvable:
+    return Unsolvable("not drawn", Problem(what, Phrase(finding), Phrase(wanted)))
+
+
+def ends_of(name: str) -> frozenset[str]:
+    """The points of a measured bar by its letters; a word such as "ram", of its line, is one name."""
+    return frozenset(name) if name.isupper() else frozenset((name,))
+
+
+def measured(sheet: Sheet) -> dict[str, float]:
+    """The measured lengths of a synthesis (mm on paper) by the letters of each bar; "ram": the distance of its line
+    from C."""
+    return {"".join(sorted(ends)): mm for ends, mm in sheet.readings.items() if isinstance(ends, frozenset)}

@@ -13,8 +13,8 @@ from cmath import phase
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
-from typing import NamedTuple
 
+from graphkin.construction.board.steps import OnPaper
 from graphkin.plane import Pose, dot, unit
 from graphkin.scene.laws import TURN, Lift
 from graphkin.scene.model import Mechanism
@@ -165,7 +165,8 @@ def _free(name: str, taken: set[str]) -> str:
 # -- the outlines of cams ----------------------------------------------------------------------------------------------
 
 
-class CamStation(NamedTuple):
+@dataclass(frozen=True)
+class CamStation(OnPaper):
     """The follower turned back about the cam (inversion), in the cam's own axes from its axis (any unit of length).
 
     Parameters
@@ -199,12 +200,6 @@ class CamStation(NamedTuple):
     def pressure(self) -> float:
         """The angle between normal and path, as the protractor reads it (rad)."""
         return min(abs(self.leaning), math.pi - abs(self.leaning))
-
-    def scaled(self, times: float) -> CamStation:
-        """The station with its lengths multiplied by ``times``."""
-        centre = None if self.centre is None else self.centre * times
-        return self._replace(line=self.line * times, base=self.base * times, point=self.point * times, centre=centre,
-                             contact=self.contact * times)  # fmt: skip
 
 
 def station(cam: LawCam, degree: float, lift: Lift | None = None) -> CamStation:

@@ -13,7 +13,7 @@ from graphkin.account.given import drivers
 from graphkin.account.headings import facts, figure_title, punctuation, term, titles
 from graphkin.account.notation import Notation, notation_of, scale_statement
 from graphkin.account.spoken import spoken_words
-from graphkin.account.voice import whole_sentence
+from graphkin.account.voice import Account, account_of
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import DiagramName
 from graphkin.drawing.box import Box
@@ -25,7 +25,7 @@ from graphkin.drawing.text import SMALLEST, fitted, plain, rich, runs_width, wra
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up
 from graphkin.scene.scene_tables import Convention
-from graphkin.words import Phrase, Wording, in_all, languages, rich_text, word
+from graphkin.words import Phrase, Wording, in_all, languages, word
 from graphkin.words.symbols import RichText, Words
 
 MARGIN = 8.0  # of a page
@@ -42,7 +42,6 @@ LEAST = 114.0  # least width of a page between its margins
 INDENT = 8.0  # of a paragraph behind its number
 TOLD = ("told",)  # the class of what is said of a figure
 BAR = 50.0  # length of the check bar
-Say = Callable[[Phrase, str], RichText]
 
 
 @dataclass(frozen=True)
@@ -250,9 +249,8 @@ def without_titles(children: tuple[Primitive, ...]) -> tuple[Primitive, ...]:
 
 
 def worked_page(
-    names: Iterable[str], given: Words, drawn: Sequence[Block], steps: Sequence[Phrase], results: Block,
+    names: Iterable[str], given: Words, drawn: Sequence[Block], sheet: Sheet, results: Block,
     notes: Iterable[Wording], scale: Words, *, title: str, said: Words, language: str, metadata: Mapping[str, object],
-    say: Say = rich_text,
 ) -> Drawing:  # fmt: skip
     """The page of a worked task, of the width `WORKED` inside: the given data, its drawings, its numbered steps in each
     language, the results, notes, and the foot.
@@ -261,12 +259,11 @@ def worked_page(
     ----------
     names : of the task, in each language in which it has one
     title, said : of the figure as a key of the table of words, and the figure in words
-    say : the sentence of a step in a language
     """
-    own, every = dict.fromkeys(names), languages(language)
+    own, every, account = dict.fromkeys(names), languages(language), account_of(sheet)
     told = [
-        column(*(numbered(number, say(step, each), WORKED, STEP, step=number)
-                 for number, step in enumerate(steps, 1))) for each in every
+        column(*(numbered(step.number, account.say(step.phrase, each), WORKED, STEP, step=step.number)
+                 for step in sheet.steps)) for each in every
     ]  # fmt: skip
     lines = [
         line.with_words(lambda words: words.replace(" -", " −")) for note in notes for line in in_all(note, language)
@@ -278,10 +275,10 @@ def worked_page(
     )  # fmt: skip
 
 
-def spoken(phrases: Iterable[Phrase], language: str, say: Say = rich_text) -> str:
+def spoken(account: Account, phrases: Iterable[Phrase], language: str) -> str:
     """Sentences in the first language of a figure, for readers who do not see it."""
     first = languages(language)[0]
-    sentences = (whole_sentence(say(phrase, first), first).plain("") for phrase in phrases)
+    sentences = (account.sentence(phrase, first).plain("") for phrase in phrases)
     return word("between sentences", first).join(sentences)
 
 

@@ -41,6 +41,11 @@ def stepped(children: Iterable[Primitive]) -> tuple[Primitive, ...]:
     return tied(map_tree(children, change))
 
 
+def unstepped(children: Iterable[Primitive]) -> tuple[Primitive, ...]:
+    """The figure without its steps, beside another whose steps are counted."""
+    return map_tree(children, lambda one: one._replace(step=None) if isinstance(one, Group | Text) else one)
+
+
 def tied(children: Iterable[Primitive]) -> tuple[Primitive, ...]:
     """The figure with every leader in a group of the step of its name."""
 

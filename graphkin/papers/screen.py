@@ -37,7 +37,7 @@ from graphkin.drawing.parts.mechanism import mechanism_piece
 from graphkin.drawing.parts.polygon import extent
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
-from graphkin.drawing.stepwise import stepped
+from graphkin.drawing.stepwise import stepped, unstepped
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.drawing.write.svg import svg_element
 from graphkin.files import Json
@@ -297,9 +297,10 @@ def _cams(lesson: Lesson) -> Iterator[Figure]:
     """Displacement diagram and inversion of each cam drawn by its law."""
     scene, language = lesson.sheet.scene, lesson.language
     for i, cam in enumerate(scene.cams):
-        pictures = cam_pictures(scene, scaled_cam(scene, cam), language)
+        pictures = cam_pictures(scene, cam, scaled_cam(scene, cam), language)
         for key, picture in zip(("cam diagram", "cam figure"), pictures, strict=True):
-            yield _figure(f"{key.replace(' ', '-')}-{i}", picture, _caption(said(key, language)))
+            drawn = replace(picture, children=unstepped(picture.children))
+            yield _figure(f"{key.replace(' ', '-')}-{i}", drawn, _caption(said(key, language)))
 
 
 def _caption(words: Said) -> str:

@@ -36,7 +36,8 @@ def test_extremes_are_those_of_many_positions(seed):
 
 @pytest.mark.parametrize("seed", range(6))
 def test_the_cam_drawn_by_inversion_is_the_computed_one(seed):
-    assert compare_cam(cam_sheet(mechanism_of(random_cam(seed)).cams[0], 1e-3)).ok
+    (cam,) = mechanism_of(random_cam(seed)).cams
+    assert compare_cam(cam, cam_sheet(cam, 1e-3)).ok
 
 
 def test_a_roller_that_is_too_large_is_told_with_the_largest_that_would_do():

@@ -12,7 +12,7 @@ from graphkin import cam, check, handout, read
 from graphkin.checking.closed_form import compare_cam, predict_cam
 from graphkin.checking.report import COVERAGE
 from graphkin.construction import pencil
-from graphkin.construction.cam_sheet import cam_sheet, division
+from graphkin.construction.cam_sheet import cam_sheet, division, divisions
 from graphkin.construction.touching import station
 from graphkin.scene import mechanism_of
 from graphkin.scene.scene_tables import Tools
@@ -22,7 +22,7 @@ SCENES = ("cam-offset-roller", "cam-swinging-roller", "cam-flat-face")
 
 def drawn(name):
     (made,) = cam(name).made
-    return made.sheet, made.mechanism.question.sheet.tools
+    return made.cam, made.sheet, made.mechanism.question.sheet.tools
 
 
 def leaning_apart(one, other):
@@ -32,9 +32,9 @@ def leaning_apart(one, other):
 
 @pytest.mark.parametrize("name", SCENES)
 def test_exact_hands_draw_each_division_as_the_law_has_it(name):
-    sheet, _ = drawn(name)
-    for d in sheet.divisions:
-        exact = station(sheet.cam, d.degree).scaled(1 / sheet.scale)
+    cam, sheet, _ = drawn(name)
+    for d in divisions(sheet):
+        exact = station(cam, d.degree).scaled(1 / sheet.scales.length)
         assert exact.lift == pytest.approx(d.lift, abs=1e-13)
         assert exact.pressure == pytest.approx(d.pressure, abs=1e-13)
         for place in ("line", "base", "point", "contact", "normal", "way"):
@@ -43,11 +43,11 @@ def test_exact_hands_draw_each_division_as_the_law_has_it(name):
 
 @pytest.mark.parametrize("name", SCENES)
 def test_a_pencil_keeps_what_is_predicted(name):
-    sheet, tools = drawn(name)
+    cam, sheet, tools = drawn(name)
     beyond = count = 0
-    for right, off in zip(sheet.divisions, predict_cam(sheet, "pencil", tools), strict=True):
+    for right, off in zip(divisions(sheet), predict_cam(cam, sheet, "pencil", tools), strict=True):
         for seed in range(20):
-            read = division(sheet.cam, right.degree, 1 / sheet.scale, pencil(tools, seed))
+            read = division(cam, right.degree, 1 / sheet.scales.length, pencil(tools, seed))
             beyond += abs(read.lift - right.lift) > COVERAGE * off["lift"]
             beyond += leaning_apart(read, right) > COVERAGE * off["pressure"] + 1e-12
             count += 2
@@ -56,10 +56,10 @@ def test_a_pencil_keeps_what_is_predicted(name):
 
 @pytest.mark.parametrize("offset", [30.0, 40.0, 55.0])
 def test_a_flat_face_stands_on_the_base_circle_however_far_its_line_runs_from_the_axis(offset):
-    scene = mechanism_of(read("cam-flat-face").replace("frame.guides.g.through", [offset, 0]))
-    sheet = cam_sheet(scene.cams[0], 1e-3)
-    assert compare_cam(sheet).ok
-    assert all(math.isfinite(off["lift"]) for off in predict_cam(sheet, "pencil", Tools()))
+    (cam,) = mechanism_of(read("cam-flat-face").replace("frame.guides.g.through", [offset, 0])).cams
+    sheet = cam_sheet(cam, 1e-3)
+    assert compare_cam(cam, sheet).ok
+    assert all(math.isfinite(off["lift"]) for off in predict_cam(cam, sheet, "pencil", Tools()))
 
 
 def test_a_line_that_only_touches_the_base_circle_is_drawn_to_where_it_touches():
@@ -67,13 +67,13 @@ def test_a_line_that_only_touches_the_base_circle_is_drawn_to_where_it_touches()
     (cam,) = mechanism_of(scene).cams
     touching = replace(cam, base=abs(cam.motion.offset))
     sheet = cam_sheet(touching, 1e-3)
-    assert compare_cam(sheet).ok
-    assert sheet.base == pytest.approx(abs(sheet.divisions[0].base), abs=1e-12)
+    assert compare_cam(touching, sheet).ok
+    assert touching.base * 1e3 == pytest.approx(abs(divisions(sheet)[0].base), abs=1e-12)
 
 
 def test_a_drafting_program_reads_a_hundredth():
-    sheet, tools = drawn("cam-offset-roller")
-    for off in predict_cam(sheet, "cad", tools):
+    cam, sheet, tools = drawn("cam-offset-roller")
+    for off in predict_cam(cam, sheet, "cad", tools):
         assert 0.01 / math.sqrt(12) == pytest.approx(math.degrees(off["pressure"]))
 
 
@@ -81,8 +81,8 @@ def test_the_key_accepts_what_the_drawing_can_do(tmp_path):
     handout("cam-swinging-roller", language="en", formats=("html",)).write(tmp_path)
     key = re.sub("<[^>]*>", " ", (tmp_path / "cam-key.html").read_text())
     bounds = [(float(a), float(b)) for a, b in re.findall(r"([\d.]+) … ([\d.]+)\s+°", key)]
-    sheet, tools = drawn("cam-swinging-roller")
-    off = predict_cam(sheet, "pencil", tools)[2]["pressure"]
+    cam, sheet, tools = drawn("cam-swinging-roller")
+    off = predict_cam(cam, sheet, "pencil", tools)[2]["pressure"]
     low, high = bounds[2]
     assert 2 * math.degrees(COVERAGE * off) == pytest.approx(high - low, abs=0.1)
     assert len({round(b - a, 1) for a, b in bounds}) > 3
@@ -93,28 +93,28 @@ def test_a_follower_that_swings_faster_than_its_cam_has_its_normal_out_of_the_ca
     scene = read("cam-swinging-roller").replace("cams.1.law", [rise, {"to": 60}, fall, {"to": 360}])
     (cam,) = mechanism_of(scene).cams
     assert max(abs(cam.law.at(math.radians(d)).slope) for d in range(20)) > 1.0
-    assert compare_cam(cam_sheet(cam, 1e-3)).ok
+    assert compare_cam(cam, cam_sheet(cam, 1e-3)).ok
 
 
 def test_the_normals_of_a_swinging_follower_pass_a_point_that_parts_the_line_of_pivots_as_its_step_tells():
-    sheet, _ = drawn("cam-swinging-roller")
-    assert "distances from A and C are as dψ/dφ to 1" in str(sheet.steps[-1])
-    for d in sheet.divisions:
-        slope = sheet.cam.law.at(d.degree).slope
+    cam, sheet, _ = drawn("cam-swinging-roller")
+    assert "distances from A and C are as dψ/dφ to 1" in str(sheet.steps[-1].phrase)
+    for d in divisions(sheet):
+        slope = cam.law.at(d.degree).slope
         assert abs(slope) == pytest.approx(abs(d.centre) / abs(d.centre - d.line), abs=1e-12)
         # on the line of pivots, and the normal leads there
         assert 0 == pytest.approx((d.centre / d.line).imag, abs=1e-12)
         assert 0 == pytest.approx(((d.point - d.centre) / d.normal).imag, abs=1e-9)
-        opposite = sheet.cam.motion.side * sheet.cam.sense * slope < 0
+        opposite = cam.motion.side * cam.sense * slope < 0
         assert not slope or opposite == (0 < (d.centre / d.line).real < 1)
 
 
 def test_the_normals_of_a_sliding_follower_pass_a_point_ds_dphi_from_the_axis():
-    sheet, _ = drawn("cam-offset-roller")
-    assert "ds/dφ away from A" in str(sheet.steps[-1])
-    for d in sheet.divisions:
-        slope = sheet.cam.law.at(d.degree).slope
-        assert abs(slope) == pytest.approx(abs(d.centre) * sheet.scale, abs=1e-12)
+    cam, sheet, _ = drawn("cam-offset-roller")
+    assert "ds/dφ away from A" in str(sheet.steps[-1].phrase)
+    for d in divisions(sheet):
+        slope = cam.law.at(d.degree).slope
+        assert abs(slope) == pytest.approx(abs(d.centre) * sheet.scales.length, abs=1e-12)
 
 
 def test_the_swing_of_a_follower_that_a_lift_turns_clockwise_begins_at_the_greatest_lift() -> None:

@@ -14,7 +14,7 @@ from graphkin import solver
 from graphkin.checking.readings import read_off
 from graphkin.construction import OwnValues, Room, draft, execute, plan
 from graphkin.construction.board.instruments import pencil
-from graphkin.construction.board.steps import RateTrial, Superposed, TrialCurve, TrialPositions
+from graphkin.construction.board.steps import Curve, RateTrial, Superposed, TrialPositions
 from graphkin.errors import Unsolvable
 from graphkin.plane import dot
 from graphkin.scene import mechanism_of
@@ -364,7 +364,7 @@ def test_the_sheet_says_along_which_direction_a_trial_is_left_open() -> None:
 
 def test_the_trial_curve_passes_the_place_found_between_its_trials() -> None:
     sheet = draft(mechanism_of("triad-slider"))
-    (curve,) = (s for step in sheet.steps for s in step.strokes if isinstance(s, TrialCurve))
+    (curve,) = (s for step in sheet.steps for s in step.strokes if isinstance(s, Curve))
     place = {str(ref): z for ref, z in sheet.points.items()}[curve.point]
     assert 7 == len(curve.at)
     step = max(abs(b - a) for a, b in zip(curve.at, curve.at[1:], strict=False))

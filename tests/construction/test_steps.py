@@ -12,6 +12,7 @@ from graphkin.construction.board.steps import (
     LENGTHS,
     SENTENCES,
     CompassArc,
+    Curve,
     Direction,
     EndStep,
     PlaceStep,
@@ -23,7 +24,6 @@ from graphkin.construction.board.steps import (
     Stroke,
     Superposed,
     Term,
-    TrialCurve,
     VectorStep,
 )
 from graphkin.construction.tasks import TaskStep
@@ -83,7 +83,7 @@ def test_places_of_a_stroke_grow_and_its_direction_stays() -> None:
     ray = Ray(1 + 2j, 1j, 3j, Direction("along", ("h",)), Symbol("v"))
     assert Ray(2 + 4j, 1j, 6j, ray.direction, ray.symbol) == ray.scaled(2.0)
     assert replace(ray, through=3 + 6j, to=None) == replace(ray, to=None).scaled(3.0)
-    assert TrialCurve((2j, 4j), (6j,), "B") == TrialCurve((1j, 2j), (3j,), "B").scaled(2.0)
+    assert Curve((2j, 4j), (6j,), "B") == Curve((1j, 2j), (3j,), "B").scaled(2.0)
 
 
 @pytest.mark.parametrize("stroke", get_args(Stroke))

@@ -15,7 +15,8 @@ from graphkin.construction import draft, trains
 from graphkin.construction.board.instruments import Instrument
 from graphkin.construction.cam_sheet import division
 from graphkin.construction.forces import force_readings, force_scales, with_forces
-from graphkin.construction.synthesis import construct, measured
+from graphkin.construction.synthesis import construct
+from graphkin.construction.tasks import measured
 from graphkin.scene import mechanism_of
 from graphkin.scene.designs import design_of, designs
 from tests.construction.test_trains import TRAINS

@@ -103,6 +103,8 @@ def test_a_velocity_plan_and_the_inversion_of_a_cam_are_figures_of_the_page():
         assert f'class="step-{ends[-1]}"' in plan["svg"]
     cam = _data(_page(handout("cam-offset-roller", positions=2, formats=("html",))))["positions"]
     assert [["cam-diagram-0", "cam-figure-0"]] * 2 == [[f["name"] for f in p["figures"]][-2:] for p in cam]
+    # its steps are not those of the page
+    assert not any("step-" in f["svg"] for p in cam for f in p["figures"][-2:])
 
 
 def test_each_velocity_plan_stands_there_from_its_own_last_step_on():

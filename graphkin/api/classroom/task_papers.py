@@ -15,6 +15,8 @@ from graphkin.api.cams import CamMade
 from graphkin.api.designed import Designed
 from graphkin.checking.closed_form import predict_cam, predict_lengths
 from graphkin.checking.report import COVERAGE
+from graphkin.construction import Sheet
+from graphkin.construction.cam_sheet import divisions
 from graphkin.construction.tasks import length_letters
 from graphkin.drawing.figures.constructions import (
     asked_words,
@@ -45,7 +47,7 @@ from graphkin.papers.documents import accepted, labelled
 from graphkin.papers.paper import Paper
 from graphkin.papers.pdf import papers_as
 from graphkin.papers.pictures import bare_picture
-from graphkin.words import languages, rich_text, say, word
+from graphkin.words import languages, say, word
 from graphkin.words.symbols import Words, sign, spaced
 
 MANY = 6  # steps that stand in two columns
@@ -56,7 +58,7 @@ be accepted of a pencil drawing."""
 
 
 def _papers(
-    title: Said, given: Sequence[Said], start: Sequence[Drawing], whole: Mapping[Said, Drawing], steps: Sequence[Said],
+    title: Said, given: Sequence[Said], start: Sequence[Drawing], whole: Mapping[Said, Drawing], sheet: Sheet,
     results: Sequence[Result], notes: Sequence[Said], language: str, paper: Paper, formats: Sequence[str],
     prefix: str = "",
 ) -> Mapping[str, bytes]:  # fmt: skip
@@ -67,7 +69,7 @@ def _papers(
     given : sentences on the given and the asked
     start : figures that the problem begins with, to scale
     whole : figures of the finished construction, by their subjects
-    steps : each step with its reason
+    sheet : the construction with its steps
     notes : sentences on the result
     language : "en", "zh" or "both"
     """
@@ -90,11 +92,12 @@ def _papers(
         *map(Picture, start),
         results_in("your results", ("quantity", "on paper", "value", "unit"), blank, roomy=True),
     )
-    parted = len(steps) >= MANY
+    account, parted = account_of(sheet), len(sheet.steps) >= MANY
     solution = document(
         "worked solution",
         *asked,
-        *(StepItem(i, finished(words), parted=parted) for i, words in enumerate(steps, 1)),
+        *(StepItem(step.number, finished(in_each(language, partial(account.say, step.phrase))), parted=parted)
+          for step in sheet.steps),
         *(Picture(bare_picture(figure), numbered(i, caption), floats=i < len(whole))
           for i, (caption, figure) in enumerate(whole.items(), 1)),
         results_in("results", ("quantity", "measured", "exact", "unit"), results),
@@ -120,7 +123,7 @@ def design_papers(designed: Designed, formats: Sequence[str]) -> Mapping[str, by
     """Problem sheet, worked solution and key of a synthesis, as files."""
     given, sheet = designed.given, designed.sheet
     language, unit, scale = designed.language or given.sheet.language, given.units.length, sheet.scales.length
-    account, spread = account_of(sheet), predict_lengths(given.task, scale, "pencil", given.sheet.tools)
+    spread = predict_lengths(given.task, scale, "pencil", given.sheet.tools)
     results = []
     for row in designed.rows:
         name = length_letters(row.symbol)
@@ -133,7 +136,7 @@ def design_papers(designed: Designed, formats: Sequence[str]) -> Mapping[str, by
                in_each(language, lambda each: labelled("find", find, each))),
         start=(construction_picture(given, sheet, language, 1),),
         whole={said("design figure", language): construction_picture(given, sheet, language)},
-        steps=[in_each(language, partial(account.say, step.phrase)) for step in sheet.steps],
+        sheet=sheet,
         results=results,
         notes=_notes(designed, language),
         language=language,
@@ -181,19 +184,19 @@ def _by_sentence(spoken: Mapping[str, Sequence[str]]) -> list[Said]:
 def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str = "cam-") -> Mapping[str, bytes]:
     """Problem sheet, worked solution and key of a cam drawn by inversion, as files."""
     scene, sheet, cam = made.mechanism, made.sheet, made.cam
-    swings = cam.turns
+    swings, drawn_at = cam.turns, divisions(sheet)
     results = []
-    spread = predict_cam(sheet, "pencil", scene.question.sheet.tools)
-    for k, (d, tolerance) in enumerate(zip(sheet.divisions, spread, strict=True)) if not cam.flat else ():
+    spread = predict_cam(cam, sheet, "pencil", scene.question.sheet.tools)
+    for k, (d, tolerance) in enumerate(zip(drawn_at, spread, strict=True)) if not cam.flat else ():
         angle = math.degrees(d.pressure)
         deviation = math.degrees(tolerance["pressure"])
         results.append(_result(sign("α", str(k)), "°", f"{angle:.1f}", f"{angle:.3f}", angle, deviation))
     metres = scene.units.metres
-    for k, (d, tolerance) in enumerate(zip(sheet.divisions, spread, strict=True)):
+    for k, (d, tolerance) in enumerate(zip(drawn_at, spread, strict=True)):
         lift = cam.law.at(d.degree).lift
         drawn, value, deviation = (math.degrees(x) if swings else x / metres for x in (d.lift, lift, tolerance["lift"]))
         letter, unit = ("ψ", "°") if swings else ("s", scene.units.length)
-        per = 1.0 if swings else sheet.scale / metres
+        per = 1.0 if swings else sheet.scales.length / metres
         read = number(round(drawn / per, 2) * per)  # to 0.01 mm, as lengths on paper are told
         results.append(_result(sign(letter, str(k)), unit, read, number(value, 5), value, deviation, -math.inf))
     spoken = {each: made.sentences(each) for each in languages(language)}
@@ -202,9 +205,9 @@ def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str
         title=in_each(language, lambda each: scene.question.title_in(each) or scene.name),
         given=(in_each(language, lambda each: cam_given(scene, cam, each)),
                in_each(language, lambda each: labelled("find", word("cam find", each), each))),
-        start=cam_pictures(scene, sheet, language, begun=True),
-        whole=dict(zip(captions, cam_pictures(scene, sheet, language), strict=True)),
-        steps=[in_each(language, partial(rich_text, phrase)) for phrase in sheet.steps],
+        start=cam_pictures(scene, cam, sheet, language, begun=True),
+        whole=dict(zip(captions, cam_pictures(scene, cam, sheet, language), strict=True)),
+        sheet=sheet,
         results=results,
         notes=_by_sentence(spoken),
         language=language,

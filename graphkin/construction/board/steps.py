@@ -152,7 +152,8 @@ Part = Literal["", "t", "n"]
 Value = TypeVar("Value")
 LENGTHS = {
     "tail", "tip", "through", "to", "centre", "radius", "at", "a", "b", "curve", "corners", "mm", "radii", "apart",
-    "origin", "poses", "low", "high", "less", "span", "strokes", "terms", "lengths",
+    "origin", "poses", "low", "high", "less", "span", "strokes", "terms", "lengths", "divisions", "line", "base",
+    "point", "contact",
 }  # fmt: skip
 """Places and lengths on paper (mm), and what has such, which a scale changes; a direction stays."""
 
@@ -217,15 +218,17 @@ class Term(OnPaper):
 DiagramName = Diagram | Literal["force"]
 Verb = Literal["mark", "lay off", "line", "cross", "image", "read", "join", "carry over", "trial", "divide"]
 TaskReason = Literal[
-    "design places", "design pivots",  # mark
+    "design places", "design pivots", "cam step pivots",  # mark
     "design stroke", "design swing", "design limit positions", "design centres", "design bar limits", "design pairs",
-    "design reckoned",  # lay off
-    "design sagitta",  # line
+    "design reckoned", "cam step lifts",  # lay off
+    "design sagitta", "cam step base", "cam step circles", "cam step rays", "cam step tangents", "cam step rollers",
+    "cam step edge", "cam step faces", "cam step normals", "cam step normals swinging",  # line
     "design centre", "design parallel", "design arc", "design line", "design crank circle", "design feet",
-    "design bar ends", "design ram", "design bisectors", "design reciprocals",  # cross
+    "design bar ends", "design ram", "design bisectors", "design reciprocals", "cam step swings",  # cross
     "design theta", "design measured",  # read
     "design halve", "design inverted",  # carry over
     "design trial",  # trial
+    "cam step diagram",  # divide
 ]  # fmt: skip
 """Reasons of steps of a task with a construction of its own."""
 Reason = TaskReason | Role | Literal[
@@ -609,12 +612,12 @@ class Angle(OnPaper):
 
 
 @dataclass(frozen=True)
-class TrialCurve(OnPaper):
-    """The places ``at`` of a group's free ``point`` in trial positions, and the curve through them."""
+class Curve(OnPaper):
+    """A curve by its places: of a group's free ``point``, through its places ``at`` in trial positions, or of a cam."""
 
     curve: tuple[complex, ...]
-    at: tuple[complex, ...]
-    point: str
+    at: tuple[complex, ...] = ()
+    point: str = ""
 
 
 @dataclass(frozen=True)
@@ -635,7 +638,7 @@ class Image(OnPaper):
     corners: tuple[complex, ...]
 
 
-Stroke = Vector | TrialCurve | Ray | CompassArc | Bar | Angle | Mark | Image
+Stroke = Vector | Curve | Ray | CompassArc | Bar | Angle | Mark | Image
 
 
 # -- trials ------------------------------------------------------------------------------------------------------------

@@ -29,11 +29,11 @@ from graphkin.construction.board.proportional_division import divide, shares
 from graphkin.construction.board.steps import (
     Bar,
     CompassArc,
+    Curve,
     MeasuredGap,
     PlaceStep,
     Step,
     Stroke,
-    TrialCurve,
     TrialPositions,
     TrialRow,
 )
@@ -275,7 +275,7 @@ def _curve(
         goal = Bar(free - reach, free + reach, "")
     else:
         goal = CompassArc(at(poses, *ends[1]), abs(free - at(poses, *ends[1])), free)
-    return point, (TrialCurve(places, places[::BETWEEN], point), goal)
+    return point, (Curve(places, places[::BETWEEN], point), goal)
 
 
 def _measured(

@@ -18,9 +18,9 @@ from graphkin.account.voice import account_of
 from graphkin.checking.closed_form import FoundLength
 from graphkin.construction.board.scales import extent_of, fitting_scale
 from graphkin.construction.board.sheet import Sheet
-from graphkin.construction.board.steps import Angle, Bar, CompassArc, Mark, Ray
+from graphkin.construction.board.steps import Angle, Bar, CompassArc, Curve, Mark, Ray, Step
 from graphkin.construction.board.steps import Stroke as DrawnStroke
-from graphkin.construction.cam_sheet import CamSheet, cam_sheet
+from graphkin.construction.cam_sheet import cam_sheet, divisions
 from graphkin.construction.tasks import length_letters
 from graphkin.construction.touching import CamStation
 from graphkin.drawing.box import Box
@@ -125,14 +125,14 @@ def design_figure(
     language : "en", "zh" or "both"
     """
     unit, names = design.units.length, (design.title_in(each) or design.name for each in languages(language))
-    account, steps = account_of(sheet), [step.phrase for step in sheet.steps]
+    said = spoken(account_of(sheet), (step.phrase for step in sheet.steps), language)
     lengths = "; ".join(f"{row.symbol} = {row.measured:.6g} {unit}" for row in rows)
     facts = {"kind": design.task.kind, "units": {"length": unit, "paper": "mm"}, "instrument": sheet.instrument}
     return worked_page(
-        names, asked_words(design, language), [_construction(sheet)], steps,
+        names, asked_words(design, language), [_construction(sheet)], sheet,
         _tables(design, sheet.scales.length, rows, confirmed, language), notes, _design_scale(design, sheet),
-        title="design figure", said=f"{spoken(steps, language, account.say)} {lengths}", language=language,
-        metadata=_design_facts(design, sheet) | facts, say=account.say,
+        title="design figure", said=f"{said} {lengths}", language=language,
+        metadata=_design_facts(design, sheet) | facts,
     )  # fmt: skip
 
 
@@ -337,24 +337,32 @@ HIGH = (16.0, 40.0)
 """mm that the lifts take there."""
 PAST = 5.0
 """mm that a ray goes on beyond what it carries."""
+LEAST_RADIUS = 0.3  # mm: a smaller circle about the axis lies under its pivot
+BEGUN = 2  # steps, to the circles, with which a problem sheet begins
 PITCH, THIN = Stroke(0.25, (5.0, 1.0, 0.6, 1.0)), Stroke(0.13)
 ROWS = 10
 
 
-def scaled_cam(scene: Mechanism, cam: LawCam) -> CamSheet:
+def scaled_cam(scene: Mechanism, cam: LawCam) -> Sheet:
     """The construction of a cam at the scale of its figure: as the scene wishes, or the finest of the series at which
     the cam fits the page."""
     if scene.question.sheet.length_scale:
         return cam_sheet(cam, scene.question.sheet.length_scale * 1e-3)
     natural = cam_sheet(cam, cam.base / 50.0)
-    far = [*natural.profile, *natural.pitch, *(d.point for d in natural.divisions)]
-    far += [d.line for d in natural.divisions] if cam.turns else []
+    drawn_at = divisions(natural)
+    far = [*(z for curve in _curves(natural) for z in curve.curve), *(d.point for d in drawn_at)]
+    far += [d.line for d in drawn_at] if cam.turns else []
     room = CAM_PANEL[0] - 2 * PAST - 8.0, CAM_PANEL[1] - 2 * PAST - 8.0
     per = scene.units.metres
-    return cam_sheet(cam, fitting_scale(extent_of(far, 1.0), room, natural.scale / per) * per)
+    return cam_sheet(cam, fitting_scale(extent_of(far, 1.0), room, natural.scales.length / per) * per)
 
 
-def cam_figure(scene: Mechanism, sheet: CamSheet, notes: Sequence[Phrase], language: str) -> Drawing:
+def _curves(sheet: Sheet) -> list[Curve]:
+    """The pitch curve under a roller, and the profile."""
+    return [stroke for step in sheet.steps for stroke in step.strokes if isinstance(stroke, Curve)]
+
+
+def cam_figure(scene: Mechanism, cam: LawCam, sheet: Sheet, notes: Sequence[Phrase], language: str) -> Drawing:
     """Draw a cam on a page of its own.
 
     Parameters
@@ -363,28 +371,31 @@ def cam_figure(scene: Mechanism, sheet: CamSheet, notes: Sequence[Phrase], langu
     language : "en", "zh" or "both"
     """
     names = (scene.question.title_in(each) or scene.name for each in languages(language))
-    facts = {"units": {"length": scene.units.length, "paper": "mm"},
-             "scales": {"length": sheet.scale / scene.units.metres}, "instrument": "exact"}  # fmt: skip
+    units, scales = {"length": scene.units.length, "paper": "mm"}, {"length": sheet.scales.length / scene.units.metres}
+    facts = {"units": units, "scales": scales, "instrument": sheet.instrument}
+    said = spoken(account_of(sheet), (*(step.phrase for step in sheet.steps), *notes), language)
     return worked_page(
-        names, _given(scene, sheet.cam, language), [_diagram(scene, sheet, language), _cam(scene, sheet)], sheet.steps,
-        _table(scene, sheet, language), notes, _scale(scene, sheet), title="cam figure",
-        said=spoken((*sheet.steps, *notes), language), language=language, metadata=_facts(scene, sheet) | facts,
+        names, _given(scene, cam, language), [_diagram(scene, cam, sheet, language), _cam(scene, cam, sheet)], sheet,
+        _table(scene, cam, sheet), notes, _scale(scene, sheet), title="cam figure", said=said, language=language,
+        metadata=_facts(scene, cam) | facts,
     )  # fmt: skip
 
 
-def _scale(scene: Mechanism, sheet: CamSheet) -> RichText:
-    return sign("μ", "l") + f" = {number(sheet.scale / scene.units.metres)} {scene.units.length}/mm"
+def _scale(scene: Mechanism, sheet: Sheet) -> RichText:
+    return sign("μ", "l") + f" = {number(sheet.scales.length / scene.units.metres)} {scene.units.length}/mm"
 
 
-def _facts(scene: Mechanism, sheet: CamSheet) -> dict[str, object]:
-    return {"figure": "cam", "scene": scene.name, "cam": sheet.cam.link, "graphkin": __version__}
+def _facts(scene: Mechanism, cam: LawCam) -> dict[str, object]:
+    return {"figure": "cam", "scene": scene.name, "cam": cam.link, "graphkin": __version__}
 
 
-def cam_pictures(scene: Mechanism, sheet: CamSheet, language: str, begun: bool = False) -> tuple[Drawing, Drawing]:
+def cam_pictures(
+    scene: Mechanism, cam: LawCam, sheet: Sheet, language: str, begun: bool = False
+) -> tuple[Drawing, Drawing]:
     """The displacement diagram and the cam, each by itself; ``begun`` leaves out the parts to be found."""
-    facts = _facts(scene, sheet)
-    return (picture(_diagram(scene, sheet, language, begun), "cam diagram", language, facts),
-            picture(_cam(scene, sheet, begun), "cam figure", language, facts, _scale(scene, sheet)))  # fmt: skip
+    facts = _facts(scene, cam)
+    return (picture(_diagram(scene, cam, sheet, language, begun), "cam diagram", language, facts),
+            picture(_cam(scene, cam, sheet, begun), "cam figure", language, facts, _scale(scene, sheet)))  # fmt: skip
 
 
 def cam_given(scene: Mechanism, cam: LawCam, language: str) -> RichText:
@@ -429,11 +440,11 @@ def _unit(scene: Mechanism, cam: LawCam) -> str:
     return "°" if cam.turns else f" {scene.units.length}"
 
 
-def _diagram(scene: Mechanism, sheet: CamSheet, language: str, begun: bool = False) -> Block:
+def _diagram(scene: Mechanism, cam: LawCam, sheet: Sheet, language: str, begun: bool = False) -> Block:
     """The displacement diagram; with ``begun`` only its axes with the pieces of the law."""
-    cam, law = sheet.cam, sheet.cam.law
+    law = cam.law
     span, low = _lift(scene, cam, law.greatest - law.least) or 1.0, _lift(scene, cam, law.least)
-    rise = (law.greatest - law.least) / sheet.scale
+    rise = (law.greatest - law.least) / sheet.scales.length
     same = not cam.turns and HIGH[0] <= rise <= HIGH[1]
     per = span / rise if same else fitting_scale((span, span), (HIGH[1], HIGH[1]), 1.0)
     left, floor = 5.0, span / per + 6.0
@@ -453,7 +464,7 @@ def _diagram(scene: Mechanism, sheet: CamSheet, language: str, begun: bool = Fal
     drawn: list[Primitive] = [Line(origin, origin + LONG + 5.0, strokes.DIMENSION),
                               Line(origin, top - 5.0j, strokes.DIMENSION)]  # fmt: skip
     labels: list[Primitive] = []
-    divided = [] if begun else [(d.degree, d.lift, str(k)) for k, d in enumerate(sheet.divisions)]
+    divided = [] if begun else [(d.degree, d.lift, str(k)) for k, d in enumerate(divisions(sheet))]
     for degree, lift, name in (*divided, *((TURN, lift, "") for _, lift, _ in divided[:1])):
         foot = at(degree, law.least)
         drawn.append(Line(foot, at(degree, lift), THIN))
@@ -478,35 +489,22 @@ def _diagram(scene: Mechanism, sheet: CamSheet, language: str, begun: bool = Fal
     return Block(Piece({"construction": (shape,), "labels": tuple(labels)}), floor + 14.0, WORKED)
 
 
-def _cam(scene: Mechanism, sheet: CamSheet, begun: bool = False) -> Block:
+def _cam(scene: Mechanism, cam: LawCam, sheet: Sheet, begun: bool = False) -> Block:
     """The cam with its construction; with ``begun`` only the circles and the follower at its start."""
-    plate, cam, start = Plate(), sheet.cam, sheet.divisions[0]
+    plate, drawn_at, mm = Plate(), divisions(sheet), 1.0 / sheet.scales.length
+    start, far, base = drawn_at[0], max(abs(d.point) for d in drawn_at), cam.base * mm
     colour, other = (strokes.colour_of_link(scene, link) for link in (cam.link, cam.follower))
-    far = max(abs(d.point) for d in sheet.divisions)
-    shown = [] if begun else _shown(sheet)
-    profile = Polygon(tuple(map(on_page, sheet.profile)), strokes.tint(colour), Stroke(0.7, (), colour))
+    outline = tuple(map(on_page, _curves(sheet)[-1].curve))
+    profile = Polygon(outline, strokes.tint(colour), Stroke(0.7, (), colour))
     # what finds the cam lies over its tint
     plate.put("construction", *[profile] * (not begun), id=f"cam-{cam.link}", classes=("cam",))
-    rings = [sheet.base, *[sheet.offset] * (sheet.offset > 0.3), *[sheet.base - sheet.roller] * (cam.roller > 0.0)]
-    lines: list[Primitive] = [Circle(0j, radius, stroke=THIN) for radius in rings]
-    for d in shown:
-        part, end = _ray(sheet, d, far)
-        lines += part
-        k = sheet.divisions.index(d)
-        plate.name(plain(str(k), SMALL), end, f"label-division-{k}", toward=(cmath.phase(end),), rank=1)
-    if cam.flat:
-        half = 0.35 * sheet.base
-        lines += [_face(d, half, strokes.CONSTRUCTION) for d in shown]
-    elif shown:
-        lines += [Circle(on_page(d.point), sheet.roller, stroke=THIN) for d in shown if cam.roller]
-        lines += [Polyline(tuple(map(on_page, sheet.pitch)), PITCH)] * bool(cam.roller)
-        lines += [Line(on_page(d.contact), on_page(d.point + 6.0 * d.normal), strokes.DIRECTION)
-                  for d in shown]  # fmt: skip
-    lines += symbols.sense_arc(0j, max(5.0, 0.3 * sheet.base), 0.6, cam.sense, math.radians(60))
-    plate.put("construction", *lines, id="inversion", classes=("strokes",))
+    for step in sheet.steps[: BEGUN if begun else None]:
+        _draw_inversion(plate, step, drawn_at, far + cam.roller * mm + PAST, 0.35 * base)
+    sense = symbols.sense_arc(0j, max(5.0, 0.3 * base), 0.6, cam.sense, math.radians(60))
+    plate.put("construction", *sense, classes=("strokes",))
     bar = strokes.LINK.coloured(other)
-    follower: list[Primitive] = [Circle(on_page(start.point), sheet.roller, stroke=bar)] if cam.roller else []
-    follower += [_face(sheet.divisions[0], 8.0, bar)] if cam.flat else []
+    follower: list[Primitive] = [Circle(on_page(start.point), cam.roller * mm, stroke=bar)] if cam.roller else []
+    follower += [_face(start, 8.0, bar)] if cam.flat else []
     end = start.line if cam.turns else start.point + (far - abs(start.point) + 12.0) * start.way
     follower.append(Line(on_page(start.point), on_page(end), bar))
     if cam.turns:
@@ -521,16 +519,62 @@ def _cam(scene: Mechanism, sheet: CamSheet, begun: bool = False) -> Block:
     for name, z in named.items():
         plate.name(rich(sign(name)), z, f"label-point-{name}")
     box = ink_box(plate.piece.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
-    box = box.joined(Box.around(map(on_page, sheet.profile))).grown(6.0)
+    box = box.joined(Box.around(outline)).grown(6.0)
     return centred(box, WORKED, box.height, lambda around: plate.piece)
 
 
-def _shown(sheet: CamSheet) -> list[CamStation]:
+def _draw_inversion(plate: Plate, step: Step, drawn_at: Sequence[CamStation], reach: float, half: float) -> None:
+    """The strokes of a step, those of divisions where these are far enough apart; lines and pivots with their numbers.
+
+    Parameters
+    ----------
+    reach : how far from the axis the lines of a sliding follower are drawn (mm)
+    half : of the length of a face (mm)
+    """
+    lines: list[Primitive] = []
+    shown = _shown(drawn_at)
+    for k, stroke in enumerate(step.strokes):
+        match stroke:
+            case CompassArc(0j, radius) if radius > LEAST_RADIUS:
+                lines.append(Circle(0j, radius, stroke=THIN))
+            case Curve(curve) if stroke is not step.strokes[-1]:
+                lines.append(Polyline(tuple(map(on_page, curve)), PITCH))
+            case _ if k not in shown:
+                continue
+            case CompassArc(centre, radius, _, True):
+                lines.append(Circle(on_page(centre), radius, stroke=THIN))
+            case CompassArc(pivot, arm, at):
+                first, last = (cmath.phase(z - pivot) for z in (drawn_at[k].base, at))
+                turned = math.remainder(last - first, TURN) / 2
+                middle, beyond = first + turned, abs(turned) + 3.0 / arm
+                lines.append(Arc(on_page(pivot), arm, middle - beyond, middle + beyond, THIN))
+            case Mark(_, at):
+                lines.append(Circle(on_page(at), 0.5, stroke=THIN))
+                _number(plate, k, at)
+            case Ray(foot, along, None):
+                end = foot + math.sqrt(max(reach**2 - abs(foot) ** 2, 0.0)) * along
+                lines.append(Line(on_page(foot), on_page(end), THIN))
+                _number(plate, k, end)
+            case Ray(through, along, to) if to is not None:
+                lines.append(Line(on_page(through), on_page(to + 6.0 * along), strokes.DIRECTION))
+            case Bar():
+                lines.append(_face(drawn_at[k], half, strokes.CONSTRUCTION))
+    if lines:
+        plate.put("construction", *lines, classes=("strokes",), step=step.number)
+
+
+def _number(plate: Plate, division: int, at: complex) -> None:
+    """The number of a division at its line or pivot."""
+    runs = plain(str(division), SMALL)
+    plate.name(runs, at, f"label-division-{division}", toward=(cmath.phase(at),), rank=1)
+
+
+def _shown(drawn_at: Sequence[CamStation]) -> list[int]:
     """The drawn divisions: neighbours are at least a millimetre and a half apart at the base circle."""
-    shown: list[CamStation] = []
-    for d in sheet.divisions:
-        if all(abs(d.base - other.base) >= 1.5 for other in shown):
-            shown.append(d)
+    shown: list[int] = []
+    for k, d in enumerate(drawn_at):
+        if all(abs(d.base - drawn_at[other].base) >= 1.5 for other in shown):
+            shown.append(k)
     return shown
 
 
@@ -542,43 +586,28 @@ def _face(d: CamStation, half: float, stroke: Stroke) -> Line:
     return Line(on_page(d.point + low * across), on_page(d.point + high * across), stroke)
 
 
-def _ray(sheet: CamSheet, d: CamStation, far: float) -> tuple[list[Primitive], complex]:
-    """The line of a division, turned back about the cam, and the place of its number."""
-    if not sheet.cam.turns:
-        length = math.sqrt(max((far + sheet.roller + PAST) ** 2 - sheet.offset**2, 0.0))
-        end = d.line + length * d.way
-        return [Line(on_page(d.line), on_page(end), THIN)], end
-    pivot = d.line
-    arm = abs(d.point - pivot)
-    start, end = (cmath.phase(z - pivot) for z in (d.base, d.point))
-    half = math.remainder(end - start, TURN) / 2
-    middle, reach = start + half, abs(half) + 3.0 / arm
-    return [Arc(on_page(pivot), arm, middle - reach, middle + reach, THIN),
-            Circle(on_page(pivot), 0.5, stroke=THIN)], pivot  # fmt: skip
-
-
-def _table(scene: Mechanism, sheet: CamSheet, language: str) -> Block:
+def _table(scene: Mechanism, cam: LawCam, sheet: Sheet) -> Block:
     """Number, cam degree, lift and pressure angle of each division, in columns beside each other."""
-    unit = _unit(scene, sheet.cam).strip()
+    unit, drawn_at = _unit(scene, cam).strip(), divisions(sheet)
     heads: list[Words] = ["", sign("φ") + " (°)", sign("ψ" if unit == "°" else "s") + f" ({unit})", sign("α") + " (°)"]
-    columns = -(-len(sheet.divisions) // ROWS)
-    count = -(-len(sheet.divisions) // columns)
-    cells = [[str(k), f"{math.degrees(d.degree):.2f}", f"{_lift(scene, sheet.cam, d.lift):.3f}",
-              f"{math.degrees(d.pressure):.2f}"] for k, d in enumerate(sheet.divisions)]  # fmt: skip
+    columns = -(-len(drawn_at) // ROWS)
+    count = -(-len(drawn_at) // columns)
+    cells = [[str(k), f"{math.degrees(d.degree):.2f}", f"{_lift(scene, cam, d.lift):.3f}",
+              f"{math.degrees(d.pressure):.2f}"] for k, d in enumerate(drawn_at)]  # fmt: skip
     wide = (WORKED - GUTTER * (columns - 1)) / columns
     widths = [share * wide for share in (0.16, 0.26, 0.32, 0.26)]
     tables = (table([heads], cells[k : k + count], widths, layer="answers") for k in range(0, len(cells), count))
     return row(*tables, gap=GUTTER)
 
 
-def cams_figure(page: FigurePage, cams: Sequence[tuple[CamSheet, Sequence[Phrase]]]) -> Drawing | None:
+def cams_figure(page: FigurePage, cams: Sequence[tuple[LawCam, Sheet, Sequence[Phrase]]]) -> Drawing | None:
     """A page for each cam; None without cams.
 
     Parameters
     ----------
-    cams : the construction of each, and sentences on its values
+    cams : each with its construction, and sentences on its values
     """
-    pages = [cam_figure(page.sheet.scene, sheet, notes, page.language) for sheet, notes in cams]
+    pages = [cam_figure(page.sheet.scene, *of_cam, page.language) for of_cam in cams]
     return replace(pages[0], further=tuple(pages[1:])) if pages else None
 
 

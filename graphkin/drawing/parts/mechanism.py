@@ -13,7 +13,7 @@ from collections.abc import Collection, Iterator
 from graphkin.account.notation import Notation
 from graphkin.account.voice import SAME
 from graphkin.construction.board.sheet import Sheet
-from graphkin.construction.board.steps import Bar, CompassArc, PlaceStep, RateStep, TrialCurve
+from graphkin.construction.board.steps import Bar, CompassArc, Curve, PlaceStep, RateStep
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import (
@@ -574,7 +574,7 @@ def trial_marks_in_mechanism(sheet: Sheet) -> Piece:
                 for s in step.strokes if isinstance(s, Bar) and abs(s.b - s.a) > SAME
             )  # fmt: skip
             over.append(Group(lines, id=f"special-{step.point}", classes=("special",), step=step.number))
-        for curve in (s for s in step.strokes if isinstance(s, TrialCurve)):
+        for curve in (s for s in step.strokes if isinstance(s, Curve)):
             curves += 1
             parts: list[Primitive] = [Polyline(tuple(map(on_page, curve.curve)), strokes.TRIAL_CURVE)]
             for number, z in enumerate(curve.at, 1):
