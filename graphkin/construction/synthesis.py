@@ -178,15 +178,17 @@ def _pivot_on_line(paper: TaskBoard, D: complex, first: complex, second: complex
 
 
 def _between_limits(paper: TaskBoard, A: complex, D: complex, first: complex, second: complex) -> None:
-    """The crank and the rod from both limit positions of a rocker, then the rocker and the frame."""
+    """The crank and the rod from both limit positions of a rocker, with the rocker and the frame."""
     swapped = abs(first - A) < abs(second - A)
     far, near = (second, first) if swapped else (first, second)
-    _crank_from_limits(paper, A, far, near, swapped)
-    paper.measure(CD=(first, D), AD=(A, D))
+    _crank_from_limits(paper, A, far, near, swapped, CD=(first, D), AD=(A, D))
 
 
-def _crank_from_limits(paper: TaskBoard, A: complex, far: complex, near: complex, swapped: bool = False) -> None:
-    """The crank as half the difference of AC1 and AC2, laid off by the compass, with both limit positions."""
+def _crank_from_limits(
+    paper: TaskBoard, A: complex, far: complex, near: complex, swapped: bool = False, **others: tuple[complex, complex]
+) -> None:
+    """The crank as half the difference of AC1 and AC2, laid off by the compass, with both limit positions; the lengths,
+    those of other bars too."""
     i, j = (2, 1) if swapped else (1, 2)
     reach = paper.instrument.compass(abs(near - A))
     on_far = paper.instrument.point(A + reach * unit(far - A))  # AC2 laid on AC1: what remains is twice the crank
@@ -200,7 +202,7 @@ def _crank_from_limits(paper: TaskBoard, A: complex, far: complex, near: complex
     paper.step("cross", "design crank circle", CompassArc(A, crank, out, whole=True),
                *points(**{f"B{i}": out, f"B{j}": back}), *lines("limit", A, back),
                *lines("mechanism", A, out, far))  # fmt: skip
-    paper.told(AB=(A, out), BC=(out, far))
+    paper.measure(AB=(A, out), BC=(out, far), **others)
 
 
 @draw.register
@@ -238,7 +240,7 @@ def _(task: GuideBarTask, paper: TaskBoard) -> None:
     E = paper.cut("E", level, 1 + 0j, first, rod)[0]
     paper.step("cross", "design ram", *arcs(first, rod, E), *points(E1=E), *lines("mechanism", first, E),
                mm=paper.mm(task.rod_length))  # fmt: skip
-    paper.told(AB=(A, foot), AC=(A, C), CD=(C, first), ram=(C, level))
+    paper.measure(AB=(A, foot), AC=(A, C), CD=(C, first), ram=(C, level))
 
 
 @draw.register
@@ -291,7 +293,7 @@ def _chain(paper: TaskBoard, close: str, **chain: complex) -> None:
     """The four bars of a linkage measured and drawn; ``close`` is the name of the third bar."""
     (a, A), (b, B), (c, C), (d, D) = chain.items()
     bars = {a + b: (A, B), b + c: (B, C), close: (C, D), a + d: (A, D)}
-    paper.told(*lines("mechanism", A, B, C, D), **bars)
+    paper.measure(*lines("mechanism", A, B, C, D), **bars)
 
 
 @draw.register

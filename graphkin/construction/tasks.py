@@ -109,7 +109,7 @@ class TaskBoard(Board):
         points = {mark.ref: mark.at for mark in marks if mark.ref.point}
         return Sheet(
             NO_MECHANISM, analyse(NO_MECHANISM), self.instrument.name, Scales(self.scale, 1.0, 1.0), points,
-            tuple(self.steps), readings=dict(self.readings),
+            tuple(self.steps),
         )  # fmt: skip
 
     def mm(self, length: float) -> float:
@@ -146,14 +146,9 @@ class TaskBoard(Board):
         """A point and the direction of the perpendicular bisector, drawn by two pairs of compass arcs."""
         return self.instrument.point((a + b) / 2), self.instrument.direction(1j * unit(b - a))
 
-    def measure(self, **bars: tuple[complex, complex]) -> None:
-        """The lengths of bars off the paper (mm), each by its name."""
-        self.readings |= {ends_of(name): self.instrument.read(abs(b - a)) for name, (a, b) in bars.items()}
-
-    def told(self, *strokes: Stroke, **bars: tuple[complex, complex]) -> None:
-        """A step in which bars are measured."""
-        self.measure(**bars)
-        lengths = tuple(self.readings[ends_of(name)] for name in bars)
+    def measure(self, *strokes: Stroke, **bars: tuple[complex, complex]) -> None:
+        """A step in which the lengths of bars are read off the paper (mm), each by its name."""
+        lengths = tuple(self.instrument.read(abs(b - a)) for a, b in bars.values())
         self.step("read", "design measured", *strokes, points=(*bars,), lengths=lengths)
 
 
@@ -161,12 +156,8 @@ def not_drawn(what: str, finding: str, wanted: str) -> Unsolvable:
     return Unsolvable("not drawn", Problem(what, Phrase(finding), Phrase(wanted)))
 
 
-def ends_of(name: str) -> frozenset[str]:
-    """The points of a measured bar by its letters; a word such as "ram", of its line, is one name."""
-    return frozenset(name) if name.isupper() else frozenset((name,))
-
-
 def measured(sheet: Sheet) -> dict[str, float]:
     """The measured lengths of a synthesis (mm on paper) by the letters of each bar; "ram": the distance of its line
     from C."""
-    return {"".join(sorted(ends)): mm for ends, mm in sheet.readings.items() if isinstance(ends, frozenset)}
+    read = (step for step in sheet.steps if isinstance(step, TaskStep) and step.reason == "design measured")
+    return {name: mm for step in read for name, mm in zip(step.points, step.lengths, strict=True)}

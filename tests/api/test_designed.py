@@ -59,6 +59,14 @@ def test_what_was_drawn_and_what_moves_confirm_the_wish(task):
     assert all(row.error <= 1e-9 * max(made.found.lengths.values()) for row in made.rows)
 
 
+@pytest.mark.parametrize("task", EACH, ids=lambda task: f"{task['kind']}{'-pivots' if 'A' in task else ''}")
+def test_every_length_that_is_compared_is_told_as_it_was_measured(task):
+    made = found(task)
+    *_, last = made.sheet.steps
+    told = dict(re.findall(r"(\w+) = ([\d.]+) mm", say(last.phrase).replace("_", "")))
+    assert {row.symbol: f"{row.on_paper:.2f}" for row in made.rows} == told
+
+
 @pytest.mark.parametrize("name", designs())
 def test_designs_that_come_along_can_be_made(name):
     assert graphkin.design(name).ok

@@ -232,7 +232,7 @@ class Sheet:
         a unit rate
     trains : the velocity plans of rolling links, at scales of their own
     readings : the lengths (mm) that an erring hand has read for the construction, of vectors by their symbols
-        (`either_way`), of the mechanism by the two points; of a synthesis those that any hand has read
+        (`either_way`), of the mechanism by the two points
     has_forces : whether forces can be drawn from it: there are masses or loads, and all that they need is drawn
     without_forces : the sentence on why none are drawn where the scene has loads
     force_scales : N for one mm of force polygons, for erring hands as on the exact drawing; empty: as polygons fit
@@ -302,7 +302,6 @@ class Sheet:
             steps=tuple(step.scaled(k[step.diagram]) for step in self.steps),
             held_still=tuple(step.scaled(k[step.diagram]) for step in self.held_still),
             limits={pair: (low.scaled(length), high.scaled(length)) for pair, (low, high) in self.limits.items()},
-            readings={ends: mm * length for ends, mm in self.readings.items()},
         )
 
     @property

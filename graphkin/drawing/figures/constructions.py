@@ -337,7 +337,6 @@ HIGH = (16.0, 40.0)
 """mm that the lifts take there."""
 PAST = 5.0
 """mm that a ray goes on beyond what it carries."""
-LEAST_RADIUS = 0.3  # mm: a smaller circle about the axis lies under its pivot
 BEGUN = 2  # steps, to the circles, with which a problem sheet begins
 PITCH, THIN = Stroke(0.25, (5.0, 1.0, 0.6, 1.0)), Stroke(0.13)
 ROWS = 10
@@ -535,7 +534,7 @@ def _draw_inversion(plate: Plate, step: Step, drawn_at: Sequence[CamStation], re
     shown = _shown(drawn_at)
     for k, stroke in enumerate(step.strokes):
         match stroke:
-            case CompassArc(0j, radius) if radius > LEAST_RADIUS:
+            case CompassArc(0j, radius):
                 lines.append(Circle(0j, radius, stroke=THIN))
             case Curve(curve) if stroke is not step.strokes[-1]:
                 lines.append(Polyline(tuple(map(on_page, curve)), PITCH))
