@@ -129,7 +129,8 @@ def _divided(sheet: Sheet, step: RateStep) -> tuple[str, str, str] | None:
         mm, arm_mm, rate = _as_read(sheet, step.symbol, next(drawn, 0.0)), sheet.arm_mm(step.points), step.value
     else:
         found = sheet.rates[step.kind][step.link]
-        mm, arm_mm, rate = found.mm, sheet.readings.get(frozenset(step.points), found.arm_mm), found.value
+        arm_mm = sheet.readings.get(frozenset(step.points), found.arm / sheet.scales.length)
+        mm, rate = found.mm, found.value
     if mm == 0.0 or not arm_mm:
         return None
     carried = figures(on_paper(mm))

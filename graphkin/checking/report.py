@@ -347,7 +347,7 @@ def _floor(sheet: Sheet, reading: Reading, rounding: Lost, unknown: float) -> fl
     rate = sheet.rates[symbol.kind].get(symbol.link)
     if rate is None or (rate.vector is None and rate.mm is None):
         return 0.0  # given
-    return lost / (rate.arm_mm * sheet.scales.length if rate.arm_mm else sheet.scene.size)
+    return lost / (rate.arm or sheet.scene.size)
 
 
 def paper(reading: Reading, compared: Compared | None = None) -> str:

@@ -359,7 +359,7 @@ def test_a_rate_has_as_many_figures_as_the_line_that_it_is_read_from(mm, carried
     step = next(step for step in sheet.steps if step.reason == "rate" and not step.held)
     of_links = sheet.rates["omega"]
     rate = of_links[step.link]
-    value = mm * sheet.scales.velocity / (rate.arm_mm * sheet.scales.length)
+    value = mm * sheet.scales.velocity / rate.arm
     short = replace(sheet, rates=sheet.rates | {"omega": of_links | {step.link: replace(rate, value=value, mm=mm)}})
     told = rate_sum(short, step, units=False).split(" = ")[1].split(" ")[0]
     assert value == pytest.approx(float(told), rel=0.6 * 10.0 ** (1 - carried))
@@ -410,8 +410,9 @@ def test_quotients_come_to_what_was_measured_and_what_is_laid_off_to_its_length(
     rate = of_links[step.link]
     carried = []
     for mm, arm in rng.uniform((10.0, 30.0), (180.0, 200.0), (60, 2)).tolist():
-        value = mm * sheet.scales.velocity / (arm * sheet.scales.length)
-        changed = of_links | {step.link: replace(rate, value=value, mm=mm, arm_mm=arm)}
+        metres = arm * sheet.scales.length
+        value = mm * sheet.scales.velocity / metres
+        changed = of_links | {step.link: replace(rate, value=value, mm=mm, arm=metres)}
         other = replace(sheet, rates=sheet.rates | {"omega": changed})
         quotient, told = rate_sum(other, replace(step, points=("?", "!")), units=False).split(" = ")
         over, under = quotient.split(" / ")

@@ -220,6 +220,17 @@ def test_a_sheet_at_other_scales_is_the_same_construction_larger():
     assert {r: 2 * z for r, z in sheet.points.items()} == other.points
     first, second = ({n: r.value for n, r in s.rates["alpha"].items()} for s in (sheet, other))
     assert first == second
+    for kind, times in (("omega", 4.0), ("alpha", 0.5)):
+        assert {n: (times * r.mm, r.arm) for n, r in sheet.rates[kind].items()} == {
+            n: (r.mm, r.arm) for n, r in other.rates[kind].items()
+        }
+
+
+def test_a_rate_read_off_a_velocity_plan_is_as_long_at_every_scale():
+    sheet = draft(mechanism_of("gears-epicyclic"))
+    s = sheet.scales
+    assert sheet.rates["omega"] == sheet.at(Scales(s.length / 2, s.velocity / 4, s.acceleration)).rates["omega"]
+    assert any(rate.mm for rate in sheet.rates["omega"].values())
 
 
 def test_a_remark_belongs_to_the_scale_of_its_figure():

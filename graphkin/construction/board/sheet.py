@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, Self
 
 from graphkin.construction.board.instruments import EXACT_NAME, Instrument
 from graphkin.construction.board.scales import Rectangle, Room, Scales, chosen_scales, extent_of
@@ -131,14 +131,14 @@ class Equation:
 
 
 @dataclass(frozen=True)
-class Rate:
+class Rate(OnPaper):
     """An angular velocity or acceleration measured on the drawing.
 
     Parameters
     ----------
     value : rad/s, rad/s2; counter-clockwise positive
     vector : the relative or tangential vector from which it comes; None for a given rate, or that of another link
-    mm, arm_mm : the lengths of the vector and of the bar on paper; without a bar ``mm`` was read off the rate scale of
+    mm, arm : the length of the vector on paper, and of the bar (m); without a bar ``mm`` was read off the rate scale of
         a velocity plan
     same_as : the other link whose rate it is
     """
@@ -147,7 +147,7 @@ class Rate:
     value: float
     vector: Symbol | None = None
     mm: float = 0.0
-    arm_mm: float = 0.0
+    arm: float = 0.0
     same_as: str = ""
 
     @property
@@ -155,10 +155,9 @@ class Rate:
         """Whether it was read off by itself, neither given nor the rate of another link."""
         return (self.vector is not None or self.mm != 0.0) and not self.same_as
 
-    def scaled(self, vector_times: float, arm_times: float) -> Rate:
-        """The rate read off larger figures; a rate read off a velocity plan stays."""
-        off_plan = self.mm and not self.arm_mm
-        return self if off_plan else replace(self, mm=self.mm * vector_times, arm_mm=self.arm_mm * arm_times)
+    def scaled(self, times: float) -> Self:
+        """The rate with its vector multiplied by ``times``; a rate read off a velocity plan stays."""
+        return super().scaled(times) if self.arm else self
 
 
 @dataclass(frozen=True)
@@ -296,7 +295,7 @@ class Sheet:
             poses={name: pose.scaled(length) for name, pose in self.poses.items()},
             points={ref: z * length for ref, z in self.points.items()},
             ends={order: {ref: z * k[order] for ref, z in ends.items()} for order, ends in self.ends.items()},
-            rates={kind: {name: rate.scaled(times, length) for name, rate in rates.items()}
+            rates={kind: {name: rate.scaled(times) for name, rate in rates.items()}
                    for (kind, rates), times in zip(self.rates.items(), fast, strict=False)},
             noticed=tuple(remark.scaled(k[remark.diagram]) for remark in self.noticed),
             steps=tuple(step.scaled(k[step.diagram]) for step in self.steps),
@@ -458,7 +457,7 @@ def without_residues(sheet: Sheet) -> Sheet:
     for (kind, of_links), scale in zip(sheet.rates.items(), map(sheet.scales.of, ORDERS), strict=True):
         for name, rate in of_links.items():
             if rate.vector in zero:  # a driver's own rate on top of one that came from a residue stays
-                residue = rate.mm / rate.arm_mm * scale / sheet.scales.length if rate.arm_mm else 0.0
+                residue = rate.mm * scale / rate.arm if rate.arm else 0.0
                 value = 0.0 if abs(rate.value) <= 2.0 * residue else rate.value
                 rates[kind][name] = replace(rate, value=value, mm=0.0)
 

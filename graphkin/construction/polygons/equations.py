@@ -101,7 +101,7 @@ def share_rate(plot: Polygons, order: Order, known: str, name: str, add: float =
     add : the rate of the second relative to the first (rad/s, rad/s2)
     """
     rate = plot.rates[order][known]
-    plot.rates[order][name] = Rate(name, rate.value + add, rate.vector, rate.mm, rate.arm_mm, rate.same_as or known)
+    plot.rates[order][name] = Rate(name, rate.value + add, rate.vector, rate.mm, rate.arm, rate.same_as or known)
 
 
 def spread(plot: Polygons, order: Order, start: str, group: Dyad | LargerGroup) -> None:
@@ -358,7 +358,8 @@ def _rate(plot: Polygons, order: Order, edge: RelativeMotion, vector: Vector, gr
     if believed is not None:
         plot.believed.add((order, edge.link))
     source = symbol if symbol in plot.drawn[order] else None
-    plot.rates[order][edge.link] = Rate(edge.link, value if believed is None else believed, source, read, abs(arm))
+    length = abs(arm) * plot.scales.length
+    plot.rates[order][edge.link] = Rate(edge.link, value if believed is None else believed, source, read, length)
     plot.do(RateStep("read", "rate", order, kind=rate, link=edge.link, symbol=symbol, points=bar, value=value, mm=read,
                      held=plot.held))  # fmt: skip
     assert not isinstance(group, Driven)
