@@ -22,7 +22,7 @@ def main() -> None:
     except ValueError:  # in a thread, which no interruption reaches
         ours = False
     # nearly all that a command makes are modules, which stay: looking for garbage among them takes a tenth of its time
-    gc.set_threshold(100_000, 50, 100)
+    gc.set_threshold(300_000, 50, 100)
     # its sums are short: threads of linear algebra would take longer to begin than they save
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     from graphkin.cli.commands import main as run

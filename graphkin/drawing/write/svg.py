@@ -14,7 +14,6 @@ from functools import cache, lru_cache
 from html import escape
 from itertools import count
 from operator import itemgetter
-from xml.etree import ElementTree
 from zlib import crc32
 
 from graphkin.drawing.font import Style, face_rules, families, outline, style_of
@@ -403,6 +402,8 @@ def _escaped(text: str) -> str:
 def check_standard(text: str) -> None:
     """Check all elements of a page against SVG 1.1 by svgwrite, with the attributes of later standards for readers and
     editors added.  Raises ValueError or TypeError for a wrong element."""
+    from xml.etree import ElementTree
+
     import svgwrite
     from svgwrite.data.types import SVGAttribute
     from svgwrite.extensions import Inkscape
