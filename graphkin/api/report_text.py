@@ -84,20 +84,22 @@ def _forces(checked: Checked, language: str) -> list[str]:
     sheet = checked.sheet
     if not sheet.forces:
         return []
-    from graphkin.account.forces import ForceAccount
+    from graphkin.account.forces import caption, told_of
     from graphkin.account.notation import notation_of
+    from graphkin.account.voice import Account
+    from graphkin.construction.forces.steps import BY_MOMENTS, COUPLES
 
-    account = ForceAccount(sheet, notation_of(sheet, sheet.scene.question.sheet.convention))
+    account = Account(sheet, notation_of(sheet, sheet.scene.question.sheet.convention))
     per = f"1 mm = {checked.scales['force']:g} {sheet.scene.units.force}"
     lines = [word("forces", language), per]
-    lines += map(str, map(account.inertia, sheet.inertias.values()))
+    lines += [say(line, language) for told in told_of(account, sheet.inertias.values()) for line in told.sums]
     for number, state in enumerate(sheet.forces):
         if len(sheet.forces) > 1:
             lines.append(word("force with load" if number else "force without load", language))
         for count, group in enumerate(state.groups, 1):
-            lines.append(say(account.caption(group, count), language))
-            steps = (s for s in account.of_group(state, group) if s.kind in ("moments", "system", "couples"))
-            lines += [f"    {say(told, language)}" for step in steps for told in (step.why, *step.work)]
+            lines.append(say(caption(account, group, count), language))
+            steps = told_of(account, group.by(*BY_MOMENTS, "system", *COUPLES), group)
+            lines += [f"    {say(line, language)}" for told in steps for line in (told.said, *told.sums)]
     return [*lines, ""]
 
 

@@ -12,8 +12,8 @@ import numpy as np
 
 from graphkin import solver
 from graphkin.account.account import telling
-from graphkin.account.forces import ForceAccount
-from graphkin.account.notation import Notation, notation_of
+from graphkin.account.forces import force_stages
+from graphkin.account.notation import notation_of
 from graphkin.account.voice import Account
 from graphkin.api.arguments import asked_here, driver_values, hand_of, placed
 from graphkin.api.checked import checked
@@ -297,7 +297,7 @@ def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
             for symbol, on_paper, measured, exact, unit, ok in reading_words(drawn.checked)
         ],
         "agrees": drawn.ok,
-        "steps": steps + _force_steps(drawn, account.letters, spoken),
+        "steps": steps + _force_steps(account, spoken),
         "range": limits,
         "drivers": [
             {"key": d.key, "angle": d.turns, "now": scene.unit_of(d).said(drawn.motion.values[0][i]),
@@ -310,12 +310,12 @@ def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
     }  # fmt: skip
 
 
-def _force_steps(drawn: Drawn, letters: Notation, spoken: str) -> list[dict[str, Json]]:
+def _force_steps(account: Account, spoken: str) -> list[dict[str, Json]]:
     """The steps by which the forces are found, behind those of the motion."""
     return [
-        {"n": step.number, "figure": stage.figure, "html": words_html(step.words(spoken)[0][1], spoken),
-         "work": [words_html(line, spoken) for line in step.lines(spoken)]}
-        for stage in ForceAccount(drawn.checked.sheet, letters).stages() for step in stage.steps
+        {"n": told.step.number, "figure": stage.figure, "html": words_html(told.sentence(spoken), spoken),
+         "work": [words_html(line, spoken) for line in told.work_in(spoken)]}
+        for stage in force_stages(account) for told in stage.steps
     ]  # fmt: skip
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from graphkin import table
 from graphkin.account.account import telling, why
-from graphkin.account.forces import ForceAccount, ForceStage
+from graphkin.account.forces import ForceStage, force_stages
 from graphkin.account.given import (
     drivers,
     fixed_guides,
@@ -506,14 +506,15 @@ def _plan_blocks(
         yield Picture(pictures.bare_picture(page), numbered(count, title), floats=True)
 
 
-def force_stages(lesson: Lesson) -> Iterator[tuple[ForceStage, Said, tuple[StepItem, ...]]]:
+def force_stages_of(lesson: Lesson) -> Iterator[tuple[ForceStage, Said, tuple[StepItem, ...]]]:
     """The stages of the forces, each with the load that its steps tell from those without it (none where there is but
     one), and its steps."""
     sheet, language = lesson.sheet, lesson.language
-    for stage in ForceAccount(sheet, lesson.letters).stages():
+    for stage in force_stages(lesson.account):
         several = len(sheet.forces) > 1 and bool(stage.group.links)
         load = said("force with load" if stage.again else "force without load", language) if several else ()
-        yield stage, load, tuple(StepItem(s.number, s.words(language), s.lines(language)) for s in stage.steps)
+        steps = ((told.step.number, in_each(language, told.sentence), told.work_in(language)) for told in stage.steps)
+        yield stage, load, tuple(StepItem(*step) for step in steps)
 
 
 def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
@@ -524,8 +525,8 @@ def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
     statement = Paragraph(once(scale_statement(sheet, lesson.letters.convention, "force"), language))
     lead: tuple[Heading | Paragraph, ...] = (Heading(said("forces", language)), statement)
     lever = lever_figure(FigurePage(sheet, "lever", language, lesson.letters))
-    for turn, (stage, load, steps) in enumerate(force_stages(lesson)):
-        title = stage.heading(language)
+    for turn, (stage, load, steps) in enumerate(force_stages_of(lesson)):
+        title = said(stage.title.key, language, **stage.title.gaps)
         if load:
             both = zip(title, load, strict=True)
             title = tuple((each, name + "  (" + text + ")") for (each, name), (_, text) in both)
@@ -590,9 +591,8 @@ def stage_title(lesson: Lesson, stage: Stage) -> Said:
 
 def step_items(lesson: Lesson, stage: Stage, parted: bool = False) -> tuple[StepItem, ...]:
     """The steps of a stage in words and numbers."""
-    names = languages(lesson.language)
     return tuple(
-        StepItem(told.step.number, tuple((each, told.sentence(each)) for each in names), told.work, parted)
+        StepItem(told.step.number, in_each(lesson.language, told.sentence), told.work, parted)
         for told in (telling(lesson.account, step) for step in stage.steps)
     )
 

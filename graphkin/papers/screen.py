@@ -16,7 +16,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 from markupsafe import Markup
 
-from graphkin.account.forces import ForceStage, ForceStep
+from graphkin.account.forces import ForceStage, InForces
 from graphkin.account.given import drivers
 from graphkin.account.headings import FIGURE_WORDS, number, term
 from graphkin.account.notation import Notation, scale_statement
@@ -44,7 +44,7 @@ from graphkin.files import Json
 from graphkin.jobs import Progress
 from graphkin.papers.blocks import Block, Heading, Said, StepItem, said
 from graphkin.papers.documents import (
-    force_stages,
+    force_stages_of,
     given,
     results_blocks,
     scene_title,
@@ -314,9 +314,9 @@ def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
         return
     first = languages(language)[0]
     scale = words_html(scale_statement(sheet, lesson.letters.convention, "force"), first)
-    for turn, (stage, load, items) in enumerate(force_stages(lesson)):
+    for turn, (stage, load, items) in enumerate(force_stages_of(lesson)):
         name, svg, group = str(stage.figure), "", stage.group
-        title = said_html(stage.heading(language))
+        title = said_html(said(stage.title.key, language, **stage.title.gaps))
         if group.links:
             name, page = f"force-{turn}", FigurePage(sheet, "forces", language, lesson.letters, WIDE)
             drawn = group_picture(page, stage, f"-{turn}")
@@ -325,7 +325,7 @@ def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
             equation = group_equation(page, group)
             svg = "" if equation is None else svg_element(equation)
         title += f" <small>{said_html(load)}</small>" if load else ""
-        found = (_force_found(lesson, stage, step) for step in stage.steps)
+        found = (_force_found(lesson, stage, told) for told in stage.steps)
         yield {"title": title, "svg": svg}, name, [*zip(items, found, strict=True)]
     lever = lever_figure(FigurePage(sheet, "lever", language, lesson.letters))
     if lever is not None:
@@ -361,11 +361,11 @@ def _found(lesson: Lesson, step: Step) -> dict[str, Json]:
     return _find(lesson, last.symbol, lesson.letters.vector(last.symbol), value)
 
 
-def _force_found(lesson: Lesson, stage: ForceStage, step: ForceStep) -> dict[str, Json]:
+def _force_found(lesson: Lesson, stage: ForceStage, told: InForces) -> dict[str, Json]:
     """The result of a step of the forces that finds a single force or moment."""
-    if len(step.found) != 1:
+    if len(told.step.finds) != 1:
         return {}
-    (symbol,) = step.found
+    (symbol,) = told.step.finds
     back = replace(symbol, link=symbol.other, other=symbol.link) if symbol.other else symbol
     for side, sense in ((symbol, 1.0), (back, -1.0)):
         value = stage.state.moments.get(side) or stage.state.vectors.get(side)

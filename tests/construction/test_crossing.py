@@ -9,9 +9,9 @@ import pytest
 from graphkin.construction import EXACT, draft
 from graphkin.construction.board.sheet import Board
 from graphkin.construction.forces.draw import held_by_pairs
-from graphkin.construction.forces.force_sheet import ForceVector
 from graphkin.construction.forces.groups import CutFree
 from graphkin.construction.forces.position import DrawnPosition
+from graphkin.construction.forces.steps import ForceVector
 from graphkin.construction.synthesis import construct
 from graphkin.errors import Unsolvable
 from graphkin.scene import mechanism_of
@@ -40,7 +40,7 @@ def in_polygon() -> None:
 
 def in_force_polygon() -> None:
     cut = CutFree(DrawnPosition(held_by_pairs(draft(mechanism_of("engine-gas-force")))), EXACT, 1.0)
-    known, last, first = (ForceVector(Symbol("F", link=link, other="1"), link, force)
+    known, last, first = (ForceVector(Symbol("F", link=link, other="1"), link=link, force=force)
                           for link, force in (("2", 5 + 0j), ("3", 1j), ("4", -2j)))  # fmt: skip
     chain: list[ForceVector] = []
     cut.lay(chain, known)

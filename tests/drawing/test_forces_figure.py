@@ -13,8 +13,10 @@ from typing import Any
 import pytest
 
 import graphkin
-from graphkin.account.forces import ForceAccount, ForceStage, balance
+from graphkin.account.forces import ForceStage, balance, force_stages
 from graphkin.account.notation import force_letters, notation_of
+from graphkin.account.voice import Account
+from graphkin.construction.forces.steps import MomentStep
 from graphkin.drawing import svg_bytes
 from graphkin.scene.symbol import Symbol
 from graphkin.words import rich_text
@@ -49,12 +51,12 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 def stages_of(name: Any) -> tuple[ForceStage, ...]:
     sheet = graphkin.check(name).sheet
-    return tuple(ForceAccount(sheet, notation_of(sheet, "chinese")).stages())
+    return tuple(force_stages(Account(sheet, notation_of(sheet, "chinese"))))
 
 
 def lines_of(scene: Any) -> list[str]:
     """The sums of all steps in English."""
-    return [repr(line) for stage in stages_of(scene) for step in stage.steps for line in step.lines("en")]
+    return [repr(line) for stage in stages_of(scene) for step in stage.steps for line in step.work_in("en")]
 
 
 def vectors(svg: bytes) -> dict[str, complex]:
@@ -156,7 +158,7 @@ def test_the_sum_on_a_lever_is_that_of_its_rows_and_gives_the_balance_as_they_ar
 
 def test_the_sum_on_a_lever_is_told_before_its_result() -> None:
     (stage,) = (stage for stage in stages_of("shaper-forces") if stage.figure == "lever")
-    said = [repr(rich_text(line, "en")) for line in stage.told("lever")]
+    said = [repr(rich_text(line, "en")) for line in stage.told("lever", "on lever", "all moments")]
     assert [False, False, True, False] == ["All moments together" in line for line in said]
     assert "by the lever" in said[-1]
 
@@ -165,7 +167,7 @@ def test_the_sum_on_a_lever_is_told_before_its_result() -> None:
 def test_what_a_sum_of_moments_gives_is_laid_off_as_it_stands_there(name: str) -> None:
     compared = 0
     for stage in stages_of(name):
-        lines = [line for step in stage.steps for line in map(repr, step.lines("en"))]
+        lines = [line for step in stage.steps for line in map(repr, step.work_in("en"))]
         sums = [re.search(r"(\$F[^$]*\$) = ([\d.e-]+) k?N$", line) for line in lines if "ΣM" in line]
         given = {m[1]: m[2] for m in sums if m}
         for line in lines:
@@ -182,7 +184,7 @@ def test_a_sum_of_moments_gives_in_figures_what_is_drawn(name: str) -> None:
     checked = graphkin.check(name)
     newtons, found = checked.mechanism.units.newtons, []
     for state in checked.sheet.forces:
-        for one in (m for group in state.groups for m in (*group.moments, *group.couples) if m.value):
+        for one in (s for group in state.groups for s in group.steps if isinstance(s, MomentStep) and s.value):
             terms, arm, value = balance(checked.sheet, one)
             total = sum(float(f"{sign}1") * math.prod(map(float, factors)) for sign, factors in terms)
             assert -total / float(arm or 1) == pytest.approx(float(value), rel=1e-12)
@@ -221,7 +223,7 @@ def test_a_balancing_force_at_an_angle_to_the_guide_is_not_told_to_lie_along_it(
     engine = graphkin.read("engine-gas-force").to_dict()
     scene = {**engine, "balance": {"on": "4", "at": "B", "angle": 30}, "find": ["F_4"]}
     driven = next(stage for stage in stages_of(scene) if stage.group.way == "driver")
-    (told,) = (str(step.words("en")[0][1]) for step in driven.steps if step.kind == "close")
+    (told,) = (str(step.sentence("en")) for step in driven.steps if step.step.verb == "cross")
     assert "∥" not in told
     assert ["⊥h", ""] == [str(v.direction) for v in driven.group.polygon if not v.known][::-1]
 
@@ -238,11 +240,11 @@ def test_the_opposite_of_a_driving_moment_is_drawn_with_its_sign() -> None:
 
 def test_a_force_inside_a_group_is_not_told_to_be_known_on_it() -> None:
     step = stages_of(DRIVEN_AGAINST_A_BLOCK)[0].steps[0]
-    assert "Cut links 1, 2, 3 free; known forces and couples: $P$." == repr(step.words("en")[0][1])
+    assert "Cut links 1, 2, 3 free; known forces and couples: $P$." == repr(step.sentence("en"))
 
 
 def test_a_couple_that_is_known_of_a_sliding_pair_is_told_and_drawn_where_it_loads_the_next_link() -> None:
-    words = [repr(step.words("en")[0][1]) for stage in stages_of(BLOCK_ON_THE_CRANK) for step in stage.steps]
+    words = [repr(step.sentence("en")) for stage in stages_of(BLOCK_ON_THE_CRANK) for step in stage.steps]
     assert "Cut link 2 free; known forces and couples: $M_{32}$." in words
     page = graphkin.draw(BLOCK_ON_THE_CRANK, figures=["forces"]).figures["forces"]
     assert "M32" == text_of(page, "label-acts-2-M_3-2")

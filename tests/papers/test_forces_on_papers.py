@@ -11,7 +11,7 @@ import pytest
 
 import graphkin
 import tests.papers
-from graphkin.account.forces import ForceAccount
+from graphkin.account.forces import force_stages
 
 ENGINE = "engine-gas-force"
 
@@ -120,5 +120,5 @@ def test_a_problem_that_asks_for_some_forces_does_not_ask_for_all() -> None:
 
 def test_a_link_without_a_moment_of_inertia_is_told_without_its_couple() -> None:
     lesson = graphkin.handout("shaper-forces", language="en", formats=("pdf",)).lesson
-    stage = next(ForceAccount(lesson.sheet, lesson.letters).stages())
-    assert [True, False] == ["couple" in str(step.words("en")[0][1]) for step in stage.steps]
+    stage = next(force_stages(lesson.account))
+    assert [True, False] == ["couple" in str(step.sentence("en")) for step in stage.steps]

@@ -43,7 +43,7 @@ from graphkin.words import Neutral, Phrase, gaps_of, links_named, listed
 from graphkin.words.written import amount
 
 if TYPE_CHECKING:
-    from graphkin.construction.forces.force_sheet import ForceState, Inertia
+    from graphkin.construction.forces.steps import ForceState, ForceStep, Inertia
     from graphkin.construction.trains import TrainPlan
 
 REACH = 2000.0  # mm to either side: how far a construction line is drawn
@@ -235,7 +235,7 @@ class Sheet:
     has_forces : whether forces can be drawn from it: there are masses or loads, and all that they need is drawn
     without_forces : the sentence on why none are drawn where the scene has loads
     force_scales : N for one mm of force polygons, for erring hands as on the exact drawing; empty: as polygons fit
-    inertias : inertia forces by link
+    inertias, springs : inertia forces by link, and the forces of springs
     forces : the drawn forces, once, or twice if a load begins or ends exactly here
     """
 
@@ -266,6 +266,7 @@ class Sheet:
     without_forces: Phrase | None = None
     force_scales: Mapping[tuple[str, ...], float] = field(default_factory=dict)
     inertias: Mapping[str, Inertia] = field(default_factory=dict)
+    springs: tuple[ForceStep, ...] = ()
     forces: tuple[ForceState, ...] = ()
 
     def larger(self, times: float) -> Sheet:
@@ -291,7 +292,7 @@ class Sheet:
         length, *fast = k.values()
         return replace(
             self,
-            scales=scales, inertias={}, forces=(),
+            scales=scales, inertias={}, springs=(), forces=(),
             poses={name: pose.scaled(length) for name, pose in self.poses.items()},
             points={ref: z * length for ref, z in self.points.items()},
             ends={order: {ref: z * k[order] for ref, z in ends.items()} for order, ends in self.ends.items()},

@@ -242,6 +242,14 @@ Reason = TaskReason | Role | Literal[
     "before its turn", "held still", "seen from",  # carry over
     "positions", "polygon",  # trial
     "open ends", "plans",  # divide
+    # forces
+    "cut free",  # mark
+    "known forces", "on lever",  # lay off
+    "closed by lines",  # cross
+    "inertia", "spring", "along guide", "two-force member", "about pin", "about guide",  # read
+    "about driver", "system", "couple", "no couple", "balance", "all moments",  # read
+    "closed", "inside",  # join
+    "lever",  # carry over
 ]  # fmt: skip
 FINDS_A_POINT: Collection[Reason] = ("arcs", "arc on path", "paths")
 """Reasons of steps by which a point of the mechanism is found, before it is marked on its link."""
@@ -806,6 +814,13 @@ SENTENCES: Mapping[Reason, str] = {
     "rate": "{kind} {turning}", "sum of rates": "added {kind}", "given on plan": "plan line {kind}",
     "plan": "plan line {kind} {turning}", "held still": "held still {kind}", "seen from": "seen from {diagram}",
     "polygon": "trial polygon", "open ends": "superposed", "plans": "plan tried",
+    "inertia": "force step inertia", "spring": "force spring", "cut free": "force step cut",
+    "along guide": "force reason along", "two-force member": "force two-force member", "about pin": "force reason pin",
+    "about guide": "force reason guide", "about driver": "force reason driver", "system": "force reason system",
+    "known forces": "force step lay", "closed": "force polygon closes", "closed by lines": "force polygon closes",
+    "inside": "force step inside", "couple": "force reason couple", "no couple": "force no couple",
+    "balance": "force reason balance", "lever": "lever reason", "on lever": "lever step forces",
+    "all moments": "lever sum",
 }  # fmt: skip
 """The key in the table of words of steps that are told in one way, or in one for each kind; of others the reason is the
 key."""

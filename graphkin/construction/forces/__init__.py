@@ -2,8 +2,8 @@
 Zhukovsky's lever."""
 
 from graphkin.construction.forces.draw import force_readings, force_scales, with_forces
-from graphkin.construction.forces.force_sheet import ForceGroup, ForceState, Lever
 from graphkin.construction.forces.position import acting_loads
+from graphkin.construction.forces.steps import ForceGroup, ForceState, Lever
 
 __all__ = [
     "ForceGroup", "ForceState", "Lever", "acting_loads", "force_readings", "force_scales", "with_forces",

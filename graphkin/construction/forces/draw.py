@@ -19,13 +19,16 @@ import math
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import count
+from typing import TypeVar
 
 from graphkin.construction.board.instruments import EXACT, Instrument
 from graphkin.construction.board.scales import extent_of, fitting_scale
 from graphkin.construction.board.sheet import Reading, Sheet
-from graphkin.construction.forces.force_sheet import ForceState, ForceVector, Lever, MomentTerm
+from graphkin.construction.board.steps import Step
 from graphkin.construction.forces.groups import NORMAL, TANGENT, CutFree, at_driver, of_dyad, of_larger_group
-from graphkin.construction.forces.position import DrawnPosition, force_groups, from_outside, inertias
+from graphkin.construction.forces.position import DrawnPosition, force_groups, from_outside, inertias, springs
+from graphkin.construction.forces.steps import ForceGroup, ForceState, ForceStep, ForceVector, Lever, MomentTerm
 from graphkin.construction.touching import Touching
 from graphkin.plane import Pose, added_up, cross, unit
 from graphkin.scene.model import Driver
@@ -38,6 +41,7 @@ ROOM = (98.0, 84.0)
 LEAST = 10.0
 """Length on paper (mm) of the largest force of a group; a group of smaller forces has a scale of its own, since nobody
 can read them to a hundredth."""
+Numbered = TypeVar("Numbered", bound=Step)
 ForceScales = Mapping[tuple[str, ...], float]
 """N for one mm of force polygons: of groups with a scale of their own by their links, of all others by ()."""
 SAME = 1e-12
@@ -61,13 +65,37 @@ def with_forces(sheet: Sheet, hand: Instrument = EXACT, scales: ForceScales | No
     scales = scales or sheet.force_scales or force_scales(sheet)
     moves = any(driver.values[1] for driver in sheet.scene.drivers)
     growing = sheet if moves else sheet.growing[0]
-    held, pushes = held_by_pairs(sheet), inertias(sheet, hand)
+    held, pushes, pulls = held_by_pairs(sheet), inertias(sheet, hand), springs(sheet, hand)
     states = [
-        _state(held, hand, scales, from_outside(sheet, growing, pushes, sheet.acting, with_edges, hand))
+        _state(held, hand, scales, from_outside(sheet, growing, pushes, pulls, sheet.acting, with_edges))
         for with_edges in ((False, True) if None in sheet.acting.values() else (False,))
     ]
-    forces = tuple(replace(state, levers=levers_of(sheet, state, hand)) for state in states)
-    return replace(sheet, scales=replace(sheet.scales, force=scales[()]), inertias=pushes, forces=forces)
+    states = [replace(state, levers=levers_of(sheet, state, hand)) for state in states]
+    scales_used = replace(sheet.scales, force=scales[()])
+    return _numbered(replace(sheet, scales=scales_used, inertias=pushes, springs=pulls, forces=tuple(states)))
+
+
+def _numbered(sheet: Sheet) -> Sheet:
+    """The steps of the forces in their order, after those of the motion: loads from outside, then the groups, those of
+    a second state where it differs from the first, then the levers."""
+    numbers, bare = count(sheet.steps[-1].number + 1 if sheet.steps else 1), sheet.forces[0].groups
+
+    def in_order(steps: Iterable[Numbered]) -> tuple[Numbered, ...]:
+        return tuple(replace(step, number=next(numbers)) for step in steps)
+
+    inertias = dict(zip(sheet.inertias, in_order(sheet.inertias.values()), strict=True))
+    springs, states = in_order(sheet.springs), list[ForceState]()
+    first = [replace(group, steps=in_order(group.steps)) for group in bare]
+    for state in sheet.forces:
+        beside = zip(state.groups, bare, first, strict=True)
+        groups = (
+            group if drawn == before else replace(drawn, steps=in_order(drawn.steps)) for drawn, before, group in beside
+        )
+        states.append(replace(state, groups=tuple(groups)))
+    for k, state in enumerate(states):
+        levers = (replace(lever, steps=in_order(lever.steps)) for lever in state.levers)
+        states[k] = replace(state, levers=tuple(levers))
+    return replace(sheet, inertias=inertias, springs=springs, forces=tuple(states))
 
 
 def force_scales(sheet: Sheet) -> ForceScales:
@@ -124,7 +152,16 @@ def _state(held: Sheet, hand: Instrument, scales: ForceScales, known: tuple[Forc
     vectors = {symbol: force for symbol, (force, _) in forces.items()}
     per_mm = {symbol: next((drawn_at[name] for name in drawn_at if name in links), common)
               for symbol, (_, links) in forces.items()}  # fmt: skip
-    return ForceState(known, tuple(g for g in groups if g.links), vectors, moments, per_mm)
+    drawn = tuple(replace(g, read={**g.read, **dict(_named(g, vectors))}) for g in groups if g.links)
+    return ForceState(known, drawn, vectors, moments, per_mm)
+
+
+def _named(group: ForceGroup, vectors: Mapping[Symbol, complex]) -> Iterator[tuple[Symbol, float]]:
+    """The lengths (mm) of forces read off the polygons of a group that are forces (N) of pairs by their names."""
+    for symbol in group.read:
+        force = vectors.get(symbol, vectors.get(symbol.opposite))
+        if force is not None:
+            yield symbol, abs(force / group.per_mm)
 
 
 def _joints(cut: CutFree, forces: Found, moments: dict[Symbol, float]) -> None:
@@ -215,7 +252,10 @@ def _lever(sheet: Sheet, drawn: Sheet, state: ForceState, driver: Driver, hand: 
     if abs(unknown.moment) <= 1e-12 * max((abs(z) for z in ends.values()), default=0.0):
         return None
     value = -added_up(row.moment for row in rows) / unknown.moment
-    return Lever(per_mm, drawn is not sheet, ends, rows, unknown, value)
+    steps = (ForceStep("carry over", "lever", "force"), ForceStep("lay off", "on lever", "force"),
+             ForceStep("read", "all moments", "force", symbol=balance.symbol, finds=(balance.symbol,)))  # fmt: skip
+    by_polygons = state.moments.get(balance.symbol) or abs(state.vectors.get(balance.symbol, 0j))
+    return Lever(per_mm, drawn is not sheet, ends, rows, unknown, value, by_polygons, steps)
 
 
 def _on_lever(images: DrawnPosition, acting: ForceVector, hand: Instrument) -> MomentTerm:

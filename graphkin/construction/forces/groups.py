@@ -21,9 +21,21 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from graphkin.construction.board.instruments import PARALLEL, Instrument
-from graphkin.construction.board.steps import NO_DIRECTION, Direction, Part
-from graphkin.construction.forces.force_sheet import ForceGroup, ForceVector, MomentEquation, MomentTerm, shifted_line
+from graphkin.construction.board.steps import NO_DIRECTION, Direction, Part, Reason
 from graphkin.construction.forces.position import DrawnPosition
+from graphkin.construction.forces.steps import (
+    APART,
+    COUPLES,
+    NO_GROUP,
+    ZERO,
+    ForceGroup,
+    ForceStep,
+    ForceVector,
+    MomentStep,
+    MomentTerm,
+    Way,
+    shifted_line,
+)
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.pairs import Pair
@@ -64,11 +76,16 @@ def _end_of(chain: Chain) -> complex:
 
 @dataclass
 class CutFree:
-    """The known forces on all links during the construction; the last group comes first.
+    """The known forces on all links during the construction, and the group under work; the last group comes first.
 
-    ``acting`` are the known forces and couples by link, ``pins`` the forces of pins on links, ``slides`` force and
-    couple of each guiding link on its sliding one, ``done`` the links whose forces are known, ``per_mm`` N
-    for one mm of the polygons under work.
+    Parameters
+    ----------
+    acting : the known forces and couples by link
+    pins : the forces of pins on links
+    slides : force and couple of each guiding link on its sliding one
+    done : the links whose forces are known
+    per_mm : N for one mm of the polygons under work
+    group : the group under work
     """
 
     drawn: DrawnPosition
@@ -79,6 +96,63 @@ class CutFree:
     slides: dict[str, tuple[complex, float]] = field(default_factory=dict)
     balances: dict[Symbol, complex | float] = field(default_factory=dict)
     done: set[str] = field(default_factory=set)
+    group: ForceGroup = NO_GROUP
+
+    # -- the group under work ------------------------------------------------------------------------------------------
+
+    def begin(self, links: tuple[str, ...], kind: str, way: Way, members: Sequence[str]) -> None:
+        """Cut a group free, with the known forces and couples on it."""
+        self.load_pins(members)
+        acting = tuple(sorted(self.on(members), key=lambda load: not load.force))
+        self.group = ForceGroup(links, kind, way, self.per_mm)
+        self.do(ForceStep("mark", "cut free", "force", links=links, acting=acting))
+
+    def do(self, step: ForceStep) -> None:
+        """Record a step of the group."""
+        self.group = replace(self.group, steps=(*self.group.steps, step))
+
+    def read_off(self, chain: Iterable[ForceVector]) -> tuple[Symbol, ...]:
+        """Read the forces of a polygon that were not read before, all parts together."""
+        spans = dict[Symbol, complex]()
+        for symbol, span in ((vector.symbol, vector.span) for vector in chain if not vector.known):
+            if self.group.read.keys().isdisjoint((symbol, symbol.opposite)) and symbol.opposite not in spans:
+                spans[symbol] = spans.get(symbol, 0j) + span
+        read = {symbol: abs(span) for symbol, span in spans.items()}
+        self.group = replace(self.group, read={**self.group.read, **read})
+        return tuple(read)
+
+    def lettered(self, chain: Chain) -> None:
+        """The polygon of a group, closed by its last vector, and by its first if that was not known either; with the
+        letters of its corners, in the order in which the vectors are laid off and found."""
+        corners = list[complex]()
+        laid = [vector for vector in chain if vector.by != "closing" and abs(vector.span) > ZERO]
+        closing = [vector for vector in reversed(chain) if vector.by == "closing"]
+        for place in (z for vector in (*laid, *closing) for z in (vector.tail, vector.tip)):
+            if all(abs(place - corner) > APART for corner in corners):
+                corners.append(place)
+        known, found, polygon = (tuple(v.lettered(corners) for v in some) for some in (laid, closing, chain))
+        self.group = replace(self.group, polygon=polygon)
+        finds = self.read_off(chain)
+        if known:
+            self.do(ForceStep("lay off", "known forces", "force", known))
+        if len(chain) > 1:
+            done = ForceStep("join", "closed", "force", found, links=self.group.links, finds=finds)
+            self.do(done if len(found) == 1 else replace(done, verb="cross", reason="closed by lines"))
+
+    def inside(self, link: str, chain: Chain) -> None:
+        """The polygon of a single link, closed by the force inside."""
+        self.group = replace(self.group, inner={**self.group.inner, link: tuple(chain)})
+
+    def finished(self, members: Collection[str]) -> ForceGroup:
+        """The group under work: its single links close with the forces inside, and couples follow."""
+        self.done |= set(members)
+        couples = self.group.moments(*COUPLES)
+        inside = [
+            ForceStep("join", "inside", "force", tuple(v for v in chain if v.symbol in finds), link=link, finds=finds)
+            for link, chain in self.group.inner.items() if (finds := self.read_off(chain))
+        ]  # fmt: skip
+        steps = (step for step in self.group.steps if step.reason not in COUPLES)
+        return replace(self.group, steps=(*steps, *inside, *couples))
 
     # -- what acts -----------------------------------------------------------------------------------------------------
 
@@ -95,10 +169,6 @@ class CutFree:
     def on(self, links: Iterable[str]) -> list[ForceVector]:
         """The known actions on some links, without those of size zero."""
         return [load for link in links for load in self.acting[link] if load.force or load.moment]
-
-    def couples_on(self, links: Iterable[str]) -> list[ForceVector]:
-        """The known couples on some links, of no size left out."""
-        return [load for load in self.on(links) if not load.force]
 
     def load_pins(self, members: Iterable[str]) -> None:
         """Links found before hang on pins of these: what guests do there acts on their hosts, what the others do on the
@@ -129,7 +199,7 @@ class CutFree:
 
     def _load_pin(self, point: str, link: str, symbol: Symbol, force: complex) -> None:
         """A known force of a pin acts on a link."""
-        self.push(ForceVector(symbol, link, force, self.drawn.point(link, point)))
+        self.push(ForceVector(symbol, link=link, force=force, at=self.drawn.point(link, point)))
         self.pins[point, link] += force
 
     def at_pin(self, point: str, link: str, of: Collection[str] = ()) -> complex:
@@ -146,7 +216,7 @@ class CutFree:
         else:
             symbol, at = self.drawn.of_slide(pair), self.drawn.foot(pair)
             symbol = symbol if link == pair.a else symbol.opposite
-        return ForceVector(symbol, link, at=at, by="closing", off=other)
+        return ForceVector(symbol, link=link, at=at, by="closing", off=other)
 
     def set_balance(self, balance: ForceVector, acting: ForceVector) -> None:
         """Set a balancing load, as found on one of its two links."""
@@ -175,8 +245,9 @@ class CutFree:
         return MomentTerm(acting, arm, abs(acting.force) * arm / self.drawn.mm, about)
 
     def moments(
-        self, links: Sequence[str], about: complex, letter: str, unknown: ForceVector, more: Iterable[ForceVector] = ()
-    ) -> MomentEquation:
+        self, reason: Reason, links: Sequence[str], about: complex, letter: str, unknown: ForceVector,
+        more: Iterable[ForceVector] = (),
+    ) -> MomentStep:  # fmt: skip
         """The size of a force of known line, or of a couple, by the moments of all actions on some links.
 
         Parameters
@@ -196,7 +267,19 @@ class CutFree:
         terms = tuple(self.term(load, about) for load in sorted(acting, key=lambda load: not load.force))
         total = added_up(term.moment for term in terms)
         rounding = abs(total) <= ROUNDING * added_up(abs(term.moment) for term in terms)
-        return MomentEquation(tuple(links), letter, terms, sought, 0.0 if rounding else -total / sought.moment)
+        value = 0.0 if rounding else -total / sought.moment
+        return MomentStep(
+            "read", reason, "force", symbol=sought.symbol, links=tuple(links), finds=(sought.symbol,),
+            part=unknown.part, about=letter, terms=terms, unknown=sought, value=value,
+        )  # fmt: skip
+
+    def shift(self, force: ForceVector, couple: float) -> float:
+        """Shift the line of action of a pair's force by its couple (N m); the shift (m)."""
+        if not force.force:
+            return 0.0
+        at, shift = shifted_line(force.force, force.at, couple, self.drawn.mm)
+        self.group = replace(self.group, lines={**self.group.lines, force.symbol: at})
+        return shift
 
     # -- polygons ------------------------------------------------------------------------------------------------------
 
@@ -250,7 +333,7 @@ def _foot_name(slide: Pair) -> str:
 
 
 def _slide_found(
-    cut: CutFree, group: ForceGroup, links: Sequence[str], slide: Pair, force: ForceVector, about: complex, letter: str,
+    cut: CutFree, links: Sequence[str], slide: Pair, force: ForceVector, about: complex, letter: str,
     acting: Iterable[ForceVector], inside: Collection[str],
 ) -> ForceVector:  # fmt: skip
     """The couple of a sliding pair on links, from the moments about a place (mm), and where it puts the line of action
@@ -261,18 +344,13 @@ def _slide_found(
     acting : forces and couples found already that are not yet among the known, the pair's own among them
     inside : links that do not come later
     """
-    unknown = ForceVector(replace(force.symbol, kind="M"), force.link, moment=1.0, off=force.off)
-    equation = cut.moments(links, about, letter, unknown, acting)
-    group.couples.append(equation)
-    _shift_line(cut, group, force, equation.value)
-    cut.set_slide(slide, force, equation.found, inside)
-    return equation.found
-
-
-def _shift_line(cut: CutFree, group: ForceGroup, force: ForceVector, couple: float) -> None:
-    """Shift the line of action of a pair's force by its couple (N m)."""
-    if force.force:
-        group.lines[force.symbol] = shifted_line(force.force, force.at, couple, cut.drawn.mm)
+    unknown = ForceVector(replace(force.symbol, kind="M"), link=force.link, moment=1.0, off=force.off)
+    step = cut.moments("couple", links, about, letter, unknown, acting)
+    shift = cut.shift(force, step.value)
+    if any(link in cut.drawn.sheet.scene.by_name for link in links):  # a pin in a slot has no couple
+        cut.do(replace(step, shifted=force.symbol, shift=shift) if step.value else replace(step, reason="no couple"))
+    cut.set_slide(slide, force, step.found, inside)
+    return step.found
 
 
 # -- a dyad ------------------------------------------------------------------------------------------------------------
@@ -290,38 +368,37 @@ def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, ForceVector]) -> Fo
     ------
     Unsolvable : "dead point": the lines that close the polygon are parallel
     """
-    cut.load_pins(dyad.members)
-    group = ForceGroup(dyad.links, dyad.kind, "polygon", cut.per_mm, cut.couples_on(dyad.members))
+    cut.begin(dyad.links, dyad.kind, "polygon", dyad.members)
     pairs = dyad.outer_first, dyad.outer_second
     at_first, at_second = (cut.at_pair(pair, body.links) for pair, body in zip(pairs, dyad.bodies, strict=True))
-    (first, head), (second, tail) = _outer_parts(cut, dyad, at_first, at_second, group)
-    chain = group.polygon
+    (first, head), (second, tail) = _outer_parts(cut, dyad, at_first, at_second)
+    chain: Chain = []
     cut.lay(chain, *first)
     cut.lay_known(chain, dyad.first.links)
     cut.lay_known(chain, dyad.second.links)
     cut.lay(chain, *second)
     cut.close(chain, tail, head)
+    cut.lettered(chain)
     outer = cut.drawn_in(chain, at_first), cut.drawn_in(chain, at_second)
     for pair, force in zip(pairs, outer, strict=True):
         if pair.turns:
             cut.pins[pair.point, pair.a] += force.force
-    inner, couples = _inner_force(cut, dyad, group, outer[0])
+    inner, couples = _inner_force(cut, dyad, outer[0])
     for pair, body, force, opposed in zip(pairs, dyad.bodies, outer, (inner, inner.back), strict=True):
         if pair.turns:
             continue
         at, letter, acting = force.at, _foot_name(pair), [force, opposed, *(couple.back for couple in couples)]
         if dyad.inner.turns:
             at, letter, acting = opposed.at, dyad.inner.point, [force]
-        couples.append(_slide_found(cut, group, body.links, pair, force, at, letter, acting, dyad.members))
+        couples.append(_slide_found(cut, body.links, pair, force, at, letter, acting, dyad.members))
     for body, force, opposed in zip(dyad.bodies, outer, (inner, inner.back), strict=True):
         turning = (load for couple in couples for load in (couple, couple.back) if load.link in body.links)
         acting = [opposed, force, *turning]
         # links that drivers hold together, from the outermost on
         for joint in reversed(body.joints):
             on_leaf = [load for load in acting if load.link == joint.b]
-            acting += _at_driven_joint(cut, group, joint, balances[joint.driver.key], on_leaf, body.links)
-    cut.done |= set(dyad.members)
-    return group
+            acting += _at_driven_joint(cut, joint, balances[joint.driver.key], on_leaf, body.links)
+    return cut.finished(dyad.members)
 
 
 OuterParts = tuple[list[ForceVector], ForceVector]
@@ -329,32 +406,33 @@ OuterParts = tuple[list[ForceVector], ForceVector]
 
 
 def _outer_parts(
-    cut: CutFree, dyad: Dyad, at_first: ForceVector, at_second: ForceVector, group: ForceGroup
+    cut: CutFree, dyad: Dyad, at_first: ForceVector, at_second: ForceVector
 ) -> tuple[tuple[list[ForceVector], ForceVector | None], OuterParts]:
     """The known parts of both outer forces before the polygon closes; None where the first is known completely."""
     slide, outer = dyad.inner, dyad.outer_second
     if slide.turns:
-        return (_by_inner_pin(cut, dyad.first.links, dyad.outer_first, at_first, slide, group),
-                _by_inner_pin(cut, dyad.second.links, outer, at_second, slide, group))  # fmt: skip
+        return (_by_inner_pin(cut, dyad.first.links, dyad.outer_first, at_first, slide),
+                _by_inner_pin(cut, dyad.second.links, outer, at_second, slide))  # fmt: skip
     # body one slides on body two: what pushes it along the guide only its pin can hold
     along = cut.drawn.along(slide)
     laid: Chain = []
     cut.lay_known(laid, dyad.first.links)
     push = along * -dot(_end_of(laid), along) * cut.per_mm
     known = [replace(at_first, force=push, part="n", by="moments", direction=_along(slide))] if push else []
+    if known:
+        symbol, link = at_first.symbol, at_first.link.split("/")[0]
+        cut.do(ForceStep("read", "along guide", "force", symbol=symbol, link=link, finds=(symbol,), part="n"))
     mark: Part = "t" if known else ""
     square = replace(at_first, force=1j * along, part=mark, direction=_across(slide))
     if not outer.turns:
         return (known, square), ([], replace(at_second, force=1j * cut.drawn.along(outer), direction=_across(outer)))
-    equation = cut.moments(
-        (*dyad.first.links, *dyad.second.links), at_second.at, outer.point, replace(square, part="t"), known
-    )  # fmt: skip
-    group.moments.append(equation)
-    return ([*known, replace(equation.found, part=mark)], None), ([], at_second)
+    step = cut.moments("about guide", dyad.members, at_second.at, outer.point, replace(square, part="t"), known)
+    cut.do(replace(step, is_whole=not known and step.value != 0.0))
+    return ([*known, replace(step.found, part=mark)], None), ([], at_second)
 
 
 def _by_inner_pin(
-    cut: CutFree, links: Sequence[str], outer: Pair, force: ForceVector, inner: Pair, group: ForceGroup
+    cut: CutFree, links: Sequence[str], outer: Pair, force: ForceVector, inner: Pair
 ) -> OuterParts:
     """An outer force by the moments about the inner pin."""
     if not outer.turns:
@@ -362,15 +440,15 @@ def _by_inner_pin(
     hinge = cut.drawn.point(inner.a, inner.point)
     bar, along = (outer.point, inner.point), force.at - hinge
     square = replace(force, force=1j * unit(along), part="t", direction=Direction("square", bar))
-    equation = cut.moments(links, hinge, inner.point, square)
-    group.moments.append(equation)
+    step = cut.moments("about pin", links, hinge, inner.point, square)
+    cut.do(step if step.terms else replace(step, reason="two-force member", is_whole=True))
     closing = replace(force, force=along, direction=Direction("along", bar))
     # where it is nought nothing acts on the bar between its ends
-    return ([equation.found], replace(closing, part="n")) if equation.value else ([], closing)
+    return ([step.found], replace(closing, part="n")) if step.value else ([], closing)
 
 
 def _inner_force(
-    cut: CutFree, dyad: Dyad, group: ForceGroup, outer: ForceVector
+    cut: CutFree, dyad: Dyad, outer: ForceVector
 ) -> tuple[ForceVector, list[ForceVector]]:
     """The force inside on the first body closes the polygon of that; of a sliding pair its couple the moments there,
     too.
@@ -380,7 +458,7 @@ def _inner_force(
     outer : the outer force on the first body
     """
     pair, links = dyad.inner, dyad.first.links
-    chain = [vector for vector in group.polygon if vector.link in links]
+    chain = [vector for vector in cut.group.polygon if vector.link in links]
     force = _gap(chain, _end_of(chain), chain[0].tail) * cut.per_mm
     if pair.turns:
         names, point, known = cut.drawn, pair.point, cut.drawn.structure.links
@@ -392,17 +470,19 @@ def _inner_force(
         symbol = on_other if bearing == second else on_other.opposite
         cut.pins[point, first] += force
         cut.pins[point, second] -= force
-        on_first = ForceVector(symbol, first, force, cut.drawn.point(first, point), by="closing", off=second)
+        at = cut.drawn.point(first, point)
+        on_first = ForceVector(symbol, link=first, force=force, at=at, by="closing", off=second)
     else:
         square = 1j * cut.drawn.along(pair)
         on_first = replace(cut.at_pair(pair, links), force=square * dot(force, square))
     cut.close(chain, on_first)
-    group.inner[on_first.link] = chain
+    chain[-1] = replace(chain[-1], ends=(chain[-2].ends[1], chain[0].ends[0]))
+    cut.inside(on_first.link, chain)
     if pair.turns:
         return on_first, []
     about, letter = outer.at, dyad.outer_first.point
     return on_first, [
-        _slide_found(cut, group, links, pair, on_first, about, letter, (on_first, outer), dyad.members)
+        _slide_found(cut, links, pair, on_first, about, letter, (on_first, outer), dyad.members)
     ]  # fmt: skip
 
 
@@ -410,7 +490,7 @@ def _inner_force(
 
 
 def _close_driven(
-    cut: CutFree, group: ForceGroup, chain: Chain, pair: Pair, on: ForceVector, push: ForceVector,
+    cut: CutFree, chain: Chain, pair: Pair, on: ForceVector, push: ForceVector,
     more: Iterable[ForceVector], inside: Collection[str],
 ) -> list[ForceVector]:  # fmt: skip
     """Close the polygon of a link at a driven pair: the force of the pair on it, then the moment or the force that
@@ -429,19 +509,19 @@ def _close_driven(
         on = cut.drawn_in(chain, on)
         if not push.moment:
             return [on, push]
-        equation = cut.moments(links, on.at, pair.point, replace(push, moment=1.0), more)
-        group.couples.append(equation)
-        return [on, equation.found]
+        step = cut.moments("balance", links, on.at, pair.point, replace(push, moment=1.0), more)
+        cut.do(step)
+        return [on, step.found]
     on = replace(on, force=1j * cut.drawn.along(pair), direction=_across(pair))
     aside = abs(cross(push.force, cut.drawn.along(pair))) > PARALLEL  # as the scene says
     push = replace(push, by="closing", direction=NO_DIRECTION if aside else _along(pair))
     cut.close(chain, on, push)
     on, push = cut.drawn_in(chain, on), cut.drawn_in(chain, push)
-    return [on, push, _slide_found(cut, group, links, pair, on, on.at, _foot_name(pair), (*more, on, push), inside)]
+    return [on, push, _slide_found(cut, links, pair, on, on.at, _foot_name(pair), (*more, on, push), inside)]
 
 
 def _at_driven_joint(
-    cut: CutFree, group: ForceGroup, joint: DrivenJoint, balance: ForceVector, extra: Sequence[ForceVector],
+    cut: CutFree, joint: DrivenJoint, balance: ForceVector, extra: Sequence[ForceVector],
     inside: Collection[str],
 ) -> list[ForceVector]:  # fmt: skip
     """The force and the moment of a driven pair on the link that hangs on it; returns what acts on the other link.
@@ -459,9 +539,9 @@ def _at_driven_joint(
         symbol = cut.drawn.of_pin(pair.point, leaf, cut.done)
         if leaf == cut.drawn.holders.get(pair.point, ("",))[0]:
             symbol = cut.drawn.between(other, leaf, pair.point)
-        on = ForceVector(symbol, leaf, at=cut.drawn.point(leaf, pair.point), by="closing", off=other)
-    on_leaf = on, push, *_ = _close_driven(cut, group, chain, pair, on, balance.on(leaf), extra, inside)
-    group.inner[leaf] = chain
+        on = ForceVector(symbol, link=leaf, at=cut.drawn.point(leaf, pair.point), by="closing", off=other)
+    on_leaf = on, push, *_ = _close_driven(cut, chain, pair, on, balance.on(leaf), extra, inside)
+    cut.inside(leaf, chain)
     cut.set_balance(balance, push)
     if pair.turns:
         cut.pins[pair.point, leaf] += on.force
@@ -477,23 +557,21 @@ def at_driver(cut: CutFree, element: Driven, balance: ForceVector) -> ForceGroup
     Unsolvable : "dead point": the balance does no work
     """
     link, pair = element.link, element.pair
-    cut.load_pins((link,))
-    links = (link,) if link not in cut.drawn.structure.blocks else ()
-    group = ForceGroup(links, "driver", "driver", cut.per_mm, cut.couples_on((link,)))
-    chain, on, push = group.polygon, cut.at_pair(pair, (link,)), balance.on(link)
+    cut.begin((link,) if link not in cut.drawn.structure.blocks else (), "driver", "driver", (link,))
+    chain, on, push = list[ForceVector](), cut.at_pair(pair, (link,)), balance.on(link)
     if pair.turns and push.force:
-        equation = cut.moments((link,), on.at, pair.point, push)
-        group.moments.append(equation)
-        cut.lay(chain, equation.found)
-        push = cut.drawn_in(chain, equation.found)
+        step = cut.moments("about driver", (link,), on.at, pair.point, push)
+        cut.do(step)
+        cut.lay(chain, step.found)
+        push = cut.drawn_in(chain, step.found)
     cut.lay_known(chain, (link,))
-    on, push, *_ = _close_driven(cut, group, chain, pair, on, push, (), (link,))
+    on, push, *_ = _close_driven(cut, chain, pair, on, push, (), (link,))
+    cut.lettered(chain)
     if pair.turns:
         cut.pins[pair.point, pair.a] += on.force
     cut.set_balance(balance, push)
     cut.hand_on(push, (link,))  # what drives a link from another one loads that one
-    cut.done.add(link)
-    return group
+    return cut.finished((link,))
 
 
 # -- a larger group ----------------------------------------------------------------------------------------------------
@@ -511,13 +589,12 @@ def of_larger_group(cut: CutFree, group: LargerGroup, balances: Sequence[ForceVe
     ------
     Unsolvable : "dead point": the drawn system tells nothing
     """
-    cut.load_pins(group.members)
-    made = ForceGroup(group.links, group.kind, "drawn system", cut.per_mm, cut.couples_on(group.members))
+    cut.begin(group.links, group.kind, "drawn system", group.members)
+    cut.do(ForceStep("read", "system", "force", links=group.links))
     unknowns = _unknown_forces(cut, group.members, balances)
     values = _solved(cut, group.members, unknowns)
-    _carry_over(cut, made, group.members, unknowns, values)
-    cut.done |= set(group.members)
-    return made
+    _carry_over(cut, group.members, unknowns, values)
+    return cut.finished(group.members)
 
 
 def _unknown_forces(cut: CutFree, members: Sequence[str], balances: Sequence[ForceVector]) -> list[Unknown]:
@@ -534,13 +611,14 @@ def _unknown_forces(cut: CutFree, members: Sequence[str], balances: Sequence[For
         at, other = cut.drawn.point(first, point), "" if held else first
         for link in (n for n in mine if held or n != first):
             symbol = cut.drawn.of_pin(point, link, cut.done | inside)
-            force = ForceVector(symbol, link, at=at, off=hosts.get(link, other))
+            force = ForceVector(symbol, link=link, at=at, off=hosts.get(link, other))
             unknowns += [(replace(force, force=along), point, None) for along in (1 + 0j, 1j)]
     for slide in structure.slides:
         if slide.key not in cut.slides and {slide.a, slide.b} & inside:
             at, square = cut.drawn.foot(slide), 1j * cut.drawn.along(slide)
-            unknowns += [(ForceVector(cut.drawn.of_slide(slide, kind), slide.a, along, at, off=slide.b), "", slide)
-                      for kind, along in (("F", square), ("M", 0j))]  # fmt: skip
+            force = ForceVector(cut.drawn.of_slide(slide), link=slide.a, force=square, at=at, off=slide.b)
+            couple = replace(force, symbol=cut.drawn.of_slide(slide, "M"), force=0j)
+            unknowns += [(force, "", slide), (couple, "", slide)]
     return unknowns + [(balance, "", None) for balance in balances]
 
 
@@ -573,7 +651,7 @@ def _solved(cut: CutFree, members: Sequence[str], unknowns: Sequence[Unknown]) -
 
 
 def _carry_over(
-    cut: CutFree, group: ForceGroup, members: Sequence[str], unknowns: Sequence[Unknown], values: Sequence[float]
+    cut: CutFree, members: Sequence[str], unknowns: Sequence[Unknown], values: Sequence[float]
 ) -> None:
     """Put what was found (N, N m) to the pairs, and draw the polygon of each link."""
     forces: dict[tuple[Symbol, str, str], Unknown] = {}
@@ -598,11 +676,13 @@ def _carry_over(
                 cut.pins[point, load.off] -= load.force
         elif slide is not None:
             cut.set_slide(slide, load, couples[slide.key], members)
-            _shift_line(cut, group, load, couples[slide.key].moment)
+            cut.shift(load, couples[slide.key].moment)
         else:
             cut.set_balance(load, load)
             cut.hand_on(load, members)
         for force in (load, load.back):
             if force.link in polygons:
                 cut.lay(polygons[force.link], replace(force, by="closing"))
-    group.inner |= {name: chain for name, chain in polygons.items() if name not in cut.drawn.structure.blocks}
+    for name, chain in polygons.items():
+        if name not in cut.drawn.structure.blocks:
+            cut.inside(name, chain)

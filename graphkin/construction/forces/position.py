@@ -11,13 +11,13 @@ together are the force alone, on a line at the distance h = M / F from the centr
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphkin.construction.board.instruments import Instrument
 from graphkin.construction.board.sheet import Sheet
-from graphkin.construction.forces.force_sheet import ForceVector, Inertia, shifted_line
+from graphkin.construction.forces.steps import ForceStep, ForceVector, Inertia, shifted_line
 from graphkin.construction.position.links_on_paper import travel
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot, unit
@@ -136,13 +136,14 @@ class DrawnPosition:
         said, frame = scene.loading.balance, scene.frame.name
         if said is not None and said.is_force:
             along = said.turn * (self.sheet.poses[said.link].axis if said.follows else 1.0)
-            return ForceVector(Symbol("F", link=said.link), said.link, along, self.place(said.link, said.at), off=frame)
+            symbol, at = Symbol("F", link=said.link), self.place(said.link, said.at)
+            return ForceVector(symbol, link=said.link, force=along, at=at, off=frame)
         if said is not None or driver.turns:
             link, other = (driver.link, driver.relative_to) if said is None else (said.link, frame)
-            return ForceVector(Symbol("M", link=link), link, moment=1.0, off=other)
+            return ForceVector(Symbol("M", link=link), link=link, moment=1.0, off=other)
         slide = self.structure.slide(driver.key)
         symbol = Symbol("F", link=slide.body)
-        return ForceVector(symbol, slide.a, self.along(slide), self.foot(slide), off=slide.b)
+        return ForceVector(symbol, link=slide.a, force=self.along(slide), at=self.foot(slide), off=slide.b)
 
     def slip(self, slide: Pair) -> tuple[float, float]:
         """The sliding velocity along the guide, and the greatest speed that leads to it (m/s)."""
@@ -285,44 +286,53 @@ def _inertia(sheet: Sheet, drawn: DrawnPosition, mass: LinkMass, hand: Instrumen
     size = hand.read(abs(image))
     push = image / abs(image) * size * sheet.scales.acceleration if image else 0j
     force, moment = -mass.mass * push, -mass.inertia * sheet.rates["alpha"][mass.link].value
-    line = shifted_line(force, centre, moment, drawn.mm) if force else ()
-    return Inertia(mass, centre, push, force, moment, *line)
+    shifted, h = shifted_line(force, centre, moment, drawn.mm) if force else (None, None)
+    return Inertia(
+        "read", "inertia", "force", link=mass.link, finds=(Symbol("Fi", link=mass.link),), mass=mass, centre=centre,
+        push=push, force=force, moment=moment, shifted=shifted, h=h,
+    )  # fmt: skip
 
 
 def from_outside(
-    sheet: Sheet, growing: Sheet, pushes: Mapping[str, Inertia], acts: Mapping[str, bool | None], with_edges: bool,
-    hand: Instrument,
+    sheet: Sheet, growing: Sheet, pushes: Mapping[str, Inertia], springs: Iterable[ForceStep],
+    acts: Mapping[str, bool | None], with_edges: bool,
 ) -> tuple[ForceVector, ...]:  # fmt: skip
     """All known forces, then couples, those of no size among them.
 
     Parameters
     ----------
     growing : what tells the sense in which pairs slide
+    springs : as they were measured (`springs`)
     with_edges : whether loads act that begin or end exactly here
     """
     drawn, loading = DrawnPosition(sheet), sheet.scene.loading
     made: list[ForceVector] = []
     for mass in loading.masses:
-        inertia, centre = pushes[mass.link], pushes[mass.link].centre
-        made.append(ForceVector(Symbol("Fi", link=mass.link), mass.link, inertia.force, centre))
+        link, inertia = mass.link, pushes[mass.link]
+        made.append(ForceVector(Symbol("Fi", link=link), link=link, force=inertia.force, at=inertia.centre))
         if loading.gravity:
-            made.append(ForceVector(Symbol("G", link=mass.link), mass.link, mass.mass * loading.gravity, centre))
-        made.append(ForceVector(Symbol("Mi", link=mass.link), mass.link, moment=inertia.moment))
+            weight = mass.mass * loading.gravity
+            made.append(ForceVector(Symbol("G", link=link), link=link, force=weight, at=inertia.centre))
+        made.append(ForceVector(Symbol("Mi", link=link), link=link, moment=inertia.moment))
     for load in loading.loads:
         on = with_edges if acts[load.name] is None else acts[load.name]
         symbol = Symbol("P", name=load.name, turning=not load.is_force)
         if load.is_force:
             force = _force(sheet, growing, load) if on else 0j
-            made.append(ForceVector(symbol, load.link, force, drawn.place(load.link, load.at)))
+            made.append(ForceVector(symbol, link=load.link, force=force, at=drawn.place(load.link, load.at)))
         else:
-            made.append(ForceVector(symbol, load.link, moment=load.size if on else 0.0))
-    for spring in loading.springs:
-        made += _spring(drawn, spring, hand)
+            made.append(ForceVector(symbol, link=load.link, moment=load.size if on else 0.0))
+    made += (force for step in springs for force in step.acting)
     return tuple(sorted(made, key=lambda load: not load.symbol.is_vector))
 
 
-def _spring(drawn: DrawnPosition, spring: SpringOn, hand: Instrument) -> Iterator[ForceVector]:
-    """Both forces of a spring, from its length and line as they are measured on the drawn mechanism."""
+def springs(sheet: Sheet, hand: Instrument) -> tuple[ForceStep, ...]:
+    """The length of each spring, read off the drawn mechanism, and both its forces along its line."""
+    drawn = DrawnPosition(sheet)
+    return tuple(_spring(drawn, spring, hand) for spring in sheet.scene.loading.springs)
+
+
+def _spring(drawn: DrawnPosition, spring: SpringOn, hand: Instrument) -> ForceStep:
     pricked = (drawn.sheet.points.get(PointRef(point)) for point in spring.points)
     start, end = (drawn.place(*place) if z is None else z for z, place in zip(pricked, spring.ends, strict=True))
     size = abs(end - start)
@@ -331,9 +341,10 @@ def _spring(drawn: DrawnPosition, spring: SpringOn, hand: Instrument) -> Iterato
         raise Unsolvable("dead point", Problem(spring.where, *said))
     length = hand.read(size) / drawn.mm
     force = spring.pull(length) * unit(end - start)
-    symbol = Symbol("P", name=spring.name)
-    yield ForceVector(symbol, spring.links[0], force, start)
-    yield ForceVector(symbol, spring.links[1], -force, end, turned=True)
+    symbol, (link, other) = Symbol("P", name=spring.name), spring.links
+    acting = (ForceVector(symbol, link=link, force=force, at=start),
+              ForceVector(symbol, link=other, force=-force, at=end, turned=True))  # fmt: skip
+    return ForceStep("read", "spring", "force", link=link, acting=acting, length=length)
 
 
 def _force(sheet: Sheet, growing: Sheet, load: LoadOn) -> complex:

@@ -15,13 +15,13 @@ from dataclasses import replace
 
 from graphkin.account.forces import SHORT as SEEN
 from graphkin.account.forces import (
-    ForceAccount,
     ForceStage,
-    corner_at,
-    corners,
+    force_stages,
     lever_scale,
     lever_sum,
+    read_off,
     spots_of,
+    told_of,
 )
 from graphkin.account.given import given_loads
 from graphkin.account.headings import figure_title
@@ -30,7 +30,7 @@ from graphkin.account.voice import Account
 from graphkin.checking.report import Report
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import Vector
-from graphkin.construction.forces.force_sheet import ForceGroup, ForceState, ForceVector, Lever, MomentTerm
+from graphkin.construction.forces.steps import BY_MOMENTS, COUPLES, ForceGroup, ForceVector, Lever, MomentTerm
 from graphkin.construction.touching import Touching, outlines_on_paper
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import MARGIN, Block, FigurePage, column, framed, pages, panel, prose, row, rows, table
@@ -53,7 +53,7 @@ from graphkin.drawing.text import rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up, unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase, languages, links_named, say, word
+from graphkin.words import Phrase, languages, links_named, rich_text, say, word
 from graphkin.words.symbols import RichText, Words, sign, spaced
 from graphkin.words.written import printed
 
@@ -97,12 +97,12 @@ def forces_figure(page: FigurePage, report: Report | None = None) -> Drawing:
 
 def _given(page: FigurePage) -> Block:
     """Masses and loads, inertia forces, springs."""
-    account = ForceAccount(page.sheet, page.letters)
-    inertia = [*map(account.inertia, page.sheet.inertias.values())]
+    account = Account(page.sheet, page.letters)
+    inertia = [line for told in told_of(account, page.sheet.inertias.values()) for line in told.sums]
     return column(
         page.prose((page.term("given"),), bold=True), page.prose(given_loads(page.sheet, page.letters)),
         page.prose((Phrase("force inertia"),) * bool(inertia), bold=True), page.prose(inertia),
-        page.prose(account.springs()),
+        page.prose(told.said for told in told_of(account, page.sheet.springs)),
     )  # fmt: skip
 
 
@@ -112,14 +112,14 @@ def _groups(page: FigurePage, room: float) -> Iterator[Block]:
     them."""
     names: Counter[str] = Counter()
     state = None
-    account = ForceAccount(page.sheet, page.letters)
-    for stage in account.stages():
+    account = Account(page.sheet, page.letters)
+    for stage in force_stages(account):
         if not stage.group.links:
             continue
         if len(page.sheet.forces) > 1 and stage.state is not state:
             yield _loaded(page, stage.again)
         state = stage.state
-        caption = page.prose((text for _, text in stage.heading(page.language)), 3.2, bold=True)
+        caption = page.prose((rich_text(stage.title, each) for each in languages(page.language)), 3.2, bold=True)
         first, *more = _pictures(page, stage, names)
         text = _below(page, account, stage)
         pictures = column(caption, first, *more, gap=CLOSE)
@@ -182,13 +182,13 @@ def _pictures(
     yield from rows(singles, page.width, gap=2.0)
 
 
-def _below(page: FigurePage, account: ForceAccount, stage: ForceStage) -> Block:
+def _below(page: FigurePage, account: Account, stage: ForceStage) -> Block:
     """Moments with their reasons, the vector equation with its rows, and the readings."""
-    group, said = stage.group, stage.told("moments", "system")
+    group, said = stage.group, stage.told(*BY_MOMENTS, "system")
     if len(group.polygon) > 1 and group.way == "polygon":
         said.append(Phrase("force reason polygon", links=links_named(group.links)))
     equation = group_equation(page, group)
-    couples, read = stage.told("couples"), spaced(";  ", account.read_off(stage.state, group).values())
+    couples, read = stage.told(*COUPLES), spaced(";  ", read_off(account, group, group.read))
     return column(
         page.prose(said),
         None if equation is None else Block(Piece({"labels": (Group(equation.children),)}), equation.height),
@@ -309,7 +309,7 @@ def _acting(plate: Plate, page: FigurePage, stage: ForceStage, times: float, tag
     sheet, group, letters = page.sheet, stage.group, page.letters
     taken: list[tuple[complex, complex]] = []
     near = _extent(sheet, group).grown(ARROW / times)
-    lines = {symbol: at for symbol, (at, _) in group.lines.items() if near.holds(Box.around([on_page(at)]))}
+    lines = {symbol: at for symbol, at in group.lines.items() if near.holds(Box.around([on_page(at)]))}
     outside = set(_cut_free(group))
     for n, vector in enumerate(_outside(group)):
         of = vector.symbol
@@ -321,22 +321,23 @@ def _acting(plate: Plate, page: FigurePage, stage: ForceStage, times: float, tag
         tip = at + along * (ARROW + NEXT * stacked)
         plate.arrow("forces", f"acts-{tag}-{n}", at, tip, _letters_of(letters, vector),
                     kind=_kind(vector), colour=_colour(sheet, vector), classes=("acting",),
-                    step=stage.on_links(vector))  # fmt: skip
-    at_pairs = (equation.found for equation in group.couples)
-    turning = [*group.couples_before, *(couple for couple in at_pairs if couple.off not in outside
-                                        or not couple.symbol.other)]  # fmt: skip
+                    step=group.on_links(vector))  # fmt: skip
+    first, *_ = group.steps
+    turning = [(first, load) for load in first.acting if not load.force]
+    turning += [(step, step.found) for step in group.moments(*COUPLES)]
     places: list[complex] = []
-    for couple in turning:
-        if couple.link not in outside or not couple.moment:
+    for step, couple in turning:
+        inner = step is not first and couple.off in outside and couple.symbol.other
+        if couple.link not in outside or not couple.moment or inner:
             continue
         named, at = couple.symbol, _middle(sheet, couple.link) * times
         radius = 4.2 + 2.0 * sum(abs(at - z) < NEAR for z in places)
         places.append(at)
         arc = symbols.sense_arc(on_page(at), radius, 0.9, 1 if couple.moment > 0 else -1)
-        name, step = f"acts-{tag}-{named.id}", stage.number_of("couples", named) or stage.known
-        plate.put("forces", *arc, id=name, classes=("acting",), step=step)
+        name = f"acts-{tag}-{named.id}"
+        plate.put("forces", *arc, id=name, classes=("acting",), step=step.number)
         letter = rich("−" * couple.turned + force_letters(letters.convention, named), 3.0)
-        plate.name(letter, at + radius * 0.7 * (1 + 1j), f"label-{name}", step=step)
+        plate.name(letter, at + radius * 0.7 * (1 + 1j), f"label-{name}", step=step.number)
 
 
 def _kind(vector: ForceVector) -> symbols.ArrowKind:
@@ -369,13 +370,11 @@ def _middle(sheet: Sheet, link: str) -> complex:
 
 def _arms(plate: Plate, stage: ForceStage, times: float) -> None:
     """Arms of the moments by which parts were found, from the point to the line of each force."""
-    for equation in (*stage.group.moments, *(c for c in stage.group.couples if not c.unknown.symbol.other)):
-        sought = equation.unknown.acting
+    for step in stage.group.moments(*BY_MOMENTS, "balance"):
         lines = [Line(on_page(term.about * times), on_page(term.foot * times), strokes.DIRECTION)
-                 for term in equation.terms if term.arm is not None and abs(term.arm) * times >= 1.0]  # fmt: skip
-        step = stage.number_of("moments", sought.symbol, sought.part) or stage.number_of("couples", sought.symbol)
+                 for term in step.terms if term.arm is not None and abs(term.arm) * times >= 1.0]  # fmt: skip
         if lines:
-            plate.put("construction", *lines, classes=("arms",), step=step)
+            plate.put("construction", *lines, classes=("arms",), step=step.number)
 
 
 # -- polygons ----------------------------------------------------------------------------------------------------------
@@ -415,14 +414,14 @@ def _drawn_polygon(
     """A polygon in the middle of a panel at its true scale."""
     plate, sheet = Plate(), page.sheet
     link, vectors, inside, _ = polygon
-    lettered = corners(stage.group) if not link else ()
+    lettered, group = {} if link else stage.group.corners, stage.group
     shifts = side_by_side(Vector(_key(v), v.tail, v.tip) for v in (*vectors, *inside))
 
     def arrow(vector: ForceVector, tail: complex, tip: complex, step: int, rank: int = 0) -> None:
         name = vector.symbol.id + (f"-{vector.part}" if vector.part else "") + suffix
         names[name] += 1
         name += f"-again{names[name] - 1}" if names[name] > 1 else ""
-        ends = [corner_at(stage.group, place) for place in (vector.tail, vector.tip)] if lettered else []
+        ends = vector.ends if lettered else ()
         between = spaced(sign("→"), map(sign, ends)) if len(set(ends)) > 1 else RichText()
         plate.arrow("forces", name, tail, tip, _letters_of(page.letters, vector), 3.2, kind=_kind(vector),
                     colour=_colour(sheet, vector), classes=("vector", "force"), step=step, rank=rank, between=between)
@@ -432,19 +431,19 @@ def _drawn_polygon(
             continue
         shift = shifts.get(_key(vector), 0j)
         tail, tip = vector.tail + shift, vector.tip + shift
-        step = stage.in_polygon(vector, vector.link if vector in inside else link)
+        step = group.in_polygon(vector, vector.link if vector in inside else link)
         if shift:
             aside = (Line(on_page(z), on_page(w), strokes.CONSTRUCTION)
                      for z, w in ((vector.tail, tail), (vector.tip, tip)))  # fmt: skip
             plate.put("construction", *aside, step=step)
         arrow(vector, tail, tip, step, 0 if not vector.known or abs(vector.span) > 3.0 else 2)
     for whole in _wholes(vectors):
-        arrow(whole, whole.tail, whole.tip, stage.in_polygon(whole, link))
-    for letter, place, vector in lettered:
+        arrow(whole, whole.tail, whole.tip, group.in_polygon(whole, link))
+    for letter, (place, vector) in lettered.items():
         names[f"corner-{letter}"] += 1
         name = f"label-corner-{letter}-{names[f'corner-{letter}']}{suffix}"
         plate.name(rich(sign(letter), 3.0), place + shifts.get(_key(vector), 0j), name, rank=1,
-                   step=stage.in_polygon(vector, link))  # fmt: skip
+                   step=group.in_polygon(vector, link))  # fmt: skip
     unknown = [v for v in vectors if not v.known]
     for vector in unknown:
         if abs(vector.span) <= SHORT:
@@ -455,7 +454,7 @@ def _drawn_polygon(
             past = 6.0 * unit(vector.span)
             for z, w in ((vector.tail, vector.tail - past), (vector.tip, vector.tip + past)):
                 plate.put("construction", Line(on_page(z), on_page(w), strokes.DIRECTION), classes=("direction",),
-                          step=stage.in_polygon(vector, link))  # fmt: skip
+                          step=group.in_polygon(vector, link))  # fmt: skip
     return with_labels(moved_piece(plate.piece, panel.centre - _box(vectors).centre), panel)
 
 
@@ -469,7 +468,8 @@ def _wholes(vectors: Sequence[ForceVector]) -> Iterator[ForceVector]:
     for first, second in zip(vectors, (*vectors[1:], *vectors[:1]), strict=True):
         both = first.symbol == second.symbol and {first.part, second.part} == {"t", "n"}
         if both and abs(first.tip - second.tail) < SHORT:
-            whole = replace(first, part="", by="closing", tip=second.tip)
+            ends = first.ends[0], second.ends[1]
+            whole = replace(first, part="", by="closing", tip=second.tip, ends=ends)
             if min(abs(whole.span), abs(first.span), abs(second.span)) > SHORT:
                 yield whole
 
@@ -482,25 +482,25 @@ COLUMNS = 42.0, 34.0, 34.0, 64.0  # mm: force, its size, arm, moment
 
 def lever_figure(page: FigurePage, report: Report | None = None) -> Drawing | None:
     """A lever for each driver, at the scale of the velocities; None where no balancing load moves."""
-    shown = [(k, state, lever) for k, state in enumerate(page.sheet.forces) for lever in state.levers]
+    shown = [(k, lever) for k, state in enumerate(page.sheet.forces) for lever in state.levers]
     if not shown:
         return None
-    sheet, account = page.sheet, ForceAccount(page.sheet, page.letters)
+    sheet = page.sheet
     why = [Phrase("lever reason", pole=pole(page.convention, "velocity"))]
-    why += [Phrase("lever couple")] * any(row.pair for _, _, lever in shown for row in lever.rows)
-    why += [Phrase("lever virtual")] * any(lever.virtual for _, _, lever in shown)
+    why += [Phrase("lever couple")] * any(row.pair for _, lever in shown for row in lever.rows)
+    why += [Phrase("lever virtual")] * any(lever.virtual for _, lever in shown)
     body = [page.prose(why)]
-    for number, (k, state, lever) in enumerate(shown):
+    for number, (k, lever) in enumerate(shown):
         body += [_loaded(page, k > 0)] * (len(page.sheet.forces) > 1)
-        body += _lever(page, account, state, lever, str(number or ""))
-    per = lever_scale(sheet, shown[0][2]) / sheet.scene.units.rates.metres
+        body += _lever(page, lever, str(number or ""))
+    per = lever_scale(sheet, shown[0][1]) / sheet.scene.units.rates.metres
     return page.drawing(
         page.at_drivers(page.term("lever")), column(*body, gap=3.0), "", title="lever",
         said=page.said("lever described")[0], metadata={"scales": {"velocity": float(f"{per:.12g}")}},
     )  # fmt: skip
 
 
-def _lever(page: FigurePage, account: ForceAccount, state: ForceState, lever: Lever, tag: str) -> Iterator[Block]:
+def _lever(page: FigurePage, lever: Lever, tag: str) -> Iterator[Block]:
     """A lever, its scale, the moment of each force, their sum, and the balancing load beside that of the polygons."""
     per_mm, units = lever_scale(page.sheet, lever), page.sheet.scene.units
     box, drawn = Box.around(map(on_page, spots_of(lever, per_mm))), _drawn_lever(page, lever, per_mm, tag)
@@ -513,8 +513,8 @@ def _lever(page: FigurePage, account: ForceAccount, state: ForceState, lever: Le
     ]  # fmt: skip
     rows = [(_named(row, page.letters), *map(printed, written)) for row, *written in lever_sum(page.sheet, lever)[0]]
     yield table(heads, rows, COLUMNS)
-    total, balance = account.lever(state, lever)
-    yield column(page.prose((total,)), page.prose((balance,), bold=True))
+    *_, told = told_of(Account(page.sheet, page.letters), lever.steps, lever=lever)
+    yield column(page.prose((told.said,)), page.prose(told.sums, bold=True))
 
 
 def _drawn_lever(page: FigurePage, lever: Lever, per_mm: float, tag: str) -> Piece:

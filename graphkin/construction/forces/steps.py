@@ -1,4 +1,5 @@
-"""Forces on a sheet: forces and couples on links, moment equations, force polygons, and their results.
+"""The steps of forces: actions on links, moments in balance, force polygons with the letters of their corners; groups
+and levers with their steps.
 
 Places are complex numbers in mm on the drawn mechanism, the vectors of polygons in mm at the scale of their group;
 sizes are in N and N m, counter-clockwise positive.
@@ -6,12 +7,21 @@ sizes are in N and N m, counter-clockwise positive.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
-from graphkin.construction.board.steps import NO_DIRECTION, Direction, Part, Term
-from graphkin.plane import cross, unit
+from graphkin.construction.board.steps import (
+    NO_DIRECTION,
+    NO_SYMBOL,
+    Direction,
+    Part,
+    Reason,
+    Step,
+    Term,
+    Vector,
+)
+from graphkin.plane import cross, dot, unit
 from graphkin.scene.model import LinkMass
 from graphkin.scene.symbol import Symbol
 
@@ -19,13 +29,25 @@ Way = Literal["polygon", "driver", "drawn system"]
 """How the forces of a group are found: by moments and one polygon, at last at a driver, by one drawn system."""
 
 
+BY_MOMENTS: Collection[Reason] = ("along guide", "two-force member", "about pin", "about guide", "about driver")
+"""Reasons of steps that find a part of a force before its polygon is drawn."""
+COUPLES: Collection[Reason] = ("couple", "no couple", "balance")
+"""Reasons of steps that find the couple of a sliding pair, or a balancing moment."""
+CLOSED: Collection[Reason] = ("closed", "closed by lines")
+"""Reasons of steps that close the polygon of a group: by one force, or by the lines of two."""
+ZERO = 1e-8
+"""mm: a shorter force is nothing but rounding."""
+APART = 0.3
+"""mm: corners of a polygon that are nearer bear one letter."""
+
+
 @dataclass(frozen=True)
-class ForceVector:
+class ForceVector(Vector):
     """A force, or a couple, that acts on a link; in a polygon it stands from ``tail`` to ``tip``.
 
     Parameters
     ----------
-    symbol, part : its symbol, and its part
+    part : of the force that its symbol names
     link, at : the link on which it acts, and its place on the mechanism (mm)
     off : the other link, on which its opposite acts, of a pair's force or a balancing load
     force, moment : of a force the vector (N; a unit vector if only the direction is known), of a couple the moment (N
@@ -33,11 +55,12 @@ class ForceVector:
     turned : whether it is the opposite of its symbol
     by : its source: given, by moments before its polygon is drawn, or by closing a polygon
     direction : as written, if it was found by its direction
-    tail, tip : in a polygon (mm)
+    ends : the letters of the corners of the polygon between which it stands
     """
 
-    symbol: Symbol
-    link: str
+    tail: complex = 0j
+    tip: complex = 0j
+    link: str = ""
     force: complex = 0j
     at: complex = 0j
     moment: float = 0.0
@@ -45,8 +68,7 @@ class ForceVector:
     part: Part = ""
     by: Literal["given", "moments", "closing"] = "given"
     direction: Direction | None = None
-    tail: complex = 0j
-    tip: complex = 0j
+    ends: tuple[str, str] = ("", "")
     off: str = ""
 
     @property
@@ -55,15 +77,15 @@ class ForceVector:
         return self.by == "given"
 
     @property
-    def span(self) -> complex:
-        """The force as it is drawn (mm), from tail to tip."""
-        return self.tip - self.tail
-
-    @property
     def term(self) -> Term:
         """Its term in the vector equation of its polygon."""
         sized, direction = self.by != "closing", self.direction or NO_DIRECTION
         return Term(self.symbol, sized, sized or self.direction is not None, None, direction, self.part, self.turned)
+
+    def lettered(self, corners: Sequence[complex]) -> ForceVector:
+        """The vector with the letters of the corners at its ends."""
+        first, second = (min(range(len(corners)), key=lambda k: abs(corners[k] - z)) for z in (self.tail, self.tip))
+        return replace(self, ends=(chr(ord("a") + first), chr(ord("a") + second)))
 
     def between(self, tail: complex, tip: complex) -> ForceVector:
         """The vector at its place in a polygon (mm)."""
@@ -79,6 +101,40 @@ class ForceVector:
     def on(self, link: str) -> ForceVector:
         """The vector as it acts on one of its two links."""
         return self if link == self.link else self.back
+
+
+@dataclass(frozen=True)
+class ForceStep(Step):
+    """A step by which forces are found.
+
+    Parameters
+    ----------
+    link, links : on which an inertia force or a spring acts, or whose polygon closes; all that are cut free, or whose
+        moments are in balance
+    acting : what acts on links cut free from outside; the forces of a spring on both its links
+    finds : the forces or couples that it finds
+    part : of the force ``symbol`` that it finds
+    length : of a spring as it was read (m)
+    """
+
+    links: tuple[str, ...] = ()
+    acting: tuple[ForceVector, ...] = ()
+    finds: tuple[Symbol, ...] = ()
+    part: Part = ""
+    length: float = 0.0
+
+    @property
+    def sentence(self) -> str:
+        """The key of its sentence in the table of words."""
+        if self.reason == "spring":
+            pull_on, opposite = self.acting
+            return super().sentence + " pushes" * (dot(pull_on.force, opposite.at - pull_on.at) < 0.0)
+        return super().sentence + " bare" * (self.reason == "cut free" and not self.acting)
+
+    @property
+    def forces(self) -> tuple[ForceVector, ...]:
+        """The forces that it lays off, or by which it closes a polygon."""
+        return tuple(stroke for stroke in self.strokes if isinstance(stroke, ForceVector))
 
 
 def shifted_line(force: complex, at: complex, couple: float, mm: float) -> tuple[complex, float]:
@@ -98,8 +154,8 @@ def shifted_line(force: complex, at: complex, couple: float, mm: float) -> tuple
     return at - 1j * unit(force) * (shift * mm), shift
 
 
-@dataclass(frozen=True)
-class Inertia:
+@dataclass(frozen=True, kw_only=True)
+class Inertia(ForceStep):
     """Inertia force and couple of a link, from its drawn acceleration.
 
     Parameters
@@ -117,6 +173,11 @@ class Inertia:
     moment: float
     shifted: complex | None = None
     h: float | None = None
+
+    @property
+    def sentence(self) -> str:
+        """The key of its sentence in the table of words."""
+        return super().sentence + " alone" * (not self.mass.inertia)
 
 
 @dataclass(frozen=True)
@@ -157,22 +218,26 @@ class MomentTerm:
         return self.about - 1j * along * cross(self.acting.at - self.about, along)
 
 
-@dataclass(frozen=True)
-class MomentEquation:
-    """The moments of all actions on some links about a point are in balance, which gives one unknown.
+@dataclass(frozen=True, kw_only=True)
+class MomentStep(ForceStep):
+    """The moments of all actions on some links about a point are in balance, which gives part of a force, or a couple.
 
     Parameters
     ----------
     about : the letter of the point, or the name of the link at whose origin it lies
     terms : the moments of the known actions
     unknown, value : a force or a couple of size 1, and its size (N, N m)
+    is_whole : whether the part is the whole force
+    shifted, shift : of a couple, the force of the pair whose line of action it shifts, and by how much (m)
     """
 
-    links: tuple[str, ...]
     about: str
     terms: tuple[MomentTerm, ...]
     unknown: MomentTerm
     value: float
+    is_whole: bool = False
+    shifted: Symbol = NO_SYMBOL
+    shift: float = 0.0
 
     @property
     def found(self) -> ForceVector:
@@ -181,38 +246,74 @@ class MomentEquation:
         return replace(sought, force=sought.force * self.value, moment=sought.moment * self.value, by="moments")
 
 
-@dataclass
+@dataclass(frozen=True)
 class ForceGroup:
-    """A group cut free, and its forces found; it grows while it is drawn.
+    """A group cut free, and its forces found.
 
     Parameters
     ----------
     links, kind, way : of the group, and the construction of its forces
     per_mm : N for one mm of its polygons
-    couples_before : couples on it that are known beforehand
-    moments : equations that give parts of forces
     polygon : the forces on it head to tail, closed; empty for a group drawn link by link
     inner : the polygons of single links that give the forces inside, by link
-    couples : equations that give couples of sliding pairs, and balancing moments
-    lines : the line of action of a pair's force with its couple: a place (mm), and the shift (m), by the symbol of the
-        force
+    lines : the line of action of a pair's force with its couple: a place (mm), by the symbol of the force
+    read : the lengths of forces read off its polygons (mm), all parts together, of a driven pair without the driver
+    steps : in their order, the first of which cuts it free
     """
 
     links: tuple[str, ...]
     kind: str
     way: Way = "polygon"
     per_mm: float = 1.0
-    couples_before: Sequence[ForceVector] = ()
-    moments: list[MomentEquation] = field(default_factory=list)
-    polygon: list[ForceVector] = field(default_factory=list)
-    inner: dict[str, list[ForceVector]] = field(default_factory=dict)
-    couples: list[MomentEquation] = field(default_factory=list)
-    lines: dict[Symbol, tuple[complex, float]] = field(default_factory=dict)
+    polygon: tuple[ForceVector, ...] = ()
+    inner: Mapping[str, tuple[ForceVector, ...]] = field(default_factory=dict)
+    lines: Mapping[Symbol, complex] = field(default_factory=dict)
+    read: Mapping[Symbol, float] = field(default_factory=dict)
+    steps: tuple[ForceStep, ...] = ()
 
     @property
-    def polygons(self) -> list[list[ForceVector]]:
+    def polygons(self) -> list[tuple[ForceVector, ...]]:
         """The polygon of the group and those of single links, without empty ones."""
         return [polygon for polygon in (self.polygon, *self.inner.values()) if polygon]
+
+    def by(self, *reasons: Reason) -> tuple[ForceStep, ...]:
+        """Its steps for some reasons."""
+        return tuple(step for step in self.steps if step.reason in reasons)
+
+    def moments(self, *reasons: Reason) -> tuple[MomentStep, ...]:
+        """Its moments for some reasons."""
+        return tuple(step for step in self.by(*reasons) if isinstance(step, MomentStep))
+
+    @property
+    def corners(self) -> Mapping[str, tuple[complex, ForceVector]]:
+        """The corners of its polygon by their letters: each with its place (mm) and the force that ends there, the
+        first with the force that begins there."""
+        corners: dict[str, tuple[complex, ForceVector]] = {}
+        laid = [vector for step in self.by("known forces", *CLOSED) for vector in step.forces]
+        for vector in laid or self.polygon:
+            for letter, place in zip(vector.ends, (vector.tail, vector.tip), strict=True):
+                corners.setdefault(letter, (place, vector))
+        return corners
+
+    @property
+    def closing(self) -> int:
+        """The number of the step that closes its polygon."""
+        return [step for step in self.steps if step.reason not in ("inside", *COUPLES)][-1].number
+
+    def on_links(self, vector: ForceVector) -> int:
+        """The number of the step that draws a force on the links cut free."""
+        part = vector.symbol, vector.part
+        finds = (s.number for s in self.by(*BY_MOMENTS) if (s.symbol, s.part) == part)
+        return self.steps[0].number if vector.known else next(finds, self.closing)
+
+    def in_polygon(self, vector: ForceVector, link: str) -> int:
+        """The number of the step that draws a force in the polygon of one link, or ("") of the group."""
+        drawn = (s for s in self.by("inside" if link else "known forces") if link or vector in s.strokes)
+        return next((s.number for s in drawn if s.link == link), self.closing)
+
+
+NO_GROUP = ForceGroup((), "")
+"""What no group is, of steps that belong to none."""
 
 
 @dataclass(frozen=True)
@@ -227,6 +328,8 @@ class Lever:
     ends : the end points (m/s)
     rows : the moments of the known forces (W), with arms in m/s
     unknown, value : the moment of a balancing load of size 1, and that load (N m, or N along its line)
+    by_polygons : the same load by the polygons, of a force its size (N)
+    steps : its steps
     """
 
     per_mm: float
@@ -235,6 +338,8 @@ class Lever:
     rows: tuple[MomentTerm, ...]
     unknown: MomentTerm
     value: float
+    by_polygons: float
+    steps: tuple[ForceStep, ...] = ()
 
 
 @dataclass(frozen=True)
