@@ -103,6 +103,37 @@ def least_value(
         low, high = float(at[max(i - 1, 0)]), float(at[min(i + 1, LEAST_SECTIONS)])
 
 
+class Strokes(NamedTuple):
+    """Both strokes of an output in a cycle of its driver: the indices of a least and a greatest value from which it
+    leaves for the other, and the ways of the driver to the greatest and to the least."""
+
+    low: int
+    high: int
+    out: float
+    back: float
+
+
+def strokes_between(
+    lows: Sequence[tuple[float, float]], highs: Sequence[tuple[float, float]], cycle: float
+) -> Strokes:
+    """The strokes between the least and the greatest values of an output, of which several may be equal.  Rests, and
+    the way from one of several equal values to the next, belong to neither stroke.
+
+    Parameters
+    ----------
+    lows, highs : the place of each in the order of the motion, and the way before it on which the output rests
+    """
+    both = [(place % cycle, rest, side, k) for side, own in enumerate((lows, highs))
+            for k, (place, rest) in enumerate(own)]  # fmt: skip
+    both.sort()
+    ways, leaves = [0.0, 0.0], dict[int, int]()
+    for (place, _, side, k), (following, rest, other, _) in pairwise([*both, both[0]]):
+        if other != side:
+            ways[other] += (following - place) % cycle - rest
+            leaves.setdefault(side, k)
+    return Strokes(leaves[0], leaves[1], ways[1], ways[0])
+
+
 def greatest_and_least(
     function: Callable[[Array], Array], places: Array, values: Array, within: float
 ) -> tuple[tuple[float, float], tuple[float, float]]:

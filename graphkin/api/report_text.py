@@ -325,8 +325,10 @@ def _output(turn: TurnStudy, output: Output, language: str) -> list[str]:
     said = say(Phrase(f"{kind} is", **{kind: amount(output.stroke)}), language)
     back = turn.quick_return(output)
     if back is not None:
-        dwells = output.low is not None and output.high is not None and bool(output.low.rest or output.high.rest)
-        also = f"{word('list comma', language)}{word('dwells not counted', language)}" if dwells else ""
+        limits = (*output.lows, *output.highs)
+        dwells = "dwells not counted" if any(e.rest for e in limits) else ""
+        without = dwells or ("way between equal limits not counted" if len(limits) > 2 else "")
+        also = f"{word('list comma', language)}{word(without, language)}" if without else ""
         said += f", K = {back[0]:.10g} (θ = {math.degrees(back[1]):.8g}°{also})"
     places = ", ".join(f"{amount(e.value)} @ {_at(scene, e)}" for e in output.position.extremes)
     return [head + said, f"  {word('limit position', language)}{colon}{places}"]

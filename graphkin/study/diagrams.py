@@ -116,7 +116,7 @@ def _motion_page(
         for k, q in enumerate(rates_of(quantity), 1)
     ]
     limits = sorted(
-        {float(axis.at(np.array(e.offset))) for e in (output.low, output.high) if e is not None and e.kind != "end"}
+        {float(axis.at(np.array(e.offset))) for e in (*output.lows, *output.highs) if e.kind != "end"}
     )  # those at the ends of the axis are its frame
     return charts.chart_page(axis, panels, _facts(turn, output, language), language, limits)
 
@@ -150,10 +150,8 @@ def _facts(turn: TurnStudy, output: Output, language: str) -> list[Words]:
     back = turn.quick_return(output)
     if back is not None:
         facts.append(rich_text(Phrase("K is", ratio=charts.number(back[0])), language))
-    low, high = output.low, output.high
-    assert low is not None
-    assert high is not None
-    places = [_said(value, scene.unit_of(scene.drivers[0])) for value in sorted((low.driver, high.driver))]
+    drivers = sorted(e.driver for e in (*output.lows, *output.highs))
+    places = [_said(value, scene.unit_of(scene.drivers[0])) for value in drivers]
     facts.append(say(Phrase("limits at", places=", ".join(places)), language))
     return facts
 

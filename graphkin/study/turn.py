@@ -16,10 +16,11 @@ from graphkin.plane import added_up
 from graphkin.scene.model import Mechanism
 from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import Symbol
+from graphkin.search import strokes_between
 from graphkin.solver import DriverRange, Motion, own_slides
 from graphkin.solver.path.driver_path import FAR, Path, Stretch, assembled, not_tried
 from graphkin.solver.path.driver_range import EQUAL as EQUALLY_FAR
-from graphkin.solver.path.driver_range import Extremes
+from graphkin.solver.path.driver_range import lag_of, ratio_of
 from graphkin.solver.values import FlywheelStudy, flywheel_of
 from graphkin.structure import Driven, Dyad, DyadKind, Structure
 from graphkin.study.extremes import Extreme, Traced, trace
@@ -55,22 +56,32 @@ class Output:
 
     @property
     def low(self) -> Extreme | None:
-        """The limit position from which it moves the whole stroke to ``high``; None where it does not swing."""
-        return self._limit(-1.0)
+        """The limit position from which it moves the whole stroke to ``high``, the first of ``lows``; None where it
+        does not swing."""
+        return next(iter(self.lows), None)
 
     @property
     def high(self) -> Extreme | None:
-        return self._limit(1.0)
+        return next(iter(self.highs), None)
 
-    def _limit(self, sense: float) -> Extreme | None:
-        """The limit position at the greatest value, with -1 for ``sense`` at the least; of equal ones within the motion
-        that at the smaller angle of the crank, wherever the motion begins (as `extremes` takes it)."""
+    @cached_property
+    def lows(self) -> tuple[Extreme, ...]:
+        """The limit positions at the least value, by the angle of the crank."""
+        return self._limits(-1.0)
+
+    @cached_property
+    def highs(self) -> tuple[Extreme, ...]:
+        return self._limits(1.0)
+
+    def _limits(self, sense: float) -> tuple[Extreme, ...]:
         most, extremes = self.position.furthest(sense), self.position.extremes
-        if not self.swings or most is None or most.kind == "end" or not math.isfinite(most.value):
-            return most if self.swings else None
+        if not self.swings or most is None:
+            return ()
+        if most.kind == "end" or not math.isfinite(most.value):
+            return (most,)
         near = EQUALLY_FAR * max(abs(most.value - e.value) for e in extremes)
         equal = [e for e in extremes if e.kind == most.kind and sense * (most.value - e.value) <= near]
-        return min(equal, key=lambda e: (e.driver + EQUALLY_FAR) % math.tau)
+        return tuple(sorted(equal, key=lambda e: (e.driver + EQUALLY_FAR) % math.tau))
 
     @property
     def quantity(self) -> Symbol:
@@ -383,16 +394,15 @@ class TurnStudy:
         """K of an output, and the crank angle theta (rad) between its limit positions; None where it has none.
 
         K = (180 + theta) / (180 - theta): the greater of the driver's two angles between the limit positions of the
-        output over the smaller, dwells not counted; 1 or more (coefficient of travel speed variation, 行程速比系数;
-        quick-return or time ratio, Norton, Design of Machinery, ch. 3).
+        output over the smaller, dwells and the way between equal limit positions not counted; 1 or more (coefficient of
+        travel speed variation, 行程速比系数; quick-return or time ratio, Norton, Design of Machinery, ch. 3).
         """
-        low, high = output.low, output.high
-        if low is None or high is None or self.reach.turns != 1:
+        if not output.lows or not output.highs or self.reach.turns != 1:
             return None
-        ends = Extremes(low.value, high.value, low.offset, high.offset, low.rest, high.rest)
-        if ends.lag > np.pi * (1 - 2e-12):
-            return None
-        return ends.ratio, ends.lag
+        lows, highs = ([(e.offset, e.rest) for e in equal] for equal in (output.lows, output.highs))
+        strokes = strokes_between(lows, highs, math.tau)
+        lag = lag_of(strokes.out, strokes.back)
+        return None if lag > np.pi * (1 - 2e-12) else (ratio_of(lag), lag)
 
 
 def study_turn(reach: DriverRange, asked: Sequence[Symbol] = (), everything: bool = True) -> TurnStudy:

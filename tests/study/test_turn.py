@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import json
 import math
 from functools import lru_cache
@@ -733,13 +734,45 @@ TOGGLE = {
 }  # fmt: skip
 
 
+def turned_toggle(degrees: float, omega: float) -> dict[str, Any]:
+    """The toggle with its frame turned about A."""
+    turn = cmath.rect(1.0, math.radians(degrees))
+
+    def at(x: float, y: float) -> list[float]:
+        z = complex(x, y) * turn
+        return [z.real, z.imag]
+
+    frame = {"points": {"A": [0, 0], "D": at(11, 9)}, "guides": {"v": {"through": at(11, 0), "angle": degrees - 90}}}
+    sketch = {"C": at(11, 1), "E": at(11, -7)}
+    return {**TOGGLE, "frame": frame, "sketch": sketch, "driver": {"link": "1", "angle": 35 + degrees, "omega": omega}}
+
+
 @pytest.mark.parametrize("at", [35, 200])
-def test_of_two_limit_positions_equally_far_the_one_at_the_smaller_angle_of_the_crank_counts(at: float) -> None:
-    # both bars of the toggle stretch out twice a turn: K was that of the first one after the scene's own position
-    drawn = {row["symbol"]: row["exact"] for row in graphkin.check(TOGGLE, find=["K_5/0"]).data["readings"]}
-    outputs = graphkin.sweep(TOGGLE, at=at, positions=4).data["outputs"]
+@pytest.mark.parametrize(("degrees", "omega"), [(0, -12), (100, -12), (-140, 12)])
+def test_k_is_that_of_both_strokes_where_a_limit_is_reached_twice_a_turn_however_the_frame_lies(
+    at: float, degrees: float, omega: float
+) -> None:
+    # both bars of the toggle stretch out twice a turn: K was that of the stretch at the smaller angle of the crank
+    scene = turned_toggle(degrees, omega)
+    (drawn,) = (row for row in graphkin.check(scene, find=["K_5/0"]).data["readings"] if row["symbol"] == "K_5/0")
+    outputs = graphkin.sweep(scene, at=at + degrees, positions=4).data["outputs"]
     (output,) = [output for output in outputs if output.get("slide") == "5/0"]
-    assert output["K"] == pytest.approx(drawn["K_5/0"], rel=1e-9)
+    low, first, last = turned_limits(scene)
+    ways = abs(first - low), math.tau - abs(last - low)
+    assert max(ways) / min(ways) == pytest.approx(output["K"], rel=3e-4)
+    assert output["K"] == pytest.approx(drawn["exact"], rel=1e-9)
+    assert output["K"] == pytest.approx(drawn["measured"], rel=1e-9)
+
+
+def turned_limits(scene: dict[str, Any]) -> tuple[float, float, float]:
+    """The crank's angles (rad) where the slide is nearest, and where it is farthest for the first and the last time
+    after that, by samples a hundredth of a degree apart."""
+    travel = graphkin.solve(scene, sweep=36_000)["s_5/0"]
+    travel = np.roll(travel, -int(np.argmin(travel)))
+    tops = [k for k in range(1, len(travel) - 1) if travel[k - 1] < travel[k] >= travel[k + 1]]
+    most = max(travel[tops])
+    first, *_, last = (math.radians(k / 100) for k in tops if travel[k] > most - 1e-4)
+    return 0.0, first, last
 
 
 def test_a_distance_that_comes_to_nothing_is_0_there_and_nowhere_else() -> None:

@@ -25,6 +25,7 @@ from graphkin.plane import Poses
 from graphkin.scene.model import Mechanism
 from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import Symbol
+from graphkin.search import strokes_between
 from graphkin.structure import Element, Structure, analyse
 from graphkin.structure.transmission import sliding_pair
 from graphkin.words import Phrase
@@ -36,7 +37,8 @@ NODES = 16
 RESOLVED = 1e-13
 CLOSED = 1e-7
 STILL = 1e-11
-EQUAL = 1e-9  # of two extremes that differ by less, the one at the smaller angle of the crank is meant
+EQUAL = 1e-9
+"""Of the swing: extremes that differ by less are equal; and of the crank's angle, within which it is 0 (rad)."""
 
 _NODES = np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)
 _FIT = np.linalg.inv(chebyshev.chebvander(_NODES, NODES - 1))
@@ -113,22 +115,27 @@ class TurnOfCrank:
             name = output if isinstance(output, str) else output.key
             raise Unsolvable("no whole turn", Problem(why, "does not move it has no limit positions",
                                                       "ask for an output that moves", name=name))
-        low, high = (self._extreme(output, travels, sign) for sign in (-1.0, 1.0))
-        if isinstance(output, str):
-            return replace(low[0], angle=low[1]), replace(high[0], angle=high[1])
-        return low[0], high[0]
+        lows, highs = (self._extremes(output, travels, sign) for sign in (-1.0, 1.0))
+        sense = -1.0 if self.placed.structure.scene.drivers[0].rate < 0.0 else 1.0
+        below, above = ([(sense * one.value + EQUAL, 0.0) for one in equal] for equal in (lows, highs))
+        strokes = strokes_between(below, above, math.tau)
+        low, high = lows[strokes.low], highs[strokes.high]
+        if len(lows) == len(highs) == 1:
+            return low, high
+        between = sense * (high.value - low.value) % math.tau
+        return replace(low, rest=math.tau - between - strokes.back), replace(high, rest=between - strokes.out)
 
-    def _extreme(self, output: Pair | str, travels: Sequence[float], sign: float) -> tuple[LimitPosition, float]:
-        """The highest position (``sign`` 1), or the lowest (-1), and the travel there; of equal ones the position at
-        the smaller angle of the crank."""
+    def _extremes(self, output: Pair | str, travels: Sequence[float], sign: float) -> list[LimitPosition]:
+        """The highest position (``sign`` 1), or the lowest (-1), and all that are equal to it."""
         height = [sign * value for value in travels]
         before = height[-2], *height
-        tops = [k for k in range(len(height) - 1) if height[k] >= max(before[k], height[k + 1])]
+        tops = [k for k in range(len(height) - 1) if before[k] < height[k] >= height[k + 1]]
         best, swing = max(height[k] for k in tops), max(travels) - min(travels)
         extremes = [self._refined(output, k, travels[k]) for k in tops if height[k] > best - 0.02 * swing]
         most = max(sign * value for _, value in extremes)
-        equal = [extreme for extreme in extremes if sign * extreme[1] > most - EQUAL * swing]
-        return min(equal, key=lambda extreme: (extreme[0].value + EQUAL) % math.tau)
+        turns = isinstance(output, str)
+        return [replace(here, angle=value) if turns else here
+                for here, value in extremes if sign * value > most - EQUAL * swing]  # fmt: skip
 
     def _refined(self, output: Pair | str, k: int, roughly: float) -> tuple[LimitPosition, float]:
         """The extreme of a curve through the positions about the k-th."""

@@ -21,7 +21,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.search import resolve
+from graphkin.search import resolve, strokes_between
 from graphkin.solver.algebra.bounds import Accuracy
 from graphkin.solver.algebra.pose import FIELDS, Array, Drive, Pose, rest
 from graphkin.solver.cams import cam_angle
@@ -575,7 +575,8 @@ BESIDE = 1e-4
 """Of a radian: as near to where an output turns back it is at rest."""
 REST = 1e-9
 """Of the size of the mechanism, or of a radian, for one of the driver: what is slower is at rest."""
-EQUAL = 1e-9  # of two extremes that differ by less, the one at the smaller angle of the crank is meant
+EQUAL = 1e-9
+"""Of the stroke: extremes that differ by less are equal; and of the crank's angle, within which it is 0 (rad)."""
 ROUNDED = 1e-11
 """An angle (rad) between limit positions that is nothing but rounding."""
 WHERE_ELSE = Phrase("ask for s_ theta_ or d_ at single")
@@ -583,15 +584,16 @@ WHERE_ELSE = Phrase("ask for s_ theta_ or d_ at single")
 
 @dataclass(frozen=True)
 class Extremes:
-    """The least and the greatest value of an output over a turn (m, rad), the driver's offsets there, and the angles
-    (rad) by which it turns before them while the output rests."""
+    """The least and the greatest value of an output over a turn (m, rad), the driver's offsets where the output leaves
+    them, and the angles (rad) by which the driver turns during the stroke to the greatest value and during that to the
+    least, as `strokes_between` has them."""
 
     low: float
     high: float
     low_offset: float
     high_offset: float
-    low_rest: float = 0.0
-    high_rest: float = 0.0
+    out: float
+    back: float
 
     @property
     def stroke(self) -> float:
@@ -600,26 +602,24 @@ class Extremes:
     @property
     def lag(self) -> float:
         """The angle theta = 180 (K - 1) / (K + 1) (rad): the acute angle between the crank's two limit positions."""
-        return lag_of(*self.ways)
+        return lag_of(self.out, self.back)
 
     @property
     def ratio(self) -> float:
         """K = (180 + theta) / (180 - theta): the longer way of the crank over the shorter (coefficient of travel speed
         variation, 行程速比系数; time ratio, Norton, Design of Machinery, ch. 3)."""
-        return (math.pi + self.lag) / (math.pi - self.lag)
-
-    @property
-    def ways(self) -> tuple[float, float]:
-        """The angles by which the crank turns during the stroke to the greatest value and during that to the least
-        (rad), without rests."""
-        way = (self.high_offset - self.low_offset) % math.tau
-        return way - self.high_rest, math.tau - way - self.low_rest
+        return ratio_of(self.lag)
 
 
 def lag_of(out: float, back: float) -> float:
     """The angle theta = 180 (K - 1) / (K + 1) (rad) of the angles by which a crank turns during both strokes."""
     lag = math.pi * abs(out - back) / (out + back)
     return lag if lag > ROUNDED else 0.0
+
+
+def ratio_of(lag: float) -> float:
+    """K = (180 + theta) / (180 - theta) of the angle theta (rad)."""
+    return (math.pi + lag) / (math.pi - lag)
 
 
 def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
@@ -647,12 +647,14 @@ def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
         raise _without(
             symbol, Phrase("does not move it has no limit positions", name=pair), Phrase("ask for an output that moves")
         )
-    crank = np.remainder(reach.value(offsets) + EQUAL, math.tau)
-    low, high = (
-        min(np.flatnonzero(sign * values >= (sign * values).max() - EQUAL * wide).tolist(), key=crank.__getitem__)
-        for sign in (-1.0, 1.0)
+    crank = reach.sense * reach.value(offsets) + EQUAL
+    lows, highs = (np.flatnonzero(sign * values >= (sign * values).max() - EQUAL * wide) for sign in (-1.0, 1.0))
+    below, above = ([(float(crank[k]), float(rests[k])) for k in equal] for equal in (lows, highs))
+    strokes = strokes_between(below, above, math.tau)
+    (low, start), (high, end) = (
+        (float(values[k]), float(offsets[k])) for k in (lows[strokes.low], highs[strokes.high])
     )
-    return Extremes(*(float(of[k]) for of in (values, offsets, rests) for k in (low, high)))
+    return Extremes(low, high, start, end, strokes.out, strokes.back)
 
 
 def _turns(reach: DriverRange, symbol: Symbol) -> tuple[Array, Array, Array, float]:
