@@ -467,18 +467,22 @@ def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterato
     first: int | None = None  # of steps that the next figure of their diagram shows too
     # velocity plans of what rolls, and those of the tangential accelerations, each a figure
     plans = train_pages(FigurePage(lesson.sheet, "plan", lesson.language, lesson.letters))
+    pages = [[plans.pop(n) for n in dict.fromkeys(step.plan for step in stage.steps) if n in plans]
+             for stage in lesson.stages]  # fmt: skip
+    leads_on = [*map(_leads_on, lesson.stages, (*lesson.stages[1:], None))]
     count = 0  # of the figures
-    for stage, after in zip(lesson.stages, (*lesson.stages[1:], None), strict=True):
+    for k, (stage, shown) in enumerate(zip(lesson.stages, pages, strict=True)):
         if stage.diagram not in layers:
             layers[stage.diagram] = pictures.parts(lesson, stage.diagram)
         opening = lead if stage is lesson.stages[0] else ()
-        shown = [plans.pop(n) for n in dict.fromkeys(step.plan for step in stage.steps) if n in plans]
         if stage.equation is None and all(step.plan for step in stage.steps):  # drawn on the plans of trains alone
             yield Together(tuple(_plan_blocks(lesson, stage.diagram, shown, count, stage)))
             count += len(shown)
             continue
-        if _leads_on(stage, after):
-            yield Together((*_told(lesson, stage, count + 1), *step_items(lesson, stage, len(stage.steps) > 1)))
+        if leads_on[k]:
+            plans_before = sum(map(len, pages[k : leads_on.index(False, k)]))
+            told = _told(lesson, stage, count + plans_before + 1)
+            yield Together((*told, *step_items(lesson, stage, len(stage.steps) > 1)))
             first = stage.first
         else:
             count += 1

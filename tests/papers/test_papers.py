@@ -71,6 +71,23 @@ def test_figures_of_a_solution_are_numbered_and_equations_name_theirs(name):
     assert set(named) <= set(range(1, len(captions) + 1))
 
 
+@pytest.mark.parametrize("name", ["geared-five-bar", "hypocycloid-straight-line", "sixbar-guide-40deg"])
+def test_the_figure_that_an_equation_names_is_a_polygon_of_its_kind_after_it(name):
+    # a plan of a train between them was named
+    blocks = list(laid_out(solution(handout(name, formats=("html",), positions=1).lesson).blocks))
+    captions, named = [], []
+    for block in blocks:
+        if isinstance(block, Heading) and (head := re.search(r": (\w+) \(figure (\d+)\)", str(block.words[0][1]))):
+            named.append((int(head[2]), head[1], len(captions)))
+        if isinstance(block, Picture) and block.caption:
+            captions.append(str(block.caption[0][1]))
+    assert named
+    for number, kind, before in named:
+        (caption,) = (c for c in captions if c.startswith(f"Figure {number}."))
+        assert f"{kind.capitalize()} polygon" in caption
+        assert captions.index(caption) >= before
+
+
 def test_pages_of_a_solution_are_filled(shaper):
     from pypdf import PdfReader
 
