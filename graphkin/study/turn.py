@@ -440,6 +440,8 @@ def _least(group: Dyad, angle: Traced) -> Least:
     if angle.least is None:
         return Least(group, angle.constant or 0.0, ())
     least = angle.least.value
+    if any(e.kind == "max" for e in angle.extremes) and all(abs(e.value - least) <= SAME_ANGLE for e in angle.extremes):
+        return Least(group, least, ())  # it changes by rounding alone
     places = [e.driver for e in angle.extremes if e.kind != "max" and abs(e.value - least) <= SAME_ANGLE]
     return Least(group, least, tuple(places))
 

@@ -95,6 +95,26 @@ def test_the_least_transmission_angle_is_told_at_every_place_of_it() -> None:
     assert told["driver"] == told["drivers"][0]
 
 
+def test_a_transmission_angle_that_changes_by_rounding_alone_is_the_same_in_every_position() -> None:
+    # near the ends, where guides become parallel, it had 60 places
+    scene = {
+        "frame": {"points": {"A": [34, -29]}, "guides": {"g": {"through": [-28.6, 122.6], "angle": -127}}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 30, "guides": {
+                "g": {"through": [16, 130], "angle": 30}, "h": {"through": [83, 18], "angle": -75}}},
+            "2": {"on": "0.g", "points": ["P"]},
+            "3": {"on": "1.g", "points": ["P"]},
+            "5": {"points": ["P"], "on": "6.g"},
+            "6": {"on": "1.h", "guides": {"g": {"through": [-48, -75], "angle": -160}}},
+        },
+        "driver": {"link": "1", "angle": 53, "omega": 6.65},
+        "sketch": {"P": [-57.5, 84.2]},
+    }  # fmt: skip
+    _, least = study_turn(driver_range(mechanism_of(scene))).transmission
+    assert () == least.drivers
+    assert 20 == pytest.approx(math.degrees(least.angle), abs=1e-7)
+
+
 def test_in_a_change_point_the_transmission_angle_is_zero() -> None:
     assert study_turn(driver_range(mechanism_of_text(scenes.PARALLELOGRAM, "p"))).transmission[0].angle == 0.0
 
