@@ -180,8 +180,9 @@ def _links(scene: Mechanism) -> Iterator[Phrase]:
 def _outlines(link: PlacedLink, scene: Mechanism) -> Iterator[Phrase]:
     """The discs and the guides of a link."""
     for name, disc in link.discs.items():
-        radius = _number(disc.r / scene.units.metres)
-        yield Phrase("explained disc", disc=name, centre=disc.centre, radius=radius, unit=scene.units.length)
+        radius = _number(abs(disc.r) / scene.units.metres)
+        key = "explained hollow disc" if disc.r < 0 else "explained disc"
+        yield Phrase(key, disc=name, centre=disc.centre, radius=radius, unit=scene.units.length)
     for name, guide in link.guides.items():
         if name:
             place, angle = _place(guide.through, scene), _degrees(guide.direction)

@@ -235,3 +235,17 @@ def test_the_columns_of_a_chinese_report_stand_under_each_other() -> None:
 def columns(text: str) -> str:
     """The text with Chinese characters twice, as wide as a terminal shows them."""
     return "".join(c * 2 if ord(c) > 0x2E7F else c for c in text)
+
+
+def test_a_hollow_outline_has_a_radius_above_0_and_a_body_with_an_outline_elsewhere_is_not_called_round():
+    ring = graphkin.explain({
+        "frame": {"points": {"A": [0, 0], "C": [120, 0]}},
+        "links": {
+            "1": {"points": ["A", "O"], "length": 15, "discs": {"k": {"centre": "O", "r": 35}}},
+            "2": {"points": ["C"], "at": {"R": [-125, 30]}, "discs": {"h": {"centre": "R", "r": -50}}},
+        },
+        "contacts": {"K": {"between": ["1.k", "2.h"]}},
+        "driver": {"link": "1", "angle": 70, "omega": 9},
+    })  # fmt: skip
+    assert "it has the hollow round outline h about R, of radius 50 mm, inside which others touch it" in ring.text
+    assert "link 2 is a body with the point C\n" in ring.text
