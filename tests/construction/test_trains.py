@@ -106,6 +106,17 @@ def test_the_slope_of_a_wheel_s_line_on_paper_is_its_rate():
     assert -7.5 == pytest.approx(rate, rel=1e-3)
 
 
+@pytest.mark.parametrize(("axis", "pole"), [("B", "P"), ("P", "H")])
+def test_the_pole_of_a_plan_has_a_letter_that_no_axis_of_the_plan_has(axis, pole):
+    links = {"1": {"points": ["A"]}, "2": {"points": ["A", axis], "length": 50}, "3": {"points": [axis]}}
+    gears = {"s": {"between": ["1", "3"], "teeth": [30, 20], "carrier": "2"},
+             "r": {"between": ["3", "0"], "teeth": [20, -70], "carrier": "2"}}  # fmt: skip
+    scene = {"frame": {"points": {"A": [0, 0]}}, "links": links, "gears": gears,
+             "driver": {"link": "1", "angle": 0, "omega": 10}}  # fmt: skip
+    svg = draw(scene, figures=["plan"]).figures["plan"]._repr_svg_()
+    assert f"through the pole {pole} mark" in re.sub(r"<[^>]*>", "", svg)
+
+
 def test_a_straight_carrier_stays_straight_on_its_line_of_centres():
     links = {**SUN, "2": {"points": ["A", "B"], "length": 50, "at": {"C": [90, 0]}}, "4": {"points": ["C"]}}
     gears = {"s": {"between": ["1", "3"], "teeth": [30, 20], "carrier": "2"},

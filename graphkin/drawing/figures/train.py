@@ -56,7 +56,7 @@ def train_pages(page: FigurePage) -> dict[int, Drawing]:
 def _page(page: FigurePage, plan: TrainPlan) -> Drawing:
     sheet, velocity = page.sheet, plan.order == "velocity"
     name = "plan" if velocity else "plan accelerations"
-    why = [Phrase("plan reason" if velocity else "plan reason accelerations")]
+    why = [Phrase("plan reason" if velocity else "plan reason accelerations", pole=_pole(plan))]
     why += [Phrase("plan relative", point=line.still) for line in plan.on if not line.in_frame]
     rates = _rate_scale(sheet, plan)
     least = min(0.0, *map(foot, plan.lines.values()))
@@ -148,6 +148,12 @@ def foot(line: RateStep) -> float:
     return math.copysign(line.mm, line.value)
 
 
+def _pole(plan: TrainPlan) -> str:
+    """The letter of the pole: P, where no place of the plan has it."""
+    taken = {spot.name for line in plan.on for spot in line.spots}
+    return "H" if "P" in taken else "P"
+
+
 def _rate_scale(sheet: Sheet, plan: TrainPlan) -> Piece:
     """Parallels to the lines through the pole, which stands at 0, down to the scale."""
     plate, deep, (kind, _) = Plate(), -1j * plan.pole, _rates(plan)
@@ -156,7 +162,7 @@ def _rate_scale(sheet: Sheet, plan: TrainPlan) -> Piece:
     plate.line("construction", min(feet) - 4.0 + deep, max(feet) + 4.0 + deep, strokes.OUTLINE)
     plate.line("construction", 0j, deep, strokes.DIRECTION)
     plate.circle("construction", 0j, 0.9, strokes.WHITE, strokes.OUTLINE)
-    plate.name(rich(sign("P"), 3.2), 0j, toward=(1.57,))
+    plate.name(rich(sign(_pole(plan)), 3.2), 0j, toward=(1.57,))
     marked: dict[float, list[str]] = {}
     for line in shown:
         at, colour = foot(line) + deep, strokes.colour_of_link(sheet.scene, line.link)
