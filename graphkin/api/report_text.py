@@ -249,7 +249,7 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
             places = map(scene.unit_of(driver).said, least.drivers)
             where = f"{driver.key} = {word('list comma', language).join(places)}"
         pressure = say(Phrase("greatest pressure", angle=f"{math.degrees(least.pressure):.6g}°"), language)
-        names = f"{least.group.kind} {', '.join(least.group.links)}"
+        names = f"{least.group.kind} {', '.join(least.group.links) or least.group.label}"
         angle = f"{math.degrees(least.angle):.6g}°"
         lines.append(f"{word('least transmission', language)} {names}{colon}{angle} ({where}){semicolon}{pressure}")
     lines += _curves(turn, language)

@@ -276,7 +276,7 @@ def _flat(motion: Motion, bounds: Bounds) -> Iterator[Phrase]:
     for dyad in structure.elements:
         if not isinstance(dyad, Dyad) or (not bounds.transmission and bounds.pressure >= math.pi / 2):
             continue
-        angle = float(motion.value(Symbol("transmission", name="-".join(dyad.links)))[0])
+        angle = float(motion.value(Symbol("transmission", name=dyad.label))[0])
         if dyad.kind == "RRR" and angle < bounds.transmission:
             yield Phrase("unfit transmission", group=dyad.named, degrees=f"{math.degrees(angle):.0f}")
         if dyad.kind != "RRR" and math.pi / 2 - angle > bounds.pressure:

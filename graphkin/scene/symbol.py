@@ -166,8 +166,8 @@ class PointRef(NamedTuple):  # looked up by the ten thousand
 class Symbol:
     """A quantity by name.
 
-    ``kind`` is a name of `KINDS`, "place" for a point's place, or "transmission" for the angle of a group, whose links
-    are its ``name``; ``of`` and ``to`` are its points (``to`` the reference point, or the second of two), ``link`` and
+    ``kind`` is a name of `KINDS`, "place" for a point's place, or "transmission" for the angle of a group, whose label
+    is its ``name``; ``of`` and ``to`` are its points (``to`` the reference point, or the second of two), ``link`` and
     ``other`` its links (of a sliding pair the sliding and the guiding link; of a pin in a slot ``link`` is the pin).
     ``at`` names the position, "" for this one.
 

@@ -189,8 +189,8 @@ def _gamma(posed: Posed, symbol: Symbol) -> Array:
 
 
 def _transmission(posed: Posed, symbol: Symbol) -> Array:
-    """The transmission angle of the group with these two links."""
-    dyad = next(dyad for dyad in posed.structure.dyads.values() if "-".join(dyad.links) == symbol.name)
+    """The transmission angle of the group with this label."""
+    dyad = next(dyad for dyad in posed.structure.dyads.values() if dyad.label == symbol.name)
     return _crossing(posed.poses, joint_of_dyad(posed.structure, dyad))
 
 

@@ -195,6 +195,11 @@ class Dyad:
     is_slider_on_bar: bool = field(init=False, repr=False, compare=False)
     named = cached_property(_named)
 
+    @property
+    def label(self) -> str:
+        """Its links, ``2-3``; of blocks alone that stand for a pin in slots, the pin."""
+        return "-".join(self.links or dict.fromkeys(name.split("/")[0] for name in self.members))
+
     def __post_init__(self) -> None:
         first, second, outer = self.first, self.second, (self.outer_first, self.outer_second)
         members, drivers = first.links + second.links, tuple(joint.driver for joint in first.joints + second.joints)

@@ -427,7 +427,7 @@ def study_turn(reach: DriverRange, asked: Sequence[Symbol] = (), everything: boo
             others = [q for link in scene.links for q in link_quantities(link.name)]
             others += [q for s in own_slides(scene, start.slides) for q in slide_quantities(s.key)]
         wanted += [q for q in others if q not in wanted]
-    groups = {Symbol("transmission", name="-".join(d.links)): d for d in reach.structure.dyads.values()}
+    groups = {Symbol("transmission", name=d.label): d for d in reach.structure.dyads.values()}
     traced = trace(reach, (*wanted, *groups))
     outputs = tuple(_output(reach, t) for t in traced if t.quantity in mains)
     known = (t for t in traced if t.quantity in groups and not (t.least is None and t.constant is None))

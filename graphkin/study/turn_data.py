@@ -181,7 +181,6 @@ def design_row(turn: TurnStudy) -> dict[str, float | str | None]:
         back = turn.quick_return(output)
         cells[f"K_{name}"] = back[0] if back else None
     for least in turn.transmission:
-        name = "-".join(least.group.links)
-        cells[f"least_transmission_{name} (deg)"] = math.degrees(least.angle)
+        cells[f"least_transmission_{least.group.label} (deg)"] = math.degrees(least.angle)
     cells["mechanisms"] = "; ".join(loop.name for loop in turn.loops)
     return cells

@@ -115,6 +115,28 @@ def test_a_transmission_angle_that_changes_by_rounding_alone_is_the_same_in_ever
     assert 20 == pytest.approx(math.degrees(least.angle), abs=1e-7)
 
 
+def test_every_pin_at_a_crossing_of_slots_has_a_transmission_angle_of_its_own() -> None:
+    # groups of blocks alone have no links: the last of them was told, without a name
+    guides = {"v": {"through": [100, 0], "angle": 80}, "w": {"through": [160, 0], "angle": 60}}
+    guides["u"] = {"through": [0, 20], "angle": 0}
+    scene = {
+        "frame": {"points": {"A": [0, 0]}, "guides": guides},
+        "links": {
+            "1": {"points": ["A"]},
+            "2": {"points": ["P", "Q"], "length": 60}, "3": {"points": ["Q"], "on": "0.u"},
+            "4": {"points": ["R", "S"], "length": 90}, "5": {"points": ["S"], "on": "0.u"},
+        },
+        "pins": {"P": {"of": "2", "in": ["1", "0.v"]}, "R": {"of": "4", "in": ["1", "0.w"]}},
+        "driver": {"link": "1", "angle": 10, "omega": 2},
+    }  # fmt: skip
+    swept = graphkin.sweep(scene, positions=2)
+    (high,) = {bound["high"] for bound in swept.data["ranges"] if bound["reached"]}
+    for pin, angle in (("P", 80), ("R", 60)):
+        (line,) = (line for line in swept.text.splitlines() if f"PRP {pin}" in line)
+        least = math.radians(angle) - high
+        assert f"{math.degrees(least):.6g}°" in line
+
+
 def test_in_a_change_point_the_transmission_angle_is_zero() -> None:
     assert study_turn(driver_range(mechanism_of_text(scenes.PARALLELOGRAM, "p"))).transmission[0].angle == 0.0
 
