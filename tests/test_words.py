@@ -122,7 +122,7 @@ def test_symbols_side_by_side_are_one_and_those_of_the_table_keep_their_indices(
 
 
 def test_dollar_signs_and_braces_of_a_name_are_no_marks_of_symbols():
-    said = rich_text(Phrase("design measured", lengths="a$b$ {c}"), "en")
+    said = rich_text(Phrase("design measured", measured="a$b$ {c}"), "en")
     assert ["measured on paper: a$b$ {c}"] == [*stretches(said)]
 
 

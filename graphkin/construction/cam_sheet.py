@@ -44,9 +44,9 @@ def cam_sheet(cam: LawCam, scale: float) -> Sheet:
     radii = (cam.base * mm, offset) if shifted else (cam.base * mm,)
     circles = (*radii, (cam.base - cam.roller) * mm) if cam.roller else radii
     step("line", "cam step circles" if shifted else "cam step base",
-         *(CompassArc(0j, radius, complex(radius), whole=True) for radius in circles), lengths=radii)  # fmt: skip
+         *(CompassArc(0j, radius, complex(radius), whole=True) for radius in circles), radii=radii)  # fmt: skip
     if pivots:
-        step("mark", "cam step pivots", *(Mark(NO_POINT, d.line) for d in divided), lengths=(abs(divided[0].line),))
+        step("mark", "cam step pivots", *(Mark(NO_POINT, d.line) for d in divided), radii=(abs(divided[0].line),))
         step("cross", "cam step swings", *(CompassArc(d.line, abs(d.point - d.line), d.point) for d in divided))
     else:
         lines = (Ray(d.line, d.way, None) for d in divided)
@@ -59,7 +59,7 @@ def cam_sheet(cam: LawCam, scale: float) -> Sheet:
     if cam.roller:
         pitch, roller = Curve(tuple(here.point * mm for here in around)), cam.roller * mm
         rollers = (CompassArc(d.point, roller, d.contact, whole=True) for d in divided)
-        step("line", "cam step rollers", *rollers, pitch, profile, lengths=(roller,))
+        step("line", "cam step rollers", *rollers, pitch, profile, radii=(roller,))
     else:
         step("line", "cam step edge", profile)
     normals = (Ray(d.contact, d.normal, d.point) for d in divided)

@@ -325,8 +325,8 @@ def _(task: FunctionTask, paper: TaskBoard) -> None:
     crank, rocker = frame * per_one / across, frame * per_one / upward
     B = hand.point(A + hand.length(abs(crank)) * math.copysign(1.0, crank) * phi[0])
     C = hand.point(D + hand.length(abs(rocker)) * math.copysign(1.0, rocker) * psi[0])
-    lengths = frame, per_one, across, upward
-    paper.step("lay off", "design reckoned", *points(B=B, C=C), lengths=lengths)
+    radii = frame, per_one, across, upward
+    paper.step("lay off", "design reckoned", *points(B=B, C=C), radii=radii)
     _chain(paper, "CD", A=A, B=B, C=C, D=D)
 
 

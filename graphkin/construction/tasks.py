@@ -8,7 +8,7 @@ from typing import Any
 
 from graphkin.construction.board.scales import Scales
 from graphkin.construction.board.sheet import Board, Sheet
-from graphkin.construction.board.steps import Mark, Step, Stroke, TaskReason, Verb
+from graphkin.construction.board.steps import Mark, PlaceStep, Stroke, TaskReason, Verb
 from graphkin.construction.touching import CamStation
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross_line_arc, unit
@@ -24,47 +24,36 @@ NO_MECHANISM = Mechanism("", PlacedLink("0", {}, (), {}), (), (), ())
 
 
 @dataclass(frozen=True)
-class TaskStep(Step):
+class TaskStep(PlaceStep):
     """A step of a task.
 
     Parameters
     ----------
-    point, points : the point that it finds or carries along, and those from which it is found; or the measured bars
-    mm, lengths : lengths on paper
     angles : laid off, or between lines (rad)
     K : the ratio of the times of both strokes
     divisions : of a cam's displacement diagram, the follower turned back about the cam at each (mm)
     """
 
-    point: str = ""
-    points: tuple[str, ...] = ()
-    mm: float = 0.0
-    lengths: tuple[float, ...] = ()
     angles: tuple[float, ...] = ()
     K: float = 0.0
     divisions: tuple[CamStation, ...] = ()
 
-    @property
-    def degrees(self) -> tuple[str, ...]:
-        """The angles as they are written (degrees)."""
-        return tuple(f"{math.degrees(angle):.6g}" for angle in self.angles)
-
-    @property
-    def radii(self) -> tuple[str, ...]:
-        """The lengths as they are written of circles that are given (mm)."""
-        return tuple(amount(mm, 4) for mm in self.lengths)
-
     def gap(self, name: str) -> object:
-        """The value of a gap in its sentence: an argument, or numbers in figures."""
-        match name:
-            case "K":
+        """The value of a gap in its sentence: an argument, angles in degrees, given radii as they are; or numbers in
+        figures."""
+        match name.partition("."):
+            case "K", _, _:
                 return f"{self.K:.6g}"
-            case "divisions":
+            case "divisions", _, _:
                 return str(len(self.divisions))
-            case "lengths":
-                read = zip(self.points, self.lengths, strict=True)
+            case "angles", _, i:
+                return f"{math.degrees(self.angles[int(i)]):.6g}"
+            case "circles", _, i:
+                return amount(self.radii[int(i)], 4)
+            case "measured", _, _:
+                read = zip(self.points, self.radii, strict=True)
                 return spaced(",  ", (length_letters(bar) + f" = {on_paper(mm)} mm" for bar, mm in read))
-            case "across" | "upward" | "unit" | "crank" | "rocker":
+            case ("across" | "upward" | "unit" | "crank" | "rocker"), _, _:
                 return self._quotients[name]
         return super().gap(name)
 
@@ -72,10 +61,10 @@ class TaskStep(Step):
     def _quotients(self) -> dict[str, str]:
         """Crank and rocker as the frame times the unit over the coordinates of Q (mm), with the decimals that make the
         quotients true as they are written."""
-        frame, unit, *sides = self.lengths
+        frame, unit, *sides = self.radii
         written = [on_paper(abs(frame * unit / side)) for side in sides]
         for decimals in DECIMALS:
-            base, per, *ends = (round(mm, decimals) for mm in self.lengths)
+            base, per, *ends = (round(mm, decimals) for mm in self.radii)
             if all(on_paper(abs(base * per / end)) == text for end, text in zip(ends, written, strict=True) if end):
                 break
         figures = (*(f"{end:.{decimals}f}" for end in (*ends, per)), *written)
@@ -149,7 +138,7 @@ class TaskBoard(Board):
     def measure(self, *strokes: Stroke, **bars: tuple[complex, complex]) -> None:
         """A step in which the lengths of bars are read off the paper (mm), each by its name."""
         lengths = tuple(self.instrument.read(abs(b - a)) for a, b in bars.values())
-        self.step("read", "design measured", *strokes, points=(*bars,), lengths=lengths)
+        self.step("read", "design measured", *strokes, points=(*bars,), radii=lengths)
 
 
 def not_drawn(what: str, finding: str, wanted: str) -> Unsolvable:
@@ -160,4 +149,4 @@ def measured(sheet: Sheet) -> dict[str, float]:
     """The measured lengths of a synthesis (mm on paper) by the letters of each bar; "ram": the distance of its line
     from C."""
     read = (step for step in sheet.steps if isinstance(step, TaskStep) and step.reason == "design measured")
-    return {name: mm for step in read for name, mm in zip(step.points, step.lengths, strict=True)}
+    return {name: mm for step in read for name, mm in zip(step.points, step.radii, strict=True)}

@@ -43,6 +43,12 @@ def test_a_step_tells_no_rate_that_is_nothing_but_rounding(name, at):
     assert {0.0} == {step.value for step in rates}
 
 
+def test_the_rounding_of_a_rate_is_that_of_velocities_over_its_bar():
+    floor = {str(row.symbol): row.floor for row in check("four-bar-coupler-point").report.rows}
+    bars = [floor["v_C"] / floor[name] for name in ("omega_3", "omega_2")]
+    assert [0.07, 0.09] == pytest.approx(bars)
+
+
 @pytest.mark.parametrize(("name", "at"), DEAD)
 def test_zero_is_never_compared_in_per_cent(name, at):
     assert {None} >= {row.relative for row in check(name, at=at).report.rows if row.true == 0.0}

@@ -11,8 +11,8 @@ import pytest
 
 import graphkin
 from graphkin.construction import Scales, cad, draft, pencil
-from graphkin.construction.board.sheet import Remark
-from graphkin.construction.board.steps import CompassArc, Ray
+from graphkin.construction.board.sheet import Remark, without_residues
+from graphkin.construction.board.steps import CompassArc, Ray, Vector
 from graphkin.errors import Unsolvable
 from graphkin.plane import cross, dot
 from graphkin.scene import library, mechanism_of
@@ -231,6 +231,22 @@ def test_a_rate_read_off_a_velocity_plan_is_as_long_at_every_scale():
     s = sheet.scales
     assert sheet.rates["omega"] == sheet.at(Scales(s.length / 2, s.velocity / 4, s.acceleration)).rates["omega"]
     assert any(rate.mm for rate in sheet.rates["omega"].values())
+
+
+@pytest.mark.parametrize(("beside", "kept"), [(0.0, 0.0), (5.0, 5.0)])
+def test_a_rate_read_off_what_rounding_leaves_is_zero_but_for_a_driver_on_top_of_it(beside, kept):
+    sheet = draft(mechanism_of("four-bar-coupler-point"))
+    rate, tiny = sheet.rates["omega"]["2"], 1e-20  # mm
+
+    def with_tiny(step):
+        strokes = (replace(s, tail=0j, tip=tiny + 0j) if isinstance(s, Vector) and s.symbol == rate.vector else s
+                   for s in step.strokes)  # fmt: skip
+        return replace(step, strokes=tuple(strokes))
+
+    left = tiny * sheet.scales.velocity / rate.arm
+    rates = sheet.rates["omega"] | {"2": replace(rate, mm=tiny, value=beside + left)}
+    other = replace(sheet, steps=tuple(map(with_tiny, sheet.steps)), rates=sheet.rates | {"omega": rates})
+    assert kept == without_residues(other).rates["omega"]["2"].value
 
 
 def test_a_remark_belongs_to_the_scale_of_its_figure():

@@ -45,7 +45,7 @@ def reasons() -> set[str]:
 
 @pytest.mark.parametrize(("kind", "lengths"), [
     (Step, set()), (PlaceStep, {"mm", "radii"}), (VectorStep, {"mm"}), (EndStep, set()), (RateStep, {"mm"}),
-    (TaskStep, {"mm", "lengths"}),
+    (TaskStep, {"mm", "radii"}),
 ])  # fmt: skip
 def test_a_number_of_a_step_is_a_length_on_paper_that_a_scale_changes_or_is_known_to_be_none(
     kind: type[Step], lengths: set[str]

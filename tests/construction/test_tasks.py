@@ -10,7 +10,7 @@ import pytest
 
 from graphkin.construction import EXACT, Scales, pencil
 from graphkin.construction.board.sheet import Sheet
-from graphkin.construction.board.steps import CompassArc, Curve, Ray, Stroke, TaskReason
+from graphkin.construction.board.steps import Bar, CompassArc, Curve, Ray, Stroke, TaskReason
 from graphkin.construction.cam_sheet import cam_sheet, divisions
 from graphkin.construction.synthesis import construct
 from graphkin.construction.tasks import measured
@@ -89,6 +89,11 @@ def strokes(name: str, reason: str) -> tuple[tuple[CamStation, ...], tuple[Strok
 def test_the_normals_of_a_cam_are_drawn_from_its_contacts_to_the_centres_of_the_roller() -> None:
     drawn_at, lines = strokes("cam-offset-roller", "cam step normals")
     assert [Ray(d.contact, d.normal, d.point) for d in drawn_at] == [*lines]
+
+
+def test_a_flat_face_is_drawn_from_its_foot_to_its_contact() -> None:
+    drawn_at, (*faces, _) = strokes("cam-flat-face", "cam step faces")
+    assert [Bar(d.point, d.contact) for d in drawn_at] == faces
 
 
 def test_the_arcs_of_a_swinging_follower_pass_the_base_circle_and_the_pitch_curve() -> None:

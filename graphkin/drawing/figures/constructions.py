@@ -217,19 +217,15 @@ def _draw(plate: Plate, made: Sequence[DrawnStroke], step: int, room: Box) -> No
                 lines.append(Arc(on_page(at), radius, first, second, strokes.DIMENSION))
                 said = (sign(name) + " = " if name else "") + f"{number(math.degrees(value))}°"
                 plate.name(rich(said, 2.8), at + (radius + 1.0) * cmath.rect(1.0, middle), toward=(middle,), rank=1)
-            case Mark(ref, at) if room.distance(on_page(at)) == 0.0:
-                _point(plate, ref.point, on_page(at), stroke.fixed, step)
+            case Mark(ref, at, fixed) if room.distance(on_page(at)) == 0.0:
+                name, z = ref.point, on_page(at)
+                shape = symbols.fixed_pivot(z) if fixed else symbols.turning_pair(z, radius=0.9 if name else 0.5)
+                id = f"point-{name}" if name else ""
+                plate.put("mechanism", *shape, id=id, classes=("point",), step=step)
+                if name:
+                    plate.name(rich(sign(name[0], name[1:])), at, f"label-{id}", step=step)
     if lines:
         plate.put("construction", *lines, classes=("strokes",), step=step)
-
-
-def _point(plate: Plate, name: str, at: complex, fixed: bool, step: int) -> None:
-    """A point or a fixed pivot, with its name if it has one."""
-    shape = symbols.fixed_pivot(at) if fixed else symbols.turning_pair(at, radius=0.9 if name else 0.5)
-    id = f"point-{name}" if name else ""
-    plate.put("mechanism", *shape, id=id, classes=("point",), step=step)
-    if name:
-        plate.name(rich(sign(name[0], name[1:])), on_page(at), f"label-{id}", step=step)
 
 
 def _arcs(drawn: CompassArc, room: Box) -> list[Primitive]:
@@ -530,8 +526,7 @@ def _draw_inversion(plate: Plate, step: Step, drawn_at: Sequence[CamStation], re
     reach : how far from the axis the lines of a sliding follower are drawn (mm)
     half : of the length of a face (mm)
     """
-    lines: list[Primitive] = []
-    shown = _shown(drawn_at)
+    lines, ends, shown = list[Primitive](), dict[int, complex](), _shown(drawn_at)
     for k, stroke in enumerate(step.strokes):
         match stroke:
             case CompassArc(0j, radius):
@@ -549,23 +544,18 @@ def _draw_inversion(plate: Plate, step: Step, drawn_at: Sequence[CamStation], re
                 lines.append(Arc(on_page(pivot), arm, middle - beyond, middle + beyond, THIN))
             case Mark(_, at):
                 lines.append(Circle(on_page(at), 0.5, stroke=THIN))
-                _number(plate, k, at)
+                ends[k] = at
             case Ray(foot, along, None):
-                end = foot + math.sqrt(max(reach**2 - abs(foot) ** 2, 0.0)) * along
-                lines.append(Line(on_page(foot), on_page(end), THIN))
-                _number(plate, k, end)
+                ends[k] = foot + math.sqrt(max(reach**2 - abs(foot) ** 2, 0.0)) * along
+                lines.append(Line(on_page(foot), on_page(ends[k]), THIN))
             case Ray(through, along, to) if to is not None:
                 lines.append(Line(on_page(through), on_page(to + 6.0 * along), strokes.DIRECTION))
             case Bar():
                 lines.append(_face(drawn_at[k], half, strokes.CONSTRUCTION))
+    for k, at in ends.items():
+        plate.name(plain(str(k), SMALL), at, f"label-division-{k}", toward=(cmath.phase(at),), rank=1)
     if lines:
         plate.put("construction", *lines, classes=("strokes",), step=step.number)
-
-
-def _number(plate: Plate, division: int, at: complex) -> None:
-    """The number of a division at its line or pivot."""
-    runs = plain(str(division), SMALL)
-    plate.name(runs, at, f"label-division-{division}", toward=(cmath.phase(at),), rank=1)
 
 
 def _shown(drawn_at: Sequence[CamStation]) -> list[int]:
