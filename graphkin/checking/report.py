@@ -345,9 +345,8 @@ def _floor(sheet: Sheet, reading: Reading, rounding: Lost, unknown: float) -> fl
     if symbol.is_vector:
         return lost
     rate = sheet.rates[symbol.kind].get(symbol.link)
-    if rate is None or (rate.vector is None and rate.mm is None):
-        return 0.0  # given
-    return lost / (rate.arm or sheet.scene.size)
+    # a given rate has no bar
+    return 0.0 if rate is None else lost / (rate.arm or sheet.scene.size)
 
 
 def paper(reading: Reading, compared: Compared | None = None) -> str:

@@ -66,6 +66,14 @@ def test_a_cam_has_its_papers(name):
     assert [2, 2] == [papers[f"cam-{name}.html"].count(b"<svg") for name in ("problem", "solution")]
 
 
+@pytest.mark.parametrize("name", ["cam-offset-roller", "cam-flat-face", "cam-swinging-roller"])
+def test_the_problem_of_a_cam_begins_with_its_circles_alone(name):
+    papers = cam_papers(graphkin.cam(name)["1"], ["html"], "en")
+    pages = (papers[f"cam-{part}.html"] for part in ("problem", "solution"))
+    begun, whole = ({*re.findall(rb"strokes step-0*(\d+)", page)} for page in pages)
+    assert {b"2"} == begun < whole
+
+
 def test_a_design_is_told_from_a_scene():
     assert [True, False] == [is_design("rocker-limits"), is_design("shaper-scheme-2")]
 

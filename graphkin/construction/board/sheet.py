@@ -213,6 +213,7 @@ class Sheet:
 
     Parameters
     ----------
+    scene, structure : of the mechanism; empty where a synthesis or a cam is drawn
     instrument : the name of the hands
     drivers : values by the driver's key (rad, m)
     poses, points : of links and points, on paper (mm)
