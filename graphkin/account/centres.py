@@ -187,7 +187,7 @@ def _pins_on_guides(centres: Centres) -> Iterator[tuple[str, str, str, str]]:
     """Pins that slide along guides of moving links: the point, the link whose pin it is, the link that slides with it
     (the same for a pin in a slot) and the link with the guide."""
     scene, frame = centres.scene, centres.scene.frame.name
-    yield from ((pin.pin, pin.of, pin.of, pin.b) for pin in scene.pins if frame not in pin.bodies)
+    yield from ((s.pin, s.of, s.of, s.b) for s in scene.slides if s.higher and frame not in s.bodies)
     for pair in scene.slidings:
         guiding = pair.b.split(".")[0]
         for point in scene.by_name[pair.a].points:

@@ -147,11 +147,8 @@ def structure_words(scene: Mechanism, language: str) -> list[str]:
     fixed, name = [*scene.frame.points], scene.frame.name
     key = ("fixed link bare", "fixed link one", "fixed link")[min(len(fixed), 2)]
     said = [say(Phrase(key, link=name, **({"points": listed(fixed)} if fixed else {})), language)]
-    slots = {slot.bar: slot for slot in scene.slots if slot.of or slot.block}  # the others stand for cams
     for link in scene.links:
-        slot = slots.get(link.name)
-        points = [point for point in link.points if slot is None or (slot.block and point != slot.centre)]
-        if points:
+        if points := scene.own_points(link):
             said.append(say(Phrase("link joins", link=link.name, points=listed(points)), language))
     return said + [say(told(pair, "built"), language) for pair in scene.pairs]
 

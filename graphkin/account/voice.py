@@ -164,10 +164,11 @@ def link_of_vector(sheet: Sheet, symbol: Symbol) -> str:
     common = [name for name in mine if name in theirs and name != scene.frame.name]
     if of.point != to.point and common:
         return common[0]
-    bars = [c.block for c in scene.contacts if not c.flat and {of.point, to.point} <= {*c.centres}]
+    both = {of.point, to.point}
+    bars = [n for n in scene.replaced_by if n in sheet.structure.links and both <= {*sheet.structure.links[n].bar}]
     if bars and of.point != to.point:
         return bars[0]
-    sliding = {s.a for s in sheet.structure.slides} | {p.of for p in scene.pins}
+    sliding = {s.a for s in sheet.structure.slides} | {s.body for s in scene.slides}
     for name in (*mine, *theirs):
         if name in sliding:
             return name

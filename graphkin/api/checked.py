@@ -179,7 +179,8 @@ class Checked(OfScene, Result):
                 if lever.unknown.symbol == balance:
                     size = lever.value if balance.kind == "M" else abs(lever.value)
                     found.setdefault("by_lever", {}).setdefault(symbol, 0.0 + size)
-        other = self if self.at_contacts is None and self.sheet.scene.pins else self.at_contacts
+        slotted = any(pair.higher for pair in self.sheet.scene.slides)
+        other = self if self.at_contacts is None and slotted else self.at_contacts
         if other is not None:
             found["at_contact"] = {
                 r.symbol: abs(r.measured) if r.symbol.is_vector else r.measured.real for r in other.report.rows

@@ -154,8 +154,8 @@ class Drawn(OfScene, Result):
 
     @property
     def tables(self) -> Mapping[str, Table]:
-        cams = {"cam.csv": cam_table(self.mechanism)} if self.mechanism.cams and "cam" in self.wanted else {}
-        return {**cams, "readings.csv": self.table}
+        lifts = {"cam.csv": cam_table(self.mechanism)} if "cam" in self.wanted and cam_made(self.mechanism) else {}
+        return {**lifts, "readings.csv": self.table}
 
     @property
     def files(self) -> Mapping[str, bytes]:

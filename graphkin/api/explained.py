@@ -151,15 +151,13 @@ def _links(scene: Mechanism) -> Iterator[Phrase]:
     framed = Phrase(about("explained frame", fixed), link=name, points=listed(fixed)) if fixed else None
     yield framed or Phrase("explained bare frame", link=name)
     yield from _outlines(scene.frame, scene)
-    blocks = {slot.bar: slot for slot in scene.slots if slot.block}
-    replacing = {slot.bar for slot in scene.slots if not slot.block}
     roles = {name: role for pair in scene.higher_pairs for name, role in zip(pair.bodies, pair.roles, strict=False)}
-    for link in (link for link in scene.links if link.name not in replacing):
-        own = link.bar
+    for link in (link for link in scene.links if link.name not in scene.replacing):
+        own, points = link.bar, scene.own_points(link)
         if len(own) == 2:
             length = _number((link.length or 0.0) / scene.units.metres)
             yield Phrase("explained bar", link=link.name, bar="".join(own), length=length, unit=scene.units.length)
-        elif link.name in blocks or any(s.a == link.name for s in scene.slidings):
+        elif len(points) < len(link.points) or any(s.a == link.name for s in scene.slidings):
             block = Phrase("explained block without point", link=link.name)
             yield Phrase("explained block", link=link.name, point=own[0]) if own else block
         elif own and link.name in roles:
@@ -168,8 +166,7 @@ def _links(scene: Mechanism) -> Iterator[Phrase]:
             yield Phrase("explained disc link", link=link.name, point=own[0])
         else:
             yield Phrase("explained ray", link=link.name, point=own[0] if own else "-")
-        centre = {blocks[link.name].centre} if link.name in blocks else set()
-        further = [f"{p} {_place(z, scene)}" for p, z in link.points.items() if p not in {*own, *centre}]
+        further = [f"{p} {_place(link.points[p], scene)}" for p in points if p not in own]
         if further:
             yield Phrase(about("explained further", further), link=link.name, points=listed(further))
         yield from _outlines(link, scene)
@@ -195,9 +192,8 @@ def _outlines(link: PlacedLink, scene: Mechanism) -> Iterator[Phrase]:
 
 def _joints(scene: Mechanism) -> Iterator[Phrase]:
     counted = {scene.frame.name, *(link.name for link in scene.links if not link.redundant)}
-    curved = {(slot.bar, point) for slot in scene.slots for point in ({slot.centre} if slot.block else scene.holders)}
     for point, holders in scene.holders.items():
-        own = [name for name in holders if name in counted and (name, point) not in curved]
+        own = [name for name in holders if name in counted and point in scene.own_points(scene.by_name[name])]
         if len(own) > 1:
             if len(own) == 2:
                 yield Phrase("explained turning", point=point, links=listed(own))

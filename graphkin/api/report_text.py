@@ -151,7 +151,7 @@ def contact_lines(checked: Checked, language: str) -> list[str]:
     rates and contacts that it finds."""
     other = checked.at_contacts
     if other is None:
-        pins = dict.fromkeys(p.pin for p in checked.mechanism.pins)
+        pins = dict.fromkeys(s.pin for s in checked.mechanism.slides if s.higher)
         return [say(Phrase("at pins", points=", ".join(pins)), language)] if pins else []
     said = ("at contact", "at pitch curve")
     ways = dict.fromkeys((str(n.of[0]), n.key) for n in other.sheet.remarks if n.key in said)

@@ -384,8 +384,7 @@ def _driver(motion: Motion, point: str, to: complex) -> dict[str, float]:
             turn = math.degrees(cmath.phase((to - centre) / (now - centre)))
             return {driver.key: math.degrees(float(motion.values[0][index])) + turn}
         slide = next(s for s in scene.slidings if s.key == driver.key)
-        along = slide.guide.direction
-        travel = float(motion.values[0][index]) + dot(to - now, along)
+        travel = float(motion.values[0][index]) + dot(to - now, slide.guide.direction)
         return {driver.key: travel / scene.units.metres}
     return {}
 

@@ -355,16 +355,16 @@ def _normals(links: Centres) -> Iterator[CentreRelation]:
     """The common normals: of a pin in a slot the line through the pin square to the slot, and those of sliding
     contacts."""
     scene, poses = links.scene, links.poses
-    for pin in scene.pins:
-        if pin.of in poses and pin.b in poses and pin.of != pin.b:
-            along = pin.along(poses)
-            at, start = links.touching.place(pin.of, pin.pin), poses[pin.b].place(pin.guide.through * links.mm)
+    for slide in scene.slides:
+        of, on = slide.bodies
+        if slide.higher and of in poses and on in poses and of != on:
+            along = slide.along(poses)
+            at, start = links.touching.place(of, slide.pin), poses[on].place(slide.guide.through * links.mm)
             line = links.chart.line(start + along * dot(at - start, along), 1j * along)
-            yield CentreRelation(links.pair(pin.of, pin.b), line, ROUNDING, (pin.key,))
-    for contact, touch in links.touching.contacts():
-        if not contact.rolling:
-            line = links.chart.line(touch.at, touch.normal)
-            yield CentreRelation(links.pair(*contact.bodies), line, ROUNDING, (contact.name,))
+            yield CentreRelation(links.pair(of, on), line, ROUNDING, (slide.key,))
+    for touch in links.touching.sliding():
+        line = links.chart.line(touch.at, touch.normal)
+        yield CentreRelation(links.pair(*touch.links), line, ROUNDING, (touch.name,))
 
 
 # -- Kennedy's theorem -------------------------------------------------------------------------------------------------

@@ -160,7 +160,7 @@ class Plan:
         """The plan with sliding contacts, or rollers, edges and faces of cams, drawn at the contact itself instead of
         by their replacements, at scales that suit it; None without such contacts, or if one lies in a pivot."""
         scene = self.structure.scene
-        if not scene.cams:
+        if scene.instead_of is None:
             if scene.replacing.keys().isdisjoint(self.exact.poses):
                 return self._touching()
             poses = {name: pose.scaled(self.exact.scales.length) for name, pose in self.exact.poses.items()}
@@ -169,8 +169,6 @@ class Plan:
             return other._touching() or other
         whole = scene.whole
         barred = bool(scene.replacing.keys() - whole.by_name.keys())
-        if not barred and not whole.contacts and not any(cam.flat for cam in whole.cams):
-            return None
         values = {d.key: self.values[d.key] for d in whole.drivers}
         placed = cams_in_place(analyse(whole), self.asked, values, bars=False)
         other = _plan(placed, self.asked, without_forces=self.without_forces)
@@ -178,7 +176,7 @@ class Plan:
 
     def _touching(self) -> Plan | None:
         """The plan with its sliding contacts drawn themselves, if it has any."""
-        if not self.structure.scene.contacts:
+        if not self.structure.scene.higher_pairs:
             return None
         touching = {e for e in self.elements if not isinstance(e, Driven) and contacts_of(self.structure, e)}
         if not touching:

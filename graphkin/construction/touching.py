@@ -12,7 +12,7 @@ import math
 from cmath import phase
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 from graphkin.construction.board.steps import OnPaper
 from graphkin.plane import Pose, dot, unit
@@ -22,6 +22,8 @@ from graphkin.scene.pairs import HigherPair, LawCam, Meeting, PlacedContact, Pla
 
 POINTS = 180
 """Stations of a turn, those at the seams besides them."""
+PAST_ROLLER = 17.0
+"""mm from the roller of a follower to the middle of its guide."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +48,19 @@ class Touch:
         mm : mm of paper for one m
         """
         return [mm / dot(self.centres[n][1] - self.at, self.normal) if n in self.centres else 0.0 for n in links]
+
+
+@dataclass(frozen=True)
+class CamOnPaper:
+    """A cam and its follower on paper (mm): the profile, the follower's point, the contact, the normal (unit, out of
+    the cam), the radius of the roller (0 without one)."""
+
+    cam: LawCam
+    profile: tuple[complex, ...]
+    point: complex
+    contact: complex
+    normal: complex
+    roller: float
 
 
 @dataclass(frozen=True)
@@ -122,6 +137,10 @@ class Touching:
             elif not (pair.by_law and frozenset(pair.bodies) in between):
                 yield replace(touch, name=_free(touch.name, taken))
 
+    def sliding(self) -> Iterator[Touch]:
+        """The contacts of outlines that slide on each other."""
+        return (touch for pair, touch in self.contacts() if not pair.rolling)
+
     def rolling(self) -> Iterator[Touch]:
         """The points of rolling, by the name of the contact or the gear."""
         return (touch for pair, touch in self.each() if pair.rolling)
@@ -129,6 +148,30 @@ class Touching:
     def named(self, name: str) -> Touch:
         """The place of a contact, or of a mesh."""
         return next(self.of(pair) for pair in self.scene.higher_pairs if pair.name == name)
+
+    @cached_property
+    def cams(self) -> tuple[CamOnPaper, ...]:
+        """The cams with the followers that they touch."""
+        found = []
+        for pair in self.scene.cams:
+            if self.poses.keys() >= {*pair.bodies}:
+                pose = self.poses[pair.link]
+                at = station(pair, pair.sense * phase(pose.axis))
+                point, contact = (pose.origin + pose.axis * z * self.mm for z in (at.point, at.contact))
+                found.append(CamOnPaper(pair, self.profile(pair), point, contact, pose.axis * at.normal,
+                                        pair.roller * self.mm))  # fmt: skip
+        return tuple(found)
+
+    def profile(self, cam: LawCam) -> tuple[complex, ...]:
+        """The profile of a cam on paper."""
+        pose = self.poses[cam.link]
+        return tuple(pose.origin + pose.axis * at.contact * self.mm for at in stations(cam))
+
+    def clearance(self, slide: str) -> float:
+        """How far (mm) the block of a sliding pair stands beyond the first point of its link: clear of the roller of a
+        follower."""
+        cam = self.scene.law_of(slide)
+        return 0.0 if cam is None else cam.roller * self.mm + PAST_ROLLER
 
     def pitch_circles(self) -> Iterator[tuple[str, complex, float]]:
         """Wheels with the centre and the radius (mm, negative for internal teeth) of each pitch circle."""
@@ -145,13 +188,16 @@ class Touching:
                 yield gear.wheels[1], touch.at, unit(touch.at - touch.centres[gear.wheels[0]][1])
 
     def outermost(self, of: Collection[str] | None = None) -> list[complex]:
-        """The four outermost places of each round outline and each pitch circle, ``of`` some links or of all."""
+        """The four outermost places of each round outline and each pitch circle, and the profiles of cams, ``of`` some
+        links or of all."""
         names = self.poses.keys() if of is None else self.poses.keys() & of
         circles = [(c, abs(radius)) for wheel, c, radius in self.pitch_circles() if wheel in names]
         for link in (self.scene.frame, *self.scene.links):
             if link.name in names:
                 circles += [(self.place(link.name, d.centre), abs(d.r) * self.mm) for d in link.discs.values()]
-        return [centre + radius * side for centre, radius in circles for side in (1, 1j, -1, -1j)]
+        profiles = (self.profile(cam) for cam in self.scene.cams if cam.link in names)
+        spots = [z for profile in profiles for z in profile]
+        return spots + [centre + radius * side for centre, radius in circles for side in (1, 1j, -1, -1j)]
 
 
 def _free(name: str, taken: set[str]) -> str:
@@ -250,13 +296,3 @@ def stations(cam: LawCam) -> tuple[CamStation, ...]:
             degree = part.start + (part.end - part.start) * k / count
             around.append(station(cam, degree, part.at(degree)))
     return tuple(around)
-
-
-def outlines_on_paper(scene: Mechanism, poses: Mapping[str, Pose], mm: float) -> Mapping[str, tuple[complex, ...]]:
-    """The profile of each cam on paper, by its link; ``mm`` of paper for one m."""
-    outlines = {}
-    for cam in scene.cams:
-        if cam.link in poses:
-            pose = poses[cam.link]
-            outlines[cam.link] = tuple(pose.origin + pose.axis * at.contact * mm for at in stations(cam))
-    return outlines

@@ -34,6 +34,7 @@ from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import put_at, value_at
 from graphkin.solver import Motion, solve
+from graphkin.solver.cams import study_cam
 from graphkin.solver.path.named_positions import standing
 from graphkin.solver.values import exact_values
 from graphkin.structure import Dyad, LargerGroup, analyse
@@ -125,11 +126,10 @@ def _led(scene: Mechanism) -> Iterator[Symbol]:
     led = [link for link in scene.links if link.name not in drivers]
     sliding = {pair.a for pair in scene.slidings}
     unsteady = any(d.values[2] for d in scene.drivers)
-    followers = {cam.follower for cam in scene.cams}
     for link in led:
         if link.name not in sliding:
             yield Symbol("omega", link=link.name)
-            if unsteady or link.name in followers:
+            if unsteady or scene.law_of(link.name) is not None:
                 yield Symbol("alpha", link=link.name)
     for link in reversed(led or scene.links):
         moving = [p for p in (link.bar or link.points) if p not in scene.frame.points]
@@ -285,13 +285,9 @@ def _flat(motion: Motion, bounds: Bounds) -> Iterator[Phrase]:
 
 def _uncut(scene: Mechanism) -> Iterator[Phrase]:
     """The cams whose profile turns back on itself."""
-    if not scene.cams:
-        return
-    from graphkin.solver.cams import study_cam
-
     for cam in scene.cams:
-        for start, end in study_cam(cam).undercut:
-            begin, last = (f"{math.degrees(angle):.0f}" for angle in (start, end))
+        for stretch in study_cam(cam).undercut:
+            begin, last = (f"{math.degrees(angle):.0f}" for angle in stretch)
             yield Phrase("unfit profile", link=cam.link, begin=begin, end=last)
 
 

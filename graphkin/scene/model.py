@@ -362,7 +362,7 @@ class Mechanism:
 
     ``links`` are the moving links in the order of the file (redundant ones included, see ``PlacedLink.redundant``);
     ``sketch`` and ``drawn`` give places of points in world axes (m); ``slots`` are the circular ones, for which bars
-    and turning pairs stand among the links.  ``slides`` are the sliding pairs (``slidings``) and the ``pins`` in slots.
+    and turning pairs stand among the links.  ``slides`` are the sliding pairs (``slidings``) and the pins in slots.
     ``instead_of`` is the mechanism with cams that this one replaces: both have the same velocities and accelerations at
     this position.  ``starts`` give the start of rolling motions at the scene's own position: the angle of a link's own
     axis (rad), or the travel (m) of a sliding pair or of a contact by its block.
@@ -387,7 +387,6 @@ class Mechanism:
     slots: tuple[CircularSlot, ...] = ()
     question: Question = field(default_factory=Question)
     slidings: tuple[Pair, ...] = field(init=False, repr=False, compare=False)
-    pins: tuple[Pair, ...] = field(init=False, repr=False, compare=False)
     contacts: tuple[PlacedContact, ...] = field(init=False, repr=False, compare=False)
     gears: tuple[PlacedGear, ...] = field(init=False, repr=False, compare=False)
     cams: tuple[LawCam, ...] = field(init=False, repr=False, compare=False)
@@ -421,6 +420,20 @@ class Mechanism:
     def replaced_by(self) -> Mapping[str, HigherPair]:
         """The higher pair that each block or bar stands for."""
         return {pair.block: pair for pair in self.higher_pairs if pair.block}
+
+    def own_points(self, link: PlacedLink) -> list[str]:
+        """The points that a link has in the file: a block in a circular slot all but the centre, a bar that stands for
+        a pin in one none."""
+        slot = next((slot for slot in self.slots if slot.bar == link.name and (slot.of or slot.block)), None)
+        return [point for point in link.points if slot is None or (slot.block and point != slot.centre)]
+
+    def body_of(self, name: str) -> str:
+        """A link of the file: of the block that stands for a pin in a slot the link that has the pin."""
+        return next((pair.of for pair in self.slides if pair.of and pair.a == name), name)
+
+    def law_of(self, name: str) -> LawCam | None:
+        """The cam by whose law a link, or a sliding pair, moves; None where there is none."""
+        return next((cam for cam in self.cams if name in (cam.follower, cam.pair)), None)
 
     def acting_between(self, links: Collection[str]) -> list[HigherPair]:
         """The acting higher pairs all of whose members are among some links."""
@@ -474,8 +487,7 @@ class Mechanism:
         self.__dict__.update(
             contacts=contacts, gears=gears, cams=cams, contact_at={contact.name: contact for contact in contacts},
             acting=tuple(p for p in self.higher_pairs if self.instead_of is None or not p.by_law),
-            slides=tuple(slides), slidings=tuple(s for s in slides if not s.of), pins=tuple(s for s in slides if s.of),
-            by_name=by_name,
+            slides=tuple(slides), slidings=tuple(s for s in slides if not s.higher), by_name=by_name,
             order={link.name: i for i, link in enumerate((*self.links, self.frame))},
             holders={point: tuple(names) for point, names in holders.items()},
             size=self._size() if self.instead_of is None else self.instead_of.size,
@@ -635,8 +647,7 @@ def forces_named(mechanism: Mechanism) -> tuple[Symbol, ...]:
     if loading.balance is not None:
         balances = [(loading.balance.is_force, loading.balance.link)]
     else:
-        pins = {pin.key: pin.of for pin in mechanism.pins}
-        balances = [(not d.turns, d.link if d.turns else pins.get(d.key, d.link)) for d in mechanism.drivers]
+        balances = [(not d.turns, d.link if d.turns else mechanism.body_of(d.link)) for d in mechanism.drivers]
     made += [Symbol("F" if is_force else "M", link=link) for is_force, link in balances]
     return tuple(dict.fromkeys(made))
 

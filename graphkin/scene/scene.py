@@ -288,7 +288,7 @@ def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[Sce
         places.check_all_found(position)
         places.check_distances(position)
     reading = replace(reading, places={name: body.local for name, body in position.bodies.items()})
-    cams = cams_of(reading, position.bodies[reading.frame.name].guides, position.drawn) if file.cams else ()
+    lifting = cams_of(reading, position.bodies[reading.frame.name].guides, position.drawn) if file.cams else ()
     if touching and not problems:
         places.check_held_distances(touching, position)
     values = [position.value_of(driver) for driver in driven.values()]
@@ -312,7 +312,7 @@ def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[Sce
         name=folder, frame=bodies[0], links=tuple(bodies[1:]), slides=reading.slides, drivers=tuple(drivers),
         units=file.units,
         sketch={p: complex(*place) * reading.metres for p, place in file.sketch.items()}, drawn=position.drawn,
-        loading=loading, higher_pairs=(*touching, *cams),
+        loading=loading, higher_pairs=(*touching, *lifting),
         starts=places.starts_of(position, touching) if touching else {}, slots=reading.slots,
         question=question,
     )  # fmt: skip

@@ -93,8 +93,7 @@ def _measured(reach: DriverRange, contact: PlacedContact, side: int, of: str) ->
     ends = reach.extremes(Symbol.parse(f"swing_{of}" if swings else f"stroke_{of}"))
     offset = None
     if not swings:
-        pair = next(s for s in scene.slidings if s.key == of)
-        guide = pair.guide
+        guide = next(s.guide for s in scene.slidings if s.key == of)
         at = guide.through
         if not contact.flat:
             at = reach.motion(np.zeros(1)).point(contact.centres[1 - which], follower).z[0]
@@ -134,8 +133,7 @@ def disc_course(structure: Structure, disc: DiscCam, angle: Array) -> tuple[Arra
         motion_of_follower = 1j * (place - scene.frame.points[pivot])
     else:
         value = motion.slide(of)[0]
-        pair = next(s for s in scene.slidings if s.key == of)
-        motion_of_follower = np.full(len(angle), pair.guide.direction)
+        motion_of_follower = np.full(len(angle), next(s.guide.direction for s in scene.slidings if s.key == of))
     pitch = None if contact.flat else (motion.position(contact.centres[1 - side], disc.follower) - axis) * back
     pressure = angle_between(contact_normal(motion, contact), motion_of_follower)
     return np.abs(value - disc.lowest), (place - axis) * back, pitch, pressure

@@ -49,7 +49,7 @@ def structure_of(scene: Mechanism | Structure) -> Structure:
         return scene
     try:
         structure = analyse(scene)
-        structure = meeting_followers(structure) if scene.cams else structure
+        structure = meeting_followers(structure) if structure.lifting else structure
     except Unsolvable as stop:
         found = _diagnosis(scene) if stop.status == "mobility" else None
         if found is None:
@@ -66,8 +66,7 @@ def structure_of(scene: Mechanism | Structure) -> Structure:
 
 def _diagnosis(scene: Mechanism) -> Problem | None:
     tried: list[tuple[str, Fit, bool]] = []
-    pins = {pin.key: pin.of for pin in scene.pins}
-    driven = {name for d in scene.drivers for name in (pins.get(d.key), *d.links)}
+    driven = {name for d in scene.drivers for name in (scene.body_of(d.link), *d.links)}
     for link in reversed(scene.links):
         if link.redundant or link.name in driven:
             continue

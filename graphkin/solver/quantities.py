@@ -178,7 +178,7 @@ def _theta(posed: AnyPosed, symbol: Symbol) -> Any:
 
 
 def _pressure(posed: Posed, symbol: Symbol) -> Array:
-    cam = next((c for c in posed.structure.scene.cams if c.follower == symbol.link), None)
+    cam = posed.structure.scene.law_of(symbol.link)
     if cam is not None:
         return cam_at(cam, cam.sense * np.angle(posed.pose(cam.link).u)).pressure
     return np.asarray(np.pi / 2 - _crossing(posed.poses, joint_of_follower(posed.structure, symbol.link, symbol)))

@@ -90,7 +90,7 @@ def _placed(scene: Mechanism) -> Structure:
             if s.of:
                 links[s.a] = PlacedLink(s.a, {s.pin: 0j}, (s.pin,), OWN_AXIS)
             slides.append(s)
-    pins, touching = sum(s.higher for s in slides), scene.acting_between(links)
+    slotted, touching = sum(s.higher for s in slides), scene.acting_between(links)
     for pair in touching:
         if (instead := replacing_link(pair, links)) is not None:
             link, slide = instead
@@ -108,7 +108,7 @@ def _placed(scene: Mechanism) -> Structure:
     rolling = sum(pair.means == "rolls" for pair in touching)
     turns = (len(real.intersection(names)) for names in hinges.values())
     lower = sum(n - 1 for n in turns if n) + sum(not s.higher for s in slides) + rolling
-    higher = pins + len(bars) + len(touching) - rolling
+    higher = slotted + len(bars) + len(touching) - rolling
     mobility = Mobility(len(real - {scene.frame.name}), lower, higher)
     shared = {p: tuple(names) for p, names in hinges.items() if len(names) > 1}
     return Structure(scene, links, tuple(slides), shared, mobility, (), followers, relations, tuple(touching))
@@ -141,8 +141,8 @@ def _equations(structure: Structure) -> list[set[Unknown]]:
     for s in structure.slides:
         add((s.a, "t"), (s.b, "t"))
         add((s.a, "xy"), (s.b, "xyt"))
-    for cam in structure.cams:
-        add((cam.link, "t"), (cam.follower, "t" if cam.turns else "xy"))
+    for pair in structure.lifting:
+        add((pair.link, "t"), (pair.follower, "t" if pair.turns else "xy"))
     for relation in structure.relations:
         slides = [structure.slide(name) for kind, name in relation.terms if kind == "travel"]
         add(*((name, "t") for kind, name in relation.terms if kind == "angle"),
@@ -265,7 +265,7 @@ def _element_of(structure: Structure, members: list[str], known: set[str]) -> El
     scene, inside = structure.scene, set(members)
     drivers = [d for d in structure.drivers if inside & {*d.links} and {*d.links} <= inside | known]
     pairs = _pairs(structure, members, known)
-    for cam in structure.cams:
+    for cam in structure.lifting:
         if members == [cam.follower] and cam.link in known and len(pairs) == 1 and not drivers:
             return Driven(cam.follower, pairs[0], cam)
         if cam.follower in inside or (cam.link in inside and cam.follower in known):
@@ -587,7 +587,7 @@ def _loose_ends(structure: Structure) -> Iterator[Problem]:
     scene, hinges = structure.scene, structure.hinges
     moving = [link for name, link in structure.links.items() if name in scene.by_name and name != scene.frame.name]
     unused = [p for p in scene.frame.points if p not in hinges]
-    held = {*hinges, *(cam.name_of_point for cam in structure.cams), *(s.pin for s in structure.slides if s.higher)}
+    held = {*hinges, *(p.name_of_point for p in structure.lifting), *(s.pin for s in structure.slides if s.higher)}
     free = {link.name: [p for p in link.bar if p not in held] for link in moving}
     lonely = [p for points in free.values() for p in points]
     driven = {name for driver in scene.drivers for name in driver.links}

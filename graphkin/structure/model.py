@@ -286,7 +286,7 @@ class Structure:
     ``links`` holds every link that takes part, the frame and the blocks of pins included, redundant links left out;
     ``hinges`` maps each point shared by links to those links.  ``followers`` are the drivers of links that follow the
     scene's drivers by rolling, ``relations`` the other rolling relations, ``touching`` the higher pairs, among them the
-    ``cams`` that move a follower by their law.
+    cams ``lifting`` a follower by their law.
 
     From these follow all ``drivers``, those of the scene first; the Assur ``groups`` in the order of solution, among
     them the ``dyads`` by their places in it and the ``larger_groups`` that are solved as a whole; the ``driven`` links,
@@ -305,7 +305,7 @@ class Structure:
     relations: tuple[RollingRelation, ...] = ()
     touching: tuple[HigherPair, ...] = ()
 
-    cams: tuple[LawCam, ...] = field(init=False, repr=False, compare=False)
+    lifting: tuple[LawCam, ...] = field(init=False, repr=False, compare=False)
     drivers: tuple[Driver, ...] = field(init=False, repr=False, compare=False)
     groups: tuple[Dyad | LargerGroup, ...] = field(init=False, repr=False, compare=False)
     driven: tuple[Driven, ...] = field(init=False, repr=False, compare=False)
@@ -317,7 +317,7 @@ class Structure:
     def __post_init__(self) -> None:
         elements = self.elements
         self.__dict__.update(
-            cams=tuple(pair for pair in self.touching if isinstance(pair, LawCam)),
+            lifting=tuple(pair for pair in self.touching if isinstance(pair, LawCam)),
             drivers=(*self.scene.drivers, *self.followers), kept={},
             groups=tuple(e for e in elements if not isinstance(e, Driven)),
             driven=tuple(e for e in elements if isinstance(e, Driven)),
@@ -491,11 +491,10 @@ def part_of(structure: Structure, asked: Sequence[Symbol]) -> Mechanism:
 
 def _part_scene(scene: Mechanism, kept: set[str], asked: tuple[Symbol, ...]) -> Mechanism:
     """The scene with these links only."""
-    of = {pin.key: pin.of for pin in scene.pins}
     part = without(scene, {link.name for link in scene.links} - kept)
     return replace(
         part,
-        drivers=tuple(d for d in scene.drivers if {of.get(d.link, d.link), d.relative_to} <= kept),
+        drivers=tuple(d for d in scene.drivers if {scene.body_of(d.link), d.relative_to} <= kept),
         question=replace(part.question, find=asked),
         instead_of=None if scene.instead_of is None else _part_scene(scene.instead_of, kept, asked),
     )

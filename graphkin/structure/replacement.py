@@ -81,12 +81,13 @@ def _standing(scene: Mechanism, poses: Poses, values: Mapping[str, float]) -> Me
 def replacement_told(structure: Structure) -> tuple[Phrase, ...]:
     """The higher pairs in words, the replacement of each, and the mobility counted after it."""
     scene, m, bars = structure.scene, structure.mobility, structure.scene.whole.replacing
-    said = [told(pair, "structure") for pair in (*scene.whole.pins, *bars.values(), *scene.higher_pairs)]
+    pins = [pair for pair in scene.whole.slides if pair.higher]
+    said = [told(pair, "structure") for pair in (*pins, *bars.values(), *scene.higher_pairs)]
     said += [Phrase("structure roller", link=cam.follower) for cam in scene.cams if cam.roller]
     replaced = [pair for pair in scene.higher_pairs if pair.replaced]
     if replaced or bars:
         # links, each with two lower pairs
-        more = len(replaced) + len(bars) + len(scene.whole.pins)
+        more = len(replaced) + len(bars) + len(pins)
         after = Mobility(m.links + more, m.lower + 2 * more, m.higher - more)
         numbers = {"links": after.links, "lower": after.lower, "higher": after.higher, "mobility": after.value}
         said.append(Phrase("structure replaced", **numbers))

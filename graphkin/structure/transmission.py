@@ -20,7 +20,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from graphkin.errors import CallError
-from graphkin.scene.pairs import Pair, PlacedContact
+from graphkin.scene.pairs import HigherPair, Pair
 from graphkin.scene.symbol import Symbol
 from graphkin.structure.model import Dyad, Structure
 from graphkin.words import Phrase
@@ -55,10 +55,10 @@ def _spot(structure: Structure, turn: Pair) -> Spot:
 
 def joint_of_dyad(structure: Structure, dyad: Dyad) -> TransmissionAngle:
     """The joint of a group of two links; where one of them replaces a sliding contact, the contact itself."""
-    for contact in structure.scene.contacts:
-        if not contact.rolling and any(contact.block in body.links for body in dyad.bodies):
-            moved = [n for body in dyad.bodies for n in body.links if n in contact.bodies]
-            joint = _at_contact(structure, contact, moved[0]) if moved else None
+    for pair in structure.scene.higher_pairs:
+        if pair.replaced and any(pair.block in body.links for body in dyad.bodies):
+            moved = [n for body in dyad.bodies for n in body.links if n in pair.bodies]
+            joint = _at_contact(structure, pair, moved[0]) if moved else None
             if joint is not None:
                 return joint
     inner, outer_first, outer_second = dyad.inner, dyad.outer_first, dyad.outer_second
@@ -76,9 +76,8 @@ def joint_of_dyad(structure: Structure, dyad: Dyad) -> TransmissionAngle:
 
 def joint_between(structure: Structure, a: str, b: str, symbol: Symbol) -> TransmissionAngle:
     """The joint that two links share.  Raises CallError where they share none that has a transmission angle."""
-    blocks = {p.key: {p.of, p.key} for p in structure.scene.pins}
     for dyad in structure.dyads.values():
-        first, second = ({n for link in body.links for n in blocks.get(link, {link})} for body in dyad.bodies)
+        first, second = ({*body.links, *map(structure.scene.body_of, body.links)} for body in dyad.bodies)
         if (a in first and b in second) or (b in first and a in second):
             return joint_of_dyad(structure, dyad)
     links = structure.links
@@ -104,8 +103,8 @@ def _arm(structure: Structure, name: str, point: str) -> Way | None:
 def joint_of_follower(structure: Structure, name: str, symbol: Symbol) -> TransmissionAngle:
     """The joint through which a link is driven, a sliding contact first.  Raises CallError where no joint can be
     named."""
-    for contact in structure.scene.contacts:
-        joint = _at_contact(structure, contact, name) if not contact.rolling and name in contact.bodies else None
+    for pair in structure.scene.higher_pairs:
+        joint = _at_contact(structure, pair, name) if pair.replaced and name in pair.bodies else None
         if joint is not None:
             return joint
     for dyad in structure.dyads.values():
@@ -127,14 +126,15 @@ def joint_of_follower(structure: Structure, name: str, symbol: Symbol) -> Transm
     raise CallError.of(str(symbol), "link is driven through no joint of a", "name a follower", name=name)
 
 
-def _at_contact(structure: Structure, contact: PlacedContact, name: str) -> TransmissionAngle | None:
-    """The directions at a contact: a link is pushed along the common normal."""
-    if contact.block not in structure.links or name not in structure.links:
+def _at_contact(structure: Structure, pair: HigherPair, name: str) -> TransmissionAngle | None:
+    """The directions at a contact: a link is pushed along the common normal, on which all points of the bar or the
+    block lie that replaces it."""
+    block = pair.block
+    if block not in structure.links or name not in structure.links:
         return None
-    block, points = contact.block, structure.links[contact.block].points
-    far = contact.name if contact.flat else contact.centres[1]
-    normal = (block, points[contact.centres[0]]), (block, points[far])
-    return _pushed(structure, name, normal, (block, points[contact.name]))
+    points = structure.links[block].points
+    start, end, *_ = points.values()
+    return _pushed(structure, name, ((block, start), (block, end)), (block, points[pair.name]))
 
 
 def _pushed(structure: Structure, name: str, line: Way, at: Spot) -> TransmissionAngle | None:

@@ -339,7 +339,7 @@ def quantity_title(scene: Mechanism, quantity: Symbol) -> RichText:
 def _allowed(quantity: Symbol, scene: Mechanism) -> tuple[tuple[float, float] | None, float | None]:
     """The limits (degrees) of a transmission or pressure angle; for a cam's follower the scene's limits in its rise,
     and in its fall."""
-    cam = next((c for c in scene.cams if quantity.kind == "pressure" and c.follower == quantity.link), None)
+    cam = scene.law_of(quantity.link) if quantity.kind == "pressure" else None
     if cam is not None and any(cam.allowed):
         rise, fall = (math.degrees(limit) if limit else None for limit in cam.allowed)
         return (0.0, float(rise or fall or 0.0)), fall if rise else None

@@ -434,7 +434,7 @@ loads.P = { on = "3", at = [100, 20], force = 100, angle = 200 }
 def test_a_force_in_a_polygon_is_the_force_of_its_name(scene):
     (state,) = with_forces(drawn(scene)).forces
     met = [(joint.point, joint.symbol("F")) for joint in joints(mechanism_of(scene))]
-    met += [(pin.pin, Symbol("F", link=pin.b, other=pin.of)) for pin in mechanism_of(scene).pins]
+    met += [(pin.pin, Symbol("F", link=pin.b, other=pin.of)) for pin in mechanism_of(scene).slides if pin.higher]
     for per_mm, polygon in ((group.per_mm, polygon) for group in state.groups for polygon in group.polygons):
         spans = {}
         for vector in (v for v in polygon if v.symbol.other and not (v.known and v.symbol.link in "ABCDEF")):

@@ -124,7 +124,7 @@ def test_a_file_is_written_again_with_its_slot(scene: dict[str, Any]) -> None:
     one = mechanism_of(scene)
     again = mechanism_of(as_mapping(one))
     assert one.slots == again.slots
-    assert one.pins == again.pins
+    assert one.slides == again.slides
     for link, copy in zip((one.frame, *one.links), (again.frame, *again.links), strict=True):
         assert (link.name, pytest.approx(dict(link.points))) == (copy.name, dict(copy.points))
 

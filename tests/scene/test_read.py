@@ -139,7 +139,7 @@ def test_a_pin_in_two_slots_is_one_constraint_for_each() -> None:
     text = changed(SIX_BAR, ('[links.4]\npoints = ["D"]\non     = "3"\n', ""),
                    ('points = ["D"]\non     = "6.h"', 'on = "6.h"\nat = { D = [0, 0] }'))
     scene = mechanism_of_text(text + '[pins.D]\nof = "5"\nin = ["3", "1"]\n', "pin")
-    assert scene.pins == (Pair.of_pin("D", "5", "3", OWN), Pair.of_pin("D", "5", "1", OWN))
+    assert scene.slides[-2:] == (Pair.of_pin("D", "5", "3", OWN), Pair.of_pin("D", "5", "1", OWN))
 
 
 def test_a_driven_angle_is_in_radians() -> None:

@@ -71,7 +71,7 @@ def shares(mechanism, solved, symbol):
     motion, letter, first, second = solved.motion, symbol.kind, symbol.link, symbol.other
     point = symbol.of.point if symbol.of else ""
     sliding = next((s for s in mechanism.slidings if (s.a, s.b) == (second, first) and point in ("", s.pin)), None)
-    pin = next((p for p in mechanism.pins if (p.of, p.b) == (second, first) and point in ("", p.pin)), None)
+    pin = next((p for p in mechanism.slides if (p.of, p.b) == (second, first) and point in ("", p.pin)), None)
     cam = next((c for c in mechanism.cams if (c.link, c.follower) == (first, second)), None)
     gear = next((g for g in mechanism.gears if g.wheels == (first, second)), None)
     if gear is not None:

@@ -32,7 +32,7 @@ from graphkin.construction.board.steps import (
     Vector,
     VectorStep,
 )
-from graphkin.construction.touching import Touching, outlines_on_paper
+from graphkin.construction.touching import Touching
 from graphkin.plane import Pose, cross
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene_tables import DIAGRAMS, Diagram
@@ -408,7 +408,6 @@ class Sheet:
         places = [z for ref, z in self.points.items() if ref.point not in self.serving]
         if self.scene.higher_pairs or any(link.discs for link in (self.scene.frame, *self.scene.links)):
             per = 1.0 / self.scales.length
-            places += (z for outline in outlines_on_paper(self.scene, self.poses, per).values() for z in outline)
             places += Touching(self.scene, per, self.poses).outermost()
         ends: dict[DiagramName, tuple[list[complex], list[complex]]] = {}
         for order in ORDERS:

@@ -299,11 +299,11 @@ def _graph_of(plot: Polygons, group: Dyad | LargerGroup, wide: bool = False) -> 
         rolling, pairs = _rolling_points(plot, group), group.pairs
     contours = plot.contours.get(group, ()) if isinstance(group, LargerGroup) else ()
     names = {p.key: plot.guide_names(p) for p in pairs if not p.turns}
-    contacts = contacts_of(plot.structure, group) if plot.at_contacts else ()
-    gone = {c.block for c in contacts}
+    touching = contacts_of(plot.structure, group) if plot.at_contacts else ()
+    gone = {pair.block for pair in touching}
     return VectorGraph(
         plot.links, plot.places, plot.ground, plot.tiny, [name for name in group.members if name not in gone],
-        past(pairs, gone), joints, same_turn(plot, group), names, driven, isinstance(group, LargerGroup), contacts,
+        past(pairs, gone), joints, same_turn(plot, group), names, driven, isinstance(group, LargerGroup), touching,
         rolling, [(held, n) for held, rest in contours for n in rest.links], wide,
     )  # fmt: skip
 

@@ -306,9 +306,9 @@ class Polygons:
         for point in self.links[name].points:
             if point not in self.structure.scene.contact_at:
                 self.place(order, PointRef(point))
-        for contact in self.structure.scene.contacts:
-            if name in contact.bodies and contact.name in self.places and name != self.ground:
-                self.place(order, PointRef(contact.name, name))
+        for point, pair in self.structure.scene.contact_at.items():
+            if name in pair.bodies and point in self.places and name != self.ground:
+                self.place(order, PointRef(point, name))
         for s in self.structure.slides:
             if s.pin and s.pin in self.places and s.b == name and "/" not in name:
                 self.place(order, node(self.links, s.pin, name))

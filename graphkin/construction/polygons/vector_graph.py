@@ -22,7 +22,7 @@ from itertools import chain, pairwise
 
 from graphkin.construction.board.steps import Direction
 from graphkin.scene.model import PlacedLink
-from graphkin.scene.pairs import Pair, PlacedContact
+from graphkin.scene.pairs import HigherPair, Pair
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import DrivenJoint, Dyad, LargerGroup, Structure
 from graphkin.structure.model import Coordinate
@@ -146,7 +146,7 @@ class VectorGraph:
         self, links: Mapping[str, PlacedLink], places: Mapping[str, complex], frame: str, tiny: float,
         inside: Sequence[str], pairs: Sequence[Pair], joints: Sequence[DrivenJoint], shares: Mapping[str, str],
         guide_names: Mapping[str, tuple[str, ...]], driven: Collection[str] = (), near: bool = False,
-        contacts: Sequence[PlacedContact] = (), rolling: Mapping[str, tuple[str, tuple[str, str]]] | None = None,
+        contacts: Sequence[HigherPair] = (), rolling: Mapping[str, tuple[str, tuple[str, str]]] | None = None,
         contours: Sequence[tuple[str, str]] = (), wide: bool = False,
     ) -> None:  # fmt: skip
         self.links, self.places, self.tiny = links, places, tiny
@@ -334,7 +334,7 @@ class VectorGraph:
 
 
 def _near(
-    links: Mapping[str, PlacedLink], beside: list[tuple[str, str]], contacts: Sequence[PlacedContact],
+    links: Mapping[str, PlacedLink], beside: list[tuple[str, str]], contacts: Sequence[HigherPair],
     around: Collection[str], letters: Sequence[str],
 ) -> dict[str, set[str]]:  # fmt: skip
     """For each link the letters of its nodes: its own, and those of links ``beside`` it, which slide on it or are
@@ -353,10 +353,9 @@ def _near(
     return on
 
 
-def contacts_of(structure: Structure, group: Dyad | LargerGroup) -> tuple[PlacedContact, ...]:
+def contacts_of(structure: Structure, group: Dyad | LargerGroup) -> tuple[HigherPair, ...]:
     """The sliding contacts that a bar or a block of a group replaces."""
-    members = group.members
-    return tuple(c for c in structure.scene.contacts if not c.rolling and c.block in members)
+    return tuple(pair for pair in structure.scene.higher_pairs if pair.replaced and pair.block in group.members)
 
 
 def past(pairs: Sequence[Pair], gone: Collection[str]) -> list[Pair]:

@@ -179,7 +179,7 @@ def limits_asked(
     Unsolvable : no whole turn, or a link that has no limit positions
     CallError : an unknown sliding pair
     """
-    if structure.scene.cams:
+    if structure.scene.instead_of is not None:
         return _follower_limits(structure.scene.whole, asked, values)
     limits: dict[str, Limits] = {}
     turn: TurnOfCrank | None = None
@@ -206,7 +206,7 @@ def _follower_limits(scene: Mechanism, asked: Sequence[Symbol], values: Mapping[
     for symbol in asked:
         if symbol.scope != "turn" or symbol.pair in limits:
             continue
-        cam = next((c for c in scene.cams if symbol.pair in (c.follower, c.pair)), None)
+        cam = scene.law_of(symbol.pair)
         if cam is None or driver.key != cam.link or not driver.turns_about(scene.frame.name):
             said = Phrase("is drawn of followers of the driven cam"), Phrase("ask for s_ theta_ or d_ at single")
             raise Unsolvable("no whole turn", Problem(str(symbol), *said))
@@ -225,7 +225,7 @@ def limits_on_paper(
 ) -> dict[str, Limits]:  # fmt: skip
     """Limit positions, found by exact hands on paper of the mechanism's size, drawn at a scale by any hands."""
     mm, key, on_paper = 1.0 / scales.length, structure.scene.drivers[0].key, dict[str, Limits]()
-    if hand.faultless or structure.scene.cams:
+    if hand.faultless or structure.scene.instead_of is not None:
         k = structure.scene.size * mm
         return {pair: (low.scaled(k), high.scaled(k)) for pair, (low, high) in exact.items()}
     for pair, limits in exact.items():

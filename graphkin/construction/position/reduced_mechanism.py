@@ -173,7 +173,7 @@ def _removable(structure: Structure, group: LargerGroup, driven: set[str]) -> It
     """The removable parts of a group: bars with two hinges, links with a hinge and a guide or two guides, drivers."""
     scene = structure.scene
     touching = {n for pair in scene.acting for n in (*pair.members, *((pair.block,) if pair.rolling else ()))}
-    touching |= {n for pin in scene.pins for n in pin.bodies}
+    touching |= {n for slide in scene.slides if slide.higher for n in slide.bodies}
     keys = {d.key for d in scene.drivers}
     for name in group.members:
         if name in touching:
@@ -216,9 +216,10 @@ def _trials(structure: Structure, group: LargerGroup, gone: set[str], known: set
     which turns as the face does; at a pair of the group that is neither driven nor left out, those at known links
     first, since their links are laid off."""
     rolling = {relation.name for relation in group.rolling}
-    for contact in structure.scene.contacts:
-        if contact.name in rolling and contact.flat and {*contact.round_links, contact.block} <= set(group.members):
-            yield Driver(contact.round_links[0], contact.block, 0.0, 0.0, 0.0)
+    for block, slide in structure.blocks.items():
+        contact = structure.scene.replaced_by.get(block)
+        if contact is not None and contact.name in rolling and {slide.of, block} <= {*group.members}:
+            yield Driver(slide.of, block, 0.0, 0.0, 0.0)
     driven = {d.key for d in structure.scene.drivers}
     pairs = [p for p in group.pairs if gone.isdisjoint(p.links)]
     for pair in sorted(pairs, key=lambda p: known.isdisjoint(p.links)):

@@ -344,7 +344,7 @@ def centres_figure(page: FigurePage, centres: Centres) -> Drawing:
     on further pages, each in a picture of its own."""
     sheet, spoken, letters = page.sheet, page.language, page.letters
     back = background(bare_mechanism(sheet, letters), "touch")
-    if sheet.scene.cams:  # the bars to centres of curvature, which have centres too
+    if sheet.scene.instead_of is not None:  # the bars to centres of curvature, which have centres too
         back = joined((Piece({"construction": replacing_links(MechanismOnPaper(sheet, letters))}), back))
     content = near_box(centres, ink_box(back.drawn) or Box(-20.0, -20.0, 20.0, 20.0), MOST)
     side = _side(centres, letters, spoken)

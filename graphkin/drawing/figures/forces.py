@@ -31,7 +31,7 @@ from graphkin.checking.report import Report
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import Vector
 from graphkin.construction.forces.steps import BY_MOMENTS, COUPLES, ForceGroup, ForceVector, Lever, MomentTerm
-from graphkin.construction.touching import Touching, outlines_on_paper
+from graphkin.construction.touching import Touching
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import MARGIN, Block, FigurePage, column, framed, pages, panel, prose, row, rows, table
 from graphkin.drawing.equations import write_sum
@@ -256,8 +256,6 @@ def _extent(sheet: Sheet, group: ForceGroup) -> Box:
     spots = [v.at for v in _outside(group)] + [sheet.poses[name].origin for name in links if name in sheet.poses]
     spots += [z for ref, z in sheet.points.items()
               if not ref.link and any(ref.point in known[n].points for n in links if n in known)]  # fmt: skip
-    for cam, profile in outlines_on_paper(sheet.scene, sheet.poses, mm).items():
-        spots += profile if cam in links else ()
     return Box.around(map(on_page, spots + Touching(sheet.scene, mm, sheet.poses).outermost(links)))
 
 

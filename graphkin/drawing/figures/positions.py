@@ -149,7 +149,7 @@ def _outputs(scene: Mechanism, structure: Structure) -> list[str]:
 def _turn(structure: Structure, own: Sheet) -> TurnOfCrank | None:
     size = own.scales.length / structure.scene.size
     poses = {name: pose.scaled(size) for name, pose in own.poses.items()}
-    if structure.scene.cams:  # bars in a cam's place hold here alone
+    if structure.scene.instead_of is not None:  # bars in a cam's place hold here alone
         return None
     if not set(structure.links) <= set(poses) or not structure.scene.drivers[0].turns:
         return None

@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
-from graphkin.account.headings import term
 from graphkin.account.notation import Notation
 from graphkin.construction.board.sheet import Sheet
 from graphkin.drawing.box import Box
@@ -19,7 +18,7 @@ from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, on_p
 from graphkin.drawing.ink.symbols import JOINT_RADIUS
 from graphkin.drawing.parts.mechanism import bare_mechanism, links_alone
 from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
-from graphkin.drawing.parts.touching import replacing_links
+from graphkin.drawing.parts.touching import badges, replacing_links
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, cut_to, ink_box, joined, moved_piece
@@ -80,21 +79,13 @@ def _diagram(sheet: Sheet, letters: Notation, spoken: str, panel: Box) -> Piece:
         if count > 2 and point in here.places:
             labels.append(Label.of(rich(f"{count} − 1", 2.4, bold=True), on_page(here.places[point]), f"badge-{point}",
                                    colour=strokes.GREY, rank=1))
-    pairs = [(f"{pin.pin}-{pin.b}", pin.pin) for pin in sheet.scene.whole.pins]
-    pairs += [(f"{path.point}-{path.on}", path.point) for path in sheet.scene.whole.replacing.values()]
-    pairs += [(c.name, c.name) for c in sheet.scene.contacts if c.carrier or not c.rolling]
-    higher = [(name, here.places[point]) for name, point in pairs if point in here.places]
-    for name, place in (*higher, *((cam.cam.link, cam.contact) for cam in here.cams)):
-        labels.append(Label.of(rich(sign("p", "H"), 3.0), on_page(place), f"badge-{name}", colour=strokes.GREY, rank=1))
-    for cam in here.cams:
-        if cam.roller:
-            labels.append(Label.of(plain(term("own turning", spoken), 2.4), on_page(cam.point),
-                                   f"badge-roller-{cam.cam.follower}", colour=strokes.GREY, rank=1))
+    labels += badges(here, spoken)
     dashed = Piece({"mechanism": replacing_links(here, JOINT_RADIUS)}, tuple(labels))
     stood_for = {f"label-guide-{b.slide.b}-{b.slide.guide.name}" for b in here.sliders
                  if b.slide.key in here.replaced_pairs}  # fmt: skip
     piece = replace(piece, labels=tuple(label for label in piece.labels if label.text.id not in stood_for))
-    whole = joined((piece, dashed) if here.cams else (dashed, piece))  # a profile covers what lies under it
+    # a profile covers what lies under it
+    whole = joined((dashed, piece) if sheet.scene.instead_of is None else (piece, dashed))
     ink = ink_box(whole.drawn) or panel
     return with_labels(moved_piece(whole, panel.centre - ink.centre), panel)
 

@@ -7,7 +7,7 @@ end, and lines to special points.  It is cut to its room if necessary.
 from __future__ import annotations
 
 import math
-from cmath import phase, rect
+from cmath import phase
 from collections.abc import Collection, Iterator
 
 from graphkin.account.notation import Notation
@@ -32,18 +32,17 @@ from graphkin.drawing.ink.primitives import (
 )
 from graphkin.drawing.ink.symbols import POINTER, arrowhead
 from graphkin.drawing.parts.dimensioning import drawn_lengths
-from graphkin.drawing.parts.mechanism_on_paper import (
-    GUIDE_LENGTH,
-    CamOnPaper,
-    LinkShape,
-    MechanismOnPaper,
-)
+from graphkin.drawing.parts.mechanism_on_paper import GUIDE_LENGTH, LinkShape, MechanismOnPaper
 from graphkin.drawing.parts.polygon import same_place
 from graphkin.drawing.parts.touching import (
     beside_face_of_frame,
+    block_on_circle,
+    cams_alone,
+    circular_slots,
     contact_marks,
     faces_of_frame,
     outlines_of,
+    profiles,
     wheels_of,
     within_round_body,
 )
@@ -53,7 +52,6 @@ from graphkin.drawing.place.piece import Piece, cut_to, dated, ink_box, joined, 
 from graphkin.drawing.text import plain, rich
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.model import Driver
-from graphkin.scene.pairs import CircularSlot
 from graphkin.words.symbols import rate, sign
 
 AROUND_POINTS = 5.0  # mm for the symbols of points, which no edge cuts
@@ -63,10 +61,8 @@ def links(here: MechanismOnPaper) -> Piece:
     """All links, areas first, so that feet of pivots stand on them and bars lie over them."""
     areas = [_link(here, shape) for shape in here.shapes if shape.corners]
     bars = sorted((shape for shape in here.shapes if not shape.corners), key=lambda shape: _depth(here, shape))
-    profiles = [group for one in here.cams for group in _profile(here, one)]
-    slots = (Group(tuple(_curved(here, slot)), id=f"slot-{slot.bar}", classes=("link",), since=here.stands)
-             for slot in here.curved)  # fmt: skip
-    return Piece({"mechanism": (*profiles, *areas, _frame(here), *slots, *(_link(here, shape) for shape in bars))})
+    drawn = (*profiles(here), *areas, _frame(here), *circular_slots(here), *(_link(here, shape) for shape in bars))
+    return Piece({"mechanism": drawn})
 
 
 def links_alone(
@@ -74,9 +70,7 @@ def links_alone(
 ) -> tuple[list[Primitive], list[Label]]:
     """Areas and bars of some links cut free, with their numbers as labels of a ``rank``; pairs are left to the caller,
     with ``replaced`` also the contacts that slide on another link's outline."""
-    cams = () if replaced else here.cams
-    parts: list[Primitive] = [_cam_alone(here, one) for one in cams if one.cam.link in names]
-    parts += [part for one in cams if one.cam.follower in names for part in _follower_end(here, one)]
+    parts = [] if replaced else cams_alone(here, names)
     labels: list[Label] = []
     for shape in here.shapes:
         if shape.link not in names:
@@ -102,40 +96,6 @@ def _depth(here: MechanismOnPaper, shape: LinkShape) -> int:
     if any(b.slide.a == shape.link for b in here.sliders):
         return 1 + here.nested(shape.link)
     return 9
-
-
-NORMAL, FACE = 9.0, 13.0
-"""mm: how far normal and tangent go on beyond what they touch, and half a flat face."""
-
-
-def _profile(here: MechanismOnPaper, one: CamOnPaper) -> Iterator[Group]:
-    """A cam with its profile, the follower's roller or face, tangent and normal at their contact."""
-    across = 1j * one.normal
-    yield Group((_cam_alone(here, one),), id=f"cam-{one.cam.link}", classes=("cam",), since=here.stands)
-    end = tuple(_follower_end(here, one))
-    if end:
-        yield Group(end, id=f"follower-{one.cam.follower}", classes=("cam",), since=here.stands)
-    far_side = one.contact + one.roller * one.normal
-    thin = ((one.contact - NORMAL * one.normal, far_side + NORMAL * one.normal),
-            (one.point - NORMAL * across, one.point + NORMAL * across))  # fmt: skip
-    lines = tuple(Line(on_page(a), on_page(b), strokes.DIRECTION) for a, b in thin[: 1 if one.cam.flat else 2])
-    yield Group(lines, id=f"touch-{one.cam.link}", classes=("touch",), since=here.stands)
-
-
-def _cam_alone(here: MechanismOnPaper, one: CamOnPaper) -> Polygon:
-    colour = here.colour(one.cam.link)
-    return Polygon(tuple(map(on_page, one.profile)), strokes.tint(colour), strokes.LINK.coloured(colour))
-
-
-def _follower_end(here: MechanismOnPaper, one: CamOnPaper) -> Iterator[Primitive]:
-    """The part of a follower that touches its cam: the roller or the flat face."""
-    stroke, across = strokes.LINK.coloured(here.colour(one.cam.follower)), 1j * one.normal
-    if one.roller:
-        yield Circle(on_page(one.point), one.roller, stroke=stroke)
-    if one.cam.flat:
-        yield Line(on_page(one.point - FACE * across), on_page(one.point + FACE * across), stroke)
-        if abs(one.contact - one.point) > FACE:
-            yield Line(on_page(one.point), on_page(one.contact), stroke)
 
 
 def _frame(here: MechanismOnPaper) -> Group:
@@ -173,10 +133,7 @@ def _link(here: MechanismOnPaper, shape: LinkShape) -> Group:
         parts += _welds(here, shape, colour)
     for start, end in shape.slots:
         parts += symbols.slot(on_page(start), on_page(end), colour)
-    for slot in here.curved:
-        if slot.block and slot.bar == shape.link:
-            at = here.places[slot.point]
-            parts += symbols.block(on_page(at), phase(1j * (at - here.places[slot.centre])), colour)
+    parts += block_on_circle(here, shape.link)
     for b in here.sliders:
         if b.slide.b == shape.link and b.slide.key in here.cylinders:
             parts += symbols.cylinder(on_page(here.pivot(b)), on_page(b.at), colour)
@@ -189,19 +146,6 @@ def _link(here: MechanismOnPaper, shape: LinkShape) -> Group:
             start, end = here.rod(b)
             parts.append(Line(on_page(start), on_page(end), strokes.LINK.coloured(colour)))
     return Group(tuple(parts), id=f"link-{shape.link}", classes=("link",), since=here.since(shape.link))
-
-
-def _curved(here: MechanismOnPaper, slot: CircularSlot) -> Iterator[Primitive]:
-    """A circular slot, and the bars that join it to its moving link."""
-    (start, end), centre = here.curved[slot], here.places[slot.centre]
-    radius = abs(here.places[slot.point] - centre)
-    colour = strokes.BLACK if slot.on == here.ground else here.colour(slot.on)
-    if slot.on != here.ground:
-        rim = centre + radius * rect(1.0, start)
-        held = [here.places[p] for p in here.scene.by_name[slot.on].points if p in here.places and p != slot.centre]
-        near = min(held or [centre], key=lambda z: abs(z - rim))
-        yield Line(on_page(near), on_page(rim), strokes.LINK.coloured(colour))
-    yield from symbols.circular_slot(on_page(centre), radius, start, end, colour)
 
 
 def _welds(here: MechanismOnPaper, shape: LinkShape, colour: str) -> list[Primitive]:
@@ -242,7 +186,7 @@ def _joint(here: MechanismOnPaper, point: str) -> list[Primitive]:
         return [*symbols.pin(on_page(z), here.colour(moving[0]))]
     if point in here.scene.contact_at:
         return [Circle(on_page(z), 0.5, fill=strokes.BLACK)]
-    if any(p.pin == point for p in here.scene.pins):
+    if any(s.higher and s.pin == point for s in here.scene.slides):
         return [*symbols.pin(on_page(z), strokes.BLACK)]
     thin = strokes.OUTLINE
     return [Line(on_page(z - 1.2), on_page(z + 1.2), thin), Line(on_page(z - 1.2j), on_page(z + 1.2j), thin)]
@@ -302,9 +246,6 @@ def _numbers(here: MechanismOnPaper) -> Iterator[Label]:
             yield Label(text, (on_page(whole[0]), on_page(whole[1])), rank=1)
         elif block is not None:
             yield Label(text, on_page(block), rank=1)
-        elif (cam := next((c for c in here.cams if c.cam.link == shape.link), None)) is not None:
-            axis = here.sheet.poses[shape.link].origin
-            yield Label(text, on_page(axis + 0.6 * (max(cam.profile, key=lambda z: abs(z - axis)) - axis)), rank=1)
         elif (body := within_round_body(here, shape.link)) is not None:
             yield Label(text, on_page(body), rank=1)
 

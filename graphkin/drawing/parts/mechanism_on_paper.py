@@ -15,19 +15,17 @@ from functools import cached_property
 from graphkin.account.notation import Notation
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import Mark
-from graphkin.construction.touching import outlines_on_paper, station
+from graphkin.construction.touching import Touching
 from graphkin.drawing.ink import symbols
 from graphkin.drawing.ink.primitives import Segment
 from graphkin.drawing.ink.strokes import colour_of_link
 from graphkin.drawing.ink.symbols import hull
 from graphkin.plane import cross, dot
 from graphkin.scene.model import Mechanism
-from graphkin.scene.pairs import CircularSlot, LawCam, Pair
+from graphkin.scene.pairs import Pair
 
 # mm: how far a bar of no fixed length goes on beyond a block, and a slot beyond its pin
 PAST_BLOCK, PAST_PIN = 9.0, 8.0
-PAST_ROLLER = 17.0  # mm from the roller of a follower to the middle of its guide
-CURVED_ALONG = 16.0  # mm of a circular slot to either side of what runs in it
 GUIDE_LENGTH = 24.0  # mm of the frame's guide about a block
 NEAR = 1e-4  # mm: points so near to a line lie on it
 FOOT = {-math.pi / 2: 0.0, 0.0: 0.5, math.pi: 0.5, math.pi / 2: 0.7}  # where feet may point, and how little liked
@@ -41,19 +39,6 @@ class Slider:
     at: complex
     along: complex
     driven: bool
-
-
-@dataclass(frozen=True)
-class CamOnPaper:
-    """A cam and its follower on paper (mm): the profile, the follower's point, the contact, the normal (unit, out of
-    the cam), the radius of the roller (0 without one)."""
-
-    cam: LawCam
-    profile: tuple[complex, ...]
-    point: complex
-    contact: complex
-    normal: complex
-    roller: float
 
 
 @dataclass(frozen=True)
@@ -93,6 +78,11 @@ class MechanismOnPaper:
     def ground(self) -> str:
         return self.sheet.scene.frame.name
 
+    @cached_property
+    def touching(self) -> Touching:
+        """Its higher pairs on paper."""
+        return Touching(self.scene, 1.0 / self.sheet.scales.length, self.sheet.poses)
+
     def since(self, link: str) -> int | None:
         """The step from which a link is shown: all its points are marked, and it is drawn."""
         steps, last = [step for step in self.sheet.steps if step.diagram == "mechanism"], self.stands
@@ -124,11 +114,8 @@ class MechanismOnPaper:
         """The moving links on paper, in the order of the file, without links that were not reached."""
         slides = tuple(one for one in self.sliders if one.slide.key not in self.replaced_pairs)
         found = []
-        centres = {slot.bar: slot.centre for slot in self.scene.slots}
         for link in self.scene.whole.links:
-            points = {p: self.places[p] for p in link.points if p in self.places and p != centres.get(link.name)}
-            if link.name in self.scene.replacing:  # it stands for a slot, which is drawn in its place
-                points = {}
+            points = {p: self.places[p] for p in self.scene.own_points(link) if p in self.places}
             if link.redundant and len(points) == len(link.points):
                 corners, bars = _spanned(tuple(points.values()))
                 found.append(LinkShape(link.name, points, corners, bars, redundant=True))
@@ -140,20 +127,18 @@ class MechanismOnPaper:
     @cached_property
     def replaced_pairs(self) -> frozenset[str]:
         """Keys of the sliding pairs that replace a cam and its follower."""
-        return frozenset(pin.key for pin in self.scene.pins) - {pin.key for pin in self.scene.whole.pins}
+        return frozenset(pair.key for pair in self.scene.slides) - {pair.key for pair in self.scene.whole.slides}
 
     @cached_property
     def sliders(self) -> tuple[Slider, ...]:
         """All sliding pairs whose two links are on paper, with pins in slots."""
         sheet = self.sheet
         driven = {d.key for d in self.scene.drivers if not d.turns}
-        # a follower's block stands clear of its roller
-        clear = {cam.pair: cam.roller / sheet.scales.length + PAST_ROLLER for cam in self.scene.cams}
         found = []
         for slide in sheet.structure.slides:
             if slide.a in sheet.poses and slide.b in sheet.poses and slide.key not in self.scene.replaced_by:
                 along = slide.along(sheet.poses)
-                at = sheet.poses[slide.a].origin + clear.get(slide.key, 0.0) * along
+                at = sheet.poses[slide.a].origin + self.touching.clearance(slide.key) * along
                 found.append(Slider(slide, at, along, slide.key in driven))
         return tuple(found)
 
@@ -161,10 +146,10 @@ class MechanismOnPaper:
     def _faces(self) -> tuple[Slider, ...]:
         """The flat faces of moving links as sliders: a contact with the direction of the face."""
         found = []
-        for contact in self.scene.contacts:
-            slide = next((s for s in self.sheet.structure.slides if s.key == contact.block), None)
-            at = self.places.get(contact.name)
-            if slide is not None and at is not None and slide.b in self.sheet.poses:
+        for slide in self.sheet.structure.slides:
+            pair = self.scene.replaced_by.get(slide.key)
+            at = None if pair is None else self.places.get(pair.name)
+            if at is not None and slide.b in self.sheet.poses:
                 found.append(Slider(slide, at, slide.along(self.sheet.poses), False))
         return tuple(found)
 
@@ -172,35 +157,6 @@ class MechanismOnPaper:
     def places(self) -> Mapping[str, complex]:
         """The place of each point."""
         return {ref.point: z for ref, z in self.sheet.points.items() if not ref.link}
-
-    @cached_property
-    def cams(self) -> tuple[CamOnPaper, ...]:
-        """The cams with the followers that they touch."""
-        mm, poses, found = 1.0 / self.sheet.scales.length, self.sheet.poses, []
-        outlines = outlines_on_paper(self.scene, poses, mm)
-        for cam in self.scene.cams:
-            if cam.link in outlines and cam.follower in poses:
-                pose = poses[cam.link]
-                at = station(cam, cam.sense * phase(pose.axis))
-                point, contact = (pose.origin + pose.axis * z * mm for z in (at.point, at.contact))
-                normal = pose.axis * at.normal
-                found.append(CamOnPaper(cam, outlines[cam.link], point, contact, normal, cam.roller * mm))
-        return tuple(found)
-
-    @cached_property
-    def curved(self) -> Mapping[CircularSlot, tuple[float, float]]:
-        """The circular slots between links on paper, and the angles (rad) between which each is drawn."""
-        curved = {}
-        for slot in self.scene.whole.slots:  # what stands for a cam is no slot
-            if slot.on not in self.sheet.poses or not {slot.centre, slot.point} <= set(self.places):
-                continue
-            centre, at = self.places[slot.centre], self.places[slot.point]
-            here, axis = phase(at - centre), phase(self.sheet.poses[slot.on].axis)
-            half = min(CURVED_ALONG / abs(at - centre), math.pi / 3)
-            start, end = (here - half, here + half) if slot.ends is None else sorted(axis + a for a in slot.ends)
-            here = (start + end) / 2 + math.remainder(here - (start + end) / 2, math.tau)
-            curved[slot] = min(start, here), max(here, end)  # it runs beyond no end
-        return curved
 
     @cached_property
     def cylinders(self) -> frozenset[str]:

@@ -1,4 +1,5 @@
-"""Higher pairs on the drawn mechanism: discs, faces, pitch circles of wheels, and tangent and normal of contacts.
+"""Higher pairs on the drawn mechanism: discs, faces, cams, circular slots, pitch circles of wheels, tangent and normal
+of contacts, and the links that replace them.
 
 A pitch circle is dash-dotted (ISO 2203), an outline of the frame is hatched on the side of its body.
 """
@@ -6,23 +7,29 @@ A pitch circle is dash-dotted (ISO 2203), an outline of the frame is hatched on 
 from __future__ import annotations
 
 import math
-from cmath import phase
-from collections.abc import Iterable, Iterator
+from cmath import phase, rect
+from collections.abc import Collection, Iterable, Iterator
 
-from graphkin.construction.touching import Touching
+from graphkin.account.headings import term
+from graphkin.construction.touching import CamOnPaper
 from graphkin.drawing.ink import strokes, symbols
-from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Stroke, on_page
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Stroke, on_page
 from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.piece import Piece, dated
-from graphkin.drawing.text import rich
+from graphkin.drawing.text import plain, rich
 from graphkin.plane import added_up, unit
+from graphkin.scene.pairs import CircularSlot
 from graphkin.words.symbols import sign
 
 NORMAL, TANGENT = 15.0, 12.0
 """mm of normal and tangent to either side of a contact."""
 FACE = 16.0
 """mm of a face of the frame to either side of a contact."""
+AT_CAM, FLAT = 9.0, 13.0
+"""mm: how far normal and tangent of a cam go on beyond what they touch, and half the flat face of its follower."""
+CURVED_ALONG = 16.0
+"""mm of a circular slot to either side of what runs in it."""
 PITCH = Stroke(0.25, (4.0, 0.8, 0.6, 0.8))
 AXIS = Stroke(0.18, (4.0, 0.8, 0.6, 0.8))
 TOUCHING = 1e-6
@@ -30,11 +37,7 @@ TOUCHING = 1e-6
 HATCHES = 2.6
 """mm of outline between two hatches of a hatched ring."""
 IN_BODY = 0.6
-"""Of its radius: how far from the centre of a round body its number stands."""
-
-
-def _on_paper(here: MechanismOnPaper) -> Touching:
-    return Touching(here.scene, 1.0 / here.sheet.scales.length, here.sheet.poses)
+"""Of its radius: how far from the centre of a round body, or the axis of a cam, its number stands."""
 
 
 def outlines_of(here: MechanismOnPaper, link: str, replaced: bool = False) -> list[Primitive]:
@@ -44,7 +47,7 @@ def outlines_of(here: MechanismOnPaper, link: str, replaced: bool = False) -> li
         return []
     rolling = {name for contact in here.scene.contacts if contact.rolling
                for of, name in zip(contact.bodies, contact.outlines, strict=True) if of == link}
-    links, colour = _on_paper(here), here.colour(link)
+    links, colour = here.touching, here.colour(link)
     parts: list[Primitive] = []
     for name, disc in here.scene.by_name[link].discs.items():
         if replaced and name not in rolling:
@@ -73,7 +76,7 @@ def _ring(centre: complex, radius: float, outside: bool, colour: str) -> Iterato
 
 def wheels_of(here: MechanismOnPaper, link: str) -> list[Primitive]:
     """The pitch circles of a link that is a wheel, its pitch lines if it is a rack."""
-    links, colour = _on_paper(here), here.colour(link)
+    links, colour = here.touching, here.colour(link)
     parts: list[Primitive] = []
     for wheel, centre, radius in links.pitch_circles():
         if wheel == link:
@@ -103,7 +106,7 @@ def _hatched(start: complex, end: complex, body: complex) -> tuple[Primitive, ..
 def faces_of_frame(here: MechanismOnPaper) -> list[Primitive]:
     """Flat faces that the frame carries."""
     parts = list[Primitive]()
-    for contact, touch in _on_paper(here).contacts():
+    for contact, touch in here.touching.contacts():
         if contact.flat and contact.face == here.ground:
             along = 1j * touch.normal * FACE
             parts += _hatched(touch.at - along, touch.at + along, -touch.normal)
@@ -111,9 +114,12 @@ def faces_of_frame(here: MechanismOnPaper) -> list[Primitive]:
 
 
 def within_round_body(here: MechanismOnPaper, link: str) -> complex | None:
-    """A place (mm) in the body of a wheel or disc, on the side away from its contacts: inside its circle, outside the
-    circle of an internal wheel; None for a link without either."""
-    links = _on_paper(here)
+    """A place (mm) in the body of a cam, on the way to its farthest point; or of a wheel or disc, on the side away from
+    its contacts: inside its circle, outside the circle of an internal wheel; None for a link without any of them."""
+    links = here.touching
+    if (cam := next((one for one in links.cams if one.cam.link == link), None)) is not None:
+        axis = here.sheet.poses[link].origin
+        return axis + IN_BODY * (max(cam.profile, key=lambda z: abs(z - axis)) - axis)
     rounds = [(centre, radius) for wheel, centre, radius in links.pitch_circles() if wheel == link]
     if link in here.sheet.poses:
         discs = here.scene.by_name[link].discs.values()
@@ -129,7 +135,7 @@ def within_round_body(here: MechanismOnPaper, link: str) -> complex | None:
 def beside_face_of_frame(here: MechanismOnPaper) -> tuple[complex, complex] | None:
     """A place (mm) at the end of the hatching where a link touches the frame, and the direction into its body; None
     where no link touches it."""
-    for touch in _on_paper(here).touches():
+    for touch in here.touching.touches():
         if here.ground in touch.links:
             centres = [centre for link, (_, centre) in touch.centres.items() if link != here.ground]
             out = unit(centres[0] - touch.at) if centres else touch.normal
@@ -137,16 +143,109 @@ def beside_face_of_frame(here: MechanismOnPaper) -> tuple[complex, complex] | No
     return None
 
 
+def profiles(here: MechanismOnPaper) -> Iterator[Group]:
+    """Cams with their profiles, the rollers or faces of followers, tangents and normals at their contacts."""
+    for one in here.touching.cams:
+        across = 1j * one.normal
+        yield Group((_cam_alone(here, one),), id=f"cam-{one.cam.link}", classes=("cam",), since=here.stands)
+        end = tuple(_follower_end(here, one))
+        if end:
+            yield Group(end, id=f"follower-{one.cam.follower}", classes=("cam",), since=here.stands)
+        far_side = one.contact + one.roller * one.normal
+        thin = ((one.contact - AT_CAM * one.normal, far_side + AT_CAM * one.normal),
+                (one.point - AT_CAM * across, one.point + AT_CAM * across))  # fmt: skip
+        lines = tuple(Line(on_page(a), on_page(b), strokes.DIRECTION) for a, b in thin[: 1 if one.cam.flat else 2])
+        yield Group(lines, id=f"touch-{one.cam.link}", classes=("touch",), since=here.stands)
+
+
+def cams_alone(here: MechanismOnPaper, names: Collection[str]) -> list[Primitive]:
+    """The profiles of cams, then the ends of followers, that are among some links cut free."""
+    cams = here.touching.cams
+    parts: list[Primitive] = [_cam_alone(here, one) for one in cams if one.cam.link in names]
+    return parts + [part for one in cams if one.cam.follower in names for part in _follower_end(here, one)]
+
+
+def _cam_alone(here: MechanismOnPaper, one: CamOnPaper) -> Polygon:
+    colour = here.colour(one.cam.link)
+    return Polygon(tuple(map(on_page, one.profile)), strokes.tint(colour), strokes.LINK.coloured(colour))
+
+
+def _follower_end(here: MechanismOnPaper, one: CamOnPaper) -> Iterator[Primitive]:
+    """The part of a follower that touches its cam: the roller or the flat face."""
+    stroke, across = strokes.LINK.coloured(here.colour(one.cam.follower)), 1j * one.normal
+    if one.roller:
+        yield Circle(on_page(one.point), one.roller, stroke=stroke)
+    if one.cam.flat:
+        yield Line(on_page(one.point - FLAT * across), on_page(one.point + FLAT * across), stroke)
+        if abs(one.contact - one.point) > FLAT:
+            yield Line(on_page(one.point), on_page(one.contact), stroke)
+
+
+def _curved(here: MechanismOnPaper) -> Iterator[tuple[CircularSlot, tuple[float, float]]]:
+    """The circular slots between links on paper, and the angles (rad) between which each is drawn."""
+    for slot in here.scene.whole.slots:  # what stands for a cam is no slot
+        if slot.on not in here.sheet.poses or not {slot.centre, slot.point} <= here.places.keys():
+            continue
+        centre, at = here.places[slot.centre], here.places[slot.point]
+        runs, axis = phase(at - centre), phase(here.sheet.poses[slot.on].axis)
+        half = min(CURVED_ALONG / abs(at - centre), math.pi / 3)
+        start, end = (runs - half, runs + half) if slot.ends is None else sorted(axis + a for a in slot.ends)
+        runs = (start + end) / 2 + math.remainder(runs - (start + end) / 2, math.tau)
+        yield slot, (min(start, runs), max(runs, end))  # it runs beyond no end
+
+
+def circular_slots(here: MechanismOnPaper) -> Iterator[Group]:
+    """Circular slots, and the bars that join them to their moving links."""
+    for slot, (start, end) in _curved(here):
+        centre = here.places[slot.centre]
+        radius = abs(here.places[slot.point] - centre)
+        colour = strokes.BLACK if slot.on == here.ground else here.colour(slot.on)
+        parts = list[Primitive]()
+        if slot.on != here.ground:
+            rim = centre + radius * rect(1.0, start)
+            held = [here.places[p] for p in here.scene.by_name[slot.on].points if p in here.places and p != slot.centre]
+            near = min(held or [centre], key=lambda z: abs(z - rim))
+            parts.append(Line(on_page(near), on_page(rim), strokes.LINK.coloured(colour)))
+        parts += symbols.circular_slot(on_page(centre), radius, start, end, colour)
+        yield Group(tuple(parts), id=f"slot-{slot.bar}", classes=("link",), since=here.stands)
+
+
+def block_on_circle(here: MechanismOnPaper, link: str) -> list[Primitive]:
+    """A link that is a block in a circular slot; nothing for other links."""
+    parts = list[Primitive]()
+    for slot, _ in _curved(here):
+        if slot.block and slot.bar == link:
+            at = here.places[slot.point]
+            parts += symbols.block(on_page(at), phase(1j * (at - here.places[slot.centre])), here.colour(link))
+    return parts
+
+
+def badges(here: MechanismOnPaper, spoken: str) -> list[Label]:
+    """The letter of higher pairs at each of them, then the words at rollers, which turn by themselves."""
+    whole, cams = here.scene.whole, here.touching.cams
+    pairs = [(f"{pin.pin}-{pin.b}", pin.pin) for pin in whole.slides if pin.higher]
+    pairs += [(f"{path.point}-{path.on}", path.point) for path in whole.replacing.values()]
+    pairs += [(c.name, c.name) for c in here.scene.contacts if c.carrier or not c.rolling]
+    places = [(name, here.places[point]) for name, point in pairs if point in here.places]
+    places += [(cam.cam.link, cam.contact) for cam in cams]
+    letter, words = rich(sign("p", "H"), 3.0), plain(term("own turning", spoken), 2.4)
+    return [
+        *(Label.of(letter, on_page(z), f"badge-{name}", colour=strokes.GREY, rank=1) for name, z in places),
+        *(Label.of(words, on_page(cam.point), f"badge-roller-{cam.cam.follower}", colour=strokes.GREY, rank=1)
+          for cam in cams if cam.roller),
+    ]  # fmt: skip
+
+
 def contact_marks(here: MechanismOnPaper) -> Piece:
     """At every contact the common normal n-n and the common tangent t-t."""
-    places = ((touch.name, touch.at, touch.normal) for _, touch in _on_paper(here).contacts())
+    places = ((touch.name, touch.at, touch.normal) for _, touch in here.touching.contacts())
     return dated(_marks(places), here.stands)
 
 
 def marks_cut_free(here: MechanismOnPaper, cut: frozenset[str], tag: str) -> Piece:
     """Normals and tangents with their letters where links cut free touch others, also at the pitch points of wheels;
     ``tag`` ends the names of the parts."""
-    touches = (t for t in _on_paper(here).touches() if cut.intersection(t.links))
+    touches = (t for t in here.touching.touches() if cut.intersection(t.links))
     return _marks(((t.name, t.at, t.normal) for t in touches), f"-{tag}")
 
 
@@ -171,7 +270,7 @@ def replacing_links(here: MechanismOnPaper, clear: float = 0.0) -> tuple[Primiti
     """The links that replace higher pairs, dashed: the bar between two centres of curvature (of a cam from the centre
     of the pitch curve, with the cam's bar to its axis), or the block at the centre of a disc with its guide along the
     face; bars end ``clear`` mm before the middles of their pins."""
-    links, drawn = _on_paper(here), list[Primitive]()
+    links, drawn = here.touching, list[Primitive]()
     for contact, touch in links.contacts():
         if contact.rolling:
             continue
@@ -188,8 +287,8 @@ def replacing_links(here: MechanismOnPaper, clear: float = 0.0) -> tuple[Primiti
     for bar, path in here.scene.replacing.items():
         if bar not in whole.replacing and {path.centre, path.point} <= here.places.keys():
             drawn += _dashed(here.places[path.centre], here.places[path.point], here.colour(bar), clear)
-    for pin in here.scene.pins:
-        if pin not in whole.pins and pin.pin in here.places:
+    for pin in here.scene.slides:
+        if pin not in whole.slides and pin.pin in here.places:
             at = on_page(here.places[pin.pin])
             drawn += symbols.block(at, phase(pin.along(here.sheet.poses)), here.colour(pin.b))
             drawn.append(Circle(at, symbols.JOINT_RADIUS, fill=strokes.WHITE, stroke=strokes.OUTLINE))

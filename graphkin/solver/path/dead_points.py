@@ -56,7 +56,7 @@ def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
     for element in (e for e in structure.driven if not e.explicit):
         if element.driver.rolls:
             raise Unsolvable("dead point", Problem(element.named, Phrase("dead points are found where nothing rolls")))
-        where = Phrase("cams named", cams=", ".join(cam.link for cam in structure.scene.cams))
+        where = Phrase("cams named", cams=", ".join(e.lifted.link for e in structure.driven if e.lifted))
         raise Unsolvable("dead point", Problem(where, Phrase("dead points are found for mechanisms without cams")))
     turning = structure.scene.drivers[0].turns
     wide = (1 + MARGIN) * structure.scene.drivers[0].span(structure.scene.size) * (math.pi if turning else FAR)

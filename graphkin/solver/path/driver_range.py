@@ -278,7 +278,7 @@ class DriverRange:
     @cached_property
     def seams(self) -> Array:
         """Offsets of the seams between parts of a cam's law, in increasing order."""
-        starts = [(cam, start) for cam in self.scene.cams for start in cam.law.starts]
+        starts = [(cam, start) for cam in self.structure.lifting for start in cam.law.starts]
         if not starts:
             return np.zeros(0)
 
