@@ -359,6 +359,11 @@ def _load(scene: Mechanism, load: LoadOn, letters: Notation) -> Phrase:
     symbol = Symbol(kind, link=load.link) if sought else Symbol("P", name=load.name, turning=not load.is_force)
     unit, name = symbol.unit(scene.units), force_letters(letters.convention, symbol)
     size = name if sought else Neutral(name, f" = {unit.beside(number(unit.of(load.size)))}")
+    return load_given(scene, load, size, letters)
+
+
+def load_given(scene: Mechanism, load: LoadOn, size: Wording, letters: Notation) -> Phrase:
+    """Where a load of some size acts, its direction, and when."""
     gaps = {"size": size, "link": load.link, "point": _place_on(scene, load.link, load.at, letters)}
     if not load.is_force:
         said = Phrase("given moment", size=size, link=load.link)

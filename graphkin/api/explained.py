@@ -10,6 +10,8 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 
+from graphkin.account.given import load_given
+from graphkin.account.notation import Notation
 from graphkin.api.arguments import as_scene, known_words
 from graphkin.api.report_text import plain_said
 from graphkin.api.results import OfScene, Result
@@ -253,7 +255,7 @@ def _groups(structure: Structure, scene: Mechanism) -> Iterator[Phrase]:
 
 def _loads(scene: Mechanism) -> Iterator[Phrase]:
     """Masses and loads, and the load that balances them."""
-    units, loading = scene.units, scene.loading
+    units, loading, letters = scene.units, scene.loading, Notation(scene.question.sheet.convention)
     for mass in loading.masses:
         heavy, inertia = f"{mass.mass / units.kilograms:.6g} {units.mass}", units.of("inertia")
         x, y = (f"{part / units.metres:.6g}" for part in (mass.at.real, mass.at.imag))
@@ -264,8 +266,8 @@ def _loads(scene: Mechanism) -> Iterator[Phrase]:
         yield Phrase("explained gravity", gravity=f"{abs(loading.gravity):.6g}", angle=f"{angle:.6g}")
     for load in loading.loads:
         size = f"{load.size / units.newtons:.6g} {units.force}" + ("" if load.is_force else " m")
-        key = "explained force" if load.is_force else "explained moment"
-        yield Phrase(key, load=load.name, size=size, link=load.link)
+        said = Phrase("explained force" if load.is_force else "explained moment", size=size)
+        yield Phrase("explained load", load=load.name, given=load_given(scene, load, said, letters))
     for spring in loading.springs:
         numbers = {gap: f"{value:.6g} {unit}" for gap, (value, unit) in spring.numbers(units).items()}
         yield Phrase(f"explained {spring.kind}", **spring.gaps, **numbers)
@@ -273,3 +275,5 @@ def _loads(scene: Mechanism) -> Iterator[Phrase]:
         if force.kind in ("F", "M") and not force.other:
             measure = force.measure.name
             yield Phrase(f"explained balancing {measure}", **{measure: str(force)}, link=force.link)
+    if loading.flywheel is not None:
+        yield Phrase("explained flywheel", link=loading.flywheel.on, delta=_number(loading.flywheel.delta))

@@ -147,6 +147,14 @@ def test_a_spring_is_explained_with_its_ends_and_its_numbers_in_the_units_of_the
             "P_s is its force on link 4") in graphkin.explain(sprung).text  # fmt: skip
 
 
+def test_a_load_is_told_with_its_place_its_direction_and_when_it_acts_and_a_flywheel_with_its_link():
+    gas = graphkin.explain("engine-gas-force").data["loads"]
+    assert "load gas: a force of 6000 N on link 4 at B, direction 180°, while the driver goes from 0° to 180°" in gas
+    press = graphkin.explain("toggle-press-force").data["loads"]
+    delta = "keeps the coefficient of speed fluctuation to 0.1, with a constant driving moment"
+    assert f"a flywheel on link 1 {delta}" == press[-1]
+
+
 def test_forces_are_asked_too_where_something_loads_the_mechanism():
     loaded = graphkin.read("four-bar-coupler-point").to_dict() | {"loads": {"P": {"on": "3", "moment": 2}}}
     assert "all velocities, accelerations and forces" in graphkin.explain(loaded).text

@@ -382,7 +382,8 @@ def test_bounds_hold_what_a_solution_in_other_axes_differs_by():
 def test_masses_and_loads_are_told_in_words():
     told = graphkin.explain(SHAPER).data["loads"]
     assert "link 4 has 22.449 kg, 1.2 kg m2 about its centre of mass, which lies at (290, 0) in its own axes" == told[0]
-    assert "load P: a force of 9000 N on link 6" in told
+    stroke = "from 0.05 to 0.95 of the stroke of 6/1 against the guide's sense"
+    assert f"load P: a force of 9000 N on link 6 at C, against the sliding of 6/1, {stroke}" in told
     assert "a moment M_2 on link 2 keeps the balance" == told[-1]
 
 
