@@ -152,7 +152,7 @@ class Bodies:
 
     def with_pins(self) -> Bodies:
         """These bodies with pins in slots instead of blocks of a single pin, and with two points of its body on every
-        line on which bodies slide: for programs that know no other slides."""
+        line on which bodies slide: for programs that know no other slides, and only one of each point."""
         made = Bodies(self.title, dict(self.places), {n: list(points) for n, points in self.bodies.items()}, [],
                       dict(self.drives), self.unit, self.left, self.lost)  # fmt: skip
         guides, driven = {s.on for s in self.slides}, {body for body, point in self.drives if point}
@@ -160,7 +160,9 @@ class Bodies:
             block = slide.body
             alone = [s for s in self.slides if s.body == block] == [slide] and len(self.bodies[block]) == 1
             others = [name for name in made.having(slide.point) if name not in (block, slide.on)]
-            if slide.turns:
+            if slide.point in {s.point for s in made.slides}:
+                self.lost.append(Phrase("lost slide", link=slide.body, on=slide.on))
+            elif slide.turns:
                 made.slides.append(slide)
             elif alone and others and block not in guides | driven:
                 made.slides.append(replace(slide, body=others[0], turns=True))

@@ -283,7 +283,7 @@ def _first_crank(made: Bodies) -> list[tuple[str, str]]:
 
 
 def write_pyslvs(bodies: Bodies) -> str:
-    """The expression of bodies; parts that it cannot hold are added to ``left``."""
+    """The expression of bodies; parts that it cannot hold are added to ``lost`` or ``left``."""
     joints = []
 
     def joint(kind: str, place: complex, names: Iterable[str], angle: float | None = None) -> None:
@@ -293,7 +293,9 @@ def write_pyslvs(bodies: Bodies) -> str:
 
     for point, place in bodies.places.items():
         holders = bodies.having(point)
-        slot = next((s for s in bodies.slides if s.point == point and s.turns), None)
+        slots = [s for s in bodies.slides if s.point == point and s.turns]
+        slot = slots[0] if slots else None
+        bodies.lost += [Phrase("lost slide", link=s.body, on=s.on) for s in slots[1:]]
         kept = [s for s in bodies.slides if s.point == point and not s.turns]
         if slot is not None:
             joint("RP", place, [slot.on, *(n for n in holders if n != slot.on)], slot.angle)

@@ -444,3 +444,18 @@ def test_what_runs_on_the_line_of_a_link_of_pylinkage_is_a_pin_in_its_slot(tmp_p
     made = read_bodies(str(tmp_path / "a.json"))
     assert {"0": [*"AD"], "AB": [*"AB"], "BCF": [*"BCF"], "DC": [*"DC"], "FS": [*"FS"]} == made.bodies
     assert {"S": {"of": "FS", "in": "DC.s1"}} == made.scene()["pins"]
+
+
+@pytest.mark.parametrize("ending", [".linkage2", ".json", ".pyslvs"])
+def test_a_pin_in_two_slots_is_not_written_with_the_first_of_them_alone(tmp_path, ending):
+    scene = {
+        "frame": {"points": {"A": [0, 0]}, "guides": {
+            "v": {"through": [100, 0], "angle": 80}, "u": {"through": [0, 20], "angle": 0}}},
+        "links": {
+            "1": {"points": ["A"]}, "2": {"points": ["P", "Q"], "length": 60}, "3": {"points": ["Q"], "on": "0.u"},
+        },
+        "pins": {"P": {"of": "2", "in": ["1", "0.v"]}},
+        "driver": {"link": "1", "angle": 30, "omega": 2},
+    }  # fmt: skip
+    with pytest.raises(CallError, match="slide of 2 on 0: would be lost"):
+        convert(scene, out=tmp_path / f"a{ending}")
