@@ -56,6 +56,11 @@ def test_a_part_of_a_face_has_the_widths_and_outlines_of_the_whole(style):
     assert {character: of_all[character] for character in cut} == cut
 
 
+def test_a_part_of_a_face_bears_the_name_of_the_family_alone():
+    names = TTFont(io.BytesIO(part("italic", frozenset("abc"))))["name"].names
+    assert ["Graphkin Serif"] == list(map(str, names))
+
+
 def test_a_part_that_is_packed_again_has_the_same_bytes():
     first = part("italic", frozenset("abc"))
     part.cache_clear()

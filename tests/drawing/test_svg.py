@@ -3,6 +3,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
@@ -13,7 +14,7 @@ from hypothesis import strategies as st
 
 import graphkin
 from graphkin.drawing.ink import symbols as arrows
-from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Text
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Run, Text
 from graphkin.drawing.ink.strokes import CONSTRUCTION, DIRECTION, LINK
 from graphkin.drawing.ink.symbols import vector_group
 from graphkin.drawing.text import plain, rich
@@ -225,3 +226,21 @@ def test_what_goes_without_saying_is_not_said_in_a_page():
     svg = svg_element(Drawing(9.0, 9.0, (Text(1 + 1j, plain("B", 3.5)), Polygon((0j, 1j, 1 + 0j)))))
     assert svg.endswith('<text font-size="3.5" x="1" y="1"><tspan>B</tspan></text>'
                         '<polygon points="0,0 0,1 1,0"/></svg>')  # fmt: skip
+
+
+def test_a_text_of_one_run_ends_at_its_place_though_the_run_begins_beside_it():
+    (text,) = root(Text(30 + 5j, (Run("ab", 1.0),), "end")).iter(f"{SVG}text")
+    assert ("30", "end") == (text.get("x"), text.get("text-anchor"))
+
+
+def test_in_a_page_a_run_of_other_letters_than_its_text_has_its_size_and_face():
+    runs = Run("2", 0.0, 0.0, 2.5), Run("B", 2.0, 0.0, 3.5, bold=True)
+    svg = svg_element(Drawing(9.0, 9.0, (Text(1 + 1j, runs),)))
+    assert svg.endswith('<text font-size="3.5" x="1" y="1"><tspan font-size="2.5" x="1" y="1">2</tspan>'
+                        '<tspan font-size="3.5" font-weight="bold" x="3" y="1">B</tspan></text></svg>')  # fmt: skip
+
+
+def test_letters_as_outlines_stand_at_the_place_of_their_text():
+    page = ET.fromstring(svg_bytes(drawing(Text(30 + 40j, plain("I", 3.5))), outlines=True))
+    first = re.match(r"M([\d.]+) ([\d.]+)", page.find(f"{SVG}g/{SVG}path").get("d"))
+    assert (30, 40) == tuple(pytest.approx(float(n), abs=3.5) for n in first.groups())
