@@ -13,7 +13,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import pairwise, permutations
+from itertools import combinations, pairwise
 
 import numpy as np
 
@@ -132,7 +132,7 @@ def _free(
 ) -> complex | None:  # fmt: skip
     """The place on a side that lies farthest from all other sides, from the circle and from placed numbers; None where
     a number would touch one of them."""
-    places = np.array([a + (b - a) * (0.1 + 0.01 * k) for k in range(81)])
+    places = a + (b - a) * (0.1 + 0.01 * np.arange(81))
     near = [radius - np.abs(places - middle), *(np.abs(places - w) - HALF for w in taken)]
     near += [np.abs(cross(places - p, np.array(q - p))) / abs(q - p) for p, q in others]
     room = np.minimum.reduce([np.full(81, 9.0), *near]).tolist()
@@ -491,7 +491,7 @@ def _overlapping(named: Piece) -> set[str]:
     written = named.layers["labels"]
     texts = {thing.id: text_box(thing) for thing in written if isinstance(thing, Text)}
     joints = obstacles_of(without(named, texts).drawn).areas
-    ids = {a for a, b in permutations(texts, 2) if texts[a].overlaps(texts[b])}
+    ids = {id for pair in combinations(texts, 2) if texts[pair[0]].overlaps(texts[pair[1]]) for id in pair}
     return ids | {
         name.id for leader, name in pairwise(written) if isinstance(leader, Line) and isinstance(name, Text)
         and any(joint.clip(leader.start, leader.end) and joint.distance(leader.start) > 0.0 for joint in joints)
