@@ -92,7 +92,9 @@ class InMechanism(Telling):
                 said = self._marked(known, name)
             else:
                 said = Phrase("place alone", point=_named(name), link=link)
-                if known:
+                if link not in self.sheet.scene.by_name:  # what only stands for a pin in a slot
+                    said = Phrase("pin alone", point=_named(name))
+                elif known:
                     said = Phrase("place joined", other=_named(known[0]), point=_named(name), link=link)
             if said is None:
                 return None

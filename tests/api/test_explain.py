@@ -9,6 +9,9 @@ from typing import Any
 import pytest
 
 import graphkin
+from graphkin.account.account import telling
+from graphkin.account.notation import notation_of
+from graphkin.account.voice import Account
 from graphkin.api.report_text import report_text
 from graphkin.scene.scene import toml_text
 
@@ -257,3 +260,23 @@ def test_a_hollow_outline_has_a_radius_above_0_and_a_body_with_an_outline_elsewh
     })  # fmt: skip
     assert "it has the hollow round outline h about R, of radius 50 mm, inside which others touch it" in ring.text
     assert "link 2 is a body with the point C\n" in ring.text
+
+
+PIN_AT_A_CROSSING: dict[str, Any] = {
+    "frame": {"points": {"A": [0, 0]}, "guides": {
+        "v": {"through": [100, 0], "angle": 80}, "u": {"through": [0, 20], "angle": 0}}},
+    "links": {"1": {"points": ["A"]}, "2": {"points": ["P", "Q"], "length": 60}, "3": {"points": ["Q"], "on": "0.u"}},
+    "pins": {"P": {"of": "2", "in": ["1", "0.v"]}},
+    "driver": {"link": "1", "angle": 30, "omega": 2},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("scene", "mark"), [(PIN_AT_A_CROSSING, "mark P"), ("wheel-on-rail", "mark C, K")])
+def test_a_step_calls_no_block_a_link_that_only_stands_for_a_pin_or_a_contact(scene, mark):
+    checked = graphkin.check(scene)
+    steps = [line.strip() for line in report_text(checked, "en").splitlines() if re.match(r" +\d+  ", line)]
+    assert mark in [step.split(maxsplit=1)[1] for step in steps]
+    assert [] == [step for step in steps if re.search(r"link \w+/", step)]
+    account = Account(checked.sheet, notation_of(checked.sheet, "us"))
+    told = [str(telling(account, step).sentence("en")) for step in checked.sheet.steps]
+    assert [] == [sentence for sentence in told if re.search(r"link \w+/", sentence)]

@@ -372,6 +372,8 @@ class PlaceStep(Step):
                 return "lay off angle to"
             case "frame" if not self.points:
                 return "guides of the frame"
+            case "points" if "/" in self.link:  # a block that only stands for a pin or a contact
+                return "points alone"
             case "rolling":
                 return "rolling starts at angle" if self.link else "rolling starts at travel"
         return super().sentence
