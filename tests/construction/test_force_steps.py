@@ -18,6 +18,7 @@ from graphkin.scene import mechanism_of
 from graphkin.scene.scene_tables import Tools
 from graphkin.scene.symbol import Symbol
 from tests.construction.test_forces import BLOCK_ON_A_COMPOUND_HINGE, CHAIN, DRIVEN_AGAINST_A_BLOCK
+from tests.mechanisms import random_scene
 from tests.solver.test_forces import loaded
 
 pytestmark = pytest.mark.quick
@@ -107,7 +108,8 @@ def test_vectors_of_a_polygon_bear_letters_at_their_ends_in_the_order_of_laying_
 def test_a_letter_of_a_polygon_is_one_place(scene: Any) -> None:
     for group in drawn(scene).forces[0].groups:
         places = {letter: place for letter, (place, _) in group.corners.items()}
-        ends = [end for v in group.polygon for end in zip(v.ends, (v.tail, v.tip), strict=True)]
+        inside = [v for chain in group.inner.values() if chain[0] in group.polygon for v in chain]
+        ends = [end for v in (*group.polygon, *inside) for end in zip(v.ends, (v.tail, v.tip), strict=True)]
         assert [] == [letter for letter, z in ends if abs(places[letter] - z) > 0.3]
         assert "".join(places) == "abcdefghijklmnop"[: len(places)]
 
@@ -119,6 +121,18 @@ def test_moments_of_a_step_are_in_balance(scene: Any) -> None:
         known = [term.moment for term in step.terms]
         most = max(map(abs, known))
         assert -sum(known) == pytest.approx(step.unknown.moment * step.value, abs=1e-9 * most)
+
+
+@pytest.mark.parametrize("kind", ["RRP", "RPR", "PRP", "RPP"])
+def test_a_couple_shifts_the_line_of_the_force_of_its_pair_by_the_couple_over_the_force(kind: str) -> None:
+    sheet = drawn(loaded(random_scene(7, (kind,)), 3))
+    couples = [(s, group) for group in sheet.forces[0].groups for s in group.moments("couple")]
+    assert couples
+    for step, group in couples:
+        force = abs(sheet.forces[0].vectors[step.shifted])
+        assert step.value / force == pytest.approx(step.shift, rel=1e-9)
+        assert (step.symbol.link, step.symbol.other) == (step.shifted.link, step.shifted.other)
+        assert step.shifted in group.lines
 
 
 def test_the_point_of_moments_is_the_inner_pin_and_arms_are_measured_from_it() -> None:
