@@ -25,7 +25,7 @@ from typing import TypeVar
 from graphkin.construction.board.instruments import EXACT, Instrument
 from graphkin.construction.board.scales import extent_of, fitting_scale
 from graphkin.construction.board.sheet import Reading, Sheet
-from graphkin.construction.board.steps import Step
+from graphkin.construction.board.steps import Step, changed
 from graphkin.construction.forces.groups import NORMAL, TANGENT, CutFree, at_driver, of_dyad, of_larger_group
 from graphkin.construction.forces.position import DrawnPosition, force_groups, from_outside, inertias, springs
 from graphkin.construction.forces.steps import ForceGroup, ForceState, ForceStep, ForceVector, Lever, MomentTerm
@@ -81,7 +81,7 @@ def _numbered(sheet: Sheet) -> Sheet:
     numbers, bare = count(sheet.steps[-1].number + 1 if sheet.steps else 1), sheet.forces[0].groups
 
     def in_order(steps: Iterable[Numbered]) -> tuple[Numbered, ...]:
-        return tuple(replace(step, number=next(numbers)) for step in steps)
+        return tuple(changed(step, number=next(numbers)) for step in steps)
 
     inertias = dict(zip(sheet.inertias, in_order(sheet.inertias.values()), strict=True))
     springs, states = in_order(sheet.springs), list[ForceState]()
@@ -152,7 +152,7 @@ def _state(held: Sheet, hand: Instrument, scales: ForceScales, known: tuple[Forc
     vectors = {symbol: force for symbol, (force, _) in forces.items()}
     per_mm = {symbol: next((drawn_at[name] for name in drawn_at if name in links), common)
               for symbol, (_, links) in forces.items()}  # fmt: skip
-    drawn = tuple(replace(g, read={**g.read, **dict(_named(g, vectors))}) for g in groups if g.links)
+    drawn = tuple(changed(g, read={**g.read, **dict(_named(g, vectors))}) for g in groups if g.links)
     return ForceState(known, drawn, vectors, moments, per_mm)
 
 
@@ -244,10 +244,10 @@ def _lever(sheet: Sheet, drawn: Sheet, state: ForceState, driver: Driver, hand: 
     ends = {str(ref): TURN * z * per_mm for ref, z in drawn.ends["velocity"].items()}
     # the forces with their places on the figure from which the images are
     times = sheet.scales.length / drawn.scales.length
-    rows = tuple(_on_lever(images, replace(load, at=load.at * times), hand) for load in state.known)
+    rows = tuple(_on_lever(images, changed(load, at=load.at * times), hand) for load in state.known)
     unknown = _on_lever(images, balance, hand)
     if balance.off != sheet.scene.frame.name:  # between both links that it acts on
-        other = _on_lever(images, replace(balance, link=balance.off), hand)
+        other = _on_lever(images, changed(balance, link=balance.off), hand)
         unknown = replace(unknown, moment=unknown.moment - other.moment)
     if abs(unknown.moment) <= 1e-12 * max((abs(z) for z in ends.values()), default=0.0):
         return None
@@ -266,18 +266,18 @@ def _on_lever(images: DrawnPosition, acting: ForceVector, hand: Instrument) -> M
         end = TURN * images.end("velocity", link, acting.at)
         mm = cross(end, unit(acting.force)) if acting.force else 0.0
         arm = hand.read_signed(mm) * per_mm if abs(mm) > 1e-13 * abs(end) else 0.0
-        return MomentTerm(replace(acting, at=end * per_mm), arm, abs(acting.force) * arm)
+        return MomentTerm(changed(acting, at=end * per_mm), arm, abs(acting.force) * arm)
     far = images.image("velocity", link) if link != images.sheet.scene.frame.name else None
     rates = images.sheet.rates["omega"]
     omega = rates[link].value if link in rates else 0.0
     if far is None or omega == 0.0:
         # a link without two points on the figure: its rate is that of another link
-        return MomentTerm(replace(acting, force=complex(acting.moment), at=0j), omega, acting.moment * omega)
+        return MomentTerm(changed(acting, force=complex(acting.moment), at=0j), omega, acting.moment * omega)
     (a, a_end), (b, b_end) = far
     square, size = 1j * unit(b - a), acting.moment / (abs(b - a) / images.mm)
     tail, tip = TURN * a_end * per_mm, TURN * b_end * per_mm
     arm = hand.read_signed(math.copysign(abs(b_end - a_end), cross(tip - tail, square))) * per_mm
-    return MomentTerm(replace(acting, force=square * size, at=tip), arm, size * arm, pair=(tail, tip))
+    return MomentTerm(changed(acting, force=square * size, at=tip), arm, size * arm, pair=(tail, tip))
 
 
 # -- what is read off --------------------------------------------------------------------------------------------------

@@ -21,7 +21,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from graphkin.construction.board.instruments import PARALLEL, Instrument
-from graphkin.construction.board.steps import NO_DIRECTION, Direction, Part, Reason
+from graphkin.construction.board.steps import NO_DIRECTION, Direction, Part, Reason, changed
 from graphkin.construction.forces.position import DrawnPosition
 from graphkin.construction.forces.steps import (
     APART,
@@ -109,39 +109,46 @@ class CutFree:
 
     def do(self, step: ForceStep) -> None:
         """Record a step of the group."""
-        self.group = replace(self.group, steps=(*self.group.steps, step))
+        self.group = changed(self.group, steps=(*self.group.steps, step))
 
     def read_off(self, chain: Iterable[ForceVector]) -> tuple[Symbol, ...]:
         """Read the forces of a polygon that were not read before, all parts together."""
-        spans = dict[Symbol, complex]()
+        before, spans = self.group.read, dict[Symbol, complex]()
         for symbol, span in ((vector.symbol, vector.span) for vector in chain if not vector.known):
-            if self.group.read.keys().isdisjoint((symbol, symbol.opposite)) and symbol.opposite not in spans:
-                spans[symbol] = spans.get(symbol, 0j) + span
-        read = {symbol: abs(span) for symbol, span in spans.items()}
-        self.group = replace(self.group, read={**self.group.read, **read})
-        return tuple(read)
+            if symbol in spans:
+                spans[symbol] += span
+            elif symbol not in before and not {symbol.opposite} & (before.keys() | spans.keys()):
+                spans[symbol] = span
+        self.group = changed(self.group, read={**before, **{symbol: abs(span) for symbol, span in spans.items()}})
+        return tuple(spans)
 
     def lettered(self, chain: Chain) -> None:
         """The polygon of a group, closed by its last vector, and by its first if that was not known either; with the
         letters of its corners, in the order in which the vectors are laid off and found."""
-        corners = list[complex]()
-        laid = [vector for vector in chain if vector.by != "closing" and abs(vector.span) > ZERO]
-        closing = [vector for vector in reversed(chain) if vector.by == "closing"]
-        for place in (z for vector in (*laid, *closing) for z in (vector.tail, vector.tip)):
+        order, corners = chain[1:] + chain[:1] if chain[0].by == "closing" else chain, list[complex]()
+        places = dict.fromkeys(z for vector in order for z in (vector.tail, vector.tip))
+        for place in places:
             if all(abs(place - corner) > APART for corner in corners):
                 corners.append(place)
-        known, found, polygon = (tuple(v.lettered(corners) for v in some) for some in (laid, closing, chain))
-        self.group = replace(self.group, polygon=polygon)
+
+        def letter(place: complex) -> str:
+            return chr(ord("a") + min(range(len(corners)), key=lambda k: abs(corners[k] - place)))
+
+        letters = {place: letter(place) for place in places}
+        polygon = tuple(changed(v, ends=(letters[v.tail], letters[v.tip])) for v in chain)
+        known = tuple(v for v in polygon if v.by != "closing" and abs(v.span) > ZERO)
+        found = tuple(v for v in reversed(polygon) if v.by == "closing")
+        self.group = changed(self.group, polygon=polygon)
         finds = self.read_off(chain)
         if known:
             self.do(ForceStep("lay off", "known forces", "force", known))
         if len(chain) > 1:
             done = ForceStep("join", "closed", "force", found, links=self.group.links, finds=finds)
-            self.do(done if len(found) == 1 else replace(done, verb="cross", reason="closed by lines"))
+            self.do(done if len(found) == 1 else changed(done, verb="cross", reason="closed by lines"))
 
     def inside(self, link: str, chain: Chain) -> None:
         """The polygon of a single link, closed by the force inside."""
-        self.group = replace(self.group, inner={**self.group.inner, link: tuple(chain)})
+        self.group = changed(self.group, inner={**self.group.inner, link: tuple(chain)})
 
     def finished(self, members: Collection[str]) -> ForceGroup:
         """The group under work: its single links close with the forces inside, and couples follow."""
@@ -152,7 +159,7 @@ class CutFree:
             for link, chain in self.group.inner.items() if (finds := self.read_off(chain))
         ]  # fmt: skip
         steps = (step for step in self.group.steps if step.reason not in COUPLES)
-        return replace(self.group, steps=(*steps, *inside, *couples))
+        return changed(self.group, steps=(*steps, *inside, *couples))
 
     # -- what acts -----------------------------------------------------------------------------------------------------
 
@@ -160,7 +167,7 @@ class CutFree:
         """Forces and couples act on links, as known ones; the frame bears what comes."""
         for force in acting:
             if force.link != self.drawn.structure.scene.frame.name:
-                self.acting[force.link].append(replace(force, by="given", direction=None, part=""))
+                self.acting[force.link].append(changed(force, by="given", direction=None, part=""))
 
     def hand_on(self, force: ForceVector, inside: Collection[str]) -> None:
         """Load with a force or a couple that of its two links which is not inside a group: it is still to come."""
@@ -278,7 +285,7 @@ class CutFree:
         if not force.force:
             return 0.0
         at, shift = shifted_line(force.force, force.at, couple, self.drawn.mm)
-        self.group = replace(self.group, lines={**self.group.lines, force.symbol: at})
+        self.group = changed(self.group, lines={**self.group.lines, force.symbol: at})
         return shift
 
     # -- polygons ------------------------------------------------------------------------------------------------------
@@ -312,7 +319,7 @@ class CutFree:
     def drawn_in(self, chain: Chain, force: ForceVector) -> ForceVector:
         """A force as it stands in a polygon, all its parts together (N)."""
         parts = (vector.span for vector in chain if vector.symbol == force.symbol)
-        return replace(force, force=added_up(parts, 0j) * self.per_mm)
+        return changed(force, force=added_up(parts, 0j) * self.per_mm)
 
 
 def _across(pair: Pair) -> Direction:
@@ -348,7 +355,7 @@ def _slide_found(
     step = cut.moments("couple", links, about, letter, unknown, acting)
     shift = cut.shift(force, step.value)
     if any(link in cut.drawn.sheet.scene.by_name for link in links):  # a pin in a slot has no couple
-        cut.do(replace(step, shifted=force.symbol, shift=shift) if step.value else replace(step, reason="no couple"))
+        cut.do(changed(step, shifted=force.symbol, shift=shift) if step.value else changed(step, reason="no couple"))
     cut.set_slide(slide, force, step.found, inside)
     return step.found
 
@@ -418,17 +425,17 @@ def _outer_parts(
     laid: Chain = []
     cut.lay_known(laid, dyad.first.links)
     push = along * -dot(_end_of(laid), along) * cut.per_mm
-    known = [replace(at_first, force=push, part="n", by="moments", direction=_along(slide))] if push else []
+    known = [changed(at_first, force=push, part="n", by="moments", direction=_along(slide))] if push else []
     if known:
         symbol, link = at_first.symbol, at_first.link.split("/")[0]
         cut.do(ForceStep("read", "along guide", "force", symbol=symbol, link=link, finds=(symbol,), part="n"))
     mark: Part = "t" if known else ""
-    square = replace(at_first, force=1j * along, part=mark, direction=_across(slide))
+    square = changed(at_first, force=1j * along, part=mark, direction=_across(slide))
     if not outer.turns:
-        return (known, square), ([], replace(at_second, force=1j * cut.drawn.along(outer), direction=_across(outer)))
-    step = cut.moments("about guide", dyad.members, at_second.at, outer.point, replace(square, part="t"), known)
-    cut.do(replace(step, is_whole=not known and step.value != 0.0))
-    return ([*known, replace(step.found, part=mark)], None), ([], at_second)
+        return (known, square), ([], changed(at_second, force=1j * cut.drawn.along(outer), direction=_across(outer)))
+    step = cut.moments("about guide", dyad.members, at_second.at, outer.point, changed(square, part="t"), known)
+    cut.do(changed(step, is_whole=not known and step.value != 0.0))
+    return ([*known, changed(step.found, part=mark)], None), ([], at_second)
 
 
 def _by_inner_pin(
@@ -436,15 +443,15 @@ def _by_inner_pin(
 ) -> OuterParts:
     """An outer force by the moments about the inner pin."""
     if not outer.turns:
-        return [], replace(force, force=1j * cut.drawn.along(outer), direction=_across(outer))
+        return [], changed(force, force=1j * cut.drawn.along(outer), direction=_across(outer))
     hinge = cut.drawn.point(inner.a, inner.point)
     bar, along = (outer.point, inner.point), force.at - hinge
-    square = replace(force, force=1j * unit(along), part="t", direction=Direction("square", bar))
+    square = changed(force, force=1j * unit(along), part="t", direction=Direction("square", bar))
     step = cut.moments("about pin", links, hinge, inner.point, square)
-    cut.do(step if step.terms else replace(step, reason="two-force member", is_whole=True))
-    closing = replace(force, force=along, direction=Direction("along", bar))
+    cut.do(step if step.terms else changed(step, reason="two-force member", is_whole=True))
+    closing = changed(force, force=along, direction=Direction("along", bar))
     # where it is nought nothing acts on the bar between its ends
-    return ([step.found], replace(closing, part="n")) if step.value else ([], closing)
+    return ([step.found], changed(closing, part="n")) if step.value else ([], closing)
 
 
 def _inner_force(
@@ -474,9 +481,9 @@ def _inner_force(
         on_first = ForceVector(symbol, link=first, force=force, at=at, by="closing", off=second)
     else:
         square = 1j * cut.drawn.along(pair)
-        on_first = replace(cut.at_pair(pair, links), force=square * dot(force, square))
+        on_first = changed(cut.at_pair(pair, links), force=square * dot(force, square))
     cut.close(chain, on_first)
-    chain[-1] = replace(chain[-1], ends=(chain[-2].ends[1], chain[0].ends[0]))
+    chain[-1] = changed(chain[-1], ends=(chain[-2].ends[1], chain[0].ends[0]))
     cut.inside(on_first.link, chain)
     if pair.turns:
         return on_first, []
@@ -509,12 +516,12 @@ def _close_driven(
         on = cut.drawn_in(chain, on)
         if not push.moment:
             return [on, push]
-        step = cut.moments("balance", links, on.at, pair.point, replace(push, moment=1.0), more)
+        step = cut.moments("balance", links, on.at, pair.point, changed(push, moment=1.0), more)
         cut.do(step)
         return [on, step.found]
-    on = replace(on, force=1j * cut.drawn.along(pair), direction=_across(pair))
+    on = changed(on, force=1j * cut.drawn.along(pair), direction=_across(pair))
     aside = abs(cross(push.force, cut.drawn.along(pair))) > PARALLEL  # as the scene says
-    push = replace(push, by="closing", direction=NO_DIRECTION if aside else _along(pair))
+    push = changed(push, by="closing", direction=NO_DIRECTION if aside else _along(pair))
     cut.close(chain, on, push)
     on, push = cut.drawn_in(chain, on), cut.drawn_in(chain, push)
     return [on, push, _slide_found(cut, links, pair, on, on.at, _foot_name(pair), (*more, on, push), inside)]
@@ -533,7 +540,7 @@ def _at_driven_joint(
     leaf, other, pair = joint.b, joint.a, joint.pair
     chain: Chain = []
     cut.lay_known(chain, (leaf,))
-    cut.lay(chain, *(replace(load, by="given") for load in extra if load.symbol.is_vector))
+    cut.lay(chain, *(changed(load, by="given") for load in extra if load.symbol.is_vector))
     on = cut.at_pair(pair, (leaf,))
     if pair.turns:
         symbol = cut.drawn.of_pin(pair.point, leaf, cut.done)
@@ -612,12 +619,12 @@ def _unknown_forces(cut: CutFree, members: Sequence[str], balances: Sequence[For
         for link in (n for n in mine if held or n != first):
             symbol = cut.drawn.of_pin(point, link, cut.done | inside)
             force = ForceVector(symbol, link=link, at=at, off=hosts.get(link, other))
-            unknowns += [(replace(force, force=along), point, None) for along in (1 + 0j, 1j)]
+            unknowns += [(changed(force, force=along), point, None) for along in (1 + 0j, 1j)]
     for slide in structure.slides:
         if slide.key not in cut.slides and {slide.a, slide.b} & inside:
             at, square = cut.drawn.foot(slide), 1j * cut.drawn.along(slide)
             force = ForceVector(cut.drawn.of_slide(slide), link=slide.a, force=square, at=at, off=slide.b)
-            couple = replace(force, symbol=cut.drawn.of_slide(slide, "M"), force=0j)
+            couple = changed(force, symbol=cut.drawn.of_slide(slide, "M"), force=0j)
             unknowns += [(force, "", slide), (couple, "", slide)]
     return unknowns + [(balance, "", None) for balance in balances]
 
@@ -635,7 +642,7 @@ def _solved(cut: CutFree, members: Sequence[str], unknowns: Sequence[Unknown]) -
 
     left, right = np.zeros((3 * len(members), len(unknowns))), np.zeros(3 * len(members))
     for k, (load, _, _) in enumerate(unknowns):
-        couple = replace(load, moment=0.0 if load.force else size)
+        couple = changed(load, moment=0.0 if load.force else size)
         for link, sign in ((load.link, 1.0), (load.off, -1.0)):
             if link in row:
                 left[row[link] : row[link] + 3, k] += sign * np.array(parts(couple, link))
@@ -660,11 +667,11 @@ def _carry_over(
         if load.force:
             key = load.symbol, load.link, load.off
             so_far = forces[key][0].force if key in forces else 0j
-            forces[key] = replace(load, force=so_far + value * load.force), point, slide
+            forces[key] = changed(load, force=so_far + value * load.force), point, slide
         elif slide is not None:
-            couples[slide.key] = replace(load, moment=value)
+            couples[slide.key] = changed(load, moment=value)
         else:
-            cut.set_balance(load, couple := replace(load, moment=value))
+            cut.set_balance(load, couple := changed(load, moment=value))
             cut.hand_on(couple, members)  # what drives a link of the group from one still to come loads that
     polygons: dict[str, Chain] = {name: [] for name in members}
     for name in members:
@@ -682,7 +689,7 @@ def _carry_over(
             cut.hand_on(load, members)
         for force in (load, load.back):
             if force.link in polygons:
-                cut.lay(polygons[force.link], replace(force, by="closing"))
+                cut.lay(polygons[force.link], changed(force, by="closing"))
     for name, chain in polygons.items():
         if name not in cut.drawn.structure.blocks:
             cut.inside(name, chain)

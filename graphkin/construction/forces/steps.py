@@ -7,8 +7,8 @@ sizes are in N and N m, counter-clockwise positive.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
 from typing import Literal
 
 from graphkin.construction.board.steps import (
@@ -20,6 +20,7 @@ from graphkin.construction.board.steps import (
     Step,
     Term,
     Vector,
+    changed,
 )
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.model import LinkMass
@@ -82,20 +83,15 @@ class ForceVector(Vector):
         sized, direction = self.by != "closing", self.direction or NO_DIRECTION
         return Term(self.symbol, sized, sized or self.direction is not None, None, direction, self.part, self.turned)
 
-    def lettered(self, corners: Sequence[complex]) -> ForceVector:
-        """The vector with the letters of the corners at its ends."""
-        first, second = (min(range(len(corners)), key=lambda k: abs(corners[k] - z)) for z in (self.tail, self.tip))
-        return replace(self, ends=(chr(ord("a") + first), chr(ord("a") + second)))
-
     def between(self, tail: complex, tip: complex) -> ForceVector:
         """The vector at its place in a polygon (mm)."""
-        return replace(self, tail=tail, tip=tip)
+        return changed(self, tail=tail, tip=tip)
 
     @property
     def back(self) -> ForceVector:
         """Its opposite, on the other link."""
         turned = self.turned if self.symbol.other else not self.turned
-        return replace(self, symbol=self.symbol.opposite, link=self.off, off=self.link, force=-self.force,
+        return changed(self, symbol=self.symbol.opposite, link=self.off, off=self.link, force=-self.force,
                        moment=-self.moment, turned=turned)  # fmt: skip
 
     def on(self, link: str) -> ForceVector:
@@ -243,7 +239,7 @@ class MomentStep(ForceStep):
     def found(self) -> ForceVector:
         """The unknown with its found size."""
         sought = self.unknown.acting
-        return replace(sought, force=sought.force * self.value, moment=sought.moment * self.value, by="moments")
+        return changed(sought, force=sought.force * self.value, moment=sought.moment * self.value, by="moments")
 
 
 @dataclass(frozen=True)
