@@ -220,12 +220,12 @@ def check(
     from graphkin import solver
 
     given = as_scene(scene)
-    asked = drawn_symbols(given, find)
+    asked, by_name = drawn_symbols(given, find), asked_symbols(given, find)
     given, values = placed(given, at)
     hand, here = hand_of(given.question.sheet, instrument, seed), asked_here(asked)
     structure = solver.structure_of(given)
     motion = solver.solved_here(structure, values, here)
-    planned = plan_of(structure, values, here, asked_symbols(given, find))
+    planned = plan_of(structure, values, here, by_name)
     return with_elsewhere(checked(planned, motion, hand), asked, seed)
 
 

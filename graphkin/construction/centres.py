@@ -187,7 +187,7 @@ class Centres:
         if name in self.scene.contact_at:
             return self.touching.of(self.scene.contact_at[name]).at
         holder = next(n for n in self.scene.holders[name] if n in self.poses)
-        return self.touching.place(holder, name)
+        return self.poses[holder].place(self.scene.by_name[holder].points[name] * self.mm)
 
     @cached_property
     def chart(self) -> ProjectiveChart:
@@ -347,7 +347,7 @@ def _permanent(links: Centres) -> Iterator[Centre]:
             place = chart.towards(1j * s.along(poses))
             far = chart.direction(place)
             yield Centre(links.pair(s.a, s.b), "permanent", place, direction=far, joint=s.key)
-    for touch in links.touching.rolling():
+    for touch in links.touching.rolling() if links.scene.higher_pairs else ():
         yield Centre(links.pair(*touch.links), "permanent", chart.at(touch.at), touch.at, joint=touch.name, rolls=True)
 
 
@@ -362,7 +362,7 @@ def _normals(links: Centres) -> Iterator[CentreRelation]:
             at, start = links.touching.place(of, slide.pin), poses[on].place(slide.guide.through * links.mm)
             line = links.chart.line(start + along * dot(at - start, along), 1j * along)
             yield CentreRelation(links.pair(of, on), line, ROUNDING, (slide.key,))
-    for touch in links.touching.sliding():
+    for touch in links.touching.sliding() if scene.higher_pairs else ():
         line = links.chart.line(touch.at, touch.normal)
         yield CentreRelation(links.pair(*touch.links), line, ROUNDING, (touch.name,))
 

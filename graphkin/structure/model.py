@@ -288,7 +288,8 @@ class Structure:
     scene's drivers by rolling, ``relations`` the other rolling relations, ``touching`` the higher pairs, among them the
     cams ``lifting`` a follower by their law.
 
-    From these follow all ``drivers``, those of the scene first; the Assur ``groups`` in the order of solution, among
+    From these follow the ``blocks`` that replace pins in slots and discs on faces, with the sliding pair of each; all
+    ``drivers``, those of the scene first; the Assur ``groups`` in the order of solution, among
     them the ``dyads`` by their places in it and the ``larger_groups`` that are solved as a whole; the ``driven`` links,
     which drivers, cams and rolling move; ``place_of`` each link the place of the element that places it.  ``kept``
     holds results that are made of the structure once and used again, by name: layouts of groups, programs, the last
@@ -305,6 +306,7 @@ class Structure:
     relations: tuple[RollingRelation, ...] = ()
     touching: tuple[HigherPair, ...] = ()
 
+    blocks: Mapping[str, Pair] = field(init=False, repr=False, compare=False)
     lifting: tuple[LawCam, ...] = field(init=False, repr=False, compare=False)
     drivers: tuple[Driver, ...] = field(init=False, repr=False, compare=False)
     groups: tuple[Dyad | LargerGroup, ...] = field(init=False, repr=False, compare=False)
@@ -317,6 +319,7 @@ class Structure:
     def __post_init__(self) -> None:
         elements = self.elements
         self.__dict__.update(
+            blocks={slide.a: slide for slide in self.slides if slide.higher},
             lifting=tuple(pair for pair in self.touching if isinstance(pair, LawCam)),
             drivers=(*self.scene.drivers, *self.followers), kept={},
             groups=tuple(e for e in elements if not isinstance(e, Driven)),
@@ -362,11 +365,6 @@ class Structure:
     def turning_with(self, link: str) -> set[str]:
         """A link, and the links that turn as it does because they slide on it, or on such links."""
         return {*reached([link], lambda name: [slide.other(name) for slide in self.slides if name in slide.links])}
-
-    @cached_property
-    def blocks(self) -> Mapping[str, Pair]:
-        """The blocks that replace pins in slots and discs on faces, with the sliding pair of each."""
-        return {slide.a: slide for slide in self.slides if slide.higher}
 
     def slide(self, key: str) -> Pair:
         """The sliding pair or pin in slot of that name."""
