@@ -289,11 +289,11 @@ class Structure:
     cams ``lifting`` a follower by their law.
 
     From these follow the ``blocks`` that replace pins in slots and discs on faces, with the sliding pair of each; all
-    ``drivers``, those of the scene first; the Assur ``groups`` in the order of solution, among
-    them the ``dyads`` by their places in it and the ``larger_groups`` that are solved as a whole; the ``driven`` links,
-    which drivers, cams and rolling move; ``place_of`` each link the place of the element that places it.  ``kept``
-    holds results that are made of the structure once and used again, by name: layouts of groups, programs, the last
-    range of its driver; it is neither compared nor pickled.
+    ``drivers``, those of the scene first; the Assur ``groups`` in the order of solution, among them the ``dyads`` by
+    their places in it and the ``larger_groups`` that are solved as a whole; the ``driven`` links, which drivers, cams
+    and rolling move; ``place_of`` each link the place of the element that places it.  ``kept`` holds results that are
+    made of the structure once and used again, by name: layouts of groups, programs, the last range of its driver; it is
+    neither compared nor pickled.
     """
 
     scene: Mechanism

@@ -289,3 +289,8 @@ def test_the_command_writes_the_points_of_a_disc_and_says_so(name, tmp_path):
     assert graphkin.cam(name).data["discs"]["K"]["rise"] == pytest.approx(
         np.ptp(rows["lift"]) * (1 if "slider" in name else math.pi / 180), rel=1e-3
     )
+
+
+def test_the_offset_of_a_flat_follower_is_the_distance_of_its_guide_from_the_axis():
+    beside = graphkin.read("cam-eccentric-flat-slider").replace("frame.guides.g.through", [7, 3])
+    assert 7 == pytest.approx(graphkin.cam(beside).data["discs"]["K"]["offset"], abs=1e-12)

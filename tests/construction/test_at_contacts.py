@@ -184,3 +184,8 @@ def test_a_wheel_that_the_shaft_of_a_cam_turns_stands_where_it_has_rolled() -> N
     result = check(scene, at=100, find=["theta_3"])
     # 30 degrees less half of the 40 that the cam has turned
     assert 10 == pytest.approx(result["theta_3"].measured, abs=1e-12)
+
+
+@pytest.mark.parametrize(("name", "drawn"), [("geneva-step", True), ("slotter-75-150", False)])
+def test_readings_at_contacts_are_those_of_pins_in_slots_not_of_blocks(name, drawn):
+    assert drawn == ("at_contact" in check(name).data["readings"][0])

@@ -12,7 +12,13 @@ from graphkin.construction.board.steps import TrialPositions
 from graphkin.construction.plan import plan
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
-from tests.rolling_linkages import ROLLING_LINKAGES, five_bar_by_its_middle, planet_by_a_rod, wheel_at_its_rim
+from tests.rolling_linkages import (
+    ROLLING_LINKAGES,
+    five_bar_by_its_middle,
+    planet_by_a_rod,
+    wheel_at_its_rim,
+    wheel_on_a_rocker,
+)
 
 
 @pytest.mark.parametrize("made", ROLLING_LINKAGES)
@@ -75,3 +81,8 @@ def test_a_wheel_in_a_ring_has_at_the_contact_what_both_radii_give():
     assert 0.080 * 0.025 / (0.080 - 0.025) * omega**2 == pytest.approx(abs(vector.span) * sheet.scales.acceleration)
     (size,) = {t.size for e in sheet.equations for side in e.sides for t in side if str(t.symbol) == "a_K@3" and t.size}
     assert "ω_3²·ρ_3ρ_0/(ρ_0 − ρ_3)" == str(size)
+
+
+@pytest.mark.parametrize("made", [wheel_at_its_rim, wheel_on_a_rocker])
+def test_a_wheel_that_rolls_is_not_drawn_a_second_time_at_its_contact(made):
+    assert check(made()).at_contacts is None

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from graphkin.scene import mechanism_of, mechanism_of_text
-from graphkin.scene.model import Driver, Loading, LoadOn, Mechanism, SpringOn
+from graphkin.scene.model import Driver, Loading, LoadOn, Mechanism, SpringOn, forces_named, with_dimensions
 from graphkin.scene.scene_tables import LoadPhase
+from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Measure
 from tests.scenes import FOUR_BAR
 
@@ -102,3 +103,37 @@ def test_a_load_on_a_stroke_acts_in_one_sense_and_jumps_where_both_meet() -> Non
 ])  # fmt: skip
 def test_values_of_motion_are_as_large_as_the_rates_of_the_drivers_make_them(measure: Measure, size: float) -> None:
     assert size == measure.usual(0.5, rate=3.0, second=20.0)
+
+
+DRIVEN_PIN = """
+[frame]
+points = { A = [0, 0] }
+guides = { h = { through = [0, 0], angle = 0 } }
+[links.1]
+points = ["A", "B"]
+length = 50
+[links.2]
+points = ["B", "C"]
+length = 120
+[pins.C]
+of = "2"
+in = "0.h"
+[driver]
+slide = "C/0"
+travel = 140
+velocity = 30
+[masses.2]
+mass = 1
+at = "B"
+inertia = 0.001
+"""
+
+
+def test_the_force_that_drives_a_pin_in_a_slot_acts_on_the_link_that_has_the_pin() -> None:
+    assert Symbol("F", link="2") == forces_named(mechanism_of_text(DRIVEN_PIN, "driven pin"))[-1]
+
+
+def test_a_pair_has_the_guide_of_its_link_also_where_other_numbers_replace_it() -> None:
+    mechanism = mechanism_of_text(DRIVEN_PIN, "driven pin")
+    lower = with_dimensions(mechanism, {("through", "0", "h"): -5e-3j})
+    assert [0j, -5e-3j] == [made.slides[0].guide.through for made in (mechanism, lower)]

@@ -191,6 +191,18 @@ def test_stroke_and_speed_ratio_of_a_follower_are_drawn_as_the_law_says(name):
     assert (True, pytest.approx(expected)) == (row.ok, row.measured)
 
 
+@pytest.mark.parametrize("name", LIBRARY)
+def test_a_pencil_draws_the_stroke_of_a_follower_within_what_it_promises(name):
+    link = "swing_2" if "swing" in name else "stroke_2/0"
+    assert graphkin.check(name, find=[link], instrument="pencil", seed=1)[link].ok
+
+
+def test_a_roller_on_a_straight_stretch_of_the_pitch_curve_is_not_drawn_a_second_time_at_its_contact():
+    inflected = graphkin.read("cam-offset-roller").replace("cams.1.base", {"r": 30, "of": "pitch"})
+    drawn = [graphkin.check(inflected, at=angle).at_contacts is not None for angle in (19.49253920288448, 40)]
+    assert [False, True] == drawn
+
+
 GEARED = {
     "frame": {"points": {"A": [0, 0], "O": [-60, 0]}, "guides": {"g": {"through": "A", "angle": 90}}},
     "links": {"3": {"points": ["O"]}, "1": {"points": ["A"]}, "2": {"points": ["B"], "on": "0.g"}},

@@ -11,7 +11,7 @@ import pytest
 from graphkin.errors import Unsolvable
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.solver import solve
-from graphkin.structure import Driven, Dyad, LargerGroup, Structure, analyse
+from graphkin.structure import Driven, Dyad, LargerGroup, Structure, analyse, replacement_told
 from tests import scenes
 from tests.rolling_linkages import cylinder_and_wheel, five_bar_by_its_middle, planet_by_a_rod, wheel_at_its_rim
 
@@ -226,3 +226,8 @@ def test_a_structure_is_pickled_without_what_was_made_of_it() -> None:
     assert made.kept
     again = pickle.loads(pickle.dumps(made))
     assert ({}, made.elements) == (again.kept, again.elements)
+
+
+def test_a_pin_in_a_slot_is_told_among_the_higher_pairs() -> None:
+    said = [str(phrase) for phrase in replacement_told(analyse(mechanism_of("geneva-step")))]
+    assert ["pin B in a slot of link 2 is a higher pair"] == said

@@ -8,7 +8,9 @@ import math
 import pytest
 
 import graphkin
+from graphkin.errors import CallError
 from tests.construction.test_at_contacts import scene
+from tests.rolling_linkages import wheel_on_a_rocker
 
 
 def test_a_slider_with_a_flat_face_is_pressed_by_how_much_its_face_leans() -> None:
@@ -28,3 +30,13 @@ def test_a_rocker_of_a_larger_group_is_pressed_along_the_bar_at_its_pin() -> Non
     between = math.radians(float(solved["theta_6"][0]) - float(solved["theta_5"][0]))
     acute = math.degrees(math.atan2(abs(math.sin(between)), abs(math.cos(between))))
     assert pytest.approx(90.0 - acute) == float(solved["pressure_5"][0])
+
+
+def test_the_joint_of_a_pin_in_a_slot_is_named_by_the_link_that_has_the_pin() -> None:
+    # the crank pushes the wheel square to its slot, in which the pin slides
+    assert pytest.approx(90.0) == float(graphkin.solve("geneva-step", find=["gamma_1-2"])["gamma_1-2"][0])
+
+
+def test_a_link_on_which_a_wheel_rolls_is_pushed_along_no_line_that_is_known_before() -> None:
+    with pytest.raises(CallError, match="link 5 is driven through no joint"):
+        graphkin.solve(wheel_on_a_rocker(), find=["pressure_5"])
