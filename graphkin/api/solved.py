@@ -163,7 +163,10 @@ class Solved(OfScene, Result):
         from graphkin.study.quantities import all_that_moves, motion_table
 
         motion, scene = self.motion, self.mechanism
-        shown = asked_symbols(scene, self.find, drawn=False) or all_that_moves(motion.structure)
+        all_known = all_that_moves(motion.structure)
+        if self.without_forces:
+            all_known = tuple(quantity for quantity in all_known if not quantity.is_load)
+        shown = asked_symbols(scene, self.find, drawn=False) or all_known
         parts = tuple(parts_of(quantity, None, self._motion_of(quantity)) for quantity in shown)
         times = np.array(self.times) if self.times else None
         return motion_table(scene, shown, bool(self.find), 0, motion.values, parts, motion.status, motion.why, times)
