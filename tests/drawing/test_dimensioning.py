@@ -1,12 +1,16 @@
 """Which lengths and angles of a mechanism are dimensioned."""
 
+import math
+
 import pytest
 
 from graphkin import draw
-from graphkin.drawing import Text
+from graphkin.drawing import Box, Text
 from graphkin.drawing.ink.primitives import Group, Line, walk
 from graphkin.drawing.ink.strokes import HATCHING
-from graphkin.drawing.text import text_box
+from graphkin.drawing.place.dimensions import DimensionClearance, dimension
+from graphkin.drawing.place.obstacles import Obstacles
+from graphkin.drawing.text import rich, text_box
 from graphkin.scene import library
 from graphkin.words.written import as_given
 from tests.drawn import drafted, drawn
@@ -160,3 +164,24 @@ def groups(children):
         if isinstance(child, Group):
             yield child
             yield from groups(child.children)
+
+
+SYMBOL, LINE = Obstacles(areas=(Box(19.0, 66.0, 21.0, 67.0),)), Obstacles(solid=((15 + 66j, 25 + 66j),))
+
+
+@pytest.mark.parametrize(("around", "over", "offset"), [
+    (Obstacles(), False, 22.0), (SYMBOL, False, -22.0), (SYMBOL, True, -22.0), (LINE, False, -22.0), (LINE, True, 22.0),
+])  # fmt: skip
+def test_an_extension_line_runs_over_no_symbol_and_over_a_line_where_that_is_allowed(around, over, offset):
+    ends, runs = (20 + 50j, 60 + 50j), rich("40", 2.8)
+    taken = DimensionClearance(around, None).take((dimension(*ends, by, runs) for by in (22.0, -22.0)), over=over)
+    assert taken is not None
+    assert offset == pytest.approx((taken[0].end - ends[0]).imag - math.copysign(1.5, offset))
+
+
+def test_a_dimension_runs_over_a_line_where_all_its_places_do():
+    around = Obstacles(solid=(*LINE.solid, (15 + 34j, 25 + 34j)))
+    drawn = (dimension(20 + 50j, 60 + 50j, by, rich("40", 2.8)) for by in (22.0, -22.0))
+    taken = DimensionClearance(around, None).take(drawn)
+    assert taken is not None
+    assert 22.0 == pytest.approx((taken[0].end - 20 - 50j).imag - 1.5)

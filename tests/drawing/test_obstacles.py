@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.place.obstacles import Obstacles, clearest, first_free, free_boxes, short_buffers
+from graphkin.drawing.place.obstacles import Obstacles, cheapest, clearest, first_free, free_boxes, short_buffers
 
 PANEL = Box(0.0, 0.0, 100.0, 100.0)
 HALF = 3 + 2j
@@ -63,6 +63,12 @@ def test_the_place_that_wants_room_which_a_stroke_takes_pays_for_what_is_lacking
 def test_of_places_that_cost_alike_but_for_rounding_the_first_is_taken():
     middles = np.array([[5 + 9j], [5 + 9j], [5 + 9j]])
     assert 1 == clearest(np.array([2.0, 1.0 + 1e-12, 1.0]), ((middles, 3.0, 1.0),), WALL)
+
+
+def test_a_place_that_is_cheaper_or_dearer_by_rounding_alone_is_not_taken_for_one_before_it():
+    for rounding in (-5e-7, 5e-7):
+        charges = np.array([1.0] * 60 + [1.0 + rounding])
+        assert 0 == cheapest([(0.0, place) for place in range(61)], charges.__getitem__)
 
 
 @pytest.mark.parametrize("room", [7.0, 100.0])

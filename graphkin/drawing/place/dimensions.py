@@ -25,6 +25,7 @@ from graphkin.drawing.place.obstacles import (
     Obstacles,
     Points,
     boxes_of,
+    cheapest,
     meets,
     segments_of,
     stand_on,
@@ -122,6 +123,7 @@ SPACE = 0.5 * (1 + 1j)  # mm between a number or an arrowhead and what is drawn
 ARROWHEAD = 1.7  # mm: half the diagonal of the box of one, which is smaller than any symbol of a point
 ARC_END, ARC_STEP = 1.5, math.radians(12)  # mm of an arc at each end that may touch lines; between points of its course
 ON_LINE = 1e-9  # mm²: a smaller area with a line is rounding
+OVER = 1e3  # what it costs to run over lines: more than to come last
 TRIM, LEAST_EXTENSION = 0.8, 2.2  # mm between a symbol and an extension line; a shorter one is none
 
 
@@ -174,20 +176,25 @@ class DimensionClearance:
         The lines of a distance may run over lines and arrowheads, its own arrowheads end on lines, but none lies over a
         symbol of a point (``over_lines``).
         """
-        left = [choice for choice in (_Choice.of(parts, extensions) for parts in choices) if self._inside(choice)]
-        bad = self._covered(left, ends_on_line or over_lines, crossing, over_lines)
-        left = [choice for choice, no in zip(left, bad.tolist(), strict=True) if not no]
-        if not left:
+        drawn = [_Choice.of(parts, extensions) for parts in choices]
+
+        def charge(some: Sequence[int]) -> Floats:
+            costs = np.full(len(drawn), np.inf)
+            left = [k for k in some if self._inside(drawn[k])]
+            bad = self._covered([drawn[k] for k in left], ends_on_line or over_lines, crossing, over_lines)
+            left = self._trim(drawn, [k for k, no in zip(left, bad.tolist(), strict=True) if not no], crossing)
+            if left:
+                bad, runs_over = self._crossed([drawn[k] for k in left], crossing, over_lines)
+                costs[left] = np.where(bad, np.inf, runs_over * (0.0 if over else OVER))
+            return costs[some]
+
+        number = cheapest(enumerate(range(len(drawn))), charge)
+        if number is None:
             return None
-        left, bad, runs_over = self._extended(left, crossing, over_lines)
-        fits = np.flatnonzero(~bad)
-        if not fits.size:
-            return None
-        clear = fits if over else fits[~runs_over[fits]]
-        chosen = left[int((clear if clear.size else fits)[0])]
+        chosen = drawn[number]
         self.segments = np.concatenate((self.segments, segments_of([*chosen.lines, *_ends(chosen.extensions)])))
-        numbers = boxes_of(chosen.numbers)
-        self.areas, self.numbers = np.hstack((self.areas, numbers)), np.hstack((self.numbers, numbers))
+        boxes = boxes_of(chosen.numbers)
+        self.areas, self.numbers = np.hstack((self.areas, boxes)), np.hstack((self.numbers, boxes))
         self.heads = np.hstack((self.heads, boxes_of(chosen.heads)))
         return chosen.parts
 
@@ -216,23 +223,26 @@ class DimensionClearance:
             bad[of_lines[_crossings(lines, self.segments)[0]]] = True
         return bad
 
-    def _extended(
-        self, choices: Sequence[_Choice], crossing: bool, over_lines: bool
-    ) -> tuple[list[_Choice], Flags, Flags]:
-        """Some dimensions with their extension lines trimmed; whether they run over forbidden strokes, and whether over
-        lines, or have dashed lines under their numbers."""
-        found = []
-        each = iter(self._trimmed([line for choice in choices for line in choice.extensions]))
-        for choice in choices:
-            trimmed = [next(each) or (line if crossing else None) for line in choice.extensions]
-            kept = [line for line in trimmed if line is not None]
-            if len(kept) == len(trimmed):
-                others = (part for part in choice.parts if not any(part is line for line in choice.extensions))
-                found.append(choice._replace(parts=(*kept, *others), extensions=kept))
-        bad, over = np.zeros((2, len(found)), dtype=bool)
-        of_numbers, numbers = _owned([choice.numbers for choice in found], boxes_of)
-        of_beyond, extensions = _owned([_ends(choice.extensions) for choice in found], segments_of)
-        of_all, lines = _owned([[*choice.lines, *_ends(choice.extensions)] for choice in found], segments_of)
+    def _trim(self, drawn: list[_Choice], some: Sequence[int], crossing: bool) -> list[int]:
+        """Trim the extension lines of some dimensions; those of which enough is left."""
+        each, kept = iter(self._trimmed([line for k in some for line in drawn[k].extensions])), list[int]()
+        for k in some:
+            parts, whole = drawn[k].parts, drawn[k].extensions
+            trimmed = [next(each) or (line if crossing else None) for line in whole]
+            lines = [line for line in trimmed if line is not None]
+            if len(lines) == len(trimmed):
+                others = (part for part in parts if not any(part is line for line in whole))
+                drawn[k] = drawn[k]._replace(parts=(*lines, *others), extensions=lines)
+                kept.append(k)
+        return kept
+
+    def _crossed(self, choices: Sequence[_Choice], crossing: bool, over_lines: bool) -> tuple[Flags, Flags]:
+        """Whether extension lines run over forbidden strokes, and whether over lines, or numbers have dashed lines
+        under them."""
+        bad, over = np.zeros((2, len(choices)), dtype=bool)
+        of_numbers, numbers = _owned([choice.numbers for choice in choices], boxes_of)
+        of_beyond, extensions = _owned([_ends(choice.extensions) for choice in choices], segments_of)
+        of_all, lines = _owned([[*choice.lines, *_ends(choice.extensions)] for choice in choices], segments_of)
         line, number = meets(lines, numbers[0], numbers[1])
         bad[of_all[line[of_all[line] == of_numbers[number]]]] = True  # past the end of a short one stands the next
         if crossing:
@@ -241,7 +251,7 @@ class DimensionClearance:
             bad[of_beyond[_run_over(extensions, self._symbols(over_lines), 0.4)]] = True
         over[of_beyond[_crossings(extensions, self.segments)[0]]] = True
         over[of_numbers[meets(self.dashed, numbers[0], numbers[1] + 0.3 * (1 + 1j))[1]]] = True
-        return found, bad, over
+        return bad, over
 
     def _symbols(self, large: bool) -> Points:
         """Areas, or the areas larger than arrowheads."""

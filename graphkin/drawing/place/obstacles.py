@@ -1,6 +1,6 @@
 """Obstacles on a figure: solid lines, dashed lines, and areas that no label may cover; the intersection of many lines
-and upright boxes at once; and the search for a first free place: for numbers of steps, insets, lists of names; or for
-the clearest one: for arcs of rates, arrows to far centres.
+and upright boxes at once; and the search for the cheapest of some places: the first free one for numbers of steps,
+insets, lists of names and dimensions; the clearest one for arcs of rates and arrows to far centres.
 
 Many boxes are arrays of complex numbers, by their middle and half size; many segments have their two ends in the last
 dimension.
@@ -9,10 +9,10 @@ dimension.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from itertools import accumulate, pairwise
+from itertools import accumulate, islice, pairwise
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -175,6 +175,30 @@ class Obstacles:
         )  # fmt: skip
 
 
+TRIED = 48  # places at a time
+ROUNDING = 1e-6  # of a price
+
+
+def cheapest(places: Iterable[tuple[float, int]], charge: Callable[[list[int]], Floats]) -> int | None:
+    """The cheapest of some places, of those that cost alike but for rounding the first; None where none has room.
+
+    Parameters
+    ----------
+    places : each by its number, with its own price, the cheapest first
+    charge : what some of them cost more for what is in their way, infinite where they have no room
+    """
+    best, least, left = None, math.inf, iter(places)
+    while lot := [*islice(left, TRIED)]:
+        prices, some = zip(*lot, strict=True)
+        costs = prices + charge([*some])
+        i = int(np.argmin(np.round(costs / ROUNDING)))
+        if costs[i] < least:
+            best, least = some[i], float(costs[i]) - ROUNDING
+        if prices[-1] >= least:
+            break  # nor can those behind it be cheaper
+    return best
+
+
 STEP = 6.0  # mm from one place tried to the next along the edge of the panel
 CLEAR = 2.0  # mm between an inset and what is drawn
 
@@ -196,18 +220,18 @@ def first_free(
     middles = np.concatenate(choices)
     half = np.repeat(np.array(halves), sizes)
     reach = half + clear * (1 + 1j)
-    free = ~_covered(middles, reach, around)
+    free = ~(_covered(middles, reach, around) | np.isnan(middles))
     if panel is not None:
         low, high = middles - reach, middles + reach
         free &= (low.real >= panel.left) & (high.real <= panel.right)
         free &= (low.imag >= panel.top) & (high.imag <= panel.bottom)
     found: list[int | None] = []
     for first, size, own in zip(accumulate(sizes, initial=0), sizes, halves, strict=False):
-        places = middles[first : first + size]
-        open_ = (free[first : first + size] & ~np.isnan(places)).nonzero()[0]
-        found.append(int(open_[0]) if open_.size else None)
-        if open_.size:  # it is in the way of those that come behind it
-            free &= ~stand_on(middles, reach, np.array([(places[open_[0]],), (own,)]))[:, 0]
+        costs = np.where(free[first : first + size], 0.0, np.inf)
+        place = cheapest(enumerate(range(size)), costs.__getitem__)
+        found.append(place)
+        if place is not None:  # it is in the way of those that come behind it
+            free &= ~stand_on(middles, reach, np.array([(middles[first + place],), (own,)]))[:, 0]
     return found
 
 
@@ -240,8 +264,6 @@ def _places(size: tuple[float, float], panel: Box) -> list[Box]:
     return [Box(x, y, x + width, y + height) for x, y in (*corners, *edges)]
 
 
-TRIED = 48  # places at a time
-ROUNDING = 1e-6  # of a price
 ARC_RADII = (5.5, 8.0, 11.0)  # mm, in the order of liking
 HALF_SPAN = math.radians(37)
 LABEL_AT = 3.6  # mm beyond the arc: where its name would stand
@@ -281,7 +303,7 @@ def clearest_arc(
     return (centres[int(c)], float(radii[r]), float(_MIDDLES[m])), taken
 
 
-def clearest(prices: Floats, clear: Iterable[tuple[Points, float, float]], around: Points) -> int:
+def clearest(prices: Floats, clear: Sequence[tuple[Points, float, float]], around: Points) -> int:
     """The index of the cheapest of some places, of those that cost alike but for rounding the first: each has a price
     of its own, and pays for every point that lies too near to a segment.
 
@@ -291,17 +313,17 @@ def clearest(prices: Floats, clear: Iterable[tuple[Points, float, float]], aroun
     clear : points of the places, shape (places, points), the room that they want (mm), and what a mm less costs
     around : segments, shape (segments, 2)
     """
-    order = np.argsort(prices, kind="stable")
-    costs = np.full(len(prices), np.inf)
-    for first in range(0, len(order), TRIED):
-        some = order[first : first + TRIED]
-        if prices[some[0]] > costs.min() + ROUNDING:
-            break  # nor can those behind it be cheaper
-        costs[some] = prices[some]
+
+    def charge(some: list[int]) -> Floats:
+        costs = np.zeros(len(some))
         for points, room, per_mm in clear:
-            lacking = np.clip(room - least_distance(points[some], around), 0.0, None)
-            costs[some] += per_mm * lacking.sum(axis=-1)
-    return int(np.argmin(np.round(costs / ROUNDING)))
+            costs += per_mm * np.clip(room - least_distance(points[some], around), 0.0, None).sum(axis=-1)
+        return costs
+
+    order: list[int] = np.argsort(np.round(prices / ROUNDING), kind="stable").tolist()
+    place = cheapest(zip(prices[order].tolist(), order, strict=True), charge)
+    assert place is not None, "strokes make a place dearer, they do not take it"
+    return place
 
 
 def least_distance(points: Points, segments: Points) -> Floats:
