@@ -45,11 +45,11 @@ class RichText:
     def __init__(self, *texts: Words | Atom) -> None:
         parts: list[str | Atom] = []
         for text in texts:
-            more = text.parts if isinstance(text, RichText) else (text,) if text else ()
-            if more and parts and isinstance(more[0], str) and isinstance(parts[-1], str):
-                parts[-1] += more[0]
-                more = more[1:]
-            parts += more
+            for part in text.parts if isinstance(text, RichText) else (text,):
+                if parts and isinstance(part, str) and isinstance(parts[-1], str):
+                    parts[-1] += part
+                elif part:
+                    parts.append(part)
         self.parts = tuple(parts)
 
     def __add__(self, other: Words) -> RichText:
@@ -172,6 +172,8 @@ def plain(text: Words, index: str = "_") -> str:
 def _plain(part: str | Atom, index: str) -> str:
     if isinstance(part, str):
         return part
+    if not part.sub and not part.sup:
+        return part.text
     above, below = ("".join(_plain(atom, index) for atom in atoms) for atoms in (part.sup, part.sub))
     below = f"{index}{below}" if below else ""
     if above.isdigit():
