@@ -15,7 +15,7 @@ import pytest
 
 import graphkin
 from graphkin.words import LANGUAGES, Phrase, area, gaps_of, rich_text
-from graphkin.words.symbols import sign, stretches
+from graphkin.words.symbols import RichText, sign, stretches
 from graphkin.words.written import roman
 from tests.command import start
 
@@ -119,6 +119,14 @@ def test_symbols_side_by_side_are_one_and_those_of_the_table_keep_their_indices(
     said = Phrase("tangent", **{"points.0": sign("A"), "points.1": sign("B"), "mm": "12", "pairs.0": "3"})
     assert "over $AB$ as diameter" in repr(rich_text(said, "en"))
     assert "turn B2 back" in rich_text(Phrase("design trial", point=sign("B", "2")), "en").plain("")
+
+
+def test_a_mark_above_a_letter_without_an_index_stays_in_plain_text() -> None:
+    assert ("a^n", "ω²", "v_B") == (str(sign("a", "", "n")), str(sign("ω", "", "2")), str(sign("v", "B")))
+
+
+def test_empty_words_are_no_part_of_a_rich_text() -> None:
+    assert (False, ("mm",)) == (bool(RichText("")), RichText("", RichText("", "mm"), "").parts)
 
 
 def test_dollar_signs_and_braces_of_a_name_are_no_marks_of_symbols():
