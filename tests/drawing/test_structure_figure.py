@@ -2,23 +2,28 @@
 
 from __future__ import annotations
 
+import math
 import xml.etree.ElementTree as ET
 
 import pytest
 
 import graphkin
+from graphkin.account.notation import Notation
 from graphkin.drawing import svg_bytes
 from graphkin.drawing.figures.structure import PART
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, walk
+from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
+from graphkin.drawing.parts.touching import block_on_circle
 from graphkin.drawing.place.piece import ink_box
 from graphkin.errors import CallError
-from tests.rolling_linkages import rack_on_a_rocker
+from tests.rolling_linkages import Scene, planet_by_a_rod, rack_on_a_rocker, wheel_at_its_rim
+from tests.scene.test_circular_slots import with_block, with_pin
 
 SVG = "{http://www.w3.org/2000/svg}"
 
 
-def drawn(name: str, driver: str = "", language: str = "en") -> ET.Element:
+def drawn(name: str | Scene, driver: str = "", language: str = "en") -> ET.Element:
     figures = graphkin.draw(name, figures=["structure"], driver=driver, language=language).figures
     return ET.fromstring(svg_bytes(figures["structure"]))
 
@@ -53,6 +58,25 @@ def test_each_group_tells_its_kind_class_and_joints(shaper: ET.Element) -> None:
 
 def test_a_compound_hinge_has_its_badge() -> None:
     assert "badge-B" in {e.get("id") for e in drawn("toggle-press").iter()}
+
+
+@pytest.mark.parametrize(("scene", "higher"), [(planet_by_a_rod(), True), (wheel_at_its_rim(), False)])
+def test_a_wheel_that_rolls_is_a_higher_pair_where_a_link_holds_its_centre(scene: Scene, higher: bool) -> None:
+    assert higher == ("badge-K" in {e.get("id") for e in drawn(scene).iter()})
+
+
+def test_a_follower_is_drawn_to_its_flat_face() -> None:
+    # the disc's top lies 40 mm above its centre, which the eccentricity of 15 mm lifts by 15 sin 40
+    sheet = graphkin.check("cam-eccentric-flat-slider").sheet
+    (face,) = [shape.bars[0] for shape in MechanismOnPaper(sheet, Notation("chinese")).shapes if shape.link == "2"]
+    per_mm = sheet.scales.length * 1e3
+    assert pytest.approx(40 + 15 * math.sin(math.radians(40))) == face[0].imag * per_mm
+
+
+@pytest.mark.parametrize(("scene", "blocks"), [(with_pin(), 0), (with_block(), 1)])
+def test_a_block_in_a_circular_slot_is_drawn_and_none_for_a_pin(scene: Scene, blocks: int) -> None:
+    here = MechanismOnPaper(graphkin.check(scene).sheet, Notation("chinese"))
+    assert blocks == sum(bool(block_on_circle(here, link)) for link in here.scene.by_name)
 
 
 def test_a_driver_that_is_no_link_is_refused() -> None:
