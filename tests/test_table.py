@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from graphkin import table as room
@@ -48,6 +48,7 @@ def test_csv_has_the_same_bytes_with_and_without_pyarrow(monkeypatch: pytest.Mon
     assert csv_with(monkeypatch, table, False) == csv_with(monkeypatch, table, True)
 
 
+@settings(deadline=None)
 @given(st.lists(st.floats(allow_nan=False), min_size=1, max_size=50))
 def test_any_number_is_written_alike_and_reads_back_the_same(numbers: list[float]) -> None:
     pytest.importorskip("pyarrow", reason="pyarrow is not installed")

@@ -292,11 +292,6 @@ def drawn_symbols(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tupl
     return *asked, *inertia, *scene.loading.applied
 
 
-def asked_here(asked: Sequence[Symbol]) -> tuple[Symbol, ...]:
-    """The symbols asked of the scene's own position; where all are asked of others, the same quantities here."""
-    return tuple(s for s in asked if not s.at) or tuple(dict.fromkeys(s.here for s in asked))
-
-
 def hand_of(wishes: SheetWishes, name: str, seed: int) -> Instrument:
     """The instrument of a name, the pencil with the tools that are wished.  Raises CallError for an unknown name."""
     from graphkin.construction import EXACT, cad, pencil

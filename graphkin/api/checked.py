@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 from graphkin.api.arguments import (
     At,
     as_scene,
-    asked_here,
     asked_symbols,
     drawn_symbols,
     hand_of,
@@ -21,13 +20,12 @@ from graphkin.api.arguments import (
 from graphkin.api.results import OfScene, Result, named
 from graphkin.checking.readings import report_on
 from graphkin.checking.report import Compared, ReadValue, Report, reading_row, without_residues
-from graphkin.construction import EXACT, Instrument, Plan, Sheet, execute, plan
-from graphkin.errors import Unsolvable
+from graphkin.construction import EXACT, Instrument, Plan, Sheet, execute, plan, plan_with_forces
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
-from graphkin.scene.symbol import Symbol
-from graphkin.structure import Structure, part_of
+from graphkin.scene.symbol import Symbol, asked_here
+from graphkin.structure import part_of
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, say
 
@@ -166,20 +164,20 @@ class Checked(OfScene, Result):
         load), and on the drawing at the contacts, which is this drawing where pins slide in straight slots; sizes of
         vectors, SI.
         """
-        symbols = [row.reading.symbol for row in self.report.rows]
+        sheet, symbols = self.sheet, [row.reading.symbol for row in self.report.rows]
         velocities = {
             s: self.centres.velocity(s) for s in symbols if s.kind in ("v", "omega") and not s.at
         }
         found = {"by_centres": {s: abs(v) if s.kind == "v" else v.real + 0.0
                                 for s, v in velocities.items() if v is not None}}  # fmt: skip
-        states = self.sheet.forces
+        states = sheet.forces
         for symbol in symbols if states else ():
             balance = replace(symbol, plus=False, at="")
             for lever in states[-1 if symbol.plus else 0].levers:
                 if lever.unknown.symbol == balance:
                     size = lever.value if balance.kind == "M" else abs(lever.value)
                     found.setdefault("by_lever", {}).setdefault(symbol, 0.0 + size)
-        slotted = any(pair.higher for pair in self.sheet.scene.slides)
+        slotted = any(pair.higher for pair in sheet.scene.slides)
         other = self if self.at_contacts is None and slotted else self.at_contacts
         if other is not None:
             found["at_contact"] = {
@@ -225,26 +223,8 @@ def check(
     hand, here = hand_of(given.question.sheet, instrument, seed), asked_here(asked)
     structure = solver.structure_of(given)
     motion = solver.solved_here(structure, values, here)
-    planned = plan_of(structure, values, here, by_name)
+    planned = plan_with_forces(structure, values, here, by_name)
     return with_elsewhere(checked(planned, motion, hand), asked, seed)
-
-
-def plan_of(
-    structure: Structure, values: Mapping[str, float] | None, asked: Sequence[Symbol], by_name: Sequence[Symbol]
-) -> Plan:
-    """The plan of a drawing: of the motion alone, where a load acts on a part of a stroke without a whole turn and
-    no force is asked for by name.
-
-    Raises
-    ------
-    Unsolvable : a position that cannot be assembled; no whole turn for what is asked by name
-    """
-    try:
-        return plan(structure, values, asked)
-    except Unsolvable as stop:
-        if stop.status != "no whole turn" or any(s.scope in ("force", "cycle") for s in by_name):
-            raise
-        return plan(structure, values, asked_here(by_name), without_forces=stop)
 
 
 def checked(planned: Plan, motion: Motion, hand: Instrument, at_contacts: bool = True) -> Checked:

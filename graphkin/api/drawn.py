@@ -12,7 +12,6 @@ from graphkin.api.arguments import (
     ON_SHEETS,
     At,
     as_scene,
-    asked_here,
     asked_symbols,
     drawn_symbols,
     driver_values,
@@ -23,10 +22,10 @@ from graphkin.api.arguments import (
     unknown_words,
 )
 from graphkin.api.cams import cam_made, cam_table
-from graphkin.api.checked import Checked, checked, plan_of, with_elsewhere
+from graphkin.api.checked import Checked, checked, with_elsewhere
 from graphkin.api.report_text import report_text
 from graphkin.api.results import OfScene, Result
-from graphkin.construction import EXACT, Instrument, Plan, execute, plan
+from graphkin.construction import EXACT, Instrument, Plan, execute, plan, plan_with_forces
 from graphkin.construction.board.sheet import Sheet
 from graphkin.drawing.boxes import FigurePage
 from graphkin.drawing.figures import figure_kinds
@@ -36,7 +35,7 @@ from graphkin.errors import CallError, Problem, Unsolvable, as_list, unfit
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import Symbol, asked_here
 from graphkin.solver import solved_here
 from graphkin.structure import Structure
 from graphkin.structure.analysis import driven_by
@@ -308,7 +307,7 @@ def draw(
     hand = hand_of(given.question.sheet, instrument, seed)
     structure = solver.structure_of(given)
     motion = solved_here(structure, values, asked_here(asked))
-    planned = plan_of(structure, values, asked_here(asked), asked_symbols(given, find))
+    planned = plan_with_forces(structure, values, asked_here(asked), asked_symbols(given, find))
     whole = with_elsewhere(checked(planned, motion, hand), asked, seed)
     by_name = figures is not None
     drawn = Drawn(whole, planned, motion, wanted, seed, language, convention, driver, places, by_name)

@@ -15,12 +15,12 @@ from graphkin.account.account import telling
 from graphkin.account.forces import force_stages
 from graphkin.account.notation import notation_of
 from graphkin.account.voice import Account
-from graphkin.api.arguments import asked_here, driver_values, hand_of, placed
+from graphkin.api.arguments import driver_values, hand_of, placed
 from graphkin.api.checked import checked
 from graphkin.api.drawn import Drawn, drawn_figure, known_figures
 from graphkin.api.report_text import plain_said, reading_words
 from graphkin.board.building import movable
-from graphkin.construction import Plan, execute, plan
+from graphkin.construction import Plan, execute, plan, plan_with_forces
 from graphkin.construction.board.scales import Scales
 from graphkin.construction.board.steps import DiagramName
 from graphkin.drawing.boxes import FigurePage
@@ -31,6 +31,7 @@ from graphkin.files import Json, OwnTables
 from graphkin.papers.html import words_html
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import parsed, resolved
+from graphkin.scene.symbol import asked_here
 from graphkin.solver import Motion, driver_range, solved_here
 from graphkin.solver.path.driver_range import DriverRange
 from graphkin.structure import Structure, mobility_of
@@ -120,9 +121,9 @@ def drawn_at(structure: Structure, at: Mapping[str, float] | None, options: Figu
     """
     scene, values = placed(structure.scene, at or None)
     structure = structure if scene is structure.scene else solver.structure_of(scene)
-    asked = tuple(scene.question.find)
+    asked = scene.question.find
     motion = solved_here(structure, values, asked_here(asked))
-    planned = plan(structure, values, asked_here(asked))
+    planned = plan_with_forces(structure, values, asked_here(asked), asked)
     if options.scales is not None:
         planned = replace(planned, scales=options.scales)
     made = checked(planned, motion, hand_of(scene.question.sheet, options.instrument, options.seed))
@@ -186,11 +187,11 @@ _IN_MOTION: Mapping[str, DiagramName] = {n: n for n in ("mechanism", "velocity",
 def _plan(structure: Structure, values: Mapping[str, float] | None) -> Plan:
     """The plan of the drawing at values of the drivers, its assembly followed from the last drawing.  Raises Unsolvable
     for a position that is not reached."""
-    asked, last = asked_here(tuple(structure.scene.question.find)), structure.kept.get("last drawing")
+    by_name, last = structure.scene.question.find, structure.kept.get("last drawing")
     try:
-        return plan(structure, values, asked, near=None if last is None else last.exact)
+        return plan(structure, values, asked_here(by_name), near=None if last is None else last.exact)
     except Unsolvable:  # the way from there may be barred
-        return plan(structure, values, asked)
+        return plan_with_forces(structure, values, asked_here(by_name), by_name)
 
 
 def _in_motion(structure: Structure, at: Mapping[str, float] | None, options: FigureOptions) -> dict[str, Json]:
@@ -203,7 +204,7 @@ def _in_motion(structure: Structure, at: Mapping[str, float] | None, options: Fi
     try:
         planned = _plan(structure, values)
         if _is_fast(planned):  # beside a limit of the motion the solver has the last word, in fifty digits
-            solved_here(structure, values, asked_here(tuple(scene.question.find)))
+            solved_here(structure, values, asked_here(scene.question.find))
     except Unsolvable as error:
         if not at or len(scene.drivers) != 1:
             raise
@@ -235,7 +236,7 @@ def _said(error: GraphkinError, language: str) -> str:
 def _exactly(structure: Structure, values: Mapping[str, float] | None, stop: Unsolvable) -> Unsolvable:
     """The solver's reason for a position that is not reached, found in fifty digits, if the solver agrees."""
     try:
-        solved_here(structure, values, asked_here(tuple(structure.scene.question.find)))
+        solved_here(structure, values, asked_here(structure.scene.question.find))
     except Unsolvable as exact:
         return exact
     return stop

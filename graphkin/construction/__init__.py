@@ -7,7 +7,7 @@ solver.
 from graphkin.construction.board.instruments import EXACT, Instrument, cad, erring, nudged, pencil
 from graphkin.construction.board.scales import Room, Scales
 from graphkin.construction.board.sheet import Sheet
-from graphkin.construction.plan import Plan, Stages, draft, execute, plan
+from graphkin.construction.plan import Plan, Stages, draft, execute, plan, plan_with_forces
 from graphkin.construction.polygons.polygons import AS_DRAWN, OwnValues
 
 __all__ = [
@@ -27,4 +27,5 @@ __all__ = [
     "nudged",
     "pencil",
     "plan",
+    "plan_with_forces",
 ]  # fmt: skip

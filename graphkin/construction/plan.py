@@ -33,7 +33,7 @@ from graphkin.errors import Unsolvable
 from graphkin.plane import Poses, dot
 from graphkin.scene.model import Loading, LoadOn, Mechanism
 from graphkin.scene.scene_tables import DIAGRAMS
-from graphkin.scene.symbol import PointRef, Symbol, Value
+from graphkin.scene.symbol import PointRef, Symbol, Value, asked_here
 from graphkin.structure import (
     Driven,
     DrivenTriangle,
@@ -106,7 +106,7 @@ class Plan:
     @cached_property
     def has_forces(self) -> bool:
         """Whether forces can be drawn: there are masses or loads, and all that they need is drawn."""
-        return bool(self.structure.scene.loading) and self.is_whole and self.without_forces is None
+        return self.is_whole and self.without_forces is None and bool(self.structure.scene.loading)
 
     @property
     def forces_not_known(self) -> Phrase | None:
@@ -376,6 +376,24 @@ def plan(
         values = {d.key: (at or {}).get(d.key, d.values[0]) for d in scene.drivers}
         structure, near = cams_in_place(structure, asked, values), None
     return _plan(structure, asked, at, room, near, without_forces)
+
+
+def plan_with_forces(
+    structure: Structure, values: Mapping[str, float] | None, asked: Sequence[Symbol], by_name: Sequence[Symbol]
+) -> Plan:
+    """The plan of a drawing with its forces: of the motion alone, where a load acts on a part of a stroke without a
+    whole turn and no force is asked for by name.
+
+    Raises
+    ------
+    Unsolvable : a position that cannot be assembled; no whole turn for what is asked by name
+    """
+    try:
+        return plan(structure, values, asked)
+    except Unsolvable as stop:
+        if stop.status != "no whole turn" or any(s.scope in ("force", "cycle") for s in by_name):
+            raise
+        return plan(structure, values, asked_here(by_name), without_forces=stop)
 
 
 def _plan(

@@ -475,6 +475,11 @@ class Printed:
         return max(self.rounding, min(5.0 * self.step, MOST_PARDONED * abs(self.value)))
 
 
+def asked_here(asked: Sequence[Symbol]) -> tuple[Symbol, ...]:
+    """The symbols asked of the scene's own position; where all are asked of others, the same quantities here."""
+    return tuple(s for s in asked if not s.at) or tuple(dict.fromkeys(s.here for s in asked))
+
+
 def stated(symbol: Symbol, texts: Sequence[str], units: Units, unit: float | None = None) -> Printed:
     """A value from its text, or the texts of its two components, in scene units, or in a ``unit`` (SI).
 

@@ -63,7 +63,7 @@ def test_a_wrong_length_is_told_at_its_line() -> None:
     assert "a length must be positive" in wrong["problems"][0]["text"]
 
 
-def test_a_scene_is_shown_whole_with_its_readings_and_steps() -> None:
+def test_a_scene_is_answeredwhole_with_its_readings_and_steps() -> None:
     found = told("show", figures=["mechanism", "velocity", "centres"])
     assert {"mechanism", "velocity", "centres"} == set(found["figures"])
     assert found["agrees"]
@@ -127,6 +127,15 @@ def test_where_the_mechanism_does_not_reach_its_last_position_is_drawn_and_the_r
         assert "不能装配" in found["limit"]
         assert "not assembled" not in found["limit"]
     assert "构件 4、5" in found["range"]["why"]
+
+
+@pytest.mark.parametrize("quick", [True, False])
+def test_the_motion_is_answeredwhere_a_load_has_no_stroke(quick: bool) -> None:
+    text = changed(library_text("toggle-press-force"), {"links.1.length": 260, "driver.angle": 40, "flywheel": None,
+                                                        "find": [], "sketch.B": [80, -230]})  # fmt: skip
+    answered = answer(Shelf(), {"do": "show", "text": text, "figures": ["mechanism"], "quick": quick})
+    assert answered["ok"], answered
+    assert {"mechanism"} == set(answered["figures"])
 
 
 @pytest.mark.parametrize(("chinese", "question"), [

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from graphkin.structure.analysis import components, match
@@ -21,17 +21,20 @@ def best(equations: list[list[int]], used: frozenset[int] = frozenset()) -> int:
     return max([best(rest, used)] + [1 + best(rest, used | {u}) for u in first if u not in used])
 
 
+@settings(deadline=None)
 @given(rows)
 def test_each_unknown_is_given_once(equations: list[list[int]]) -> None:
     given_ = match(equations)
     assert len(set(given_.values())) == len(given_)
 
 
+@settings(deadline=None)
 @given(rows)
 def test_an_equation_gives_one_of_its_own_unknowns(equations: list[list[int]]) -> None:
     assert all(u in equations[i] for i, u in match(equations).items())
 
 
+@settings(deadline=None)
 @given(rows)
 def test_as_many_equations_are_served_as_can_be(equations: list[list[int]]) -> None:
     assert len(match(equations)) == best(equations)
@@ -52,6 +55,7 @@ def reach(graph: dict[int, list[int]], node: int) -> set[int]:
     return found
 
 
+@settings(deadline=None)
 @given(graphs)
 def test_two_nodes_are_together_just_when_each_needs_the_other(graph: dict[int, list[int]]) -> None:
     place = {n: i for i, c in enumerate(components(graph)) for n in c}
@@ -60,6 +64,7 @@ def test_two_nodes_are_together_just_when_each_needs_the_other(graph: dict[int, 
             assert (place[a] == place[b]) == (b in reach(graph, a) and a in reach(graph, b))
 
 
+@settings(deadline=None)
 @given(graphs)
 def test_a_component_stands_after_those_it_needs(graph: dict[int, list[int]]) -> None:
     place = {n: i for i, c in enumerate(components(graph)) for n in c}
