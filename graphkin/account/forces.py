@@ -34,7 +34,7 @@ from graphkin.construction.forces.steps import (
 )
 from graphkin.scene.model import SpringOn
 from graphkin.scene.symbol import Symbol
-from graphkin.words import Neutral, Phrase, Wording, about, gaps_of, in_all, links_named, listed, rich_text
+from graphkin.words import Neutral, Phrase, Wording, bodies_named, gaps_of, in_all, listed, rich_text
 from graphkin.words.symbols import RichText, rate, sign, spaced
 from graphkin.words.written import (
     FINER,
@@ -77,9 +77,8 @@ class InForces(Telling):
         """The value of a gap in its sentence."""
         step, reason, letters = self.step, self.step.reason, self.account.letters
         match name:
-            case "links":  # without blocks of pins unless they are alone
-                names = [link for link in step.links if "/" not in link] or step.links
-                return listed(names) if reason == "system" else links_named(names)
+            case "links":
+                return listed(step.links) if reason == "system" else bodies_named(step.links)
             case "forces":
                 return listed([*map(self.name, step.finds or dict.fromkeys(load.symbol for load in step.acting))])
             case "force":
@@ -328,8 +327,7 @@ def told_of(
 def caption(account: Account, group: ForceGroup, count: int) -> Phrase:
     """``1. Links 5, 6 (RRP) cut free``, with the scale of their polygons if it is their own."""
     sheet, kind = account.sheet, {"driver": "force driver", "drawn system": "force larger group"}.get(group.way)
-    gaps = {"number": str(count), "links": listed(group.links), "kind": Phrase(kind) if kind else group.kind}
-    said = Phrase(about("force group", group.links), **gaps)
+    said = group.told("force group", number=str(count), kind=Phrase(kind) if kind else group.kind)
     if group.per_mm == sheet.scales.force:
         return said
     drawn = replace(sheet, scales=replace(sheet.scales, force=group.per_mm))

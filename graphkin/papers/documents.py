@@ -554,8 +554,8 @@ def _force_pictures(lesson: Lesson, stage: ForceStage, tag: str, count: int) -> 
     if equation is not None:
         yield Picture(equation, joined=True)
     drawn = group_picture(page, stage, tag)
-    caption = said(about("figure of forces", group.links), language, links=listed(group.links))
-    yield Picture(drawn, numbered(count, caption))
+    caption = group.told("figure of forces")
+    yield Picture(drawn, numbered(count, in_each(language, lambda each: rich_text(caption, each))))
 
 
 def results_blocks(lesson: Lesson) -> Iterator[Block]:

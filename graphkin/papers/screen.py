@@ -61,7 +61,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion, solve
 from graphkin.solver.algebra.pose import Array
 from graphkin.solver.quantities import pole
-from graphkin.words import gaps_of, languages, links_named, word
+from graphkin.words import bodies_named, gaps_of, languages, word
 from graphkin.words.symbols import RichText, sign, spaced
 
 WIDE = 96.0  # mm of the sketch of a group, its polygon below
@@ -320,7 +320,7 @@ def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
         if group.links:
             name, page = f"force-{turn}", FigurePage(sheet, "forces", language, lesson.letters, WIDE)
             drawn = group_picture(page, stage, f"-{turn}")
-            whose = said("force on links", language, links=links_named(group.links))
+            whose = said("force on links", language, links=bodies_named(group.links))
             figures.append(_figure(name, drawn, said_html(whose), scale, named=True))
             equation = group_equation(page, group)
             svg = "" if equation is None else svg_element(equation)

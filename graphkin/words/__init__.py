@@ -334,6 +334,16 @@ def links_named(names: Sequence[object]) -> Phrase:
     return Phrase("links", links=listed(names)) if len(names) > 1 else Phrase("link of name", name=names[0])
 
 
+def bodies_named(names: Sequence[str]) -> Phrase:
+    """Links without the blocks that stand for pins in slots; of such a block alone the block at its pin.
+
+    >>> str(bodies_named(["2", "B/2"])), str(bodies_named(["B/2"]))
+    ('link 2', 'the block at B')
+    """
+    links = [name for name in names if "/" not in name]
+    return links_named(links) if links else Phrase("blocks at points one", points=names[0].split("/")[0])
+
+
 def clauses(parts: Sequence[Wording]) -> Wording:
     """Clauses, at least one, with the marks of the language between them.
 

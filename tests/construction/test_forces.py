@@ -18,10 +18,11 @@ from graphkin.construction.forces import groups, with_forces
 from graphkin.construction.forces import position as acting
 from graphkin.construction.forces.groups import CutFree
 from graphkin.errors import Unsolvable
-from graphkin.plane import cross
+from graphkin.plane import cross, dot
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import joints
 from graphkin.scene.symbol import Symbol
+from graphkin.words import say
 from tests.mechanisms import KINDS, floating_cylinder, random_scene, redriven
 from tests.solver.test_forces import CASES, PLACES, loaded, number, scene_of
 
@@ -446,6 +447,121 @@ def test_a_force_in_a_polygon_is_the_force_of_its_name(scene):
                 pairs = {s: 1 if s.other == symbol.other else -1 for s in at if symbol.other in (s.link, s.other)}
             named = sum(sign * state.vectors.get(pair, 0j) for pair, sign in pairs.items())
             assert named == pytest.approx(span, abs=1e-9), str(symbol)
+
+
+DRIVEN_IN_A_SLOT = tomllib.loads("""
+frame = { name = "0", points = { C = [120, 20], H = [60, -80] }, guides = { g = { through = [0, 45], angle = 10 } } }
+links.1 = { points = ["B", "F"], length = 50 }
+links.2 = { points = ["F", "C"], length = 70 }
+pins.B = { of = "1", in = "0.g" }
+driver = { slide = "B/0", travel = 90, velocity = 30 }
+sketch = { F = [60, 60] }
+loads.P = { on = "1", at = [30, 5], force = 100, angle = -80 }
+""")
+"""A pin is driven along a slot of the frame: its block alone is the driven link."""
+
+DRIVEN_ON_A_COMPOUND_HINGE = DRIVEN_IN_A_SLOT | tomllib.loads("""
+links.1 = { points = ["B", "F"], length = 50 }
+links.2 = { points = ["F", "C"], length = 70 }
+links.7 = { points = ["B", "E"], length = 70 }
+links.8 = { points = ["E", "H"], length = 80 }
+sketch = { F = [60, 60], E = [100, 0] }
+loads.P = { on = "1", at = [30, 5], force = 100, angle = -80 }
+loads.R = { on = "8", at = [40, 0], force = 70, angle = 0 }
+""")
+
+
+def of_driven_slot(seed):
+    return loaded(random_scene(seed, ("pin", "RPR"), "slot"), seed)
+
+
+def forces_in_polygons(sheet):
+    """The forces on the links of each polygon (N), all parts together, by name."""
+    for group in sheet.forces[0].groups:
+        for polygon in group.polygons:
+            forces = {}
+            for vector in (vector for vector in polygon if vector.symbol.kind == "F"):
+                name = str(vector.symbol), vector.link
+                forces[name] = forces.get(name, 0j) + vector.span * group.per_mm
+            yield forces
+
+
+@pytest.mark.parametrize(("scene", "pin", "slot", "of"), [
+    *((of_driven_slot(seed), "P3", "2", "1") for seed in range(3)), (DRIVEN_IN_A_SLOT, "B", "0", "1"),
+    (loaded(floating_cylinder(3), 3), "Q", "3", "2"), (DRIVEN_ON_A_COMPOUND_HINGE, "B", "0", "1"),
+    (DRIVEN_ON_A_COMPOUND_HINGE | {"pins": {"B": {"of": "7", "in": "0.g"}}}, "B", "0", "7"),
+])  # fmt: skip
+def test_the_force_of_a_driven_pin_is_that_of_its_guide_with_the_push_of_the_driver(scene, pin, slot, of):
+    sheet = with_forces(drawn(scene))
+    found = by_name(sheet)
+    guide, push = found[f"F_{slot}/{of}"], found[f"F_{of}"]
+    whole = {f"F_{slot}/{pin}": guide + push, f"F_{pin}/{slot}": -guide - push}
+    most, met = max(map(abs, found.values())), set()
+    assert abs(dot(guide, push)) <= 1e-9 * most**2
+    for forces in forces_in_polygons(sheet):
+        for (name, link), force in forces.items():
+            met.add(name)
+            expected = {**whole, f"F_{slot}/{of}": guide, f"F_{of}/{slot}": -guide}.get(name, force)
+            if name == f"F_{of}":
+                expected = -push if link == slot else push
+            assert abs(expected - force) <= 1e-9 * most, name
+    assert met & whole.keys()
+    assert {f"F_{of}"} <= met
+
+
+def test_lengths_read_off_at_a_driven_pin_are_those_of_the_arrows_with_their_names():
+    rng = random.Random(0)
+    drive = rng.choice(("crank", "slider", "cylinder", "slot", "resting"))
+    sheet = with_forces(drawn(loaded(random_scene(0, tuple(rng.choices(KINDS, k=2)), drive), 0)))
+    group = next(group for group in sheet.forces[0].groups if group.links == ("1", "2"))
+    assert [70.43, 69.72, 9.97] == [round(group.read[Symbol.parse(n)], 2) for n in ("F_2/P3", "F_1", "F_2/1")]
+    arrows = {str(v.symbol): abs(v.span) for polygon in group.polygons for v in polygon}
+    assert [70.43, 70.43, 69.72, 9.97] == [round(arrows[n], 2) for n in ("F_2/P3", "F_P3/2", "F_1", "F_2/1")]
+
+
+def test_a_driver_s_push_along_a_slot_is_the_only_load_of_a_pin_when_nothing_balances_elsewhere():
+    scene = of_driven_slot(0) | {"balance": {"on": "2"}}
+    names = {name for forces in forces_in_polygons(with_forces(drawn(scene))) for name, _ in forces}
+    assert {"F_2/1"} <= names
+    assert not names & {"F_2/P3", "F_P3/2", "F_1"}
+
+
+@pytest.mark.parametrize(("scene", "load", "forces", "of", "per_mm"), [
+    (DRIVEN_IN_A_SLOT, {}, "F_0/1, F_1", "the block at B", 2),
+    (DRIVEN_ON_A_COMPOUND_HINGE, {"R": {"on": "8", "at": [40, 0], "force": -60, "angle": 0}},
+     "P_R, F_0/8, F_1/7, F_7/8, F_0/1, F_1", "links 7, 8 and the block at B", 1),
+])  # fmt: skip
+def test_small_forces_of_a_driven_block_are_read_off_its_polygon_at_a_scale_of_its_own(scene, load, forces, of, per_mm):
+    large = {"Q": {"on": "2", "at": [70, 0], "force": 1e6, "angle": 30}}
+    checked = graphkin.check(scene | {"loads": scene["loads"] | load | large})
+    assert checked.ok
+    said = f"{forces}: read off the force polygon of {of}, at a scale of its own, 1 mm = {per_mm} N"
+    assert [said] == [say(note) for note in checked.sheet.force_notes]
+
+
+def test_the_block_of_a_pin_that_is_driven_is_cut_free_as_a_block():
+    from graphkin.api.report_text import report_text
+
+    checked = graphkin.check(DRIVEN_IN_A_SLOT)
+    assert [("1", "2"), ("B/0",)] == [group.links for group in checked.sheet.forces[0].groups]
+    told = report_text(checked, "en")
+    assert "The block at B (driven) cut free" in told
+    assert "B/0 " not in told.split("The block at B")[1]
+
+
+def test_a_body_with_drivers_inside_keeps_its_polygon_beside_that_of_its_last_link():
+    # the force inside acts on link 4, which has a polygon apart at its driver
+    scene = CHAIN | {"loads": {"P": {"on": "5", "at": [80, 0], "force": 5, "angle": 200}}}
+    (group,) = with_forces(drawn(scene)).forces[0].groups
+    assert [("2", "3", "4"), ("4",), ("3",)] == list(group.inner)
+    found = {step.links: [str(symbol) for symbol in step.finds] for step in group.by("inside")}
+    assert {("2", "3", "4"): ["F_5/4"], ("4",): ["F_3/4"], ("3",): ["F_2/3"]} == found
+    whole, *apart = group.by("inside")
+    assert whole.number == group.in_polygon(group.inner[whole.links][-1])
+    assert [{step.number} for step in apart] == [
+        {group.in_polygon(vector, step.links) for vector in group.inner[step.links]} for step in apart
+    ]
+    assert (True, []) == judged(scene)
 
 
 @pytest.mark.parametrize("of", ["1", "4"])

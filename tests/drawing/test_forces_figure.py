@@ -22,7 +22,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.words import rich_text
 from graphkin.words.written import amount, is_quotient
 from tests.construction.test_forces import DRIVEN_AGAINST_A_BLOCK
-from tests.mechanisms import random_scene
+from tests.mechanisms import floating_cylinder, random_scene
 from tests.solver.test_forces import loaded, scene_of
 
 SHAPER, ENGINE = scene_of("shaper-scheme-2"), scene_of("engine")
@@ -68,6 +68,14 @@ def vectors(svg: bytes) -> dict[str, complex]:
             x1, y1, x2, y2 = (float(line.get(key, "0")) for key in ("x1", "y1", "x2", "y2"))
             found[group.get("id", "")] = complex(x2 - x1, y1 - y2)
     return found
+
+
+def test_the_sketch_of_a_larger_group_shows_forces_of_pairs_from_outside_alone() -> None:
+    # link 3 pushes the pin Q of link 2, both of the group
+    drawn = graphkin.draw(loaded(floating_cylinder(3), 3), figures=["forces"])
+    texts = [text for page in drawn.figures.values() for text in ET.fromstring(svg_bytes(page)).iter(f"{SVG}text")]
+    acting = {"".join(text.itertext()) for text in texts if text.get("id", "").startswith("label-acts-1-2-3-")}
+    assert {"FR01", "FR02"} == {name for name in acting if name.startswith("FR")}
 
 
 def test_a_vector_is_as_long_as_the_scale_says_in_its_direction() -> None:

@@ -12,6 +12,7 @@ import pytest
 import graphkin
 import tests.papers
 from graphkin.account.forces import force_stages
+from tests.construction.test_forces import DRIVEN_IN_A_SLOT
 
 ENGINE = "engine-gas-force"
 
@@ -122,3 +123,14 @@ def test_a_link_without_a_moment_of_inertia_is_told_without_its_couple() -> None
     lesson = graphkin.handout("shaper-forces", language="en", formats=("pdf",)).lesson
     stage = next(force_stages(lesson.account))
     assert [True, False] == ["couple" in str(step.sentence("en")) for step in stage.steps]
+
+
+def test_a_driven_block_is_called_a_block_under_its_figure_on_a_paper_and_on_the_page(tmp_path):
+    graphkin.handout(DRIVEN_IN_A_SLOT, out=tmp_path, formats=("html",), language="both", positions=1)
+    page = (tmp_path / "handout.html").read_text(encoding="utf-8")
+    assert "Forces on the block at B" in str(tests.papers.unpacked(page))
+    text = words(page)
+    for said in ("The block at B cut free, and its force polygon", "B 处滑块的分离体与力多边形",
+                 "2. The block at B (driven) cut free", "All forces on the block at B are in equilibrium"):
+        assert said in text
+    assert "link B" not in text

@@ -39,7 +39,7 @@ from graphkin.scene.scene_tables import DIAGRAMS, Diagram
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import greatest_before
 from graphkin.structure.model import Element, LargerGroup, Structure
-from graphkin.words import Neutral, Phrase, gaps_of, links_named, listed
+from graphkin.words import Neutral, Phrase, bodies_named, gaps_of, joined, listed
 from graphkin.words.written import amount
 
 if TYPE_CHECKING:
@@ -325,7 +325,9 @@ class Sheet:
             read_at = state.per_mm.items()
             for per_mm in dict.fromkeys(per_mm for _, per_mm in read_at if per_mm != self.scales.force):
                 forces = listed([symbol for symbol, per in read_at if per == per_mm])
-                links = links_named([name for g in state.groups if g.per_mm == per_mm for name in g.links])
+                names = [name for g in state.groups if g.per_mm == per_mm for name in g.links]
+                blocks = [bodies_named([name]) for name in names if "/" in name]
+                links = joined("one and other", ([bodies_named(names)] if len(names) > len(blocks) else []) + blocks)
                 scale = Neutral(f"1 mm = {amount(per_mm / units.newtons, 12)} {units.force}")
                 phrases.append(Phrase("own scale of forces", links=links, scale=scale, forces=forces))
         return tuple(phrases)

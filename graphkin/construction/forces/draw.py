@@ -144,11 +144,11 @@ def _state(held: Sheet, hand: Instrument, scales: ForceScales, known: tuple[Forc
     forces: Found = {load.symbol: (load.force, (load.link,)) for load in loads}
     moments = {load.symbol: load.moment for load in known if not load.symbol.is_vector}
     _joints(cut, forces, moments)
-    for symbol, value in cut.balances.items():
-        if symbol.kind == "M":
-            moments[symbol] = float(value.real)
+    for balance in cut.balances:
+        if balance.symbol.is_vector:
+            forces[balance.symbol] = balance.force, (balance.link,)
         else:
-            forces[symbol] = complex(value), (symbol.link, symbol.other)
+            moments[balance.symbol] = balance.moment
     vectors = {symbol: force for symbol, (force, _) in forces.items()}
     per_mm = {symbol: next((drawn_at[name] for name in drawn_at if name in links), common)
               for symbol, (_, links) in forces.items()}  # fmt: skip

@@ -94,7 +94,7 @@ class CutFree:
     acting: defaultdict[str, list[ForceVector]] = field(default_factory=lambda: defaultdict(list))
     pins: defaultdict[tuple[str, str], complex] = field(default_factory=lambda: defaultdict(complex))
     slides: dict[str, tuple[complex, float]] = field(default_factory=dict)
-    balances: dict[Symbol, complex | float] = field(default_factory=dict)
+    balances: list[ForceVector] = field(default_factory=list)
     done: set[str] = field(default_factory=set)
     group: ForceGroup = NO_GROUP
 
@@ -146,17 +146,17 @@ class CutFree:
             done = ForceStep("join", "closed", "force", found, links=self.group.links, finds=finds)
             self.do(done if len(found) == 1 else changed(done, verb="cross", reason="closed by lines"))
 
-    def inside(self, link: str, chain: Chain) -> None:
-        """The polygon of a single link, closed by the force inside."""
-        self.group = changed(self.group, inner={**self.group.inner, link: tuple(chain)})
+    def inside(self, links: tuple[str, ...], chain: Chain) -> None:
+        """The polygon of some links of a group, closed by the force inside."""
+        self.group = changed(self.group, inner={**self.group.inner, links: tuple(chain)})
 
     def finished(self, members: Collection[str]) -> ForceGroup:
-        """The group under work: its single links close with the forces inside, and couples follow."""
+        """The group under work: polygons of parts of it close with the forces inside, and couples follow."""
         self.done |= set(members)
         couples = self.group.moments(*COUPLES)
         inside = [
-            ForceStep("join", "inside", "force", tuple(v for v in chain if v.symbol in finds), link=link, finds=finds)
-            for link, chain in self.group.inner.items() if (finds := self.read_off(chain))
+            ForceStep("join", "inside", "force", tuple(v for v in chain if v.symbol in finds), links=links, finds=finds)
+            for links, chain in self.group.inner.items() if (finds := self.read_off(chain))
         ]  # fmt: skip
         steps = (step for step in self.group.steps if step.reason not in COUPLES)
         return changed(self.group, steps=(*steps, *inside, *couples))
@@ -200,7 +200,8 @@ class CutFree:
             hung = {drawn.of_pin(point, n, self.done).opposite: -self.at_pin(point, n, others) for n in heads}
             alone = carrier == drawn.holders[point][0] and hosts.keys().isdisjoint(mine)
             if len(mine) + len(heads) > 2 and not alone:
-                hung = {Symbol("F", link=point, other=carrier): added_up(hung.values(), 0j)}
+                other = drawn.structure.blocks[carrier].b if carrier in drawn.pushed else carrier
+                hung = {Symbol("F", link=point, other=other): added_up(hung.values(), 0j)}
             for symbol, force in hung.items():
                 self._load_pin(point, carrier, symbol, force)
 
@@ -227,8 +228,7 @@ class CutFree:
 
     def set_balance(self, balance: ForceVector, acting: ForceVector) -> None:
         """Set a balancing load, as found on one of its two links."""
-        whole = acting.on(balance.link)
-        self.balances[balance.symbol] = whole.force or whole.moment
+        self.balances.append(acting.on(balance.link))
 
     def set_slide(self, slide: Pair, force: ForceVector, couple: ForceVector, inside: Collection[str]) -> None:
         """The force and the couple of a sliding pair on one of its links; both load the other, if that comes later."""
@@ -484,7 +484,7 @@ def _inner_force(
         on_first = changed(cut.at_pair(pair, links), force=square * dot(force, square))
     cut.close(chain, on_first)
     chain[-1] = changed(chain[-1], ends=(chain[-2].ends[1], chain[0].ends[0]))
-    cut.inside(on_first.link, chain)
+    cut.inside(links, chain)
     if pair.turns:
         return on_first, []
     about, letter = outer.at, dyad.outer_first.point
@@ -548,7 +548,7 @@ def _at_driven_joint(
             symbol = cut.drawn.between(other, leaf, pair.point)
         on = ForceVector(symbol, link=leaf, at=cut.drawn.point(leaf, pair.point), by="closing", off=other)
     on_leaf = on, push, *_ = _close_driven(cut, chain, pair, on, balance.on(leaf), extra, inside)
-    cut.inside(leaf, chain)
+    cut.inside((leaf,), chain)
     cut.set_balance(balance, push)
     if pair.turns:
         cut.pins[pair.point, leaf] += on.force
@@ -564,7 +564,7 @@ def at_driver(cut: CutFree, element: Driven, balance: ForceVector) -> ForceGroup
     Unsolvable : "dead point": the balance does no work
     """
     link, pair = element.link, element.pair
-    cut.begin((link,) if link not in cut.drawn.structure.blocks else (), "driver", "driver", (link,))
+    cut.begin(element.links, "driver", "driver", (link,))
     chain, on, push = list[ForceVector](), cut.at_pair(pair, (link,)), balance.on(link)
     if pair.turns and push.force:
         step = cut.moments("about driver", (link,), on.at, pair.point, push)
@@ -692,4 +692,4 @@ def _carry_over(
                 cut.lay(polygons[force.link], changed(force, by="closing"))
     for name, chain in polygons.items():
         if name not in cut.drawn.structure.blocks:
-            cut.inside(name, chain)
+            cut.inside((name,), chain)

@@ -35,7 +35,8 @@ class DrawnPosition:
     Links at one point: the first that has it (the frame, or the link written first) is paired with each later one.
     Guests are paired with their host alone: the block of a pin in a slot, or the bar in place of a circular slot, with
     the link of the pin.  A block has no name of its own: what it carries is the force between the link of the pin and
-    the link of the slot.
+    the link of the slot.  Of a driven block that is the guide's own force alone; with the push of the driver it is the
+    force of the pin on the link of the slot, ``F_B/2``, on the link of the pin ``F_2/B``.
     """
 
     sheet: Sheet
@@ -61,6 +62,13 @@ class DrawnPosition:
         """The links that meet at each hinge, guests left out."""
         return {p: tuple(n for n in names if n not in self.hosts[p]) for p, names in self.structure.hinges.items()}
 
+    @cached_property
+    def pushed(self) -> Collection[str]:
+        """The blocks of pins that drivers push along their slots."""
+        scene, blocks = self.structure.scene, self.structure.blocks.items()
+        keys = {driver.key for driver in scene.drivers} if scene.loading.balance is None else ()
+        return {name for name, slide in blocks if slide.key in keys}
+
     def with_guests(self, point: str, link: str) -> list[str]:
         """A link at a hinge, with its guests there, and theirs."""
         guests = (guest for guest, host in self.hosts.get(point, {}).items() if host == link)
@@ -85,6 +93,8 @@ class DrawnPosition:
         done : the links whose forces are known
         """
         blocks = self.structure.blocks
+        if link in self.pushed:
+            return Symbol("F", link=point, other=blocks[link].b)
         if link in blocks:
             return self.between(blocks[link].of, blocks[link].b, point)
         hosts, (first, *later) = self.hosts[point], self.holders[point]
@@ -92,8 +102,8 @@ class DrawnPosition:
         paired = [*paired, *(guest for guest, host in hosts.items() if host == link and guest not in done)]
         if len(paired) != 1:
             return Symbol("F", link=point, other=link)
-        other = blocks[paired[0]].b if paired[0] in blocks else paired[0]
-        return self.between(other, link, point)
+        (other,) = paired
+        return self.of_pin(point, other, done).opposite if other in blocks else self.between(other, link, point)
 
     def of_slide(self, slide: Pair, kind: str = "F") -> Symbol:
         """The force (couple) of the guiding link on the sliding one."""

@@ -25,6 +25,7 @@ from graphkin.construction.board.steps import (
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.model import LinkMass
 from graphkin.scene.symbol import Symbol
+from graphkin.words import Phrase, about, listed
 
 Way = Literal["polygon", "driver", "drawn system"]
 """How the forces of a group are found: by moments and one polygon, at last at a driver, by one drawn system."""
@@ -251,7 +252,7 @@ class ForceGroup:
     links, kind, way : of the group, and the construction of its forces
     per_mm : N for one mm of its polygons
     polygon : the forces on it head to tail, closed; empty for a group drawn link by link
-    inner : the polygons of single links that give the forces inside, by link
+    inner : the polygons of parts of it that give the forces inside, by their links
     lines : the line of action of a pair's force with its couple: a place (mm), by the symbol of the force
     read : the lengths of forces read off its polygons (mm), all parts together, of a driven pair without the driver
     steps : in their order, the first of which cuts it free
@@ -262,14 +263,20 @@ class ForceGroup:
     way: Way = "polygon"
     per_mm: float = 1.0
     polygon: tuple[ForceVector, ...] = ()
-    inner: Mapping[str, tuple[ForceVector, ...]] = field(default_factory=dict)
+    inner: Mapping[tuple[str, ...], tuple[ForceVector, ...]] = field(default_factory=dict)
     lines: Mapping[Symbol, complex] = field(default_factory=dict)
     read: Mapping[Symbol, float] = field(default_factory=dict)
     steps: tuple[ForceStep, ...] = ()
 
+    def told(self, key: str, **gaps: object) -> Phrase:
+        """Words about its links, or about a single link, or the block of a pin alone."""
+        links = [link.split("/")[0] for link in self.links]
+        key = f"{key} block" if "/" in self.links[0] else about(key, links)
+        return Phrase(key, links=listed(links), **gaps)
+
     @property
     def polygons(self) -> list[tuple[ForceVector, ...]]:
-        """The polygon of the group and those of single links, without empty ones."""
+        """The polygon of the group and those of its parts, without empty ones."""
         return [polygon for polygon in (self.polygon, *self.inner.values()) if polygon]
 
     def by(self, *reasons: Reason) -> tuple[ForceStep, ...]:
@@ -302,10 +309,10 @@ class ForceGroup:
         finds = (s.number for s in self.by(*BY_MOMENTS) if (s.symbol, s.part) == part)
         return self.steps[0].number if vector.known else next(finds, self.closing)
 
-    def in_polygon(self, vector: ForceVector, link: str) -> int:
-        """The number of the step that draws a force in the polygon of one link, or ("") of the group."""
-        drawn = (s for s in self.by("inside" if link else "known forces") if link or vector in s.strokes)
-        return next((s.number for s in drawn if s.link == link), self.closing)
+    def in_polygon(self, vector: ForceVector, links: tuple[str, ...] = ()) -> int:
+        """The number of the step that draws a force in the polygon of some of its links, or of the group."""
+        drawn = (s for s in self.by("known forces", "inside") if (s.links == links if links else vector in s.strokes))
+        return next((s.number for s in drawn), self.closing)
 
 
 NO_GROUP = ForceGroup((), "")

@@ -53,7 +53,7 @@ from graphkin.drawing.text import rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up, unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase, languages, links_named, rich_text, say, word
+from graphkin.words import Phrase, bodies_named, languages, rich_text, say, word
 from graphkin.words.symbols import RichText, Words, sign, spaced
 from graphkin.words.written import printed
 
@@ -159,10 +159,10 @@ def _pictures(
     polygons = _polygons(stage.group)
     alone = len(polygons) == 1 and polygons[0][3].width <= page.width - SKETCH - APART
     wide = SKETCH if alone else page.width
-    links = _extent(page.sheet, stage.group)
-    shown = links.height * min((wide - ROOM) / max(links.width, 1e-6), 1.0)
+    extent = _extent(page.sheet, stage.group)
+    shown = extent.height * min((wide - ROOM) / max(extent.width, 1e-6), 1.0)
     high = max(LEAST, min(HIGHEST, shown + ROOM), polygons[0][3].height if alone else 0.0)
-    named = "-".join(stage.group.links) + suffix
+    named = "-".join(stage.group.links).replace("/", "-") + suffix
     sketch = framed(panel(wide, high, lambda room: _free_body(page, stage, room.grown(-INSIDE), named)))
 
     def polygon(drawn: _Polygon, width: float, height: float) -> Block:
@@ -175,9 +175,9 @@ def _pictures(
     yield sketch
     singles = []
     for polygon_apart in polygons:
-        link, *_, box = polygon_apart
+        links, *_, box = polygon_apart
         drawn = polygon(polygon_apart, max(box.width, NARROW), max(box.height, SMALLEST))
-        said = (spaced(" / ", page.said("force on link", link=link)),) if link else ()
+        said = (spaced(" / ", page.said("force on links alone", links=bodies_named(links))),) if links else ()
         singles.append(column(prose(said, drawn.width, 2.4), drawn))
     yield from rows(singles, page.width, gap=2.0)
 
@@ -186,7 +186,7 @@ def _below(page: FigurePage, account: Account, stage: ForceStage) -> Block:
     """Moments with their reasons, the vector equation with its rows, and the readings."""
     group, said = stage.group, stage.told(*BY_MOMENTS, "system")
     if len(group.polygon) > 1 and group.way == "polygon":
-        said.append(Phrase("force reason polygon", links=links_named(group.links)))
+        said.append(Phrase("force reason polygon", links=bodies_named(group.links)))
     equation = group_equation(page, group)
     couples, read = stage.told(*COUPLES), spaced(";  ", read_off(account, group, group.read))
     return column(
@@ -311,7 +311,7 @@ def _acting(plate: Plate, page: FigurePage, stage: ForceStage, times: float, tag
     outside = set(_cut_free(group))
     for n, vector in enumerate(_outside(group)):
         of = vector.symbol
-        if not group.polygon and of.kind == "F" and {of.link, of.other} <= outside:
+        if not group.polygon and of.kind == "F" and of.other and {of.link, vector.link} <= outside:
             continue  # between two links of the group
         along, at = unit(vector.span), lines.get(of, vector.at) * times
         stacked = sum(abs(at - z) < NEAR and abs(along - e) < 0.1 for z, e in taken)
@@ -379,26 +379,26 @@ def _arms(plate: Plate, stage: ForceStage, times: float) -> None:
 
 SHORT = 0.02  # mm: a shorter force is a dot
 
-_Polygon = tuple[str, Sequence[ForceVector], Sequence[ForceVector], Box]
-"""A polygon drawn apart: the link it is of ("" for the whole group), its vectors, forces inside that close part of it,
-and its panel at least (mm, y down)."""
+_Polygon = tuple[tuple[str, ...], Sequence[ForceVector], Sequence[ForceVector], Box]
+"""A polygon drawn apart: its links (none for the whole group), its vectors, forces inside that close part of it, and
+its panel at least (mm, y down)."""
 
 
 def _polygons(group: ForceGroup) -> list[_Polygon]:
     """The polygons of a group that are drawn separately."""
     closing: list[ForceVector] = []
-    alone: list[tuple[str, Sequence[ForceVector]]] = []
+    alone: list[tuple[tuple[str, ...], Sequence[ForceVector]]] = []
     drawn = {frozenset((v.symbol.link, v.symbol.other)): {v.tail, v.tip} for v in group.polygon if v.symbol.other}
-    for link, vectors in group.inner.items():
+    for links, vectors in group.inner.items():
         if group.polygon and vectors[:-1] == group.polygon[: len(vectors) - 1]:
             last = vectors[-1]  # of a pin in a slot it is the force of the slot
             there = drawn.get(frozenset((last.symbol.link, last.symbol.other)))
             closing += [last] if there != {last.tail, last.tip} and abs(last.span) > SHORT else []
         elif any(abs(v.span) > SHORT for v in vectors):
-            alone.append((link, vectors))
-    made = [("", group.polygon, closing)] if group.polygon else []
-    return [(link, vectors, inside, _box((*vectors, *inside)).grown(AROUND))
-            for link, vectors, inside in (*made, *((link, vectors, ()) for link, vectors in alone))]  # fmt: skip
+            alone.append((links, vectors))
+    made = [((), group.polygon, closing)] if group.polygon else []
+    return [(links, vectors, inside, _box((*vectors, *inside)).grown(AROUND))
+            for links, vectors, inside in (*made, *((links, vectors, ()) for links, vectors in alone))]  # fmt: skip
 
 
 def _box(vectors: Sequence[ForceVector]) -> Box:
@@ -411,8 +411,8 @@ def _drawn_polygon(
 ) -> Piece:
     """A polygon in the middle of a panel at its true scale."""
     plate, sheet = Plate(), page.sheet
-    link, vectors, inside, _ = polygon
-    lettered, group = {} if link else stage.group.corners, stage.group
+    links, vectors, inside, _ = polygon
+    lettered, group = {} if links else stage.group.corners, stage.group
     shifts = side_by_side(Vector(_key(v), v.tail, v.tip) for v in (*vectors, *inside))
 
     def arrow(vector: ForceVector, tail: complex, tip: complex, step: int, rank: int = 0) -> None:
@@ -429,19 +429,19 @@ def _drawn_polygon(
             continue
         shift = shifts.get(_key(vector), 0j)
         tail, tip = vector.tail + shift, vector.tip + shift
-        step = group.in_polygon(vector, vector.link if vector in inside else link)
+        step = group.in_polygon(vector, links)
         if shift:
             aside = (Line(on_page(z), on_page(w), strokes.CONSTRUCTION)
                      for z, w in ((vector.tail, tail), (vector.tip, tip)))  # fmt: skip
             plate.put("construction", *aside, step=step)
         arrow(vector, tail, tip, step, 0 if not vector.known or abs(vector.span) > 3.0 else 2)
     for whole in _wholes(vectors):
-        arrow(whole, whole.tail, whole.tip, group.in_polygon(whole, link))
+        arrow(whole, whole.tail, whole.tip, group.in_polygon(whole, links))
     for letter, (place, vector) in lettered.items():
         names[f"corner-{letter}"] += 1
         name = f"label-corner-{letter}-{names[f'corner-{letter}']}{suffix}"
         plate.name(rich(sign(letter), 3.0), place + shifts.get(_key(vector), 0j), name, rank=1,
-                   step=group.in_polygon(vector, link))  # fmt: skip
+                   step=group.in_polygon(vector, links))  # fmt: skip
     unknown = [v for v in vectors if not v.known]
     for vector in unknown:
         if abs(vector.span) <= SHORT:
@@ -452,7 +452,7 @@ def _drawn_polygon(
             past = 6.0 * unit(vector.span)
             for z, w in ((vector.tail, vector.tail - past), (vector.tip, vector.tip + past)):
                 plate.put("construction", Line(on_page(z), on_page(w), strokes.DIRECTION), classes=("direction",),
-                          step=group.in_polygon(vector, link))  # fmt: skip
+                          step=group.in_polygon(vector, links))  # fmt: skip
     return with_labels(moved_piece(plate.piece, panel.centre - _box(vectors).centre), panel)
 
 
