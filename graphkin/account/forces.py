@@ -82,7 +82,7 @@ class InForces(Telling):
             case "forces":
                 return listed([*map(self.name, step.finds or dict.fromkeys(load.symbol for load in step.acting))])
             case "force":
-                return self.name(step.symbol, "" if isinstance(step, MomentStep) and step.is_whole else step.part)
+                return self.name(step.symbol, step.part)
             case "moment":
                 moment = self.name(step.symbol)
                 return Neutral(moment, " = 0") if reason == "no couple" else moment
@@ -163,7 +163,7 @@ class InForces(Telling):
         """The arms of moments as measured on the mechanism, the forces without one, and the equation as ``ΣM_C = F_G5 x
         0.0488 m ... = 0, F^t_R45 = -10.7 N``; the shifted line of the force of a sliding pair."""
         equation, scene, units = self.moments, self.sheet.scene, self.sheet.scene.units
-        name = self.name(equation.symbol, "" if equation.is_whole else equation.part)
+        name = self.name(equation.symbol, equation.part)
         of = [*((self.name(t.symbol), t.arm) for t in with_moments(equation)), (name, equation.unknown.arm)]
         arms = [force + f" {printed(on_paper(abs(arm)))} mm" for force, arm in of if arm is not None]
         if arms:

@@ -156,8 +156,19 @@ def test_a_part_by_moments_is_the_whole_force_where_no_other_part_stands_in_the_
 ) -> None:
     group = group_of(scene, *links)
     parts = group.moments("two-force member", "about pin", "about guide")
-    assert wholes == [step.is_whole for step in parts]
+    assert wholes == [not step.part for step in parts]
     assert wholes == [len({v.part for v in group.polygon if v.symbol == step.symbol}) < 2 for step in parts]
+
+
+@pytest.mark.parametrize(("scene", "links", "symbol", "reason"), [
+    ("shaper-forces", "34", "F_2/3", "about guide"), ("rocker-return-spring", "23", "F_1/2", "closed by lines"),
+])  # fmt: skip
+def test_a_whole_force_appears_on_the_links_with_the_step_that_finds_its_size(
+    scene: str, links: str, symbol: str, reason: str
+) -> None:
+    group = group_of(scene, *links)
+    (force,) = (v for v in group.polygon if str(v.symbol) == symbol)
+    assert [reason] == [step.reason for step in group.steps if step.number == group.on_links(force)]
 
 
 def test_the_force_of_a_pin_of_several_links_is_read_off_with_all_its_parts() -> None:

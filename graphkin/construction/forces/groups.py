@@ -433,9 +433,9 @@ def _outer_parts(
     square = changed(at_first, force=1j * along, part=mark, direction=_across(slide))
     if not outer.turns:
         return (known, square), ([], changed(at_second, force=1j * cut.drawn.along(outer), direction=_across(outer)))
-    step = cut.moments("about guide", dyad.members, at_second.at, outer.point, changed(square, part="t"), known)
-    cut.do(changed(step, is_whole=not known and step.value != 0.0))
-    return ([*known, changed(step.found, part=mark)], None), ([], at_second)
+    step = cut.moments("about guide", dyad.members, at_second.at, outer.point, square, known)
+    cut.do(step)
+    return ([*known, step.found], None), ([], at_second)
 
 
 def _by_inner_pin(
@@ -448,7 +448,7 @@ def _by_inner_pin(
     bar, along = (outer.point, inner.point), force.at - hinge
     square = changed(force, force=1j * unit(along), part="t", direction=Direction("square", bar))
     step = cut.moments("about pin", links, hinge, inner.point, square)
-    cut.do(step if step.terms else changed(step, reason="two-force member", is_whole=True))
+    cut.do(step if step.terms else changed(step, reason="two-force member", part=""))
     closing = changed(force, force=along, direction=Direction("along", bar))
     # where it is nought nothing acts on the bar between its ends
     return ([step.found], changed(closing, part="n")) if step.value else ([], closing)

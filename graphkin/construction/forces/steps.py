@@ -224,7 +224,6 @@ class MomentStep(ForceStep):
     about : the letter of the point, or the name of the link at whose origin it lies
     terms : the moments of the known actions
     unknown, value : a force or a couple of size 1, and its size (N, N m)
-    is_whole : whether the part is the whole force
     shifted, shift : of a couple, the force of the pair whose line of action it shifts, and by how much (m)
     """
 
@@ -232,7 +231,6 @@ class MomentStep(ForceStep):
     terms: tuple[MomentTerm, ...]
     unknown: MomentTerm
     value: float
-    is_whole: bool = False
     shifted: Symbol = NO_SYMBOL
     shift: float = 0.0
 
@@ -305,8 +303,9 @@ class ForceGroup:
 
     def on_links(self, vector: ForceVector) -> int:
         """The number of the step that draws a force on the links cut free."""
-        part = vector.symbol, vector.part
-        finds = (s.number for s in self.by(*BY_MOMENTS) if (s.symbol, s.part) == part)
+        by_moments = (s for s in self.by(*BY_MOMENTS) if (s.symbol, s.part) == (vector.symbol, vector.part))
+        # of a two-force member moments give the line alone
+        finds = (s.number for s in by_moments if s.reason != "two-force member")
         return self.steps[0].number if vector.known else next(finds, self.closing)
 
     def in_polygon(self, vector: ForceVector, links: tuple[str, ...] = ()) -> int:
