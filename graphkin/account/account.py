@@ -14,7 +14,16 @@ from graphkin.account.in_polygon import InPolygon, alike
 from graphkin.account.notation import Notation
 from graphkin.account.voice import Account, Telling
 from graphkin.construction.board.sheet import Equation, Sheet
-from graphkin.construction.board.steps import PlaceStep, PointNames, Reason, Step, Term, Vector, VectorStep
+from graphkin.construction.board.steps import (
+    PlaceStep,
+    PointNames,
+    RateStep,
+    Reason,
+    Step,
+    Term,
+    Vector,
+    VectorStep,
+)
 from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, languages, sense_of, word
@@ -95,11 +104,13 @@ def _products(sheet: Sheet, equation: Equation, letters: Notation) -> list[RichT
 
 
 def _shared_with_drivers(sheet: Sheet, equation: Equation) -> Iterator[RichText]:
-    """``ω_2 = ω_1``: links that slide on a driven one turn as it does."""
+    """``ω_2 = ω_1``: links that slide on a driven one turn as it does; not where its rate is a sum, whose line tells
+    it."""
     kind = "omega" if equation.diagram == "velocity" else "alpha"
     rates = sheet.rates[kind]
+    told = {step.link for step in sheet.steps if isinstance(step, RateStep) and step.reason == "sum of rates"}
     for turning in rates.values():
-        if turning.vector is None and not turning.same_as and turning.value != 0.0:
+        if turning.vector is None and not turning.same_as and turning.value != 0.0 and turning.link not in told:
             others = alike(rates.values(), turning)
             if others:
                 yield spaced(" = ", (rate(kind, name) for name in (*others[::-1], turning.link)))

@@ -393,9 +393,10 @@ class InPolygon(Telling):
         yield rate(step.kind, step.link) + " = " + value
 
     def _summed_lines(self, language: str) -> Iterator[RichText]:
-        """``ω_2 = ω_3 + ω_23 = −0.04162 + 0.08323 = 0.04161 rad/s``: of a link with a known rate relative to a link of
-        known rate."""
-        yield bound(self.account.say(self.step.phrase, languages(language)[0]))
+        """``ω_5 = ω_2 = ω_3 + ω_23 = −0.04162 + 0.08323 = 0.04161 rad/s``: of a link with a known rate relative to a
+        link of known rate, and of links that slide on it."""
+        others = (rate(self.of_rate.kind, name) for name in self.turning_links[:0:-1])
+        yield spaced(" = ", (*others, bound(self.account.say(self.step.phrase, languages(language)[0]))))
 
     # -- trial polygons ------------------------------------------------------------------------------------------------
 
@@ -518,8 +519,8 @@ class InPolygon(Telling):
 def alike(rates: Iterable[Rate], turning: Rate) -> list[str]:
     """Links that turn as a link does, without blocks of pins."""
     return [
-        other.link for other in rates if other.same_as == turning.link and other.value == turning.value
-        and "/" not in other.link
+        other.link for other in rates if other.same_as == (turning.same_as or turning.link)
+        and other.value == turning.value and other.link != turning.link and "/" not in other.link
     ]  # fmt: skip
 
 

@@ -12,7 +12,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from graphkin import draw, read
+from graphkin import check, draw, read
 from graphkin.account.account import written_lines
 from graphkin.account.arithmetic import (
     divisions,
@@ -451,3 +451,108 @@ def test_a_step_tells_a_measured_rate_as_its_quotient_gives_it(name):
     quotients = {(s.kind, s.link): re.search(r"= ([\d.e⁻−-]+) rad", rate_sum(sheet, s))[1] for s in rates}
     assert quotients
     assert quotients == {key: told[key] for key in quotients}
+
+
+# -- rates of links that a driver turns from another moving link -------------------------------------------------------
+
+ARM = {
+    "frame": {"points": {"A": [0, 0]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 300}, "2": {"points": ["B", "C"], "length": 200},
+        "3": {"points": ["T"], "on": "2", "angle_on": 15, "at": {"U": [30, 0]}},
+    },
+    "driver": [
+        {"link": "1", "angle": 30, "omega": 1, "alpha": 4},
+        {"link": "2", "relative_to": "1", "angle": 50, "omega": -3, "alpha": -1.5},
+        {"slide": "3", "travel": 260, "velocity": 40, "acceleration": -7},
+    ],
+}  # fmt: skip
+"""A second arm on a first, driven from it in the opposite sense, and a slide on the second."""
+
+
+def arm(**changes):
+    first, second, third = ARM["driver"]
+    return {**ARM, "driver": [first, {**second, **changes}, third]}
+
+
+ON_A_BLOCK = {  # a dyad of blocks on a fixed guide and on a crank; a driver turns the first from the second
+    "frame": {"points": {"A": [0, 0]}, "guides": {"g": {"through": [0, 60], "angle": 10}}},
+    "links": {"1": {"points": ["A", "B"], "length": 95}, "2": {"points": ["C"], "on": "0.g"},
+              "3": {"points": ["C"], "on": "1"}},
+    "driver": {"link": "2", "angle": -50, "relative_to": "3", "omega": 3},
+    "sketch": {"C": [30, 65]},
+}  # fmt: skip
+IN_A_FOUR_BAR = {
+    "frame": {"points": {"A": [0, 0], "D": [200, 0]}},
+    "links": {"1": {"points": ["A", "B"], "length": 100}, "2": {"points": ["B", "C"], "length": 150},
+              "3": {"points": ["D", "C"], "length": 120}},
+    "driver": {"link": "2", "relative_to": "1", "angle": -50, "omega": 2, "alpha": 0.5},
+    "sketch": {"B": [60, 80], "C": [190, 120]},
+}  # fmt: skip
+
+
+def lines_of(scene, language="en"):
+    sheet = draft(mechanism_of(scene))
+    lines = written_lines(sheet, notation_of(sheet, "chinese"), language)
+    return [repr(line).replace("\u00a0", " ") for line in lines if not isinstance(line, Equation)]
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_the_rate_of_a_link_driven_from_a_moving_one_is_told_as_a_sum_with_senses_before_it_is_used(language):
+    lines = lines_of(ARM, language)
+    omega = lines.index("$ω_{3}$ = $ω_{2}$ = $ω_{1}$ + $ω_{21}$ = 1 − 3 = −2 rad/s")
+    alpha = lines.index("$α_{3}$ = $α_{2}$ = $α_{1}$ + $α_{21}$ = 4 − 1.5 = 2.5 rad/s²")
+    assert [omega + 1, alpha + 1] == [
+        lines.index("$v_{CB}$ = 2 × 200 = 400 mm/s"),
+        lines.index("$a^{n}_{CB}$ = 2² × 200 = 800 mm/s²;  $a^{t}_{CB}$ = 2.5 × 200 = 500 mm/s²"),
+    ]
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_the_steps_tell_the_sum_of_rates_next_before_the_first_vector_that_it_gives(language):
+    sheet = draft(mechanism_of(ARM))
+    said = [say(step.phrase, language) for step in sheet.steps]
+    omega, alpha = (said.index(one) for one in ("ω_2 = ω_1 + ω_21 = 1 − 3 = −2 rad/s",
+                                                "α_2 = α_1 + α_21 = 4 − 1.5 = 2.5 rad/s²"))  # fmt: skip
+    assert ["v_C/B", "an_C/B"] == [str(sheet.steps[i + 1].symbol) for i in (omega, alpha)]
+
+
+def test_links_that_slide_on_a_link_driven_from_a_moving_one_are_told_to_turn_as_it_does_once():
+    assert [] == [line for line in lines_of(ARM) if line in ("$ω_{3}$ = $ω_{2}$", "$α_{3}$ = $α_{2}$")]
+
+
+def test_a_link_driven_from_a_moving_one_at_a_steady_rate_has_the_second_rate_of_that_one():
+    assert "$α_{3}$ = $α_{2}$ = $α_{1}$ + $α_{21}$ = 4 + 0 = 4 rad/s²" in lines_of(arm(alpha=0))
+
+
+def test_no_sum_of_rates_is_told_where_neither_changes():
+    first, second, third = arm(alpha=0)["driver"]
+    steady = {**ARM, "driver": [{**first, "alpha": 0}, second, third]}
+    kinds = [step.kind for step in draft(mechanism_of(steady)).steps if step.reason == "sum of rates"]
+    assert ["omega"] == kinds
+
+
+def test_a_driver_that_turns_the_known_link_from_the_other_is_taken_off():
+    scene = {
+        "frame": {"points": {"A": [0, 0]}},
+        "links": {"1": {"points": ["A", "B"], "length": 300}, "2": {"points": ["T"], "on": "1"},
+                  "3": {"points": ["T", "U"], "length": 200}},
+        "driver": [{"link": "1", "angle": 30, "omega": 1}, {"slide": "2", "travel": 260, "velocity": 40},
+                   {"link": "2", "relative_to": "3", "angle": -50, "omega": 3}],
+    }  # fmt: skip
+    assert "$ω_{3}$ = $ω_{2}$ − $ω_{23}$ = 1 − 3 = −2 rad/s" in lines_of(scene)
+    assert check(scene).ok
+
+
+@pytest.mark.parametrize(("scene", "line"), [
+    (ON_A_BLOCK, "$ω_{1}$ = $ω_{3}$ = $ω_{2}$ − $ω_{23}$ = 0 − 3 = −3 rad/s"),
+    (IN_A_FOUR_BAR, "$ω_{2}$ = $ω_{1}$ + $ω_{21}$ = −1.4838 + 2 = 0.5162 (0.51616) rad/s"),
+], ids=["on a block", "in a four-bar"])  # fmt: skip
+def test_a_driver_within_a_dyad_adds_its_rate_to_that_of_the_known_link(scene, line):
+    assert line in lines_of(scene)
+    assert check(scene).ok
+
+
+def test_the_given_rate_of_a_coupler_driven_from_the_frame_is_no_sum():
+    scene = {**IN_A_FOUR_BAR, "driver": {"link": "2", "angle": 17.1, "omega": 2, "alpha": 0.5}}
+    assert [] == [step for step in draft(mechanism_of(scene)).steps if step.reason == "sum of rates"]

@@ -104,6 +104,19 @@ def share_rate(plot: Polygons, order: Order, known: str, name: str, add: float =
     plot.rates[order][name] = Rate(name, rate.value + add, rate.vector, rate.mm, rate.arm, rate.same_as or known)
 
 
+def add_rates(plot: Polygons, order: Order, link: str, links: tuple[str, str], add: float) -> None:
+    """Find the rate of a link from that of a known link and the rate between the two, omega_2 = omega_1 + omega_21.
+
+    Parameters
+    ----------
+    order : "velocity" or "acceleration"
+    link, links : the link whose rate is found; the known link, and that of the two which turns relative to the other
+    add : the rate between them (rad/s, rad/s2)
+    """
+    known = plot.rates[order][links[0]].value
+    plot.do(RateStep("read", "sum of rates", order, kind=RATE[order], link=link, links=links, value=known, other=add))
+
+
 def spread(plot: Polygons, order: Order, start: str, group: Dyad | LargerGroup) -> None:
     """Carry a known rotation to all links that slide on each other or are held by drivers."""
     pairs = turned(plot, order, group)
@@ -115,14 +128,11 @@ def spread(plot: Polygons, order: Order, start: str, group: Dyad | LargerGroup) 
                 if known == at and new not in plot.rates[order]:
                     share_rate(plot, order, at, new, more)
                     is_told = add != 0.0
-                    if a in plot.seen:  # not where it just turns as a third does
+                    if a in plot.seen and b in plot.seen[a].rates[order]:  # not where it just turns as a third does
                         seen = plot.seen[a].rates[order]
-                        as_third = b in seen and seen[b].same_as and seen[seen[b].same_as].value == seen[b].value
-                        is_told = b in seen and not as_third
-                    if isinstance(group, LargerGroup) and at != plot.ground and is_told:
-                        value = plot.rates[order][at].value
-                        plot.do(RateStep("read", "sum of rates", order, kind=RATE[order], link=new, links=(at, b),
-                                         value=value, other=add))  # fmt: skip
+                        is_told = not seen[b].same_as or seen[seen[b].same_as].value != seen[b].value
+                    if at != plot.ground and is_told:
+                        add_rates(plot, order, new, (at, b), add)
                     queue.append(new)
 
 
