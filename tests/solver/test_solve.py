@@ -137,6 +137,21 @@ def test_a_redundant_link_is_given_its_motion() -> None:
     assert motion.alpha("4")[0] == pytest.approx(motion.alpha("1")[0], rel=1e-13)
 
 
+def test_a_redundant_link_with_a_single_pin_turns_with_the_guide_on_which_it_slides() -> None:
+    motion = solve(mechanism_of({
+        "frame": {"points": {"A": [0, 0], "D": [0, -90]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 40},
+            "2": {"points": ["B"], "on": "3"},
+            "3": {"points": ["D"]},
+            "4": {"points": ["B"], "on": "3", "angle_on": 25, "redundant": True},
+        },
+        "driver": {"link": "1", "angle": 60, "omega": 10, "alpha": 5},
+    }))
+    expected = motion.angle("2") + np.radians(25.0), motion.omega("2"), motion.alpha("2")
+    assert np.array(expected) == pytest.approx(np.array((motion.angle("4"), motion.omega("4"), motion.alpha("4"))))
+
+
 @pytest.mark.parametrize("name", ["sixbar-AE70", "shaper-scheme-2", "triad-slider"])
 def test_positions_in_blocks_are_those_of_one(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     scene = mechanism_of(name)
