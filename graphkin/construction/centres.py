@@ -352,8 +352,8 @@ def _permanent(links: Centres) -> Iterator[Centre]:
 
 
 def _normals(links: Centres) -> Iterator[CentreRelation]:
-    """The common normals: of a pin in a slot the line through the pin square to the slot, and those of sliding
-    contacts."""
+    """The common normals: of a pin in a slot the line through the pin square to the slot, and those of contacts, also of
+    rolling ones, whose centres are permanent."""
     scene, poses = links.scene, links.poses
     for slide in scene.slides:
         of, on = slide.bodies
@@ -362,7 +362,7 @@ def _normals(links: Centres) -> Iterator[CentreRelation]:
             at, start = links.touching.place(of, slide.pin), poses[on].place(slide.guide.through * links.mm)
             line = links.chart.line(start + along * dot(at - start, along), 1j * along)
             yield CentreRelation(links.pair(of, on), line, ROUNDING, (slide.key,))
-    for touch in links.touching.sliding() if scene.higher_pairs else ():
+    for _, touch in links.touching.contacts() if scene.higher_pairs else ():
         line = links.chart.line(touch.at, touch.normal)
         yield CentreRelation(links.pair(*touch.links), line, ROUNDING, (touch.name,))
 

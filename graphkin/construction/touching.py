@@ -137,10 +137,6 @@ class Touching:
             elif not (pair.by_law and frozenset(pair.bodies) in between):
                 yield replace(touch, name=_free(touch.name, taken))
 
-    def sliding(self) -> Iterator[Touch]:
-        """The contacts of outlines that slide on each other."""
-        return (touch for pair, touch in self.contacts() if not pair.rolling)
-
     def rolling(self) -> Iterator[Touch]:
         """The points of rolling, by the name of the contact or the gear."""
         return (touch for pair, touch in self.each() if pair.rolling)

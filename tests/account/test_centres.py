@@ -12,11 +12,12 @@ from graphkin.account.centres import how_found, velocity_sentences
 from graphkin.api.centred import centres as checked_centres
 from graphkin.api.centred import centres_text
 from graphkin.construction.centres import find_centres
-from graphkin.scene import library, mechanism_of
+from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.scene.symbol import Symbol
 from graphkin.words import say, written
 from tests.bench.attack import mechanism
 from tests.mechanisms import random_scene
+from tests.scenes import TRAMMEL
 
 
 def test_the_sense_is_opposite_where_the_common_centre_lies_between() -> None:
@@ -165,3 +166,8 @@ def test_links_that_do_not_move_relative_to_each_other_are_not_among_the_compare
     }
     said = centres_text(checked_centres(scene))[2][-1]
     assert "5 instant centres agree with the analytic solution; the links of P0h do not move" in said
+
+
+def test_a_pin_in_a_slot_of_the_frame_has_its_speed_alone_and_no_sliding_velocity_beside_it() -> None:
+    centres = find_centres(mechanism_of_text(TRAMMEL, "trammel"))
+    assert ["centre speed"] * 3 == [phrase.key for phrase in velocity_sentences(centres)]

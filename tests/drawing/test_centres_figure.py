@@ -15,8 +15,16 @@ from graphkin.construction.board.scales import Room
 from graphkin.construction.centres import Centres
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import FigurePage
-from graphkin.drawing.figures.centres import background, centre_marks, centres_figure, named_centres, untold
-from graphkin.drawing.ink.primitives import Group, Line, Polyline, Primitive, Text, walk
+from graphkin.drawing.figures.centres import (
+    background,
+    centre_marks,
+    centres_figure,
+    circle_diagram,
+    named_centres,
+    untold,
+)
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Group, Line, Polyline, Primitive, Text, on_page, walk
 from graphkin.drawing.parts.mechanism import bare_mechanism
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, ink_box, joined
@@ -87,6 +95,22 @@ def test_the_circle_diagram_numbers_the_centres_found() -> None:
     _, drawing = figure("sixbar-420rpm")
     written = [t.string for t in things(drawing) if isinstance(t, Text) and t.id.startswith("label-side-")]
     assert ["1", "2", "3", "4", "5", "6", "7", "8"] == sorted(written)
+
+
+def test_numbers_of_a_circle_diagram_stand_nearest_the_middle_of_their_side_with_three_mm_of_room() -> None:
+    diagram = circle_diagram(found_centres(mechanism_of("fourbar-150-500-300-400"), None), 0j, 50.0)
+    numbers = [thing for thing in walk((diagram,)) if isinstance(thing, Text) and "side" in thing.id]
+    # two sides cross at the middle: in hundredths of their 100 mm the first 3 mm from the other, the second also
+    # 3 mm and half a gap from the first
+    assert pytest.approx([3.0, 4.0]) == [abs(number.at - 0.75j) for number in numbers]
+
+
+def test_bars_in_the_place_of_a_cam_join_its_axis_the_centre_of_curvature_and_the_roller() -> None:
+    centres, drawn = figure("cam-offset-roller")
+    axis, curvature, roller = (on_page(centres.of(*pair).point) for pair in (("1", "0"), ("1", "OB"), ("2", "OB")))
+    dash = strokes.REDUNDANT.dash
+    bars = [t.end - t.start for t in things(drawn) if isinstance(t, Line) and t.stroke.dash == dash]
+    assert pytest.approx([roller - curvature, curvature - axis]) == bars
 
 
 def test_the_us_convention_calls_a_centre_i() -> None:
