@@ -140,8 +140,7 @@ def _why(sheet: Sheet, equation: Equation, term: Term) -> Iterator[Phrase]:
     of, to = symbol.of, symbol.to
     if of is None or (symbol.kind in ("ak", "ar") and to is None):
         return
-    coupled = {r.name for e in sheet.structure.elements for r in e.rolling}
-    rolling = {point: c.bodies for point, c in sheet.scene.contact_at.items() if point in coupled}
+    rolling = {point: c.bodies for point, c in sheet.scene.contact_at.items() if c.rolling}
     rolling |= {s.point: (s.links[0], s.links[1]) for s in sheet.placing("pitch point")}
     for ref in (of, to):
         if ref is not None and (links := rolling.get(ref.point)):

@@ -161,13 +161,12 @@ def link_of_vector(sheet: Sheet, symbol: Symbol) -> str:
         pivoted = [n for n in moving if any(scene.frame.name in scene.holders[p] for p in scene.by_name[n].points)]
         return (pivoted or moving or [scene.frame.name])[0]
     theirs = _links(scene.holders, to)
-    common = [name for name in mine if name in theirs and name != scene.frame.name]
-    if of.point != to.point and common:
-        return common[0]
-    both = {of.point, to.point}
-    bars = [n for n in scene.replaced_by if n in sheet.structure.links and both <= {*sheet.structure.links[n].bar}]
-    if bars and of.point != to.point:
-        return bars[0]
+    if of.point != to.point:
+        both, links = {of.point, to.point}, sheet.structure.links
+        common = [name for name in mine if name in theirs and name != scene.frame.name]
+        common += [bar for bar in scene.replaced_by if bar in links and both <= links[bar].points.keys()]
+        if common:
+            return common[0]
     sliding = {s.a for s in sheet.structure.slides} | {s.body for s in scene.slides}
     for name in (*mine, *theirs):
         if name in sliding:

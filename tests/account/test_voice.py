@@ -8,13 +8,13 @@ from typing import get_args
 
 import pytest
 
-from graphkin import read
-from graphkin.account.account import telling, why
+from graphkin import check, read
+from graphkin.account.account import reasons, telling, why
 from graphkin.account.arithmetic import bound
 from graphkin.account.in_mechanism import InMechanism
 from graphkin.account.in_polygon import InPolygon
 from graphkin.account.notation import notation_of
-from graphkin.account.voice import Account, PolygonPoints, whole_sentence
+from graphkin.account.voice import Account, PolygonPoints, link_of_vector, whole_sentence
 from graphkin.api.classroom.handouts import handout
 from graphkin.construction import draft
 from graphkin.construction.board.sheet import Remark
@@ -22,9 +22,11 @@ from graphkin.construction.board.steps import PointNames, Reason
 from graphkin.papers.lesson import stages
 from graphkin.papers.screen import motion_data
 from graphkin.scene import library, mechanism_of
+from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 from graphkin.words.symbols import sign
 from tests.mechanisms import random_scene, redriven
+from tests.rolling_linkages import wheel_at_its_rim
 
 pytestmark = pytest.mark.quick
 
@@ -322,3 +324,36 @@ def test_a_link_that_is_named_like_a_point_is_no_point():
     sheet = draft(mechanism_of("four-bar-coupler-point"))
     account = Account(sheet, notation_of(sheet, "chinese"))
     assert "mark $B$ on link Rod2" == repr(account.say(Phrase("points", link="Rod2", points=PointNames(("B",))), "en"))
+
+
+def test_a_vector_between_the_centres_of_two_discs_is_of_the_bar_that_stands_for_their_contact():
+    sheet = draft(mechanism_of({
+        "frame": {"points": {"A": [0, 0], "C": [100, 0], "F": [170, 0]}},
+        "links": {
+            "1": {"points": ["A", "O"], "length": 20, "discs": {"k": {"centre": "O", "r": 40}}},
+            "2": {"points": ["C", "B"], "length": 70, "at": {"E": [30, -20]},
+                  "discs": {"w": {"centre": "B", "r": 15}, "v": {"centre": "E", "r": 20}}},
+            "3": {"points": ["F", "G"], "length": 60, "discs": {"u": {"centre": "G", "r": 40}}},
+        },
+        "contacts": {"K": {"between": ["1.k", "2.w"]}, "L": {"between": ["2.v", "3.u"]}},
+        "sketch": {"B": [54, 52], "G": [160, 60]},
+        "driver": {"link": "1", "angle": 50, "omega": 12},
+    }))  # fmt: skip
+    assert ["OB", "EG"] == [link_of_vector(sheet, Symbol.parse(name)) for name in ("v_B/O", "v_G/E")]
+
+
+def test_the_foot_of_a_bar_between_two_discs_bears_its_points():
+    sheet = draft(mechanism_of("disc-on-disc"))
+    feet = PolygonPoints(sheet, "acceleration", notation_of(sheet, "chinese")).feet
+    assert ["n1′", "n2′", "nOB′"] == [foot.letter.plain("") for foot in feet]
+
+
+@pytest.mark.parametrize(
+    ("scene", "expected"),
+    [(wheel_at_its_rim(), {"why rolling velocity", "why rolling acceleration"}), ("disc-on-disc", set())],
+)
+def test_the_contact_of_bodies_that_roll_on_each_other_is_said_to_have_one_velocity(scene, expected):
+    checked = check(scene)
+    sheet = (checked.at_contacts or checked).sheet
+    told = {phrase.key for equation in sheet.equations for phrase in reasons(sheet, equation)}
+    assert expected == {key for key in told if "rolling" in key}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import cmath
+import math
 import xml.etree.ElementTree as ET
 
 import pytest
@@ -9,9 +11,10 @@ import pytest
 import graphkin
 from graphkin.api.drawn import Drawn
 from graphkin.drawing import svg_bytes
-from graphkin.drawing.ink.primitives import Text, walk
+from graphkin.drawing.ink.primitives import Group, Line, Text, on_page, walk
 from graphkin.drawing.place.piece import obstacles_of
 from graphkin.drawing.text import text_box
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.pictures import bare_picture
 
 FOUR_BAR = graphkin.read("fourbar-150-500-300-400").to_dict() | {"positions": {"count": 4, "first": 0}}
@@ -111,7 +114,8 @@ def test_a_scene_that_shows_its_limits_alone_has_tables_of_a_turn(driver: str) -
     assert graphkin.course_design(limits_alone(driver)).ok
 
 
-def test_a_cam_with_dwells_has_no_angle_between_two_positions_of_it_and_no_path_of_bars_in_its_place() -> None:
+@pytest.fixture(scope="module")
+def cam_with_dwells() -> Drawing:
     scene = {
         "frame": {"points": {"A": [0, 0]}, "guides": {"g": {"through": "A", "angle": 90}}},
         "links": {"1": {"points": ["A"], "at": {"E": [20, 0]}}, "2": {"points": ["B"], "on": "0.g"}},
@@ -120,7 +124,28 @@ def test_a_cam_with_dwells_has_no_angle_between_two_positions_of_it_and_no_path_
         ]}},
         "driver": {"link": "1", "angle": 30, "omega": 10},
     }  # fmt: skip
-    figure = ET.fromstring(svg_bytes(graphkin.draw(scene, figures=["positions"]).figures["positions"]))
+    return graphkin.draw(scene, figures=["positions"]).figures["positions"]
+
+
+def test_a_cam_with_dwells_has_no_angle_between_two_positions_of_it_and_no_path_of_bars_in_its_place(
+    cam_with_dwells: Drawing,
+) -> None:
+    figure = ET.fromstring(svg_bytes(cam_with_dwells))
     drawn = {id for id in ids(figure) if id.startswith(("theta", "out", "back", "least", "path"))}
     assert set() == drawn
-    assert "3" in "".join(figure.itertext()).split("K = ")[-1][:3]
+
+
+def lines_at_limits(drawing: Drawing) -> list[list[Line]]:
+    """The lines of the low limit position and those of the high one: the cam's from A to E, then the follower's."""
+    limits = [t for t in walk(drawing.children) if isinstance(t, Group) and t.id.startswith("limit-")]
+    return [[t for t in limit.children if isinstance(t, Line)] for limit in sorted(limits, key=lambda g: g.id)][::-1]
+
+
+def test_the_limits_of_a_follower_lie_its_lift_apart(cam_with_dwells: Drawing) -> None:
+    (_, low), (_, high) = lines_at_limits(cam_with_dwells)
+    assert pytest.approx(-10.0j) == high.start - low.start  # 20 mm at 1:2, y down
+
+
+def test_a_cam_stands_at_the_end_of_a_dwell_where_its_follower_has_its_limit(cam_with_dwells: Drawing) -> None:
+    arms = [on_page(cam.end - cam.start) for cam, _ in lines_at_limits(cam_with_dwells)]
+    assert pytest.approx([0.0, 160.0]) == [math.degrees(cmath.phase(arm)) for arm in arms]

@@ -10,7 +10,8 @@ import graphkin
 from graphkin.errors import CallError
 from graphkin.papers.documents import problem
 from graphkin.papers.fresh_numbers import LEVELS, Spread, candidate, level_of
-from graphkin.papers.variants import Unfit, examined
+from graphkin.papers.variants import Unfit, asked_of, examined
+from graphkin.scene import mechanism_of
 from graphkin.scene.scene import written
 
 RULES = {
@@ -128,6 +129,17 @@ def test_cams_and_rolling_wheels_vary_and_are_asked_for_something(scene, asked):
         assert all(a.tolerance <= 0.05 * abs(a.value) for a in answers)
     one, two = made.answers.values()
     assert one != two
+
+
+@pytest.mark.parametrize(
+    ("scene", "asked"),
+    [
+        ("cam-swinging-roller", ["omega_2", "alpha_2", "v_B", "a_B"]),
+        ("gears-epicyclic", ["omega_2", "omega_3", "v_P", "a_P"]),
+    ],
+)
+def test_only_what_follows_a_law_is_asked_for_its_angular_acceleration_where_the_driver_turns_evenly(scene, asked):
+    assert asked == [str(symbol) for symbol in asked_of(mechanism_of(scene))]
 
 
 def test_a_slider_that_never_turns_is_not_asked_for_its_rate():

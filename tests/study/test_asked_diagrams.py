@@ -95,6 +95,12 @@ def test_the_pressure_angle_of_a_cams_follower_is_swept_with_what_the_scene_allo
     assert "e−" not in words  # no residue where it is nought
 
 
+def test_the_limits_of_a_cams_pressure_angle_stand_beside_no_other_quantity_of_its_follower() -> None:
+    swept = graphkin.sweep("cam-swinging-roller", positions=12, find=["omega_2", "pressure_2"])
+    allowed = {name: "allowed" in words_of(figure) for name, figure in swept.figures.items()}
+    assert {"diagram-omega_2": False, "diagram-pressure_2": True} == allowed
+
+
 def test_the_diagram_of_the_angle_between_two_links_has_no_leap_of_a_turn() -> None:
     reach = driver_range(mechanism_of("four-bar-coupler-point"))
     axis, angle = DriverAxis(reach), Symbol.parse("theta_2/1")
