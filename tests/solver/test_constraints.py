@@ -13,6 +13,7 @@ from graphkin.solver import solve
 from graphkin.solver.algebra import bounds
 from graphkin.solver.algebra.constraints import Constraints
 from graphkin.solver.algebra.pose import Array, Pose
+from graphkin.solver.path.assemblies import _descended
 from tests import scenes
 
 STEP = 1e-6
@@ -73,3 +74,27 @@ def test_no_entry_of_the_matrix_changes_more_than_is_told_for_errors_of_place(na
         off = moved(system, all_, (error * rng.choice([-1.0, 1.0], error.shape))[0])
         change = np.abs(system.matrix(off) - here)
         assert (change <= bounds._changes(system, parts, error) * (1 + 1e-4) + 1e-15).all()
+
+
+def test_a_place_to_which_a_start_descends_is_open_by_the_residual_that_is_given_for_it() -> None:
+    system, _ = of_all("TRIAD")
+    place = np.random.default_rng(3).uniform(-1.0, 1.0, (60, system.layout.members, 3))
+    residual = _descended(system, place)
+    assert np.abs(system.residuals(system.at(place))).max(axis=1) == pytest.approx(residual, abs=1e-14)
+
+
+def test_starts_beside_a_position_descend_to_it() -> None:
+    system, solved = of_all("TRIAD")
+    place = np.random.default_rng(3).normal(0.0, 0.03, (60, system.layout.members, 3))
+    place += np.stack((solved.z.real, solved.z.imag, np.angle(solved.u)), axis=2)[:, : system.layout.members]
+    assert np.zeros(60) == pytest.approx(_descended(system, place), abs=1e-12)
+
+
+def test_a_start_among_others_descends_to_where_it_does_alone() -> None:
+    system, _ = of_all("TRIAD")
+    starts = np.random.default_rng(3).uniform(-1.0, 1.0, (12, system.layout.members, 3))
+    together, alone = starts.copy(), np.split(starts.copy(), 12)
+    _descended(system, together)
+    for start in alone:
+        _descended(system, start)
+    assert np.concatenate(alone) == pytest.approx(together, abs=1e-9)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -216,10 +215,9 @@ def _descended(system: Constraints, place: Array) -> Array:
     """
     active, damping = np.arange(len(place)), np.ones(len(place))
     residual = np.full(len(place), np.inf)
-    all_ = system.at(place)
-    residuals = system.residuals(all_)
+    residuals = system.residuals(system.at(place))
     for _ in range(ROUNDS):
-        matrix = system.matrix(all_)
+        matrix = system.matrix(system.at(place[active]))
         turned = np.swapaxes(matrix, 1, 2)
         slope = (turned @ residuals[..., None])[..., 0]
         most = residual[active] = np.abs(residuals).max(axis=1)
@@ -228,23 +226,17 @@ def _descended(system: Constraints, place: Array) -> Array:
             active, damping, matrix, turned, slope, residuals = (
                 x[on] for x in (active, damping, matrix, turned, slope, residuals)
             )
-            all_ = replace(all_, z=all_.z[on], u=all_.u[on])
             if not len(active):
                 return residual
         normal = turned @ matrix
         diagonal = np.arange(matrix.shape[2])
         normal[:, diagonal, diagonal] += damping[:, None] * 1e-3
         trial = place[active] - system.scaled(solve_all(normal, slope))
-        new = system.at(trial)
-        new_residuals = system.residuals(new)
-        better = np.sum(new_residuals**2, axis=1) < np.sum(residuals**2, axis=1)
+        there = system.residuals(system.at(trial))
+        better = np.sum(there**2, axis=1) < np.sum(residuals**2, axis=1)
         place[active[better]] = trial[better]
         damping = np.clip(np.where(better, damping / 5, damping * 4), 1e-12, 1e8)
-        residuals, z, u = (
-            np.where(better[:, None], there, here)
-            for there, here in ((new_residuals, residuals), (new.z, all_.z), (new.u, all_.u))
-        )
-        all_ = replace(all_, z=z, u=u)
+        residuals = np.where(better[:, None], there, residuals)
     residual[active] = np.abs(residuals).max(axis=1)
     return residual
 
