@@ -12,8 +12,10 @@ from graphkin.construction.board.steps import TrialPositions
 from graphkin.construction.plan import plan
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
+from graphkin.solver import solve as solved
 from tests.rolling_linkages import (
     ROLLING_LINKAGES,
+    cylinder_and_wheel,
     five_bar_by_its_middle,
     planet_by_a_rod,
     wheel_at_its_rim,
@@ -38,6 +40,15 @@ def test_the_start_is_laid_off_as_given_and_other_positions_are_found_by_trial()
     assert [True, False] == [any(s.reason == "rolling" for s in steps) for steps in drawn]
     trials = [[s for s in steps if isinstance(s, TrialPositions)] for steps in drawn]
     assert [(), ("K",)] == [next((trial.rolling for trial in tried), ()) for tried in trials]
+
+
+def test_a_wheel_on_a_rail_is_tried_at_angles_of_its_bar_to_the_x_axis():
+    made = cylinder_and_wheel()
+    made["frame"]["guides"]["rail"]["angle"] = 10
+    scene, at = mechanism_of(made), {"2/1": 0.156}
+    (tried,) = (step for step in draft(scene, at).steps if isinstance(step, TrialPositions))
+    assert [Symbol.parse("theta_3")] == [*tried.moved]
+    assert float(solved(scene, at=at).angle("3")[0]) == pytest.approx(tried.divided[-1][0][0], abs=math.radians(0.02))
 
 
 def test_a_wheel_on_a_rail_is_drawn_as_turning_about_where_it_touches():

@@ -349,9 +349,12 @@ def _moved(known: PlacedLinks, reduced: ReducedMechanism, driver: Driver) -> tup
     base, ground = driver.relative_to, reduced.structure.scene.frame.name
     if not driver.turns:
         return Symbol.parse(f"s_{driver.key}"), 0.0
+    lead = 0.0
+    if (block := reduced.structure.blocks.get(base)) is not None:  # it turns as the link with its guide
+        base, lead = block.b, cmath.phase(block.guide.direction)
     if base in known.poses:  # a link that stands already: its angle is taken to the x axis
-        return Symbol("theta", link=driver.link), cmath.phase(known.poses[base].axis)
-    return Symbol("theta", link=driver.link, other="" if base == ground else base), 0.0
+        return Symbol("theta", link=driver.link), lead + cmath.phase(known.poses[base].axis)
+    return Symbol("theta", link=driver.link, other="" if base == ground else base), lead
 
 
 # -- where the gaps of trial drawings close ----------------------------------------------------------------------------
