@@ -352,8 +352,8 @@ def _permanent(links: Centres) -> Iterator[Centre]:
 
 
 def _normals(links: Centres) -> Iterator[CentreRelation]:
-    """The common normals: of a pin in a slot the line through the pin square to the slot, and those of contacts, also of
-    rolling ones, whose centres are permanent."""
+    """The common normals: of a pin in a slot the line through the pin square to the slot, and those of contacts, also
+    of rolling ones, whose centres are permanent."""
     scene, poses = links.scene, links.poses
     for slide in scene.slides:
         of, on = slide.bodies

@@ -138,6 +138,13 @@ def test_few_lines_that_have_no_room_in_their_place_stand_where_the_page_has_som
     assert ["sheet"] == list(sheets(scene, **how))
 
 
+@pytest.mark.parametrize("scene", ["oldham-coupling", "four-bar-coupler-point"])
+def test_readings_that_begin_in_a_room_left_higher_up_are_continued_in_their_own(scene):
+    texts = [thing for thing in walk(sheets(scene, language="en")["sheet"].children) if isinstance(thing, Text)]
+    captions = sorted((text for text in texts if text.string.startswith("Readings")), key=lambda text: text.at.imag)
+    assert ["Readings and check", "Readings and check (continued)"] == [text.string for text in captions]
+
+
 @pytest.mark.parametrize(("scene", "how"), IN_ROOMS_LEFT)
 def test_what_goes_on_in_other_rooms_of_a_sheet_stands_on_nothing_else(scene, how):
     texts = [thing for thing in walk(sheets(scene, **how)["sheet"].children) if isinstance(thing, Text)]

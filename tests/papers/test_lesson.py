@@ -1,18 +1,25 @@
 from __future__ import annotations
 
+import cmath
+import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 import graphkin
+from graphkin.account.notation import notation_of
 from graphkin.checking import readings
 from graphkin.checking.readings import read_off
 from graphkin.construction import execute, plan
 from graphkin.construction.centres import find_centres
 from graphkin.papers import lesson
 from graphkin.papers.lesson import usual_count
-from graphkin.scene import mechanism_of
+from graphkin.papers.screen import motion_data
+from graphkin.scene import mechanism_of, mechanism_of_text
+from graphkin.solver import solve
 from graphkin.structure import analyse
+from tests import scenes
 from tests.command import run
 
 pytestmark = pytest.mark.quick
@@ -93,3 +100,32 @@ def test_positions_of_the_screen_whose_check_fails_are_left_out(monkeypatch):
     kept, now = lesson.views_of(structure, None, (), "en", "us", paper, 4)
     assert whole[start].sheet.drivers == kept[now].sheet.drivers
     assert (start - 1, len(whole) - 2) == (now, len(kept))
+
+
+def guide_in_motion(name):
+    """The ends of the only guide that the screen shows (mm, y up), each at five positions, and the size of the
+    mechanism on paper."""
+    scene = mechanism_of_text(getattr(scenes, name), name)
+    sheet = execute(plan(analyse(scene), None, ()))
+    moving = motion_data(sheet, notation_of(sheet, "chinese"), None, count=5)
+    ((start, end),) = moving["lines"]
+    tracks = (np.array(moving["tracks"][k]).reshape(-1, 2) for k in (start, end))
+    return [x - 1j * y for x, y in (track.T for track in tracks)], scene.size / sheet.scales.length
+
+
+def test_a_guide_of_the_frame_reaches_on_the_screen_as_far_as_the_mechanism_is_large_to_either_side():
+    (start, end), size = guide_in_motion("OFFSET_SLIDER")
+    reach = cmath.rect(size, math.radians(12))
+    assert np.full(5, 10 + 25j) == pytest.approx((start + end) / 2, abs=0.01)
+    assert np.full(5, reach) == pytest.approx((end - start) / 2, abs=0.01)
+
+
+def test_a_guide_of_a_link_runs_on_the_screen_through_what_slides_on_it():
+    (start, end), _ = guide_in_motion("GUIDE_OVER_CRANK")  # over A, at the origin
+    assert np.zeros(5) == pytest.approx((start * end.conjugate()).imag / abs(end - start), abs=0.02)
+
+
+def test_a_guide_of_a_link_is_on_the_screen_six_tenths_of_the_mechanism_ahead_and_a_little_behind():
+    (start, end), size = guide_in_motion("GUIDE_OVER_CRANK")
+    angle = solve(mechanism_of_text(scenes.GUIDE_OVER_CRANK, "guide"), sweep=5).angle("5") + math.radians(140)
+    assert 0.69 * size * np.exp(1j * angle) == pytest.approx(end - start, abs=0.02)
