@@ -17,7 +17,7 @@ from graphkin.plane import added_up
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
 from graphkin.scene.pairs import HigherPair, LawCam, Pair
 from graphkin.scene.symbol import Symbol, centre_links
-from graphkin.words import Phrase, about, joined, links_named, listed
+from graphkin.words import Phrase, bodies_named, joined, links_named
 
 
 @dataclass(frozen=True)
@@ -52,10 +52,10 @@ Coordinate = tuple[str, str]
 def _named(group: Element) -> Phrase:
     """The members of a group in words: its links of the file, and what stands in it for pins in slots and for contacts:
     ``links 2, 3``, ``link 2 and the block at B``, ``the blocks at P``."""
-    blocks = [name.split("/")[0] for name in group.members if "/" in name]
+    blocks = [name for name in group.members if "/" in name]
     parts = [links_named(group.links)] if group.links else []
     if blocks:
-        parts.append(Phrase(about("blocks at points", blocks), points=listed([*dict.fromkeys(blocks)])))
+        parts.append(bodies_named(blocks))
     bars = (name for name in group.members if name not in group.links and "/" not in name)
     named: Phrase = joined("one and other", (*parts, *(Phrase("bar of name", bar=bar) for bar in bars)))
     return named

@@ -335,13 +335,14 @@ def links_named(names: Sequence[object]) -> Phrase:
 
 
 def bodies_named(names: Sequence[str]) -> Phrase:
-    """Links without the blocks that stand for pins in slots; of such a block alone the block at its pin.
+    """Links without the blocks that stand for pins in slots; of blocks alone the blocks at their pins.
 
-    >>> str(bodies_named(["2", "B/2"])), str(bodies_named(["B/2"]))
-    ('link 2', 'the block at B')
+    >>> str(bodies_named(["2", "B/2"])), str(bodies_named(["B/2"])), str(bodies_named(["P/1", "P/0"]))
+    ('link 2', 'the block at B', 'the blocks at P')
     """
     links = [name for name in names if "/" not in name]
-    return links_named(links) if links else Phrase("blocks at points one", points=names[0].split("/")[0])
+    points = dict.fromkeys(name.split("/")[0] for name in names)
+    return links_named(links) if links else Phrase(about("blocks at points", names), points=listed([*points]))
 
 
 def clauses(parts: Sequence[Wording]) -> Wording:

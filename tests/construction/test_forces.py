@@ -430,21 +430,64 @@ loads.P = { on = "3", at = [100, 20], force = 100, angle = 200 }
 """Three links on a hinge, of which the two written last are cut free together, the last one first."""
 
 
+CROSSING = tomllib.loads("""
+frame.points = { A = [0, 0], D = [150, 90], H = [130, -60] }
+frame.guides = { v = { through = [100, 0], angle = 80 }, u = { through = [0, 20], angle = 0 } }
+links.1 = { points = ["A"] }
+links.2 = { points = ["P", "Q"], length = 60 }
+links.3 = { points = ["Q"], on = "0.u", guides = { w = { through = "Q", angle = 60 } } }
+pins.P = { of = "2", in = ["1", "0.v"] }
+driver = { link = "1", angle = 10, omega = 2 }
+loads.W = { on = "3", at = "Q", force = 30, angle = 180 }
+""")
+"""A pin in a slot of the crank and in another of the frame: its two blocks alone are a group."""
+
+AT_THE_CROSSING = CROSSING | {"loads": {"W": {"on": "2", "at": "P", "force": 30, "angle": 180}}}
+
+CROSSING_OF_CRANKS = CROSSING | {
+    "links": {**CROSSING["links"], "6": {"points": ["H"]}}, "pins": {"P": {"of": "2", "in": ["1", "6"]}},
+    "driver": [CROSSING["driver"], {"link": "6", "angle": 105, "omega": 1}],
+}
+
+ROD_TO_A_CROSSING = CROSSING | {
+    "links": {
+        **CROSSING["links"], "7": {"points": ["P", "E"], "length": 60}, "8": {"points": ["D", "E"], "length": 60}},
+    "sketch": {"E": [110, 80]},
+    "loads": {**CROSSING["loads"], "R": {"on": "8", "at": [30, 3], "force": 20, "angle": 0}},
+}
+"""A second rod on the crossing pin."""
+
+CROSSING_AFTER_CROSSING = CROSSING | {
+    "frame": {**CROSSING["frame"], "guides": {
+        **CROSSING["frame"]["guides"], "x": {"through": [0, 60], "angle": 0}, "y": {"through": [0, 90], "angle": 0}}},
+    "links": {**CROSSING["links"], "4": {"points": ["S", "T"], "length": 70}, "5": {"points": ["T"], "on": "0.y"}},
+    "pins": {**CROSSING["pins"], "S": {"of": "4", "in": ["3.w", "0.x"]}},
+    "loads": {"W": {"on": "5", "at": "T", "force": 30, "angle": 180}},
+}
+"""The slide behind the first crossing pushes the pin of a second."""
+
+CROSSINGS = [CROSSING, AT_THE_CROSSING, CROSSING_OF_CRANKS, ROD_TO_A_CROSSING,
+             ROD_TO_A_CROSSING | {"pins": {"P": {"of": "7", "in": ["1", "0.v"]}}}, CROSSING_AFTER_CROSSING]
+
+POINTS = "ABCDEFPQST"
+
+
 @pytest.mark.parametrize("scene", [owned("g"), owned("s"), owned("g", "4"), owned("s", "4"), owned("s", "1", "B"),
-                                   owned("g") | IN_ORDER, owned("s") | IN_ORDER, BLOCK_ON_A_COMPOUND_HINGE])
+                                   owned("g") | IN_ORDER, owned("s") | IN_ORDER, BLOCK_ON_A_COMPOUND_HINGE, *CROSSINGS])
 def test_a_force_in_a_polygon_is_the_force_of_its_name(scene):
     (state,) = with_forces(drawn(scene)).forces
     met = [(joint.point, joint.symbol("F")) for joint in joints(mechanism_of(scene))]
     met += [(pin.pin, Symbol("F", link=pin.b, other=pin.of)) for pin in mechanism_of(scene).slides if pin.higher]
     for per_mm, polygon in ((group.per_mm, polygon) for group in state.groups for polygon in group.polygons):
         spans = {}
-        for vector in (v for v in polygon if v.symbol.other and not (v.known and v.symbol.link in "ABCDEF")):
+        for vector in (v for v in polygon if v.symbol.other):
             spans[vector.symbol] = spans.get(vector.symbol, 0j) + vector.span * per_mm
         for symbol, span in spans.items():
             pairs = {symbol: 1, symbol.opposite: -1}
-            if symbol.link in "ABCDEF":  # the pin's own, of several links
-                at = {pair for point, pair in met if point == symbol.link}
-                pairs = {s: 1 if s.other == symbol.other else -1 for s in at if symbol.other in (s.link, s.other)}
+            for pin, sign in ((symbol, 1), (symbol.opposite, -1)):
+                if pin.link in POINTS:  # the pin's own, of several links
+                    at = {pair for point, pair in met if point == pin.link}
+                    pairs = {s: sign if s.other == pin.other else -sign for s in at if pin.other in (s.link, s.other)}
             named = sum(sign * state.vectors.get(pair, 0j) for pair, sign in pairs.items())
             assert named == pytest.approx(span, abs=1e-9), str(symbol)
 
@@ -505,7 +548,8 @@ def test_the_force_of_a_driven_pin_is_that_of_its_guide_with_the_push_of_the_dri
             if name == f"F_{of}":
                 expected = -push if link == slot else push
             assert abs(expected - force) <= 1e-9 * most, name
-    assert met & whole.keys()
+    several = "E" in scene.get("sketch", {})  # each link of the hinge pushes the block
+    assert met & ({f"F_{of}/B", "F_7/1", "F_1/7"} if several else whole.keys())
     assert {f"F_{of}"} <= met
 
 
@@ -528,12 +572,14 @@ def test_a_driver_s_push_along_a_slot_is_the_only_load_of_a_pin_when_nothing_bal
 
 @pytest.mark.parametrize(("scene", "load", "forces", "of", "per_mm"), [
     (DRIVEN_IN_A_SLOT, {}, "F_0/1, F_1", "the block at B", 2),
-    (DRIVEN_ON_A_COMPOUND_HINGE, {"R": {"on": "8", "at": [40, 0], "force": -60, "angle": 0}},
-     "P_R, F_0/8, F_1/7, F_7/8, F_0/1, F_1", "links 7, 8 and the block at B", 1),
+    (DRIVEN_ON_A_COMPOUND_HINGE, {"R": {"on": "8", "at": [40, 0], "force": -120, "angle": 0}},
+     "P_R, F_0/8, F_1/7, F_7/8, F_0/1, F_1", "links 7, 8 and the block at B", 2),
+    (CROSSING, {"Q": {"on": "1", "at": [30, 0], "force": 1e6, "angle": 30}},
+     "P_W, F_2/3, F_0/3, F_1/2, F_0/2", "links 2, 3 and the blocks at P", 0.5),
 ])  # fmt: skip
 def test_small_forces_of_a_driven_block_are_read_off_its_polygon_at_a_scale_of_its_own(scene, load, forces, of, per_mm):
     large = {"Q": {"on": "2", "at": [70, 0], "force": 1e6, "angle": 30}}
-    checked = graphkin.check(scene | {"loads": scene["loads"] | load | large})
+    checked = graphkin.check(scene | {"loads": scene["loads"] | large | load})
     assert checked.ok
     said = f"{forces}: read off the force polygon of {of}, at a scale of its own, 1 mm = {per_mm} N"
     assert [said] == [say(note) for note in checked.sheet.force_notes]
@@ -547,6 +593,21 @@ def test_the_block_of_a_pin_that_is_driven_is_cut_free_as_a_block():
     told = report_text(checked, "en")
     assert "The block at B (driven) cut free" in told
     assert "B/0 " not in told.split("The block at B")[1]
+
+
+@pytest.mark.parametrize("scene", CROSSINGS)
+def test_a_pin_in_two_slots_is_cut_free_and_its_polygon_gives_the_forces_of_both(scene):
+    (state,) = with_forces(drawn(scene)).forces
+    pins = {pin: [pin_in["of"], *pin_in["in"]] for pin, pin_in in scene["pins"].items()}
+    for pin, (of, *slots) in pins.items():
+        names = [slot.split(".")[0] for slot in slots]
+        (group,) = (group for group in state.groups if group.links == tuple(f"{pin}/{name}" for name in names))
+        assert {Symbol("F", link=name, other=of) for name in names} == group.read.keys()
+        first, *known, last = group.polygon
+        assert [Symbol("F", link=name, other=of) for name in names] == [first.symbol, last.symbol]
+        assert Symbol("F", link=of, other=pin) in [vector.symbol for vector in known]
+        assert ["cut free", "known forces", "closed by lines"] == [step.reason for step in group.steps]
+    assert (True, []) == judged(scene)
 
 
 def test_a_body_with_drivers_inside_keeps_its_polygon_beside_that_of_its_last_link():
@@ -578,6 +639,9 @@ def test_a_guest_of_a_hinge_is_cut_free_before_its_host_whose_force_is_that_of_o
     (state,) = with_forces(drawn(owned(slot, of))).forces
     (polygon,) = next(group for group in state.groups if group.links == (of,)).polygons
     assert [f"F_0/{of}"] == [str(vector.symbol) for vector in polygon if not vector.known]
+
+
+POINTS = "ABCDEFPQS"
 
 
 @pytest.mark.parametrize("scene", [owned("g"), owned("s"), owned("g", "4"), owned("s", "4")])

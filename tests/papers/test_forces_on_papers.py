@@ -12,7 +12,7 @@ import pytest
 import graphkin
 import tests.papers
 from graphkin.account.forces import force_stages
-from tests.construction.test_forces import DRIVEN_IN_A_SLOT
+from tests.construction.test_forces import CROSSING, DRIVEN_IN_A_SLOT
 
 ENGINE = "engine-gas-force"
 
@@ -134,3 +134,18 @@ def test_a_driven_block_is_called_a_block_under_its_figure_on_a_paper_and_on_the
                  "2. The block at B (driven) cut free", "All forces on the block at B are in equilibrium"):
         assert said in text
     assert "link B" not in text
+
+
+def test_a_pin_in_two_slots_is_cut_free_with_its_blocks_on_a_paper_and_on_the_page(tmp_path):
+    graphkin.handout(CROSSING, out=tmp_path, formats=("html",), language="both", positions=1)
+    page = (tmp_path / "handout.html").read_text(encoding="utf-8")
+    assert "Forces on the blocks at P" in str(tests.papers.unpacked(page))
+    text = words(page)
+    for said in ("The blocks at P cut free, and their force polygon", "P 处各滑块的分离体与力多边形",
+                 "2. The blocks at P (PRP) cut free", "2. 取 P 处各滑块（PRP）为分离体",
+                 "All forces on the blocks at P are in equilibrium",
+                 "ab = FR2P = 30.014 N ÷ 0.5 N/mm = 60.03 mm, −178.3°",
+                 "Through b, the end of FR2P, draw a line ⊥v: FR02 lies on it; through a, the beginning of FR2P, a line"
+                 " ⊥x1: FR12 lies on it; they meet in c", "FR02 = 63.21 mm × 0.5 N/mm = 31.605 N",
+                 "3. Link 1 (driven) cut free"):
+        assert said in text

@@ -324,12 +324,15 @@ class Sheet:
         for state in self.forces[:1]:
             read_at = state.per_mm.items()
             for per_mm in dict.fromkeys(per_mm for _, per_mm in read_at if per_mm != self.scales.force):
-                forces = listed([symbol for symbol, per in read_at if per == per_mm])
-                names = [name for g in state.groups if g.per_mm == per_mm for name in g.links]
-                blocks = [bodies_named([name]) for name in names if "/" in name]
-                links = joined("one and other", ([bodies_named(names)] if len(names) > len(blocks) else []) + blocks)
+                groups = [group.links for group in state.groups if group.per_mm == per_mm]
+                links = [name for names in groups for name in names if "/" not in name]
+                blocks = [names for names in groups if "/" in names[0]]
+                parts = [bodies_named(names) for names in (links, *blocks) if names]
                 scale = Neutral(f"1 mm = {amount(per_mm / units.newtons, 12)} {units.force}")
-                phrases.append(Phrase("own scale of forces", links=links, scale=scale, forces=forces))
+                phrases.append(Phrase(
+                    "own scale of forces", links=joined("one and other", parts), scale=scale,
+                    forces=listed([symbol for symbol, per in read_at if per == per_mm]),
+                ))  # fmt: skip
         return tuple(phrases)
 
     @cached_property

@@ -131,7 +131,7 @@ def _state(held: Sheet, hand: Instrument, scales: ForceScales, known: tuple[Forc
     cut, groups = CutFree(DrawnPosition(held), hand, common), []
     cut.push(*known)
     for element in force_groups(cut.drawn):
-        cut.per_mm = scales.get(element.links, common)
+        cut.per_mm = scales.get(element.links or element.members, common)
         drawn_at |= dict.fromkeys(element.members, cut.per_mm)
         balances = {driver.key: cut.drawn.balance(driver) for driver in element.drivers}
         if isinstance(element, Driven):
@@ -152,7 +152,7 @@ def _state(held: Sheet, hand: Instrument, scales: ForceScales, known: tuple[Forc
     vectors = {symbol: force for symbol, (force, _) in forces.items()}
     per_mm = {symbol: next((drawn_at[name] for name in drawn_at if name in links), common)
               for symbol, (_, links) in forces.items()}  # fmt: skip
-    drawn = tuple(changed(g, read={**g.read, **dict(_named(g, vectors))}) for g in groups if g.links)
+    drawn = tuple(changed(g, read={**g.read, **dict(_named(g, vectors))}) for g in groups)
     return ForceState(known, drawn, vectors, moments, per_mm)
 
 

@@ -197,11 +197,7 @@ class CutFree:
             heads = [n for n in others if hosts.get(n) not in others]
             mine = [n for n in holders if n in inside and hosts.get(n) not in inside]
             carrier = next((n for n in mine if n not in hosts), mine[0])
-            hung = {drawn.of_pin(point, n, self.done).opposite: -self.at_pin(point, n, others) for n in heads}
-            alone = carrier == drawn.holders[point][0] and hosts.keys().isdisjoint(mine)
-            if len(mine) + len(heads) > 2 and not alone:
-                other = drawn.structure.blocks[carrier].b if carrier in drawn.pushed else carrier
-                hung = {Symbol("F", link=point, other=other): added_up(hung.values(), 0j)}
+            hung = {drawn.of_pin(point, n, self.done).opposite: -self.at_pin(point, n) for n in heads}
             for symbol, force in hung.items():
                 self._load_pin(point, carrier, symbol, force)
 
@@ -210,10 +206,9 @@ class CutFree:
         self.push(ForceVector(symbol, link=link, force=force, at=self.drawn.point(link, point)))
         self.pins[point, link] += force
 
-    def at_pin(self, point: str, link: str, of: Collection[str] = ()) -> complex:
-        """The force (N) of a pin on a link and its guests together, on those ``of`` some if these are given."""
-        names = self.drawn.with_guests(point, link)
-        return added_up((self.pins[point, name] for name in names if not of or name in of), 0j)
+    def at_pin(self, point: str, link: str) -> complex:
+        """The force (N) of a pin on a link and its guests together."""
+        return added_up((self.pins[point, name] for name in self.drawn.with_guests(point, link)), 0j)
 
     def at_pair(self, pair: Pair, links: Sequence[str]) -> ForceVector:
         """The force of a pair on that of some links which it holds, of no size yet."""
@@ -375,7 +370,7 @@ def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, ForceVector]) -> Fo
     ------
     Unsolvable : "dead point": the lines that close the polygon are parallel
     """
-    cut.begin(dyad.links, dyad.kind, "polygon", dyad.members)
+    cut.begin(dyad.links or dyad.members, dyad.kind, "polygon", dyad.members)
     pairs = dyad.outer_first, dyad.outer_second
     at_first, at_second = (cut.at_pair(pair, body.links) for pair, body in zip(pairs, dyad.bodies, strict=True))
     (first, head), (second, tail) = _outer_parts(cut, dyad, at_first, at_second)

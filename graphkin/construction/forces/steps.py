@@ -267,10 +267,10 @@ class ForceGroup:
     steps: tuple[ForceStep, ...] = ()
 
     def told(self, key: str, **gaps: object) -> Phrase:
-        """Words about its links, or about a single link, or the block of a pin alone."""
-        links = [link.split("/")[0] for link in self.links]
-        key = f"{key} block" if "/" in self.links[0] else about(key, links)
-        return Phrase(key, links=listed(links), **gaps)
+        """Words about its links, or about a single link, or the blocks of a pin alone."""
+        links = dict.fromkeys(link.split("/")[0] for link in self.links)
+        key = about(f"{key} blocks" if "/" in self.links[0] else key, self.links)
+        return Phrase(key, links=listed([*links]), **gaps)
 
     @property
     def polygons(self) -> list[tuple[ForceVector, ...]]:
