@@ -335,14 +335,18 @@ def links_named(names: Sequence[object]) -> Phrase:
 
 
 def bodies_named(names: Sequence[str]) -> Phrase:
-    """Links without the blocks that stand for pins in slots; of blocks alone the blocks at their pins.
+    """Links without the blocks that stand for pins in slots; of blocks alone the blocks at their pins; ``B/`` is a
+    pin without them.
 
-    >>> str(bodies_named(["2", "B/2"])), str(bodies_named(["B/2"])), str(bodies_named(["P/1", "P/0"]))
-    ('link 2', 'the block at B', 'the blocks at P')
+    >>> str(bodies_named(["2", "B/2"])), str(bodies_named(["P/1", "P/0"])), str(bodies_named(["B/"]))
+    ('link 2', 'the blocks at P', 'the pin at B')
     """
     links = [name for name in names if "/" not in name]
     points = dict.fromkeys(name.split("/")[0] for name in names)
-    return links_named(links) if links else Phrase(about("blocks at points", names), points=listed([*points]))
+    if links:
+        return links_named(links)
+    key = "pin at point" if names[0].endswith("/") else about("blocks at points", names)
+    return Phrase(key, points=listed([*points]))
 
 
 def clauses(parts: Sequence[Wording]) -> Wording:

@@ -23,7 +23,7 @@ from graphkin.scene import mechanism_of
 from graphkin.scene.model import joints
 from graphkin.scene.symbol import Symbol
 from graphkin.words import say
-from tests.mechanisms import KINDS, floating_cylinder, random_scene, redriven
+from tests.mechanisms import DRIVES, KINDS, floating_cylinder, random_scene, redriven
 from tests.solver.test_forces import CASES, PLACES, loaded, number, scene_of
 
 SHAPER = scene_of("shaper-scheme-2")
@@ -466,6 +466,25 @@ CROSSING_AFTER_CROSSING = CROSSING | {
 }
 """The slide behind the first crossing pushes the pin of a second."""
 
+CROSSING_OF_CIRCLES = CROSSING | {
+    "frame": {**CROSSING["frame"], "guides": {**CROSSING["frame"]["guides"], "c": {"centre": [100, 60], "r": 55}}},
+    "links": {**CROSSING["links"], "1": {"points": ["A"], "guides": {"d": {"centre": [60, 0], "r": 40}}}},
+    "pins": {"P": {"of": "2", "in": ["1.d", "0.c"]}}, "sketch": {"P": [97, 18], "Q": [160, 20]},
+}
+CRANK_WRITTEN_LAST = tomllib.loads("""
+frame.points = { A = [0, 0], C = [150, 0], D = [-40, 150] }
+links.3 = { points = ["E", "F"], length = 120 }
+links.4 = { points = ["E", "G"], length = 120 }
+links.6 = { points = ["C", "F"], length = 80 }
+links.7 = { points = ["D", "G"], length = 80 }
+links.5 = { points = ["A", "E"], length = 40 }
+driver = { link = "5", angle = 50, omega = 2 }
+sketch = { F = [130, 70], G = [20, 130] }
+loads.R = { on = "6", at = [30, 5], force = 20, angle = 10 }
+loads.S = { on = "7", at = [30, 5], force = 30, angle = 100 }
+""")
+"""Two rods on the pin of the crank, whose force is named with the rod that is written first."""
+
 CROSSINGS = [CROSSING, AT_THE_CROSSING, CROSSING_OF_CRANKS, ROD_TO_A_CROSSING,
              ROD_TO_A_CROSSING | {"pins": {"P": {"of": "7", "in": ["1", "0.v"]}}}, CROSSING_AFTER_CROSSING]
 
@@ -473,7 +492,8 @@ POINTS = "ABCDEFPQST"
 
 
 @pytest.mark.parametrize("scene", [owned("g"), owned("s"), owned("g", "4"), owned("s", "4"), owned("s", "1", "B"),
-                                   owned("g") | IN_ORDER, owned("s") | IN_ORDER, BLOCK_ON_A_COMPOUND_HINGE, *CROSSINGS])
+                                   owned("g") | IN_ORDER, owned("s") | IN_ORDER, BLOCK_ON_A_COMPOUND_HINGE,
+                                   CRANK_WRITTEN_LAST, CROSSING_OF_CIRCLES, *CROSSINGS])
 def test_a_force_in_a_polygon_is_the_force_of_its_name(scene):
     (state,) = with_forces(drawn(scene)).forces
     met = [(joint.point, joint.symbol("F")) for joint in joints(mechanism_of(scene))]
@@ -607,6 +627,57 @@ def test_a_pin_in_two_slots_is_cut_free_and_its_polygon_gives_the_forces_of_both
         assert [Symbol("F", link=name, other=of) for name in names] == [first.symbol, last.symbol]
         assert Symbol("F", link=of, other=pin) in [vector.symbol for vector in known]
         assert ["cut free", "known forces", "closed by lines"] == [step.reason for step in group.steps]
+    assert (True, []) == judged(scene)
+
+
+def undrawn(sheet):
+    """The forces of a sheet, but rounding, that stand in none of its polygons by their names, nor reversed."""
+    for state in sheet.forces:
+        least = 1e-9 * max(map(abs, state.vectors.values()), default=0.0)
+        met = set()
+        for group in state.groups:
+            for polygon in group.polygons:
+                spans = {}
+                for vector in polygon:
+                    span = -vector.span if vector.turned else vector.span
+                    spans[vector.symbol] = spans.get(vector.symbol, 0j) + span * group.per_mm
+                for symbol, force in spans.items():
+                    met |= {name for name, sign in ((symbol, 1), (symbol.opposite, -1))
+                            if abs(state.vectors.get(name, math.inf) - sign * force) <= least}  # fmt: skip
+        yield from (str(symbol) for symbol, force in state.vectors.items() if abs(force) > least and symbol not in met)
+
+
+def loaded_scenes():
+    yield from (scene_of(name) for name in CASES)
+    for path in sorted(LIBRARY.glob("*.toml")):
+        scene = tomllib.loads(path.read_text(encoding="utf-8"))
+        yield path if scene.keys() & {"loads", "masses"} else loaded(graphkin.read(path).to_dict(), 1)
+    for seed in range(SCENES):
+        rng = random.Random(seed)
+        yield loaded(random_scene(seed, tuple(rng.choices(KINDS, k=2)), rng.choice(DRIVES)), seed)
+        yield loaded(floating_cylinder(seed), seed)
+    yield from (loaded(redriven(seed), seed) for seed in DRIVEN_BETWEEN)
+    yield from (owned(*of) for of in (("g",), ("s",), ("g", "4"), ("s", "4"), ("s", "1", "B")))
+    yield from (owned("g") | IN_ORDER, owned("s") | IN_ORDER, BLOCK_IN_A_FLOATING_SLOT, DRIVEN_AGAINST_A_BLOCK, CHAIN)
+    yield from (BLOCK_ON_A_COMPOUND_HINGE, DRIVEN_IN_A_SLOT, DRIVEN_ON_A_COMPOUND_HINGE, CRANK_WRITTEN_LAST)
+    yield from (BESIDE_A_MEGANEWTON, CROSSING_OF_CIRCLES, *CROSSINGS)
+
+
+def test_every_force_that_is_read_off_stands_in_a_polygon():
+    assert [] == [(scene, name) for scene in loaded_scenes() for name in undrawn(with_forces(drawn(scene)))]
+
+
+@pytest.mark.parametrize(("scene", "pin", "forces"), [
+    (CRANK_WRITTEN_LAST, "E", ["F_3/E", "F_4/3", "F_5/3"]), (CROSSING_OF_CIRCLES, "P", ["F_2/P", "F_c/2", "F_d/2"]),
+    (BLOCK_ON_A_COMPOUND_HINGE, "E", ["F_3/E", "F_2/3", "F_6/3"]),
+])  # fmt: skip
+def test_the_polygon_of_a_pin_gives_the_force_of_the_link_on_which_others_hang(scene, pin, forces):
+    (state,) = with_forces(drawn(scene)).forces
+    ((step, polygon),) = ((step, group.inner[step.links]) for group in state.groups for step in group.by("inside")
+                          if step.links == (f"{pin}/",))  # fmt: skip
+    assert forces == [str(vector.symbol) for vector in polygon]
+    assert forces[-1:] == [str(symbol) for symbol in step.finds]
+    assert polygon[0].tail == pytest.approx(polygon[-1].tip)
     assert (True, []) == judged(scene)
 
 

@@ -12,7 +12,7 @@ import pytest
 import graphkin
 import tests.papers
 from graphkin.account.forces import force_stages
-from tests.construction.test_forces import CROSSING, DRIVEN_IN_A_SLOT
+from tests.construction.test_forces import CRANK_WRITTEN_LAST, CROSSING, DRIVEN_IN_A_SLOT
 
 ENGINE = "engine-gas-force"
 
@@ -148,4 +148,12 @@ def test_a_pin_in_two_slots_is_cut_free_with_its_blocks_on_a_paper_and_on_the_pa
                  "Through b, the end of FR2P, draw a line ⊥v: FR02 lies on it; through a, the beginning of FR2P, a line"
                  " ⊥x1: FR12 lies on it; they meet in c", "FR02 = 63.21 mm × 0.5 N/mm = 31.605 N",
                  "3. Link 1 (driven) cut free"):
+        assert said in text
+
+
+def test_the_polygon_of_a_pin_alone_is_told_on_a_paper(tmp_path):
+    graphkin.handout(CRANK_WRITTEN_LAST, out=tmp_path, formats=("html",), language="both", positions=1)
+    text = words((tmp_path / "handout.html").read_text(encoding="utf-8"))
+    for said in ("the pin at E alone / 销 E", "The polygon of the pin at E alone closes with FR53.",
+                 "由销 E 的力多边形封闭，求得 FR53。", "FR53 = 33.51 mm × 0.5 N/mm = 16.755 N"):
         assert said in text

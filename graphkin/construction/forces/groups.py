@@ -85,6 +85,8 @@ class CutFree:
     slides : force and couple of each guiding link on its sliding one
     done : the links whose forces are known
     per_mm : N for one mm of the polygons under work
+    hung : the pins on which links hang that were found before, each with the links of the group there, the first of
+        which bears them, and with their forces
     group : the group under work
     """
 
@@ -96,12 +98,14 @@ class CutFree:
     slides: dict[str, tuple[complex, float]] = field(default_factory=dict)
     balances: list[ForceVector] = field(default_factory=list)
     done: set[str] = field(default_factory=set)
+    hung: list[tuple[str, list[str], list[ForceVector]]] = field(default_factory=list)
     group: ForceGroup = NO_GROUP
 
     # -- the group under work ------------------------------------------------------------------------------------------
 
     def begin(self, links: tuple[str, ...], kind: str, way: Way, members: Sequence[str]) -> None:
         """Cut a group free, with the known forces and couples on it."""
+        self.hung = []
         self.load_pins(members)
         acting = tuple(sorted(self.on(members), key=lambda load: not load.force))
         self.group = ForceGroup(links, kind, way, self.per_mm)
@@ -153,6 +157,7 @@ class CutFree:
     def finished(self, members: Collection[str]) -> ForceGroup:
         """The group under work: polygons of parts of it close with the forces inside, and couples follow."""
         self.done |= set(members)
+        self.close_pins()
         couples = self.group.moments(*COUPLES)
         inside = [
             ForceStep("join", "inside", "force", tuple(v for v in chain if v.symbol in finds), links=links, finds=finds)
@@ -198,13 +203,35 @@ class CutFree:
             mine = [n for n in holders if n in inside and hosts.get(n) not in inside]
             carrier = next((n for n in mine if n not in hosts), mine[0])
             hung = {drawn.of_pin(point, n, self.done).opposite: -self.at_pin(point, n) for n in heads}
-            for symbol, force in hung.items():
-                self._load_pin(point, carrier, symbol, force)
+            loads = [self._load_pin(point, carrier, symbol, force) for symbol, force in hung.items()]
+            self.hung.append((point, [carrier, *(n for n in mine if n != carrier)], loads))
 
-    def _load_pin(self, point: str, link: str, symbol: Symbol, force: complex) -> None:
+    def _load_pin(self, point: str, link: str, symbol: Symbol, force: complex) -> ForceVector:
         """A known force of a pin acts on a link."""
-        self.push(ForceVector(symbol, link=link, force=force, at=self.drawn.point(link, point)))
+        load = ForceVector(symbol, link=link, force=force, at=self.drawn.point(link, point))
+        self.push(load)
         self.pins[point, link] += force
+        return load
+
+    def close_pins(self) -> None:
+        """Where the link that bears what hangs on a pin is paired with another link there, and no polygon gives the
+        force of that pair, the polygon of the pin alone closes with it."""
+        drawn = self.drawn
+        for point, (carrier, *others), loads in self.hung:
+            first = drawn.hosts[point].get(carrier, drawn.holders[point][0])
+            symbol = drawn.between(carrier, first, point)
+            there = {vector.symbol for polygon in self.group.polygons for vector in polygon}
+            if carrier == first or carrier in drawn.structure.blocks or {symbol, symbol.opposite} & there:
+                continue
+            names = {n: drawn.of_pin(point, n, self.done).opposite for n in others} | {carrier: symbol}
+            *inside, last = (
+                replace(loads[0], symbol=name, link=n, force=-self.at_pin(point, n), by="closing")
+                for n, name in names.items()
+            )
+            chain: Chain = []
+            self.lay(chain, *loads, *inside)
+            self.close(chain, last)
+            self.inside((f"{point}/",), chain)
 
     def at_pin(self, point: str, link: str) -> complex:
         """The force (N) of a pin on a link and its guests together."""

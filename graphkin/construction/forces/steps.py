@@ -250,7 +250,7 @@ class ForceGroup:
     links, kind, way : of the group, and the construction of its forces
     per_mm : N for one mm of its polygons
     polygon : the forces on it head to tail, closed; empty for a group drawn link by link
-    inner : the polygons of parts of it that give the forces inside, by their links
+    inner : the polygons of parts of it that give the forces inside, by their links, of a pin alone by ``E/``
     lines : the line of action of a pair's force with its couple: a place (mm), by the symbol of the force
     read : the lengths of forces read off its polygons (mm), all parts together, of a driven pair without the driver
     steps : in their order, the first of which cuts it free
