@@ -471,6 +471,11 @@ CROSSING_OF_CIRCLES = CROSSING | {
     "links": {**CROSSING["links"], "1": {"points": ["A"], "guides": {"d": {"centre": [60, 0], "r": 40}}}},
     "pins": {"P": {"of": "2", "in": ["1.d", "0.c"]}}, "sketch": {"P": [97, 18], "Q": [160, 20]},
 }
+ROD_TO_A_CROSSING_OF_CIRCLES = CROSSING_OF_CIRCLES | {
+    "links": ROD_TO_A_CROSSING["links"] | {"1": CROSSING_OF_CIRCLES["links"]["1"]},
+    "pins": {"P": {"of": "7", "in": ["1.d", "0.c"]}}, "loads": ROD_TO_A_CROSSING["loads"],
+    "sketch": {**CROSSING_OF_CIRCLES["sketch"], "E": [110, 75]},
+}
 CRANK_WRITTEN_LAST = tomllib.loads("""
 frame.points = { A = [0, 0], C = [150, 0], D = [-40, 150] }
 links.3 = { points = ["E", "F"], length = 120 }
@@ -493,7 +498,7 @@ POINTS = "ABCDEFPQST"
 
 @pytest.mark.parametrize("scene", [owned("g"), owned("s"), owned("g", "4"), owned("s", "4"), owned("s", "1", "B"),
                                    owned("g") | IN_ORDER, owned("s") | IN_ORDER, BLOCK_ON_A_COMPOUND_HINGE,
-                                   CRANK_WRITTEN_LAST, CROSSING_OF_CIRCLES, *CROSSINGS])
+                                   CRANK_WRITTEN_LAST, CROSSING_OF_CIRCLES, ROD_TO_A_CROSSING_OF_CIRCLES, *CROSSINGS])
 def test_a_force_in_a_polygon_is_the_force_of_its_name(scene):
     (state,) = with_forces(drawn(scene)).forces
     met = [(joint.point, joint.symbol("F")) for joint in joints(mechanism_of(scene))]
@@ -660,7 +665,7 @@ def loaded_scenes():
     yield from (owned(*of) for of in (("g",), ("s",), ("g", "4"), ("s", "4"), ("s", "1", "B")))
     yield from (owned("g") | IN_ORDER, owned("s") | IN_ORDER, BLOCK_IN_A_FLOATING_SLOT, DRIVEN_AGAINST_A_BLOCK, CHAIN)
     yield from (BLOCK_ON_A_COMPOUND_HINGE, DRIVEN_IN_A_SLOT, DRIVEN_ON_A_COMPOUND_HINGE, CRANK_WRITTEN_LAST)
-    yield from (BESIDE_A_MEGANEWTON, CROSSING_OF_CIRCLES, *CROSSINGS)
+    yield from (BESIDE_A_MEGANEWTON, CROSSING_OF_CIRCLES, ROD_TO_A_CROSSING_OF_CIRCLES, *CROSSINGS)
 
 
 def test_every_force_that_is_read_off_stands_in_a_polygon():
@@ -669,6 +674,7 @@ def test_every_force_that_is_read_off_stands_in_a_polygon():
 
 @pytest.mark.parametrize(("scene", "pin", "forces"), [
     (CRANK_WRITTEN_LAST, "E", ["F_3/E", "F_4/3", "F_5/3"]), (CROSSING_OF_CIRCLES, "P", ["F_2/P", "F_c/2", "F_d/2"]),
+    (ROD_TO_A_CROSSING_OF_CIRCLES, "P", ["F_2/7", "F_7/P", "F_c/7", "F_d/7"]),
     (BLOCK_ON_A_COMPOUND_HINGE, "E", ["F_3/E", "F_2/3", "F_6/3"]),
 ])  # fmt: skip
 def test_the_polygon_of_a_pin_gives_the_force_of_the_link_on_which_others_hang(scene, pin, forces):
@@ -679,6 +685,18 @@ def test_the_polygon_of_a_pin_gives_the_force_of_the_link_on_which_others_hang(s
     assert forces[-1:] == [str(symbol) for symbol in step.finds]
     assert polygon[0].tail == pytest.approx(polygon[-1].tip)
     assert (True, []) == judged(scene)
+
+
+FOUR_BAR_WITH_ITS_CRANK_LAST = CRANK_WRITTEN_LAST | {
+    "links": {name: CRANK_WRITTEN_LAST["links"][name] for name in ("3", "6", "5")}, "sketch": {"F": [130, 70]},
+    "loads": {"R": CRANK_WRITTEN_LAST["loads"]["R"]},
+}
+
+
+@pytest.mark.parametrize("scene", [SHAPER, FOUR_BAR_WITH_ITS_CRANK_LAST, *CROSSINGS])
+def test_a_pin_has_no_polygon_alone_where_the_forces_on_it_are_drawn(scene):
+    (state, *_) = with_forces(drawn(scene)).forces
+    assert [] == [links for group in state.groups for links in group.inner if links[0].endswith("/")]
 
 
 def test_a_body_with_drivers_inside_keeps_its_polygon_beside_that_of_its_last_link():
