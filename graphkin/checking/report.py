@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 EXACT_TOLERANCE = 1e-9
 ROUNDING = 1e-14
 CANCELLED = 1e-12  # of the largest of its sort: what is left where two values cancel
+LAST_DIGITS = 4e-15  # of the largest: what is left of a zero where its terms do not cancel exactly
 GRAIN = 2e-15  # rounding of places, of the farthest
 JUDGED = 4.0  # deviations of a pencil: what each of a dozen readings keeps within in a thousand drawings
 FAIR = 1e-3  # of the largest of its diagram: a tolerance that is greater accepts anything (exact hands, programs)
@@ -209,7 +210,7 @@ def _row(
     whole : the size of which it may be off by a ``share`` with exact hands; where the tolerance exceeds this size, and
         the ``least`` length that a hand reads, the reading is not determined
     floor, rounded : the size up to which a value is rounding alone, and its rounding error
-    unsure : whether a value not above the floor may still differ from zero
+    unsure : whether a value from the last digits of ``whole`` up to the floor may differ from zero
     """
     symbol, expected = reading.symbol, (predicted or {}).get(reading.symbol)
     # an instrument may be off by anything, where it draws and nothing is predicted of this reading
@@ -221,7 +222,7 @@ def _row(
     fair = whole == 0.0 == least or tolerance <= max(part * whole, least)
     deviation = reading.value - exact if math.isfinite(abs(exact)) else math.inf
     error = abs(math.remainder(deviation.real, math.tau) if symbol.measure.is_angle else deviation)
-    told = fair and not (unsure and 0.0 < abs(exact) <= floor)
+    told = fair and not (unsure and LAST_DIGITS * whole < abs(exact) <= floor)
     return Compared(
         reading, exact, error, tolerance, _turned(reading, exact, whole), expected, floor, told, by_drivers
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -54,6 +55,21 @@ def test_agreement_within_a_tolerance_that_accepts_anything_is_none() -> None:
     report = compare(sheet, readings, exact, rounding=dict.fromkeys(exact, Lost(velocity=1e3)))
     led = {"v_B", "omega_1", "omega_3"}  # by the crank and the guide alone
     assert {None} == {row.ok for row in report.rows if row.reading.diagram == "velocity" and str(row.symbol) not in led}
+
+
+@pytest.mark.quick
+@pytest.mark.parametrize(("verdict", "part"), [(True, 0.0), (True, 1e-15), (None, 1e-14), (None, 1e-10), (True, 1e-6)])
+def test_where_rounding_is_not_slight_a_value_above_the_last_digits_and_within_it_is_not_determined(
+    verdict: bool | None, part: float,
+) -> None:  # fmt: skip
+    sheet = draft(mechanism_of("slider-crank-offset"))
+    exact = {r.symbol: r.value for r in read_off(sheet)}
+    v_c, largest = Symbol.parse("v_C"), max(abs(v) for symbol, v in exact.items() if str(symbol) in ("v_B", "v_C/B"))
+    exact[v_c] = complex(part * largest)
+    readings = [replace(r, value=exact[r.symbol]) for r in read_off(sheet)]
+    rough = Lost(velocity=1e-9 * largest, acceleration=1e-9, slight=False)
+    rows = compare(sheet, readings, exact, rounding=dict.fromkeys(exact, rough)).rows
+    assert [verdict] == [row.ok for row in rows if row.symbol == v_c]
 
 
 @pytest.mark.quick

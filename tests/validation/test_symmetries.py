@@ -115,6 +115,18 @@ def test_the_report_of_a_mirrored_mechanism_has_its_sides_and_senses_exchanged(n
     assert words(exchanged(here)) == words(other)
 
 
+@pytest.mark.parametrize(("kinds", "drive"), [(("slotted",), "slot"), (("PRP", "RPP"), "cylinder")])
+@pytest.mark.parametrize(("degrees", "mirrored"), [(100, False), (13, False), (-37, True)])
+def test_a_zero_by_cancelling_terms_is_judged_in_every_frame_as_one_that_comes_out_exactly(
+    kinds, drive, degrees, mirrored,
+):  # fmt: skip
+    scene = random_scene(51, kinds, drive)
+    here, other = (graphkin.check(one).report for one in (scene, moved(scene, degrees, mirrored)))
+    verdicts = {str(row.symbol): row.ok for row in here.rows}
+    assert set(verdicts.values()) == {True}
+    assert verdicts == {str(row.symbol): row.ok for row in other.rows}
+
+
 PAIRS = (("counter-clockwise", "clockwise"), (" left", " right"), (" upper", " lower"),
          ("逆时针", "顺时针"), ("左", "右"), ("上方", "下方"))  # fmt: skip
 
