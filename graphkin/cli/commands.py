@@ -22,6 +22,8 @@ from graphkin.errors import GraphkinError, Problem
 from graphkin.words import Phrase, from_others
 
 if TYPE_CHECKING:
+    from sys import UnraisableHookArgs
+
     from typing_extensions import Buffer
 
 INTERRUPTED = 130
@@ -135,6 +137,7 @@ def main(interrupted: Callable[[int, FrameType | None], object] | None = None) -
     atexit.register(gc.freeze)
     if interrupted is not None:  # who comes after the end comes too late
         atexit.register(signal.signal, signal.SIGINT, signal.SIG_IGN)
+        sys.unraisablehook = _not_lost
     # looking through all installed packages for plugins of pydantic takes a twentieth of a command's time
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     own_streams()
@@ -181,6 +184,13 @@ def _run(interrupted: Callable[[int, FrameType | None], object] | None) -> str |
         print_failed("call", [Problem(" ".join(called), said)], {})
         return 2
     return 0
+
+
+def _not_lost(raised: UnraisableHookArgs) -> None:
+    """End at once where an interruption comes while an object is deleted: it is not raised, and would be lost."""
+    if raised.exc_type is KeyboardInterrupt:
+        _leave()
+    sys.__unraisablehook__(raised)
 
 
 def _leave() -> None:

@@ -72,6 +72,24 @@ def test_control_characters_of_a_file_never_reach_the_terminal(tmp_path: Path, b
 
 
 @POSIX
+def test_an_interruption_that_comes_while_an_object_is_deleted_is_not_lost() -> None:
+    lost = """import signal, time
+from graphkin.cli import commands
+class Deleted:
+    def __del__(self):
+        signal.raise_signal(signal.SIGINT)
+def command(interrupted):
+    Deleted()
+    time.sleep(20)
+commands._run = command
+commands.main(signal.default_int_handler)"""
+    begin = time.monotonic()
+    ended = subprocess.run([sys.executable, "-c", lost], capture_output=True, text=True, check=False)
+    assert (130, "") == (ended.returncode, ended.stderr)
+    assert time.monotonic() - begin < 20.0
+
+
+@POSIX
 def test_a_sweep_that_is_interrupted_twice_ends_at_once_with_all_its_processes(tmp_path: Path) -> None:
     varied = "links.2.length=80:100:4000"
     call = [*PROGRAM, "sweep", "slider-crank-offset", "--set", varied, "--workers", "2", "-o", "out"]

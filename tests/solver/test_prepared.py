@@ -42,7 +42,7 @@ def test_the_columns_are_those_of_solve() -> None:
 
 
 def test_each_vector_has_two_columns() -> None:
-    assert four_bar().names[:4] == ("C.x", "C.y", "v_C.x", "v_C.y")
+    assert four_bar().names[:4] == ("x_C", "y_C", "v_C.x", "v_C.y")
 
 
 def test_one_position_in_plain_floats_is_the_same_to_the_last_bit() -> None:
