@@ -104,7 +104,7 @@ def _driven(plot: Polygons, order: Order, element: Driven) -> None:
         other, sign = (driver.relative_to, 1) if driver.link == name else (driver.link, -1)
         base = plot.rates[order][other].value
         plot.rates[order][name] = Rate(name, base + sign * rate, mm=mm)
-        if other != plot.ground and (base or rate):
+        if base or rate:
             add_rates(plot, order, name, (other, driver.link), rate)
     elif pair.turns:
         plot.rates[order][name] = Rate(name, rate, mm=mm)

@@ -105,7 +105,8 @@ def share_rate(plot: Polygons, order: Order, known: str, name: str, add: float =
 
 
 def add_rates(plot: Polygons, order: Order, link: str, links: tuple[str, str], add: float) -> None:
-    """Find the rate of a link from that of a known link and the rate between the two, omega_2 = omega_1 + omega_21.
+    """Find the rate of a link from that of a known link and the rate between the two, omega_2 = omega_1 + omega_21;
+    relative to a link that stands still it needs no finding.
 
     Parameters
     ----------
@@ -113,6 +114,8 @@ def add_rates(plot: Polygons, order: Order, link: str, links: tuple[str, str], a
     link, links : the link whose rate is found; the known link, and that of the two which turns relative to the other
     add : the rate between them (rad/s, rad/s2)
     """
+    if links[0] == plot.ground:
+        return
     known = plot.rates[order][links[0]].value
     plot.do(RateStep("read", "sum of rates", order, kind=RATE[order], link=link, links=links, value=known, other=add))
 
@@ -131,7 +134,7 @@ def spread(plot: Polygons, order: Order, start: str, group: Dyad | LargerGroup) 
                     if a in plot.seen and b in plot.seen[a].rates[order]:  # not where it just turns as a third does
                         seen = plot.seen[a].rates[order]
                         is_told = not seen[b].same_as or seen[seen[b].same_as].value != seen[b].value
-                    if at != plot.ground and is_told:
+                    if is_told:
                         add_rates(plot, order, new, (at, b), add)
                     queue.append(new)
 
