@@ -49,4 +49,5 @@ def test_a_vector_group_begins_with_its_line():
 
 
 def test_a_vector_group_says_its_step():
-    assert class_names(vector_group("v_B", 7, 0j, 10 + 0j)) == ("vector", "step-07")
+    group = vector_group("v_B", 7, 0j, 10 + 0j)
+    assert class_names(group.classes, group.step) == ("vector", "step-07")

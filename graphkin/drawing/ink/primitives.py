@@ -153,7 +153,7 @@ class Text(NamedTuple):
     @property
     def string(self) -> str:
         """Its words, as a reader copies them."""
-        return "".join(run.text for run in self.runs)
+        return "".join([run.text for run in self.runs])
 
     def moved(self, by: complex) -> Text:
         return Text(self.at + by, self.runs, self.anchor, self.colour, self.id, self.classes, self.step, self.since)
@@ -217,10 +217,10 @@ class Group(NamedTuple):
 Primitive: TypeAlias = Line | Polyline | Polygon | Circle | Arc | Text | Scan | Group
 
 
-def class_names(thing: Group | Text) -> tuple[str, ...]:
-    """Its classes in the SVG, with the class of its step after the first."""
-    stage = () if thing.step is None else (f"step-{thing.step:02d}",)
-    return *thing.classes[:1], *stage, *thing.classes[1:]
+def class_names(classes: tuple[str, ...], step: int | None) -> tuple[str, ...]:
+    """The classes of a group or text in the SVG, with the class of its step after the first."""
+    stage = () if step is None else (f"step-{step:02d}",)
+    return *classes[:1], *stage, *classes[1:]
 
 
 @dataclass(frozen=True)

@@ -9,11 +9,10 @@ import json
 import math
 import re
 from base64 import b64encode
-from collections.abc import Callable, Mapping
-from functools import cache, lru_cache
+from collections.abc import Mapping
+from functools import lru_cache
 from html import escape
 from itertools import count
-from operator import itemgetter
 from zlib import crc32
 
 from graphkin.drawing.font import Style, face_rules, families, outline, style_of
@@ -83,13 +82,13 @@ def svg_bytes(drawing: Page, debug: bool = False, outlines: bool = False) -> byt
     ink = _Ink(drawing.lang, outlines)
     facts = json.dumps(drawing.metadata, ensure_ascii=False, sort_keys=True, allow_nan=False, separators=(",", ":"))
     told = {"title": drawing.title, "desc": drawing.desc, "metadata": facts}
-    parts = [ink.element(tag, {}, _escaped(_clean(words))) for tag, words in told.items() if words]
+    parts = [ink.element(tag, "", _escaped(_clean(words))) for tag, words in told.items() if words]
     drawn = ink.page(drawing)
     head = {**_head(drawing), **_NAMESPACES, "baseProfile": "full", "version": "1.1", "xml:lang": _quoted(drawing.lang)}
-    name, rules = face_rules({} if outlines else ink.used)
+    name, rules = face_rules({} if outlines else {style: "".join(words) for style, words in ink.used.items()})
     head["font-family"] = families(name)
-    parts += [ink.element("style", {}, _escaped(rules))] if rules else []
-    text = ink.element("svg", head, "".join((*parts, drawn)))
+    parts += [ink.element("style", "", _escaped(rules))] if rules else []
+    text = ink.element("svg", _attributes(head), "".join((*parts, drawn)))
     if debug:
         check_standard(text)
     return f'<?xml version="1.0" encoding="utf-8"?>\n{text}\n'.encode()
@@ -117,8 +116,8 @@ def svg_element(drawing: Page, named: bool = False, alone: bool = False) -> str:
     head = {**_head(drawing), "aria-label": _quoted(words), "focusable": "false"}
     if alone:
         spaces = {name: _NAMESPACES[name] for name in ("xmlns", "xmlns:xlink")}
-        return ink.element("svg", {**head, **spaces}, "".join(map(ink.draw, drawing.children)))
-    return ink.element("svg", head, ink.page(drawing))
+        return ink.element("svg", _attributes(head | spaces), "".join(map(ink.draw, drawing.children)))
+    return ink.element("svg", _attributes(head), ink.page(drawing))
 
 
 def _head(drawing: Page) -> dict[str, str]:
@@ -131,9 +130,13 @@ def _head(drawing: Page) -> dict[str, str]:
 
 
 class _Ink:
-    """Writes primitives as elements of a page; it keeps the clips, names and characters that it has written."""
+    """Writes primitives as elements of a page; it keeps the clips, names and words that it has written.
+
+    The attributes of an element stand in the order of their names.
+    """
 
     closing = " />"  # of an element that holds nothing
+    short = False  # whether colours are as short as possible
 
     def __init__(self, lang: str, outlines: bool = False) -> None:
         self.lang, self.outlines = lang, outlines
@@ -141,64 +144,57 @@ class _Ink:
         self.ids: set[str] = set()
         self.used: dict[Style, set[str]] = {"regular": set(), "italic": set(), "bold": set()}
 
-    def element(self, tag: str, attributes: dict[str, str], inner: str = "") -> str:
+    def element(self, tag: str, attributes: str, inner: str = "") -> str:
         """An element around written ones."""
-        return f"{_opening(tag, attributes)}>{inner}</{tag}>" if inner else _opening(tag, attributes) + self.closing
+        return f"<{tag}{attributes}>{inner}</{tag}>" if inner else f"<{tag}{attributes}{self.closing}"
 
     def page(self, drawing: Page) -> str:
         """The content of the page."""
         # white paper, so that black lines show on a dark screen too
-        whole = {"x": "0", "y": "0", "width": "100%", "height": "100%"}
-        paper = self.element("rect", {**whole, **self.filled("#ffffff"), "class": "paper"})
+        fill = self.filled("#ffffff")
+        paper = f'<rect class="paper"{fill} height="100%" width="100%" x="0" y="0"{self.closing}'
         return paper + "".join(map(self.draw, drawing.children))
 
-    def colour(self, colour: str) -> str:
-        return colour
-
-    def filled(self, colour: str) -> dict[str, str]:
+    def filled(self, colour: str) -> str:
         """The attribute of an area, empty for none."""
-        return {"fill": self.colour(colour) or "none"}
+        return _fill(colour, self.short)
 
     def draw(self, thing: Primitive) -> str:
         if isinstance(thing, Group):
             return self._group(thing)
         if isinstance(thing, Text):
             return self._text(thing)
+        if isinstance(thing, Line):
+            return self._line(thing)
         if isinstance(thing, Scan):
             return self._scan(thing)
-        stroke = self._stroke(thing.stroke)
-        if isinstance(thing, Line):
-            return self._line(thing, stroke)
-        if isinstance(thing, Polyline):
-            return self.element("polyline", {"points": _points(thing.points), "fill": "none", **stroke})
-        if isinstance(thing, Polygon):
-            return self.element("polygon", {"points": _points(thing.points), **self.filled(thing.fill), **stroke})
+        look = _look(thing.stroke, self.short)
         if isinstance(thing, Circle):
             x, y = _pair(thing.centre)
-            return self.element(
-                "circle", {"cx": x, "cy": y, "r": number(thing.radius), **self.filled(thing.fill), **stroke})
-        return self.element("path", {"d": _arc(thing), "fill": "none", **stroke})
+            fill, radius = self.filled(thing.fill), number(thing.radius)
+            return f'<circle cx="{x}" cy="{y}"{fill} r="{radius}"{look}{self.closing}'
+        if isinstance(thing, Polygon):
+            return f'<polygon{self.filled(thing.fill)} points="{_points(thing.points)}"{look}{self.closing}'
+        if isinstance(thing, Polyline):
+            return f'<polyline fill="none" points="{_points(thing.points)}"{look}{self.closing}'
+        return f'<path d="{_arc(thing)}" fill="none"{look}{self.closing}'
 
-    def _stroke(self, stroke: Stroke | None) -> dict[str, str]:
-        if stroke is None:
-            return {}
-        dashes = {"stroke-dasharray": " ".join(map(number, stroke.dash))} if stroke.dash else {}
-        return {"stroke": self.colour(stroke.colour), "stroke-width": number(stroke.width), **dashes}
-
-    def _line(self, line: Line, look: dict[str, str]) -> str:
+    def _line(self, line: Line) -> str:
         """A line, cut by a clip if its end lies under an arrowhead."""
         (x1, y1), (x2, y2) = _pair(line.start), _pair(line.end)
-        look = {"x1": x1, "y1": y1, "x2": x2, "y2": y2, **look}
+        look = f'{_look(line.stroke, self.short)} x1="{x1}" x2="{x2}" y1="{y1}" y2="{y2}"{self.closing}'
         if not line.covered:
-            return self.element("line", look)
+            return f"<line{look}"
         # Named by its shape: where several figures stand in one HTML page, equal names mean equal clips.
         shaft = _shaft(line)
         name = f"clip-{crc32(shaft.encode()):08x}"
-        drawn = self.element("line", {**look, "clip-path": f"url(#{name})"})
-        if name in self.clips:
-            return drawn
+        drawn = f'<line clip-path="url(#{name})"{look}'
+        return drawn if name in self.clips else drawn + self._clip(name, shaft)
+
+    def _clip(self, name: str, shape: str) -> str:
+        """A clip by its name, of the shape of a path."""
         self.clips.add(name)
-        return drawn + self.element("clipPath", {"id": name}, self.element("path", {"d": shaft}))
+        return f'<clipPath id="{name}"><path d="{shape}"{self.closing}</clipPath>'
 
     def _group(self, group: Group) -> str:
         called, inner = self._called(group), "".join(map(self.draw, group.children))
@@ -207,14 +203,15 @@ class _Ink:
         # last, because the first child of a vector's group is its line
         return self.element("g", called, inner + self._last_of(group))
 
-    def _called(self, group: Group) -> dict[str, str]:
+    def _called(self, group: Group) -> str:
         """Id, classes and layer of a group."""
-        layer = {"inkscape:groupmode": "layer", "inkscape:label": _quoted(_clean(group.layer))} if group.layer else {}
-        return {**self._named(group.id, class_names(group)), **layer}
+        layer = _quoted(_clean(group.layer))
+        layer = f' inkscape:groupmode="layer" inkscape:label="{layer}"' if layer else ""
+        return _classes(group.classes, group.step) + self._named(group.id) + layer
 
     def _last_of(self, group: Group) -> str:
         """The end of a group after its children: its title."""
-        return self.element("title", {}, _escaped(_clean(group.title))) if group.title else ""
+        return self.element("title", "", _escaped(_clean(group.title))) if group.title else ""
 
     def _moving(self, motion: Travel, inner: str) -> str:
         """The inside of a moving group, with its turning part in a group of its own."""
@@ -224,107 +221,95 @@ class _Ink:
         for move in motion.moves:
             last = last if move is None else move
             moves.append(" ".join(_pair(last)))
-        parts = [self.element("animateTransform", {**transform, "type": "translate", "values": ";".join(moves)})]
+        way = _attributes({**transform, "type": "translate", "values": ";".join(moves)})
+        parts = [self.element("animateTransform", way)]
         if None in motion.moves:
             seen = ";".join("hidden" if m is None else "visible" for m in motion.moves)
             shown = {"attributeName": "visibility", "values": seen, "calcMode": "discrete", **always}
-            parts.append(self.element("animate", shown))
+            parts.append(self.element("animate", _attributes(shown)))
         if motion.turns:
             x, y = _pair(motion.about)
             turns = ";".join(f"{number(turn)} {x} {y}" for turn in motion.turns)
-            turning = self.element("animateTransform", {**transform, "type": "rotate", "values": turns})
-            inner = self.element("g", {}, turning + inner)
+            turning = _attributes({**transform, "type": "rotate", "values": turns})
+            inner = self.element("g", "", self.element("animateTransform", turning) + inner)
         return "".join((*parts, inner))
 
     def _scan(self, scan: Scan) -> str:
         """A picture with its file in it, cut by a clip beside it."""
         shape = "M" + "L".join(" ".join(_pair(corner)) for corner in scan.panel) + "Z"
         name = f"clip-{crc32(shape.encode()):08x}"
-        clip = self.element("clipPath", {"id": name}, self.element("path", {"d": shape}))
         a, b = scan.step.real, scan.step.imag
         look = {"width": str(scan.width), "height": str(scan.height), "opacity": number(PALE)}
         look["transform"] = f"matrix({a:.9g} {b:.9g} {-b:.9g} {a:.9g} {scan.corner.real:.6f} {scan.corner.imag:.6f})"
         look["xlink:href"] = f"data:{scan.kind};base64,{b64encode(scan.data).decode()}"
-        return self.element("g", {"clip-path": f"url(#{name})"}, clip + self.element("image", look))
+        image = self.element("image", _attributes(look))
+        return self.element("g", f' clip-path="url(#{name})"', self._clip(name, shape) + image)
 
     def _text(self, text: Text) -> str:
         runs, start, anchor = text.runs, start_of(text), ""
-        places = [(number(start.real + run.x), number(start.imag + run.y)) for run in runs]
+        across, down, size = start.real, start.imag, number(max([run.size for run in runs]))
+        x, y = number(across + runs[0].x), number(down + runs[0].y)
         if len(runs) == 1 and text.anchor != "start":
             # One run may stand by its own middle or end, exact in whatever face the reader has.
-            anchor = text.anchor
-            places = [(number(text.at.real + (1.0 - BEFORE[anchor]) * runs[0].x), places[0][1])]
-        named = self._named(text.id, class_names(text))
-        look = {"x": places[0][0], "y": places[0][1], **self.filled("" if self.outlines else text.colour)}
-        look["font-size"] = number(max(run.size for run in runs))
-        if anchor:
-            look["text-anchor"] = anchor
-        if not self.lang.startswith("zh") and has_cjk(text.string):
-            look["xml:lang"] = "zh"
-        spans = "".join([self._run(run, x, y, look) for run, (x, y) in zip(runs, places, strict=True)])
+            anchor = f' text-anchor="{text.anchor}"'
+            x = number(text.at.real + (1.0 - BEFORE[text.anchor]) * runs[0].x)
+        place = x, y, size
+        spans = self._run(runs[0], x, y, place)
+        for run in runs[1:]:
+            spans += self._run(run, number(across + run.x), number(down + run.y), place)
+        other = "" if self.lang.startswith("zh") or not has_cjk(text.string) else ' xml:lang="zh"'
+        before, after = f' font-size="{size}"', f'{anchor} x="{x}"{other} y="{y}"'
+        classes, id = _classes(text.classes, text.step), self._named(text.id)
         if not self.outlines:
-            return self.element("text", {**look, **named}, spans)
-        return self._outlined(text, start, named, look, spans)
+            return f"<text{classes}{self.filled(text.colour)}{before}{id}{after}>{spans}</text>"
+        return self.element("g", classes + id, self._outlined(text, start, before + after, spans))
 
-    def _run(self, run: Run, x: str, y: str, text: Mapping[str, str]) -> str:
-        """A run at its place in a text of these attributes, with its length."""
-        words = _clean(run.text)
-        self.used[style_of(run.italic, run.bold)].update(words)
-        long = number(width(words, run.size, run.italic, run.bold))
-        face = f'{_face(run)} lengthAdjust="spacingAndGlyphs" textLength="{long}"'
-        return f'<tspan font-size="{number(run.size)}"{face} x="{x}" y="{y}">{_escaped(words)}</tspan>'
+    def _run(self, run: Run, x: str, y: str, text: tuple[str, str, str]) -> str:
+        """A run at its place in a text of a place and size, with its length."""
+        style, words, before, after = _span(run.text, run.size, run.italic, run.bold)
+        self.used[style].add(words)
+        return f'{before} x="{x}" y="{y}"{after}'
 
-    def _outlined(
-        self, text: Text, start: complex, named: dict[str, str], look: dict[str, str], spans: str
-    ) -> str:
+    def _outlined(self, text: Text, start: complex, look: str, spans: str) -> str:
         """A text as paths, with the invisible text over them; only the text if no face has its letters."""
         letters = "".join(
             outline(_clean(run.text), start + complex(run.x, run.y), run.size, style_of(run.italic, run.bold))
             for run in text.runs
         )
-        filled = self.filled(text.colour)
-        if not letters:
-            return self.element("g", named, self.element("text", {**look, **filled}, spans))
-        path = self.element("path", {"d": letters, **filled, "aria-hidden": "true"})
-        return self.element("g", named, path + self.element("text", look, spans))
+        fill = self.filled(text.colour)
+        path = f'<path aria-hidden="true" d="{letters}"{fill}{self.closing}' if letters else ""
+        return f"{path}<text{self.filled('') if letters else fill}{look}>{spans}</text>"
 
-    def _named(self, id: str, classes: tuple[str, ...]) -> dict[str, str]:
-        """Id and classes; an id that is taken (B1 of link 2 and B12 are written alike) gets a number."""
-        named = {"class": _quoted(" ".join(classes))} if classes else {}
-        if id:
-            free = id if id not in self.ids else next(n for k in count(2) if (n := f"{id}-{k}") not in self.ids)
-            self.ids.add(free)
-            named["id"] = _quoted(free)
-        return named
+    def _named(self, id: str) -> str:
+        """An id; one that is taken (B1 of link 2 and B12 are written alike) gets a number."""
+        if not id:
+            return ""
+        free = id if id not in self.ids else next(n for k in count(2) if (n := f"{id}-{k}") not in self.ids)
+        self.ids.add(free)
+        return f' id="{_quoted(free)}"'
 
 
 class _InPage(_Ink):
     """Writes primitives as the elements of a figure in a page."""
 
-    closing = "/>"
+    closing, short = "/>", True
 
     def __init__(self, lang: str, named: bool) -> None:
         super().__init__(lang)
         self.named = named
 
-    def colour(self, colour: str) -> str:
-        return _DOUBLED.sub(r"#\1\2\3", colour)
+    def _line(self, line: Line) -> str:
+        if line.covered:
+            inked = abs(line.inked_end - line.start)
+            dashed = line.stroke._replace(dash=(inked, abs(line.end - line.start) + 1.0))
+            line = Line(line.start, line.end, dashed)
+        return super()._line(line)
 
-    def filled(self, colour: str) -> dict[str, str]:
-        return {} if colour == BLACK else super().filled(colour)
+    def _called(self, group: Group) -> str:
+        return _classes(group.classes, group.step) + self._named("" if group.layer else group.id)
 
-    def draw(self, thing: Primitive) -> str:
-        if isinstance(thing, Line) and thing.covered:
-            inked = abs(thing.inked_end - thing.start)
-            dashed = thing.stroke._replace(dash=(inked, abs(thing.end - thing.start) + 1.0))
-            thing = Line(thing.start, thing.end, dashed)
-        return super().draw(thing)
-
-    def _called(self, group: Group) -> dict[str, str]:
-        return self._named("" if group.layer else group.id, class_names(group))
-
-    def _named(self, id: str, classes: tuple[str, ...]) -> dict[str, str]:
-        return super()._named(id if self.named else "", classes)
+    def _named(self, id: str) -> str:
+        return super()._named(id) if self.named else ""
 
     def _last_of(self, group: Group) -> str:
         shaft = group.children[0] if self.named and "vector" in group.classes and group.children else None
@@ -332,11 +317,44 @@ class _InPage(_Ink):
             return ""
         return self._group(Group((Line(shaft.start, shaft.end, HIT),), classes=("hit",)))
 
-    def _run(self, run: Run, x: str, y: str, text: Mapping[str, str]) -> str:
+    def _run(self, run: Run, x: str, y: str, text: tuple[str, str, str]) -> str:
         size = number(run.size)
-        alike = (size, x, y) == (text["font-size"], text["x"], text["y"])  # of its text
-        first, last = ("", "") if alike else (f' font-size="{size}"', f' x="{x}" y="{y}"')
-        return f"<tspan{first}{_face(run)}{last}>{_escaped(_clean(run.text))}</tspan>"
+        first, last = ("", "") if (x, y, size) == text else (f' font-size="{size}"', f' x="{x}" y="{y}"')
+        return f"<tspan{first}{_face(run.italic, run.bold)}{last}>{_escaped(_clean(run.text))}</tspan>"
+
+
+@lru_cache(maxsize=1024)
+def _look(stroke: Stroke | None, short: bool) -> str:
+    """The attributes of a line, empty for none."""
+    if stroke is None:
+        return ""
+    colour, dashes = _short(stroke.colour) if short else stroke.colour, " ".join(map(number, stroke.dash))
+    return _attributes({"stroke": colour, "stroke-dasharray": dashes, "stroke-width": number(stroke.width)})
+
+
+@lru_cache(maxsize=1024)
+def _fill(colour: str, short: bool) -> str:
+    """The attribute of an area; ``short`` without the colour that is filled in any case."""
+    return "" if short and colour == BLACK else f' fill="{(_short(colour) if short else colour) or "none"}"'
+
+
+def _short(colour: str) -> str:
+    return _DOUBLED.sub(r"#\1\2\3", colour)
+
+
+@lru_cache(maxsize=1024)
+def _classes(classes: tuple[str, ...], step: int | None) -> str:
+    """The attribute of some classes and of a step."""
+    return _attributes({"class": _quoted(" ".join(class_names(classes, step)))})
+
+
+@lru_cache(maxsize=4096)
+def _span(text: str, size: float, italic: bool, bold: bool) -> tuple[Style, str, str, str]:
+    """A run in an element of its length: its style, its words, and what stands before and behind its place."""
+    words = _clean(text)
+    long = number(width(words, size, italic, bold))
+    face = f'{_face(italic, bold)} lengthAdjust="spacingAndGlyphs" textLength="{long}"'
+    return style_of(italic, bold), words, f'<tspan font-size="{number(size)}"{face}', f">{_escaped(words)}</tspan>"
 
 
 def _clean(text: str) -> str:
@@ -344,9 +362,9 @@ def _clean(text: str) -> str:
     return text if text.isprintable() else _UNFIT.sub("", text)
 
 
-def _face(run: Run) -> str:
+def _face(italic: bool, bold: bool) -> str:
     """The attributes of slanted and of bold letters."""
-    return ' font-style="italic"' * run.italic + ' font-weight="bold"' * run.bold
+    return ' font-style="italic"' * italic + ' font-weight="bold"' * bold
 
 
 def _pair(point: complex) -> tuple[str, str]:
@@ -354,7 +372,7 @@ def _pair(point: complex) -> tuple[str, str]:
 
 
 def _points(points: tuple[complex, ...]) -> str:
-    return " ".join(f"{number(z.real)},{number(z.imag)}" for z in points)
+    return " ".join([f"{number(z.real)},{number(z.imag)}" for z in points])
 
 
 def _arc(arc: Arc) -> str:
@@ -374,20 +392,9 @@ def _shaft(line: Line) -> str:
     return "M" + "L".join(" ".join(_pair(corner)) for corner in corners) + "Z"
 
 
-def _opening(tag: str, attributes: dict[str, str]) -> str:
-    """The beginning of an element, up to its bracket; those who give an attribute words give them `_quoted`."""
-    if "" in attributes.values():
-        attributes = {key: value for key, value in attributes.items() if value}
-    form, values = _form(tag, tuple(attributes))
-    return form % values(attributes)
-
-
-@cache
-def _form(tag: str, names: tuple[str, ...]) -> tuple[str, Callable[[dict[str, str]], object]]:
-    """The beginning of an element with these attributes, in the order of their names, a gap for each value; and the
-    values for the gaps."""
-    names = tuple(sorted(names))
-    return f"<{tag}" + "".join(f' {name}="%s"' for name in names), itemgetter(*names) if names else lambda _: ()
+def _attributes(values: Mapping[str, str]) -> str:
+    """Attributes that are not empty; those who give one words give it `_quoted` words."""
+    return "".join([f' {name}="{value}"' for name, value in sorted(values.items()) if value])
 
 
 def _quoted(text: str) -> str:
