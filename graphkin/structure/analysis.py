@@ -282,7 +282,7 @@ def _element_of(structure: Structure, members: list[str], known: set[str]) -> El
     dyad = _dyad(structure, bodies, pairs, real) if not loose and not rolling else None
     if dyad is not None:
         return dyad
-    order = 2 if rolling and _rolls_like_a_dyad(members, pairs, drivers, rolling) else _order(members, pairs)
+    order = 2 if rolling and _rolls_like_a_dyad(members, pairs, drivers, rolling) else _order(bodies, pairs)
     return LargerGroup(tuple(members), tuple(pairs), tuple(drivers), real, order, rolling=rolling)
 
 
@@ -369,11 +369,14 @@ def _rolls_like_a_dyad(
     return (bodies, joints) == (2 + len(drivers), 3 + len(drivers))
 
 
-def _order(members: list[str], pairs: list[Pair]) -> int:
-    """Class of a group after Assur and Artobolevsky: the most pairs on a link of it (three or more), or the most
-    links in a shortest closed contour of it (four or more)."""
-    most = max(sum(name in (p.a, p.b) for p in pairs) for name in members)
-    edges = [(p.a, p.b) for p in pairs if p.a in members and p.b in members]
+def _order(bodies: Sequence[Body], pairs: Sequence[Pair]) -> int:
+    """Class of a group after Assur and Artobolevsky: the most pairs on a body of it (three or more), or the most
+    bodies in a shortest closed contour of it (four or more).  Links joined by a driver are one body."""
+    body_of = {link: body.links[0] for body in bodies for link in body.links}
+    ends = [(body_of.get(p.a, ""), body_of.get(p.b, "")) for p in pairs]
+    ends = [(a, b) for a, b in ends if a != b]
+    most = max(sum(body in pair for pair in ends) for body in body_of.values())
+    edges = [pair for pair in ends if all(pair)]
     contour = 0
     for i, (a, b) in enumerate(edges):
         reach, front, steps = {a}, [a], 1

@@ -140,6 +140,35 @@ omega = 6
     assert group.order == 4
 
 
+def test_a_driven_cylinder_in_a_closed_contour_counts_as_one_bar() -> None:
+    group = structure("""
+[frame]
+points = { A = [0, 0], B = [800, 0] }
+[links.1]
+points = ["A", "C"]
+length = 900
+at = { P = [500, 150] }
+[links.2]
+points = ["B", "D"]
+length = 700
+at = { Q = [300, 90] }
+[links.3]
+points = ["C", "D"]
+length = 620
+[links.4]
+points = ["P"]
+on = "5"
+[links.5]
+points = ["Q"]
+[driver]
+slide = "4"
+travel = 300
+velocity = 45
+""").groups[0]
+    assert isinstance(group, LargerGroup)
+    assert group.order == 4
+
+
 def test_the_block_of_a_pin_is_not_counted_among_the_links() -> None:
     assert analyse(mechanism_of("cam-eccentric-flat-rocker")).groups[0].links == ("2",)
 
