@@ -45,6 +45,7 @@ from graphkin.words.written import (
     pointing,
     printed,
     product,
+    quotient,
     to_lay_off,
 )
 
@@ -146,11 +147,14 @@ class InForces(Telling):
         units, link = self.sheet.scene.units, self.step.link
         pushed = self.sheet.inertias[link]
         mass, push = amount(pushed.mass.mass / units.kilograms, MOST), amount(abs(pushed.push), MOST)
-        size = product(mass, push, amount(units.kilograms / units.newtons, 12), carried=MOST)
+        per, divisor = amount(units.newtons / units.kilograms, 12), ""  # of the units of force and mass
+        if per != "1":
+            divisor = f" ÷ {printed(per)} ({units.mass}·m/s²)/{units.force}"
+        size = quotient(product(mass, push), per, carried=MOST)
         point = next((p for p, z in self.sheet.scene.by_name[link].points.items() if z == pushed.mass.at), f"S{link}")
         letter = "A" if self.account.letters.convention == "us" else "a"
         force, moment = (self.name(Symbol(kind, link=link)) for kind in ("Fi", "Mi"))
-        in_numbers = f"{printed(mass)} {units.mass} × {printed(push)} m/s² = {printed(size)} {units.force}"
+        in_numbers = f"{printed(mass)} {units.mass} × {printed(push)} m/s²{divisor} = {printed(size)} {units.force}"
         said = [force + " = " + sign("m", link) + " " + sign(letter, point, meaning=("a", point)) + " = " + in_numbers]
         if pushed.mass.inertia:
             turned = f"{number(pushed.moment / units.newtons, MOST)} {units.force}·m"

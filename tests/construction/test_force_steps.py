@@ -19,6 +19,7 @@ from graphkin.scene.scene_tables import Tools
 from graphkin.scene.symbol import Symbol
 from tests.construction.test_forces import BLOCK_ON_A_COMPOUND_HINGE, CHAIN, DRIVEN_AGAINST_A_BLOCK
 from tests.mechanisms import random_scene
+from tests.scenes import slider_crank
 from tests.solver.test_forces import loaded
 
 pytestmark = pytest.mark.quick
@@ -195,3 +196,15 @@ def test_a_spring_is_told_with_the_length_that_the_hand_has_read() -> None:
     told = next(t for stage in force_stages(Account(sheet, notation_of(sheet, "us"))) for t in stage.steps
                 if t.step.reason == "spring")  # fmt: skip
     assert f"= {abs(pull.force):.2f} N" in repr(told.sentence("en"))
+
+
+@pytest.mark.parametrize(("force", "mass", "told"), [
+    ("N", "kg", "3 kg × 1 m/s² = 3 N"),
+    ("lbf", "lb", "3 lb × 1 m/s² ÷ 9.80665 (lb·m/s²)/lbf = 0.30591 lbf"),
+    ("kN", "kg", "3 kg × 1 m/s² ÷ 1000 (kg·m/s²)/kN = 0.003 kN"),
+])  # fmt: skip
+def test_an_inertia_force_is_the_quotient_of_what_is_printed(force: str, mass: str, told: str) -> None:
+    units = {"length": "mm", "force": force, "mass": mass}
+    sheet = drawn(slider_crank(50, 180, units=units, masses={"1": {"at": [10, 0], "mass": 3}}))
+    stage = next(iter(force_stages(Account(sheet, notation_of(sheet, "chinese")))))
+    assert repr(stage.steps[0].sums[0]).endswith(f"= {told}")
