@@ -20,7 +20,7 @@ from graphkin.construction.board.steps import PARTS, DiagramName, Direction, Siz
 from graphkin.scene.scene_tables import Convention
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Unit
-from graphkin.words.symbols import RichText, Words, plain, rate, sign
+from graphkin.words.symbols import Atom, RichText, Words, plain, rate, sign
 from graphkin.words.written import printed
 
 Rows = Literal["rows", "over", "table", "underlines"]
@@ -31,12 +31,12 @@ _POLES: Mapping[str, tuple[RichText, RichText]] = {
     "british": (sign("o"), sign("o'")),
     "russian": (sign("p"), sign("π")),
 }
-# superscripts of the parts of an acceleration: normal, tangential, Coriolis, sliding
-_PARTS: Mapping[str, tuple[str, str, str, str]] = {
-    "chinese": ("n", "t", "k", "r"),
-    "us": ("n", "t", "c", "s"),
-    "british": ("n", "t", "c", "s"),
-    "russian": ("n", "τ", "k", "r"),
+# superscripts of the parts of an acceleration by their kinds
+_PARTS: Mapping[str, Mapping[str, str]] = {
+    "chinese": {"an": "n", "at": "t", "ak": "k", "ar": "r"},
+    "us": {"an": "n", "at": "t", "ak": "c", "ar": "s"},
+    "british": {"an": "n", "at": "t", "ak": "c", "ar": "s"},
+    "russian": {"an": "n", "at": "τ", "ak": "k", "ar": "r"},
 }
 _ROWS: Mapping[str, Rows] = {"chinese": "rows", "us": "over", "british": "table", "russian": "underlines"}
 _NAME = re.compile(r"([A-Za-z]+)(.*)")
@@ -52,6 +52,7 @@ def rows_of(convention: Convention) -> Rows:
     return _ROWS[convention]
 
 
+@lru_cache(maxsize=2048)
 def as_vector(convention: Convention, magnitude: RichText) -> RichText:
     """A symbol as a vector, distinct from its magnitude: its letter bold, russian with an arrow.
 
@@ -60,7 +61,7 @@ def as_vector(convention: Convention, magnitude: RichText) -> RichText:
     """
     letter, *others = magnitude.atoms
     arrow = convention == "russian"
-    return RichText(letter._replace(bold=not arrow, arrow=arrow), *others)
+    return RichText(Atom(letter.text, letter.sub, letter.sup, not arrow, arrow, letter.meaning), *others)
 
 
 @dataclass(frozen=True)
@@ -86,8 +87,12 @@ class Notation:
 
     def ref(self, ref: PointRef) -> RichText:
         """A point of a link as an index: ``B3``."""
-        link = ref.link or self.blocks.get(ref.point, "")
-        return sign(ref.point, link) if ref.point[-1].isdigit() else sign(ref.point + link)
+        return _index(self._on_link(ref))
+
+    def _on_link(self, ref: PointRef) -> PointRef:
+        """A point with the link of its index."""
+        block = "" if ref.link else self.blocks.get(ref.point, "")
+        return PointRef(ref.point, block) if block else ref
 
     def coincident(self, ref: PointRef) -> RichText:
         """A point, with the link as a further index where coincident points are distinguished: ``B_2``, ``O_4,2``."""
@@ -114,12 +119,8 @@ class Notation:
             if kind.letter:
                 return rate(kind.name, _pair(symbol))
             return sign(kind.name.upper() if us else kind.name, _pair(symbol))
-        of, to = self.ref(symbol.of) + symbol.axis, self.ref(symbol.to) if symbol.to else RichText()
-        letter = symbol.kind[0].upper() if us else symbol.kind[0]
-        marks = dict(zip(PARTS, _PARTS[self.convention], strict=True)).get(symbol.kind, "")
-        seen = f"({symbol.seen})" if symbol.seen else ""
-        meaning = symbol.kind, plain(of, ""), plain(to, ""), seen
-        return sign(letter, of + "/" + to if us and to else of + to, marks + seen, meaning)
+        of, to = self._on_link(symbol.of), self._on_link(symbol.to) if symbol.to else None
+        return _of_points(self.convention, symbol.kind, of, to, symbol.axis, symbol.seen)
 
     def term(self, term: Term) -> RichText:
         """A vector in an equation, of a force its part."""
@@ -148,7 +149,7 @@ class Notation:
         ``number`` counts the feet on the path to an end point, ``link`` is the link of the component, ``alone`` marks
         the only foot of its kind: it needs no index, but n' always has one in Chinese books.
         """
-        marks: dict[str, str] = dict(zip(PARTS.values(), _PARTS[self.convention], strict=True))
+        marks: Mapping[str, str] = {PARTS[kind]: mark for kind, mark in _PARTS[self.convention].items()}
         if self.convention == "us" or role not in marks:
             return RichText()
         if self.convention == "british":
@@ -188,6 +189,20 @@ class Notation:
     def length(self, names: Sequence[str]) -> RichText:
         """The length of a bar: ``l_AB``."""
         return sign("l", "".join(names), meaning=("length", " ".join(names)))
+
+
+def _index(ref: PointRef) -> RichText:
+    return sign(ref.point, ref.link) if ref.point[-1].isdigit() else sign(ref.point + ref.link)
+
+
+@lru_cache(maxsize=2048)
+def _of_points(convention: Convention, kind: str, of: PointRef, to: PointRef | None, axis: str, seen: str) -> RichText:
+    """A vector by its points, each with the link of its index; every figure writes each of them several times."""
+    us, first, second = convention == "us", _index(of) + axis, _index(to) if to else RichText()
+    above = f"({seen})" if seen else ""
+    meaning = kind, plain(first, ""), plain(second, ""), above
+    below = first + "/" + second if us and second else first + second
+    return sign(kind[0].upper() if us else kind[0], below, _PARTS[convention].get(kind, "") + above, meaning)
 
 
 def in_counting_order(link: str) -> tuple[bool, int, str]:

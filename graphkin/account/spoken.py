@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import string
 from collections.abc import Sequence
+from functools import lru_cache
 
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, area, languages, say, word
@@ -20,6 +21,7 @@ def spoken_ref(ref: PointRef, language: str) -> str:
     return " / ".join(say(_point(ref), each) for each in languages(language))
 
 
+@lru_cache(maxsize=2048)
 def spoken_vector(symbol: Symbol, language: str) -> str:
     """A vector in words: "velocity of B of link 3 relative to B of link 2"."""
     assert symbol.of is not None

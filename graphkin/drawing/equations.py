@@ -17,7 +17,7 @@ from graphkin.drawing.boxes import Block
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Line, Primitive, Run, Text
 from graphkin.drawing.place.piece import Piece
-from graphkin.drawing.text import rich, run_box, runs_width, wrapped
+from graphkin.drawing.text import box_about, rich, runs_width, wrapped
 from graphkin.plane import added_up
 from graphkin.words.symbols import RichText, spaced
 from graphkin.words.written import MOST
@@ -267,7 +267,7 @@ def _baselines(
     below = next((i for i in (2, 3) if any(stack[i])), 0)  # the first row under the terms
     y = top
     for i, row in enumerate(stack):
-        boxes = [run_box(run) for runs in (*row, *heads[max(0, i - 2) : max(0, i - 1)]) for run in runs]
+        boxes = [box_about(runs) for runs in (*row, *heads[max(0, i - 2) : max(0, i - 1)]) if runs]
         if not boxes:
             bases.append(y)
             down.append(y)

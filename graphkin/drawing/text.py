@@ -13,6 +13,7 @@ import unicodedata
 from bisect import bisect_right
 from collections.abc import Sequence
 from functools import lru_cache
+from itertools import accumulate
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.font import EM, Style, glyph, style_of
@@ -26,6 +27,7 @@ _GAP_SUB, _GAP_SUPER = 0.02, 0.06
 _LEADING = 1.4  # from line to line
 _UNBROKEN = re.compile("[顺逆]时针")  # Chinese words that stay whole, since they often stand last
 _BREAKS_AFTER = ("，", "。", "；", "：", "、")
+_SPACES = " \u00a0\u3000"
 _ARROW = "→"
 _ARROW_SIZE, _ARROW_GAP, _SLANT = 0.57, 0.05, 0.04  # of the size of the letter under it
 
@@ -80,20 +82,26 @@ def cut_off(words: str, size: float, width: float, bold: bool = False) -> tuple[
 def wrapped(text: Words, size: float, width: float, bold: bool = False) -> list[tuple[Run, ...]]:
     """Words and symbols set in lines of a width (mm), broken at spaces, between Chinese characters and after their
     commas."""
-    pieces = _pieces(text)
+    pieces, ends = _pieces(text), _ends(text, size, bold)
+    words = [piece for piece in pieces if isinstance(piece, str)]
     lines: list[tuple[Run, ...]] = []
     start = 0
     while start < len(pieces):
 
         def line(end: int, start: int = start) -> tuple[Run, ...]:
-            return rich(RichText(*pieces[start:end]).stripped(" \u00a0\u3000"), size, bold)
+            if len(words) == len(pieces):
+                return rich("".join(words[start:end]).strip(_SPACES), size, bold)
+            return rich(RichText(*pieces[start:end]).stripped(_SPACES), size, bold)
 
-        end = len(pieces)
-        if runs_width(line(end)) > width:
-            # more pieces are never narrower, so that those that fit are found by halving
-            fitting = bisect_right(range(start + 1, end), width, key=lambda end: runs_width(line(end)))
-            end = start + max(1, fitting)
-        lines += [runs for runs in (line(end),) if runs]
+        # as many pieces as fit, or the first; what is set decides, their lengths only tell where to begin
+        end = max(bisect_right(ends, ends[start] + width) - 1, start + 1)
+        runs = line(end)
+        while end > start + 1 and runs_width(runs) > width:
+            end -= 1
+            runs = line(end)
+        while end < len(pieces) and runs_width(longer := line(end + 1)) <= width:
+            end, runs = end + 1, longer
+        lines += [runs] if runs else []
         start = end
     return lines
 
@@ -106,9 +114,19 @@ def stacked(lines: Sequence[Words], size: float = LETTER) -> tuple[Run, ...]:
 
 
 @lru_cache(maxsize=1024)
-def _pieces(text: Words) -> Sequence[RichText]:
+def _ends(text: Words, size: float, bold: bool) -> Sequence[float]:
+    """The lengths (mm) of the first none, one, two ... of its pieces, each set for itself."""
+    long = (
+        width(piece, size, False, bold) if isinstance(piece, str) else runs_width(rich(piece, size, bold))
+        for piece in _pieces(text)
+    )
+    return [*accumulate(long, initial=0.0)]
+
+
+@lru_cache(maxsize=1024)
+def _pieces(text: Words) -> Sequence[Words]:
     """Words with the space before them; symbols stay whole."""
-    pieces: list[RichText] = []
+    pieces: list[Words] = []
     piece, word, before = RichText(), "", ""
     for part in stretches(text):
         if not isinstance(part, str):
@@ -124,11 +142,11 @@ def _pieces(text: Words) -> Sequence[RichText]:
             wide = ord(character) > 0x2E7F and not closes and not opened
             after = before in _BREAKS_AFTER and not closes
             if i not in inner and (character == " " or wide or after):
-                pieces.append(RichText(piece, word))
+                pieces.append(RichText(piece, word) if piece else word)
                 piece, word = RichText(), ""
             word += character
             before = character
-    return [piece for piece in (*pieces, RichText(piece, word)) if piece]
+    return [piece for piece in (*pieces, RichText(piece, word) if piece else word) if piece]
 
 
 @lru_cache(maxsize=1024)
@@ -272,10 +290,9 @@ def _reach(text: str, style: Style) -> tuple[float, float, float, float]:
     )  # fmt: skip
 
 
+@lru_cache(maxsize=8192)
 def runs_width(runs: tuple[Run, ...]) -> float:
     """The distance from the text's own point to the farthest end of a run (mm)."""
-    if len(runs) == 1:
-        return runs[0].x + width(runs[0].text, runs[0].size, runs[0].italic, runs[0].bold)
     return max((run.x + width(run.text, run.size, run.italic, run.bold) for run in runs), default=0.0)
 
 

@@ -127,7 +127,7 @@ def say(phrase: Wording, language: str = "en", show: Callable[[object], Words] =
     >>> say(Phrase("points", link="2", points="B, C"))
     'mark B, C on link 2'
     """
-    return rich_text(phrase, language, show).plain()
+    return "".join(map(plain, _closed_up(parts(phrase, language, show))))
 
 
 def _as_it_is(gap: object) -> Words:
@@ -146,13 +146,17 @@ def rich_text(said: Wording, language: str, show: Callable[[object], Words] = _a
 def _closed_up(parts: Iterable[Words]) -> list[Words]:
     """Parts without a space where Chinese meets Chinese, as of a phrase in the gap of another."""
     closed: list[Words] = []
+    before = ""  # the words right before a part
     for part in parts:
-        before = closed[-1] if closed else ""
-        if isinstance(part, str) and isinstance(before, str) and part and before:
-            if part[0] == " " and _is_chinese(before[-1]) and _is_chinese(part[1:2]):
-                part = part[1:]
-            elif before[-1] == " " and _is_chinese(before[-2:-1]) and _is_chinese(part[0]):
-                closed[-1] = before[:-1]
+        if not isinstance(part, str):
+            before = ""
+        else:
+            if before and part:
+                if part[0] == " " and _is_chinese(before[-1]) and _is_chinese(part[1:2]):
+                    part = part[1:]
+                elif before[-1] == " " and _is_chinese(before[-2:-1]) and _is_chinese(part[0]):
+                    closed[-1] = before[:-1]
+            before = part
         closed.append(part)
     return closed
 

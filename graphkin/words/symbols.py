@@ -45,11 +45,11 @@ class RichText:
     def __init__(self, *texts: Words | Atom) -> None:
         parts: list[str | Atom] = []
         for text in texts:
-            for part in text.parts if isinstance(text, RichText) else (text,):
-                if parts and isinstance(part, str) and isinstance(parts[-1], str):
-                    parts[-1] += part
-                elif part:
-                    parts.append(part)
+            more = text.parts if isinstance(text, RichText) else (text,) if text else ()
+            if parts and more and isinstance(more[0], str) and isinstance(parts[-1], str):
+                parts[-1] += more[0]  # words meet only where two texts meet
+                more = more[1:]
+            parts += more
         self.parts = tuple(parts)
 
     def __add__(self, other: Words) -> RichText:

@@ -355,11 +355,12 @@ def centres_figure(page: FigurePage, centres: Centres) -> Drawing:
         content, wide, high, lambda around: joined((back, centre_marks(centres, letters, around, back.drawn))),
         lambda whole, around: named_centres(whole, around, centres),
     )
-    report = _report(centres, letters, spoken, page.width)
+    velocities = velocity_sentences(centres)
+    report = _report(centres, velocities, letters, spoken, page.width)
     made = page.drawing(
         page.at_drivers(page.term("centres")),
         column(row(figure, side, gap=BESIDE), report, gap=GAP), page.scale("mechanism"), title="centres",
-        said=describe(sheet, ("mechanism",), spoken) + "\n" + _description(centres, letters, spoken),
+        said=describe(sheet, ("mechanism",), spoken) + "\n" + _description(centres, velocities, letters, spoken),
     )  # fmt: skip
     some = untold(centres, figure.piece.drawn)
     return replace(made, further=tuple(_centre_by_centre(centres, some, letters, spoken))) if some else made
@@ -413,7 +414,9 @@ def _how_found(centre: Centre, letters: Notation, language: str) -> Words:
     return _lines_of(centre, letters) or term(f"way {centre.way or 'none'}", language)
 
 
-def _report(centres: Centres, letters: Notation, language: str, width: float) -> Block:
+def _report(
+    centres: Centres, velocities: Sequence[Phrase], letters: Notation, language: str, width: float
+) -> Block:  # fmt: skip
     """The centres that Kennedy's theorem does not give, with the reason, and the velocities by centres."""
     lines: list[Words] = []
     for each in languages(language):
@@ -422,11 +425,10 @@ def _report(centres: Centres, letters: Notation, language: str, width: float) ->
             by = Phrase(f"centre {centre.way}", centre=centre.pair, kept=kept) if centre.way else None
             sentences = [_rich(one, each, letters) for one in (centre.why, by) if one is not None]
             lines.append(spaced(word("sentence joint", each), sentences))
-    spoken = velocity_sentences(centres)
-    head = [term("velocities by centres", language)] if spoken else []
-    velocities = [said for phrase in spoken for said in _in_all(phrase, language, letters)]
+    head = [term("velocities by centres", language)] if velocities else []
+    told = [said for phrase in velocities for said in _in_all(phrase, language, letters)]
     return column(prose(lines, width, 3.0, classes=TOLD), prose(head, width, 3.2, bold=True, classes=TOLD),
-                  prose(velocities, width, 3.0, classes=TOLD))  # fmt: skip
+                  prose(told, width, 3.0, classes=TOLD))  # fmt: skip
 
 
 def _in_all(phrase: Phrase, language: str, letters: Notation) -> tuple[RichText, ...]:
@@ -449,7 +451,7 @@ def _rich(phrase: Phrase, language: str, letters: Notation) -> RichText:
     return rich_text(phrase, language, show)
 
 
-def _description(centres: Centres, letters: Notation, language: str) -> str:
+def _description(centres: Centres, velocities: Sequence[Phrase], letters: Notation, language: str) -> str:
     """Every centre in words, for readers who do not see the figure."""
     said = []
     for each in languages(language):
@@ -459,7 +461,7 @@ def _description(centres: Centres, letters: Notation, language: str) -> str:
                 place = f"({', '.join(f'{x:.4g}' for x in place_of(centres, centre) or ())})"
             how = _how_found(centre, letters, each) if centre.number else centre.joint
             said.append(f"{letters.centre(centre.pair).plain('')} {place}: {RichText(how).plain('')}")
-        said += [_rich(phrase, each, letters).plain("") for phrase in velocity_sentences(centres)]
+        said += [_rich(phrase, each, letters).plain("") for phrase in velocities]
     return "\n".join(said)
 
 
