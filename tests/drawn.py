@@ -23,9 +23,13 @@ def drafted(name: str) -> tuple[Sheet, Sheet]:
     return draft(scene), draft(scene, room=sheet_room(scene))
 
 
-@cache
 def drawn(name: str, language: str = "en", convention: str = "chinese") -> dict[str, Drawing]:
     """Its figures, without a report."""
+    return _drawn(name, language, convention)
+
+
+@cache  # which tells calls with and without the defaults apart
+def _drawn(name: str, language: str, convention: str) -> dict[str, Drawing]:
     own, on_sheet = drafted(name)
     return figures(own, on_sheet, None, language, convention)
 

@@ -15,6 +15,8 @@ import pytest
 import graphkin
 from graphkin.construction import draft
 from graphkin.drawing import Box, Drawing, Text, svg_bytes
+from graphkin.drawing.boxes import FigurePage
+from graphkin.drawing.figures.sheet import sheet_page
 from graphkin.drawing.ink.primitives import walk
 from graphkin.drawing.sheet_plan import sheet_room
 from graphkin.drawing.text import text_box
@@ -298,7 +300,7 @@ def on_paper(name: str, paper: str, orientation: str) -> Drawing:
     scene = mechanism_of(name)
     scene = scene.asking(sheet=replace(scene.question.sheet, paper=paper, orientation=orientation))
     small = draft(scene, room=sheet_room(scene))
-    return figures(small, small)["sheet"]
+    return sheet_page(FigurePage.of(small, "sheet", None, None))
 
 
 @pytest.mark.parametrize("orientation", ["portrait", "landscape"])

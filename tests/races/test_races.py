@@ -32,9 +32,14 @@ def quick(monkeypatch):
     monkeypatch.setattr(work, "ENOUGH", 0.0)
 
 
-@cache
 def raced(name: str = SIXBAR) -> Race:
-    """A race run once; compiled for one mechanism, since numba takes seconds for each."""
+    """A race run once, for calls with and without the default alike."""
+    return _raced(name)
+
+
+@cache
+def _raced(name: str) -> Race:
+    """A race, compiled for one mechanism, since numba takes seconds for each."""
     find = importlib.util.find_spec
     hidden = "" if name == SIXBAR else "numba"
     with (

@@ -42,6 +42,12 @@ def turn_of(name: str) -> TurnStudy:
     return study_turn(driver_range(mechanism_of(name)))
 
 
+@lru_cache
+def redriven_turn(seed: int) -> TurnStudy:
+    """The turn of a random mechanism that another link drives: several tests ask for other values of the same."""
+    return study_turn(driver_range(as_scene(redriven(seed))))
+
+
 def slider(turn: TurnStudy) -> Output:
     return next(o for o in turn.outputs if o.quantity.kind == "s")
 
@@ -638,7 +644,7 @@ def test_an_extreme_a_hundredth_of_a_degree_from_the_end_of_the_motion_is_found(
 def test_the_least_transmission_angle_is_told_where_the_ends_of_the_range_cannot_be_computed(
     seed: int, least: list[float], places: list[float | None]
 ) -> None:
-    turn = study_turn(driver_range(as_scene(redriven(seed))))
+    turn = redriven_turn(seed)
     assert least == pytest.approx([math.degrees(found.angle) for found in turn.transmission], abs=1e-4)
     assert all(found.angle >= 0.0 for found in turn.transmission)
     drivers = [math.degrees(found.drivers[0]) if found.drivers else None for found in turn.transmission]
@@ -646,26 +652,26 @@ def test_the_least_transmission_angle_is_told_where_the_ends_of_the_range_cannot
 
 
 def test_a_mechanism_that_stands_nowhere_has_no_outputs() -> None:
-    assert () == study_turn(driver_range(as_scene(redriven(7504)))).outputs
+    assert () == redriven_turn(7504).outputs
 
 
 def test_an_angle_has_its_value_at_an_end_where_other_links_go_away() -> None:
     # link 1 turns against link 4 as its driver does, while blocks run off their guides: from end to end half a turn
-    turn = study_turn(driver_range(as_scene(redriven(7014))))
+    turn = redriven_turn(7014)
     position = next(output for output in turn.outputs if output.quantity.pair == "1")
     assert math.pi == pytest.approx(position.stroke, abs=1e-9)
     assert "goes away" == next(output.without for output in turn.outputs if output.quantity.pair == "3/0")
 
 
 def test_a_rate_that_only_rounding_moves_is_constant() -> None:
-    turn = study_turn(driver_range(as_scene(redriven(7014))))
+    turn = redriven_turn(7014)
     alpha = next(traced for traced in turn.curves if str(traced.quantity) == "alpha_1")
     assert -5.707581566305764 == pytest.approx(alpha.constant, rel=1e-9)
 
 
 def test_an_end_that_cannot_be_computed_is_not_said_to_go_away() -> None:
     # the solver finds no position nearer than a hundredth of the range to one end
-    outputs = study_turn(driver_range(as_scene(redriven(7054)))).outputs
+    outputs = redriven_turn(7054).outputs
     assert {("not computed", None)} == {(output.without, output.stroke) for output in outputs}
 
 
@@ -706,7 +712,7 @@ def test_an_angle_of_90_degrees_at_most_is_zero_only_where_it_is_least(name: str
 
 def test_an_angle_at_an_end_where_other_links_go_away_has_eleven_digits() -> None:
     # at both ends, half a turn apart, link 7 stands the same way
-    turn = study_turn(driver_range(as_scene(redriven(7014))))
+    turn = redriven_turn(7014)
     swing = next(output for output in turn.outputs if output.quantity.pair == "7").position
     low, *_, high = (e.value for e in swing.extremes if e.kind == "end")
     assert low == pytest.approx(high, abs=1e-11)
@@ -739,7 +745,7 @@ def test_the_rate_of_a_contra_parallelogram_has_its_extremes_in_line() -> None:
 
 def test_angles_at_both_ends_where_other_links_go_away_are_each_of_its_own_end() -> None:
     # by polynomials through ten and twelve positions of the solver
-    turn = study_turn(driver_range(as_scene(redriven(7007))))
+    turn = redriven_turn(7007)
     swing = next(output for output in turn.outputs if output.quantity.pair == "5").position
     ends = [e.value for e in swing.extremes if e.kind == "end"]
     assert [-3.98568951327, 0.09813559657] == pytest.approx(ends, abs=1e-10)
