@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from cmath import phase
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from itertools import pairwise, product
+from itertools import chain, pairwise, product
 from typing import TypeAlias
 
 from graphkin.account.given import along_its_guide, as_line, off_its_guide, slide_index, used_guides
@@ -70,17 +70,19 @@ def drawn_lengths(
     drawn = tuple(drawn)
     obstacles, around = obstacles_of(drawn), ink_box(drawn)
 
-    def placed(*kinds: Dimensioner) -> tuple[Piece, int] | None:
-        room = DimensionClearance(obstacles, panel)
-        return _placed((one for kind in kinds for one in kind(here, room)), around, most)
+    def drawn_by(room: DimensionClearance, *kinds: Dimensioner) -> Iterator[Parts | Label]:
+        return (one for kind in kinds for one in kind(here, room))
 
-    usual = placed(_frame, _bars, _angles, guide_dimensions, travels)
+    room = DimensionClearance(obstacles, panel)
+    usual = _placed(drawn_by(room, _frame, _bars, _angles, guide_dimensions, travels), around, most)
     if usual is None or not usual[1]:
         return usual and usual[0]
-    alone = placed(_angles, travels)
+    room = DimensionClearance(obstacles, panel)
+    driven = [*drawn_by(room, _angles, travels)]
+    alone = _placed(driven, around, most)
     if alone is None or alone[1] >= usual[1]:  # others are not in their way
         return usual[0]
-    drivers_first = placed(_angles, travels, _frame, _bars, guide_dimensions)
+    drivers_first = _placed(chain(driven, drawn_by(room, _frame, _bars, guide_dimensions)), around, most)
     return min((usual, drivers_first or usual), key=lambda one: one[1])[0]
 
 

@@ -128,26 +128,29 @@ TRIM, LEAST_EXTENSION = 0.8, 2.2  # mm between a symbol and an extension line; a
 
 
 class _Choice(NamedTuple):
-    """A candidate for a dimension: its extension lines, its other lines with the chords of its arcs, the
-    boxes around these arcs, and those of its numbers and of its arrowheads."""
+    """A candidate for a dimension: the boxes of its numbers and of its arrowheads; where these have room, its extension
+    lines, its other lines with the chords of its arcs, and the boxes around these arcs."""
 
     parts: Parts
-    extensions: list[Line]
-    lines: list[Segment]
-    arcs: list[Box]
     numbers: list[Box]
     heads: list[Box]
+    extensions: Sequence[Line] = ()
+    lines: Sequence[Segment] = ()
+    arcs: Sequence[Box] = ()
 
     @classmethod
-    def of(cls, parts: Parts, extensions: int) -> _Choice:
-        lines = [part for part in parts if isinstance(part, Line)]
-        courses = [_course(part) for part in parts if isinstance(part, Arc)]
+    def of(cls, parts: Parts) -> _Choice:
+        numbers = [text_box(part) for part in parts if isinstance(part, Text)]
+        return cls(parts, numbers, [Box.around(part.points) for part in parts if isinstance(part, Polygon)])
+
+    def whole(self, extensions: int) -> _Choice:
+        """The candidate with its lines, of which the first are extension lines."""
+        lines = [part for part in self.parts if isinstance(part, Line)]
+        courses = [_course(part) for part in self.parts if isinstance(part, Arc)]
         chords = [chord for course in courses for chord in pairwise(course)]
-        return cls(
-            parts, lines[:extensions], [*_ends(lines[extensions:]), *chords],
-            [Box.around(course).grown(0.5) for course in courses],
-            [text_box(part) for part in parts if isinstance(part, Text)],
-            [Box.around(part.points) for part in parts if isinstance(part, Polygon)],
+        return self._replace(
+            extensions=lines[:extensions], lines=[*_ends(lines[extensions:]), *chords],
+            arcs=[Box.around(course).grown(0.5) for course in courses],
         )  # fmt: skip
 
 
@@ -176,13 +179,18 @@ class DimensionClearance:
         The lines of a distance may run over lines and arrowheads, its own arrowheads end on lines, but none lies over a
         symbol of a point (``over_lines``).
         """
-        drawn = [_Choice.of(parts, extensions) for parts in choices]
+        drawn = [_Choice.of(parts) for parts in choices]
 
         def charge(some: Sequence[int]) -> Floats:
             costs = np.full(len(drawn), np.inf)
-            left = [k for k in some if self._inside(drawn[k])]
-            bad = self._covered([drawn[k] for k in left], ends_on_line or over_lines, crossing, over_lines)
-            left = self._trim(drawn, [k for k, no in zip(left, bad.tolist(), strict=True) if not no], crossing)
+            left = [k for k in some if self._inside(drawn[k].numbers + drawn[k].heads)]
+            left = _kept(left, self._covered([drawn[k] for k in left], ends_on_line or over_lines, over_lines))
+            for k in left:
+                drawn[k] = drawn[k].whole(extensions)
+            left = [k for k in left if self._inside(drawn[k].arcs)]
+            if not crossing:
+                left = _kept(left, self._over_strokes([drawn[k] for k in left], over_lines))
+            left = self._trim(drawn, left, crossing)
             if left:
                 bad, runs_over = self._crossed([drawn[k] for k in left], crossing, over_lines)
                 costs[left] = np.where(bad, np.inf, runs_over * (0.0 if over else OVER))
@@ -198,17 +206,15 @@ class DimensionClearance:
         self.heads = np.hstack((self.heads, boxes_of(chosen.heads)))
         return chosen.parts
 
-    def _inside(self, choice: _Choice) -> bool:
-        """Whether a dimension stands in the panel; its lines may leave it."""
-        return self.panel is None or all(map(self.panel.holds, (*choice.numbers, *choice.heads, *choice.arcs)))
+    def _inside(self, boxes: Iterable[Box]) -> bool:
+        """Whether boxes of a dimension stand in the panel; its lines may leave it."""
+        return self.panel is None or all(map(self.panel.holds, boxes))
 
-    def _covered(self, choices: Sequence[_Choice], on_lines: bool, crossing: bool, over_lines: bool) -> Flags:
-        """Whether dimensions stand on strokes; arrowheads may lie on lines, and lines over strokes that they may
-        cross."""
+    def _covered(self, choices: Sequence[_Choice], on_lines: bool, over_lines: bool) -> Flags:
+        """Whether numbers or arrowheads of dimensions stand on strokes; arrowheads may lie on lines."""
         bad = np.zeros(len(choices), dtype=bool)
         of_numbers, numbers = _owned([choice.numbers for choice in choices], boxes_of)
         of_heads, heads = _owned([choice.heads for choice in choices], boxes_of)
-        of_lines, lines = _owned([choice.lines for choice in choices], segments_of)
         taken = np.hstack((self.areas, self.heads))
         own, boxes = (of_numbers, numbers) if on_lines else (
             np.concatenate((of_numbers, of_heads)), np.hstack((numbers, heads)))  # fmt: skip
@@ -217,9 +223,14 @@ class DimensionClearance:
         bad[own[meets(self.segments, boxes[0], reach)[1]]] = True
         under = taken if over_lines else self.numbers
         bad[of_heads[stand_on(heads[0], heads[1] + SPACE, under).nonzero()[0]]] = True
-        if not crossing:
-            bad[of_lines[_run_over(lines, np.hstack((self._symbols(over_lines), self.heads)), 0.4)]] = True
-        if not crossing and not over_lines:
+        return bad
+
+    def _over_strokes(self, choices: Sequence[_Choice], over_lines: bool) -> Flags:
+        """Whether lines of dimensions run over strokes that they may not cross."""
+        bad = np.zeros(len(choices), dtype=bool)
+        of_lines, lines = _owned([choice.lines for choice in choices], segments_of)
+        bad[of_lines[_run_over(lines, np.hstack((self._symbols(over_lines), self.heads)), 0.4)]] = True
+        if not over_lines:
             bad[of_lines[_crossings(lines, self.segments)[0]]] = True
         return bad
 
@@ -288,6 +299,11 @@ def _course(arc: Arc) -> list[complex]:
     count = max(8, math.ceil(abs(turn) / ARC_STEP))
     shares = (left_out + (1 - 2 * left_out) * i / count for i in range(count + 1))
     return [arc.at(arc.start + share * turn) for share in shares]
+
+
+def _kept(some: Sequence[int], bad: Flags) -> list[int]:
+    """Those of some that are not bad."""
+    return [k for k, no in zip(some, bad.tolist(), strict=True) if not no]
 
 
 _Thing = TypeVar("_Thing")

@@ -138,11 +138,16 @@ def outlined(forms: Floats, space: tuple[float, float]) -> Floats:
     """
     middles, halves, feet, tips = forms.swapaxes(0, 1)
     led = (feet != tips).any(axis=0)
-    leader = np.where(led, np.minimum(feet, tips), np.nan), np.where(led, np.maximum(feet, tips), np.nan)
-    halves_with = halves + np.array(space)[:, None], halves + LEADER_SPACE, halves
-    wide, close, bare = ((middles - half, middles + half) for half in halves_with)
-    kinds = zip(wide, leader, close, leader, strict=True), zip(bare, close, leader, leader, strict=True)
-    return np.stack((*forms.swapaxes(0, 1), *(side for kind in kinds for sides in kind for side in sides)), axis=1)
+    outlines = np.empty((2, 20, forms.shape[2]))
+    outlines[:, :4] = forms
+    for sign, places in ((-1.0, (4, 12)), (1.0, (8, 16))):
+        bound, (ones, others) = np.minimum if sign < 0 else np.maximum, places
+        outlines[:, ones] = middles + sign * (halves + np.array(space)[:, None])
+        outlines[:, others] = middles + sign * halves
+        outlines[:, ones + 2] = outlines[:, others + 1] = middles + sign * (halves + LEADER_SPACE)
+        leader = np.where(led, bound(feet, tips), np.nan)
+        outlines[:, ones + 1] = outlines[:, ones + 3] = outlines[:, others + 2] = outlines[:, others + 3] = leader
+    return outlines
 
 
 def intersections(ones: Floats, others: Floats) -> Flags:
@@ -152,18 +157,20 @@ def intersections(ones: Floats, others: Floats) -> Flags:
     near &= ones[:, 8:12, :, None] >= others[:, 12:16, None]
     near = near[0] & near[1]
     met: Flags = near[0]
-    for closer, leads in zip(near[1:], ("one", "other", "both"), strict=True):
-        pairs = (closer > met).ravel().nonzero()[0]
-        if not pairs.size:
-            continue
+    pairs = (near[1:] > met).ravel().nonzero()[0]
+    if pairs.size:
+        # the leader of the one over the box of the other, its leader over the box of the one, and both leaders
+        first, last = pairs.searchsorted((met.size, 2 * met.size)).tolist()
+        pairs %= met.size
         row = pairs // met.shape[1]
-        one, other = (ones[:, :4].take(row, axis=2), others[:, :4].take(pairs - row * met.shape[1], axis=2))
-        if leads == "both":
-            hit = crosses(one[:, 2], one[:, 3], other[:, 2], other[:, 3])
-        else:
-            led, box = (one, other) if leads == "one" else (other, one)
-            hit = ~separated(box[:, 0] - led[:, 2], box[:, 1] + LEADER_SPACE, led[:, 3] - led[:, 2])
-        met.ravel()[pairs] = hit
+        one, other = ones[:, :4].take(row, axis=2), others[:, :4].take(pairs - row * met.shape[1], axis=2)
+        leads = np.concatenate((one[:, 2:, :first], other[:, 2:, first:last]), axis=2)
+        boxes = np.concatenate((other[:, :2, :first], one[:, :2, first:last]), axis=2)
+        foot, along = leads[:, 0], leads[:, 1] - leads[:, 0]
+        hit = np.empty(len(pairs), dtype=bool)
+        hit[:last] = ~separated(boxes[:, 0] - foot, boxes[:, 1] + LEADER_SPACE, along)
+        hit[last:] = crosses(*(ends[:, k, last:] for ends in (one, other) for k in (2, 3)))
+        met.ravel()[pairs[hit]] = True
     return met
 
 
@@ -250,13 +257,13 @@ class LabelPanel:
         """Add the faultless ones of some places to the known places of some requests."""
         first = len(self.places.costs)
         self.add(self._judged(self._around(some, around_points, around_vectors), keep=False)[0])
-        known = [self.numbers[i] for i in some if i in self.numbers]
-        numbers = np.concatenate((*known, np.arange(first, len(self.places.costs))))
-        costs, owners = self.places.costs.take(numbers), self.places.owners.take(numbers)
-        order = np.lexsort((costs, owners))
-        bounds = (np.searchsorted(owners[order], some, side).tolist() for side in ("left", "right"))
-        for i, first, last in zip(some, *bounds, strict=True):
-            self.numbers[i] = numbers[order[first:last]]
+        costs, counts = self.places.costs, np.bincount(self.places.owners[first:], minlength=len(self.texts)).tolist()
+        for i in sorted(some, key=lambda i: not self.mark_is_point[self.own[i]]):
+            numbers = np.arange(first, first + counts[i])  # those of a request lie side by side
+            first += counts[i]
+            if i in self.numbers:
+                numbers = np.concatenate((self.numbers[i], numbers))
+            self.numbers[i] = numbers[costs[numbers].argsort(kind="stable")]
 
     def add(self, places: Places) -> None:
         """Add places to the table."""
@@ -337,7 +344,9 @@ class LabelPanel:
         first, last = feet + way / np.maximum(np.hypot(*way), 1e-9) * FOOT_REACH, feet + way
         which, what = joined(near(sides_around(first, last), sides_around(start, end)))
         over = touching(first[:, which], last[:, which], start[:, what], end[:, what])
-        places.costs[some[np.unique(which[over])]] += BEYOND_COST
+        behind = np.zeros(len(some), dtype=bool)
+        behind[which[over]] = True
+        places.costs[some[behind]] += BEYOND_COST
 
     def _outside(self, places: Places) -> Flags:
         left, top, right, bottom = sides(places.forms[:, 0], places.forms[:, 1])

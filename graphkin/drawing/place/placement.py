@@ -147,8 +147,12 @@ class Placement:
         if known == len(table.costs):
             return
         new = outlined(table.forms[:, :, known:], SPACE)
-        self.outlines = np.concatenate((self.outlines, new), axis=2)
-        self.met = np.hstack((self.met, intersections(self.outlines.take(self.stands, axis=2), new)))
+        met = np.zeros((len(self.labels), new.shape[2]), dtype=bool)
+        if known:
+            standing = [i for i, k in enumerate(self.stands) if k != NOWHERE and i not in self.moved]
+            met[standing] = intersections(self.outlines.take([self.stands[i] for i in standing], axis=2), new)
+            new, met = np.concatenate((self.outlines, new), axis=2), np.hstack((self.met, met))
+        self.outlines, self.met = new, met
         self.costs = table.costs + KEY_COST * (table.owners >= len(self.labels))
         self.numbers = [self.panel.numbers[i] for i in range(len(self.labels))]
         for i, request in self.panel.keys.items():
@@ -199,7 +203,9 @@ class Placement:
             return False
         offers, met = self._offers(i, int(self.prices[i].searchsorted(least)))
         crowd = sorted({j for others in met for j in others})
-        room, lots, clear = self._room(i, crowd, offers, least)
+        room, lots = self._room(i, crowd, offers, least)
+        taken = self.outlines.take(room, axis=2)
+        clear, beside = ~intersections(self.outlines.take(offers, axis=2), taken), None
         costs, room_costs = self.costs[offers].tolist(), self.costs[room].tolist()
         best, moved = (gone, without) if without < paid else None, dict[int, int]()
         for n, others in enumerate(met):
@@ -212,7 +218,8 @@ class Placement:
                 if cost >= least:
                     break
                 if k >= 0 and j != others[-1]:
-                    left = left & clear[len(offers) + k]
+                    beside = ~intersections(taken, taken) if beside is None else beside
+                    left = left & beside[k]
             else:
                 if cost < least:
                     least, best, moved = cost, (int(offers[n]), costs[n]), goes
@@ -258,14 +265,13 @@ class Placement:
 
     def _room(
         self, i: int, some: Sequence[int], offers: Indices, least: float
-    ) -> tuple[Indices, dict[int, slice], Flags]:
-        """Places of some labels that only labels to be moved obstruct, the cheapest first; those of each label; and
-        whether each offered place, and then each of themselves (rows), leaves them (columns) clear.
+    ) -> tuple[Indices, dict[int, slice]]:
+        """Places of some labels that only labels to be moved obstruct, the cheapest first; and those of each label.
 
         Places too costly for the labels' savings are left out, if all are to cost less than ``least``.
         """
         if not some:
-            return offers[:0], {}, np.empty((len(offers), 0), dtype=bool)
+            return offers[:0], {}
         now = [self.paid[j] for j in some]
         saved = max(
             cost - self.prices[j][:1].min(initial=min(cost, self._without(j)[1]))
@@ -280,9 +286,7 @@ class Placement:
         free = np.flatnonzero(~standing.any(axis=0))
         bounds = np.searchsorted(labels[free], [*some, len(self.labels)]).tolist()
         spans = {j: slice(*span) for j, span in zip(some, pairwise(bounds), strict=True)}
-        room = places[free]
-        taken = self.outlines.take(np.concatenate((offers, room)), axis=2)
-        return room, spans, ~intersections(taken, taken[:, :, len(offers) :])
+        return places[free], spans
 
     def _insist(self, i: int) -> None:
         """Put a label in its least harmful place, and give up labels in its way that may be given up."""
