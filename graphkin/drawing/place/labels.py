@@ -215,8 +215,9 @@ class LabelPanel:
             + [1.0] * len(obstacles.dashed)
         )
         # Labels at the same place share one mark: coincident points are told apart by their letters.
-        distinct = [*dict.fromkeys(map(ends, (*(label.mark for label in labels), *marks)))]
-        self.index = {pair: i for i, pair in enumerate(distinct)}
+        index: dict[Segment, int] = {}
+        places = [index.setdefault(ends(mark), len(index)) for mark in (*(label.mark for label in labels), *marks)]
+        self.marks, distinct = places[: len(labels)], [*index]
         self.mark_start, self.mark_end = _ends(distinct)
         self.mark_is_point = (self.mark_start == self.mark_end).all(axis=0)
         self._ask()
@@ -225,15 +226,15 @@ class LabelPanel:
 
     def _ask(self) -> None:
         """Add the requests of all texts."""
-        labels = [*self.labels, *(self.labels[i] for i in self.keys)]
+        labels = [*range(len(self.labels)), *self.keys]
         self.boxes = [box_about(text.runs) for text in self.texts]
-        self.own = np.array([self.index[ends(label.mark)] for label in labels], dtype=int)
+        self.own = np.array([self.marks[i] for i in labels], dtype=int)
         self.half = np.array([(box.width, box.height) for box in self.boxes]).T / 2
         x, y = (self.mark_end - self.mark_start)[:, self.own]
         along = x + 1j * y
         square = 1j * along / np.where(self.mark_is_point[self.own], 1.0, np.abs(along))
         ways = np.hstack((np.broadcast_to(WAYS, (len(labels), len(WAYS))), np.outer(square, (1.0, -1.0))))
-        self.ways, self.disliked = in_rows(ways), _disliked([label.toward for label in labels], ways)
+        self.ways, self.disliked = in_rows(ways), _disliked([self.labels[i].toward for i in labels], ways)
 
     def ask_for_keys(self) -> Mapping[int, int]:
         """Add requests for the keys of all labels that have one; returns them."""
@@ -286,7 +287,7 @@ class LabelPanel:
         way = self.ways.reshape(2, -1).take(owners * self.ways.shape[2] + which, axis=1)
         feet = self.mark_start.take(mark, axis=1) + shares * (self.mark_end - self.mark_start).take(mark, axis=1)
         reach = way * half
-        hold = np.clip(1.6 * reach, -half, half)
+        hold = np.minimum(np.maximum(1.6 * reach, -half), half)  # faster than clip
         middles = feet + gaps * way + np.where(which >= len(WAYS), np.abs(reach).sum(axis=0) * way, hold)
         costs = gaps + self.disliked[owners, which] + OFF_MIDDLE * np.abs(shares - 0.5)
         forms = np.stack((middles, half, feet, feet), axis=1)
@@ -338,6 +339,8 @@ class LabelPanel:
     def _charge_beyond(self, places: Places, led: Flags) -> None:
         """Charge places of points without a leader beyond a vector."""
         start, end = self.vectors
+        if not start.size:
+            return
         some = (~led & (places.gaps > BESIDE) & self.mark_is_point[self.own[places.owners]]).nonzero()[0]
         middles, halves, feet, _ = places.forms.take(some, axis=-1).swapaxes(0, 1)
         way = _gap(middles - feet, halves)
@@ -443,4 +446,4 @@ def _apart(liked: Sequence[float], ways: Points) -> Floats:
 
 def _gap(offset: Floats, half: Floats) -> Floats:
     """The vectors from points to the nearest places of boxes at these offsets."""
-    return offset - np.clip(offset, -half, half)
+    return offset - np.minimum(np.maximum(offset, -half), half)

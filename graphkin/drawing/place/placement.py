@@ -103,13 +103,16 @@ class Placement:
     @property
     def placed(self) -> tuple[Placed, ...]:
         """The labels at their places, in their order."""
-        return tuple(self._placed(i, k) for i, k in enumerate(self.stands) if k not in (NOWHERE, TOLD))
+        some = [i for i, k in enumerate(self.stands) if k not in (NOWHERE, TOLD)]
+        places = np.array([self.stands[i] for i in some], dtype=np.intp)
+        forms = self.panel.places.forms.take(places, axis=2).T.tolist()
+        return tuple(map(self._placed, some, self.panel.places.owners.take(places).tolist(), forms))
 
-    def _placed(self, i: int, k: int) -> Placed:
-        middle, half, foot, tip = (complex(*corner) for corner in self.panel.places.forms[:, :, k].T.tolist())
-        request = int(self.panel.places.owners[k])
+    def _placed(self, i: int, request: int, form: Sequence[Sequence[float]]) -> Placed:
+        middle, half, foot, tip = (complex(*corner) for corner in form)
         text, own = self.panel.texts[request], self.panel.boxes[request]
-        box = Box.around((middle - half, middle + half))
+        low, high = middle - half, middle + half
+        box = Box(low.real, low.imag, high.real, high.imag)
         at = complex(box.left - own.left, box.top - own.top)
         text = Text(at, text.runs, "start", text.colour, text.id, text.classes, text.step, text.since)
         leader = None if foot == tip else Line(foot, tip, strokes.LEADER)
@@ -159,6 +162,7 @@ class Placement:
             both = np.concatenate((self.numbers[i], self.panel.numbers[request]))
             self.numbers[i] = both[np.argsort(self.costs[both], kind="stable")]
         self.prices = [self.costs[numbers] for numbers in self.numbers]
+        self.cheapest = [float(prices[0]) if prices.size else np.inf for prices in self.prices]
 
     def _take(self, i: int, k: int, cost: float) -> None:
         """Let a label stand in a place."""
@@ -199,7 +203,7 @@ class Placement:
         """Move a label, and a few in its way, to places of lower total cost; whether there are such places."""
         paid, (gone, without) = self.paid[i], self._without(i)
         least = min(paid - GAIN, without)
-        if paid <= without and not (self.prices[i][:1] < least).any():
+        if paid <= without and self.cheapest[i] >= least:
             return False
         offers, met = self._offers(i, int(self.prices[i].searchsorted(least)))
         crowd = sorted({j for others in met for j in others})
@@ -273,10 +277,7 @@ class Placement:
         if not some:
             return offers[:0], {}
         now = [self.paid[j] for j in some]
-        saved = max(
-            cost - self.prices[j][:1].min(initial=min(cost, self._without(j)[1]))
-            for j, cost in zip(some, now, strict=True)
-        )
+        saved = max(cost - min(self.cheapest[j], cost, self._without(j)[1]) for j, cost in zip(some, now, strict=True))
         most = least - self.costs[offers[0]] + saved + ROUNDING
         counts = [self.prices[j][:LOOKED_AT].searchsorted(cost + most) for j, cost in zip(some, now, strict=True)]
         lots = [self.numbers[j][:count] for j, count in zip(some, counts, strict=True)]
