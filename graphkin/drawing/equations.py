@@ -72,7 +72,7 @@ def equations_in_room(
 
     def tried() -> Iterator[Placed]:
         for size, columns in WAYS:
-            if size <= most:
+            if size <= most and height > 0.0:
                 wide = (width - (columns - 1) * COLUMN_GAP) / columns
                 # lines are set as they are placed, since those after one that has no room are not wanted
                 yield _in_columns((line(wide, size) for line in lines), wide, height, columns)

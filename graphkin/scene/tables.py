@@ -218,6 +218,9 @@ MEASURES: Mapping[str, Measure] = {
 """All measures by name."""
 
 
+_IN_PRINT = str.maketrans("23 ", "²³·")
+
+
 class Unit(NamedTuple):
     """A unit of one measure.
 
@@ -235,7 +238,7 @@ class Unit(NamedTuple):
     @property
     def written(self) -> str:
         """The unit in print: ``mm/s²``, ``°``, ``N·m``."""
-        return self.text.translate(str.maketrans("23 ", "²³·")).replace("deg", "°")
+        return self.text.translate(_IN_PRINT).replace("deg", "°")
 
     def beside(self, number: str) -> str:
         """A number, as it is written, with the unit beside it: ``482.7 mm/s``, ``30°``."""
@@ -288,12 +291,14 @@ class Units(FileTable):
 
     def of(self, measure: Measure | str, radians: bool = False) -> Unit:
         """The unit of a measure, or of one by its name: people read angles in degrees, programs in radians."""
-        return _unit(self, MEASURES[measure] if isinstance(measure, str) else measure, radians)
+        names = self.length, self.speed, self.force, self.mass
+        return _unit(names, MEASURES[measure] if isinstance(measure, str) else measure, radians)
 
 
 @cache
-def _unit(units: Units, measure: Measure, radians: bool) -> Unit:
+def _unit(names: tuple[Any, Any, Any, Any], measure: Measure, radians: bool) -> Unit:
     """The product of the units in a measure; the arm of a force is in m, that of a mass in m, or in ft beside lb."""
+    units = Units(*names)
     if measure.is_angle and not radians:
         return Unit("deg", math.radians(1.0))
     length = units.rates.length if measure.order else units.length

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache, reduce
 from pathlib import Path
 from string import Formatter
@@ -146,17 +146,13 @@ def rich_text(said: Wording, language: str, show: Callable[[object], Words] = _a
 def _closed_up(parts: Iterable[Words]) -> list[Words]:
     """Parts without a space where Chinese meets Chinese, as of a phrase in the gap of another."""
     closed: list[Words] = []
-    before = ""  # the words right before a part
     for part in parts:
-        if not isinstance(part, str):
-            before = ""
-        else:
-            if before and part:
-                if part[0] == " " and _is_chinese(before[-1]) and _is_chinese(part[1:2]):
-                    part = part[1:]
-                elif before[-1] == " " and _is_chinese(before[-2:-1]) and _is_chinese(part[0]):
-                    closed[-1] = before[:-1]
-            before = part
+        before = closed[-1] if closed else ""
+        if isinstance(part, str) and isinstance(before, str) and part and before:
+            if part[0] == " " and _is_chinese(before[-1]) and _is_chinese(part[1:2]):
+                part = part[1:]
+            elif before[-1] == " " and _is_chinese(before[-2:-1]) and _is_chinese(part[0]):
+                closed[-1] = before[:-1]
         closed.append(part)
     return closed
 
@@ -177,28 +173,29 @@ class Neutral(RichText):
     """A formula or a value with its unit: the same in every language, so that a sheet in two languages has it once."""
 
 
-def parts(said: Wording, language: str, show: Callable[[object], Words] = str) -> Iterator[Words]:
+def parts(said: Wording, language: str, show: Callable[[object], Words] = str) -> list[Words]:
     """The parts of a sentence in their order: the words of the table, and each gap as ``show`` writes it.
 
-    >>> list(parts(Phrase("points", link="2", points="B, C"), "en"))
+    >>> parts(Phrase("points", link="2", points="B, C"), "en")
     ['mark ', 'B, C', ' on link ', '2']
     """
     if not isinstance(said, Phrase):
-        yield said
-        return
+        return [said]
+    written: list[Words] = []
     for words, gap, of in _pieces(said.key, language):
         if words:
-            yield words
+            written.append(words)
         if gap is None:
             continue
         fill = said.gaps[gap]
         if of:
             index = plain(show(fill), "")
-            yield rate(of, index) if of in ("omega", "alpha") else sign(of, index)
+            written.append(rate(of, index) if of in ("omega", "alpha") else sign(of, index))
         elif isinstance(fill, Phrase):
-            yield from parts(fill, language, show)
+            written += parts(fill, language, show)
         else:
-            yield show(fill)
+            written.append(show(fill))
+    return written
 
 
 @cache

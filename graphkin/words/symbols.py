@@ -88,7 +88,7 @@ class RichText:
         >>> (sign("a", "CB", "n") + " = " + sign("ω", "2", "2") + " " + sign("l", "CB")).plain()
         'a^n_CB = ω_2² l_CB'
         """
-        return "".join(_plain(part, index) for part in self.parts)
+        return "".join([part if isinstance(part, str) else _plain(part, index) for part in self.parts])
 
     def with_words(self, change: Callable[[str], str]) -> RichText:
         """The text with its words changed, its symbols as they are."""
@@ -169,9 +169,7 @@ def plain(text: Words, index: str = "_") -> str:
     return text if isinstance(text, str) else text.plain(index)
 
 
-def _plain(part: str | Atom, index: str) -> str:
-    if isinstance(part, str):
-        return part
+def _plain(part: Atom, index: str) -> str:
     if not part.sub and not part.sup:
         return part.text
     above, below = ("".join(_plain(atom, index) for atom in atoms) for atoms in (part.sup, part.sub))

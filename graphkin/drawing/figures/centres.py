@@ -135,10 +135,12 @@ def _free(
     places = a + (b - a) * (0.1 + 0.01 * np.arange(81))
     near = [radius - np.abs(places - middle), *(np.abs(places - w) - HALF for w in taken)]
     near += [np.abs(cross(places - p, np.array(q - p))) / abs(q - p) for p, q in others]
-    room = np.minimum.reduce([np.full(81, 9.0), *near]).tolist()
+    room = np.minimum.reduce([np.full(81, 9.0), *near])
+    most = min(float(room.max()), 3.0)
+    widest = np.flatnonzero(room > most - 2e-6).tolist()
     distance = np.abs(places - (a + b) / 2).tolist()
     # of two places that are alike the first: rounding, so that the last bit does not choose
-    best = max(range(81), key=lambda k: (round(min(room[k], 3.0), 6), -round(distance[k], 6)))
+    best = max(widest, key=lambda k: (round(min(float(room[k]), 3.0), 6), -round(distance[k], 6)))
     return complex(places[best]) if room[best] > CLEAR else None
 
 
@@ -310,9 +312,11 @@ def _pointer(inside: Box, solid: Sequence[Segment], centre: Centre) -> Segment:
         return sense * on_page(centre.direction)
 
     asides = [s * k * 6.0 for k in range(18) for s in ((1, -1) if k else (1,))]
+    middle = inside.centre
     for sense in (1, -1) if centre.point is None else (1,):
+        across = 1j * towards(middle, sense)
         for aside in asides:
-            start = inside.centre + 1j * towards(inside.centre, sense) * aside
+            start = middle + across * aside
             aim = towards(start, sense)
             chord = inside.clip(start, start + 1e4 * aim)
             for back in (0.0, 4.0, 10.0):

@@ -31,7 +31,7 @@ from graphkin.construction.board.steps import (
 )
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Segment, Stroke, Text, on_page
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Run, Segment, Stroke, Text, on_page
 from graphkin.drawing.ink.strokes import colour_of_link, colour_of_vector
 from graphkin.drawing.ink.symbols import COMPONENT, POINTER, RESULTANT, arrowhead, vector_group
 from graphkin.drawing.place.labels import Label
@@ -255,12 +255,12 @@ def _way(vector: Vector) -> complex:
 
 def _cover(one: Vector, two: Vector) -> bool:
     longer, shorter = (one, two) if abs(one.span) >= abs(two.span) else (two, one)
-    way = longer.span / abs(longer.span)
-    ends = [z - longer.tail for z in (shorter.tail, shorter.tip)]
-    if any(abs(cross(way, z)) > ON_ONE_LINE for z in ends):
+    length = abs(longer.span)
+    way, first, second = longer.span / length, shorter.tail - longer.tail, shorter.tip - longer.tail
+    if abs(cross(way, first)) > ON_ONE_LINE or abs(cross(way, second)) > ON_ONE_LINE:
         return False
-    low, high = sorted(dot(way, z) for z in ends)
-    return min(high, abs(longer.span)) - max(low, 0.0) > OVERLAP
+    low, high = sorted((dot(way, first), dot(way, second)))
+    return min(high, length) - max(low, 0.0) > OVERLAP
 
 
 POLE_RADIUS, END_RADIUS, FOOT_RADIUS, DOT_RING = 0.9, 0.5, 0.4, 0.45
@@ -499,7 +499,7 @@ def _name(
     key = step_number(step, text.colour)
     if LEAST_NUMBERED <= length < SHORT and len(here.vectors) <= MANY:
         by = runs_width(key.runs) + BESIDE
-        text = text._replace(runs=(*key.runs, *(run._replace(x=run.x + by) for run in text.runs)), step=step)
+        text = text._replace(runs=(*key.runs, *(Run(run.text, run.x + by, *run[2:]) for run in text.runs)), step=step)
     ends = [letters.get(same_place(end), RichText()) for end in (first.tail, first.tip)]
     between = spaced(sign("→"), ends) if all(ends) else RichText()
     return Label(text, here.drawn(first), rank=2 if resultants and not us else 1, key=key, between=between)
