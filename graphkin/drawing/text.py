@@ -79,7 +79,8 @@ def cut_off(words: str, size: float, width: float, bold: bool = False) -> tuple[
     return runs
 
 
-def wrapped(text: Words, size: float, width: float, bold: bool = False) -> list[tuple[Run, ...]]:
+@lru_cache(maxsize=2048)
+def wrapped(text: Words, size: float, width: float, bold: bool = False) -> tuple[tuple[Run, ...], ...]:
     """Words and symbols set in lines of a width (mm), broken at spaces, between Chinese characters and after their
     commas."""
     pieces, ends = _pieces(text), _ends(text, size, bold)
@@ -103,7 +104,7 @@ def wrapped(text: Words, size: float, width: float, bold: bool = False) -> list[
             end, runs = end + 1, longer
         lines += [runs] if runs else []
         start = end
-    return lines
+    return tuple(lines)
 
 
 def stacked(lines: Sequence[Words], size: float = LETTER) -> tuple[Run, ...]:

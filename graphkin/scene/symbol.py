@@ -14,6 +14,7 @@ import re
 from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import Decimal, InvalidOperation
+from functools import cached_property
 from typing import Literal, NamedTuple
 
 from graphkin.scene.tables import MEASURES, Measure, Unit, Units
@@ -338,7 +339,7 @@ class Symbol:
         """Its unit in files and tables by the scene's units; with ``radians`` its unit in JSON."""
         return units.of(self.measure, radians)
 
-    @property
+    @cached_property
     def id(self) -> str:
         """The symbol as an SVG id: ``@`` dropped, ``/`` written ``-``."""
         return str(self).replace("@", "").replace("/", "-").replace(" at ", "-at-").replace("+", "-with").replace(

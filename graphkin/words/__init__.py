@@ -220,6 +220,7 @@ def has_words(key: str) -> bool:
     return key in _table("en")
 
 
+@cache
 def gaps_of(key: str) -> tuple[str, ...]:
     """The names of the gaps of a sentence.
 

@@ -100,9 +100,8 @@ def _depth(here: MechanismOnPaper, shape: LinkShape) -> int:
 
 def _frame(here: MechanismOnPaper) -> Group:
     parts: list[Primitive] = []
-    for point in here.scene.frame.points:
-        if here.moving(point):
-            parts += symbols.fixed_pivot(on_page(here.places[point]), here.foot(point))
+    for point, foot in here.feet.items():
+        parts += symbols.fixed_pivot(on_page(here.places[point]), foot)
     for b in here.sliders:
         if b.slide.higher and b.slide.b == here.ground:
             reach = GUIDE_LENGTH / 2 * b.along
@@ -278,12 +277,11 @@ def _guides(here: MechanismOnPaper, panel: Box | None) -> Iterator[Label]:
 
 
 def _frame_name(here: MechanismOnPaper) -> Iterator[Label]:
-    pivots = [p for p in here.scene.frame.points if here.moving(p)]
-    spots = [here.places[p] for p in pivots]
+    spots = [here.places[pivot] for pivot in here.feet]
     spots += [b.at for b in here.sliders if here.ground in (b.slide.b, b.slide.a)]
     if spots:
-        foot = here.foot(pivots[0]) if pivots else 0.0
-        away = complex(math.cos(foot), math.sin(foot)) * 5 if pivots else 3.6j
+        foot = next(iter(here.feet.values()), None)
+        away = 3.6j if foot is None else complex(math.cos(foot), math.sin(foot)) * 5
         yield Label(_number(here, here.ground, strokes.BLACK), on_page(spots[0] + away), (phase(away),), 1)
     elif (face := beside_face_of_frame(here)) is not None:
         at, into = face
@@ -368,11 +366,10 @@ def _in_the_way(here: MechanismOnPaper) -> Iterator[Segment]:
     for shape in here.shapes:
         yield from ((on_page(a), on_page(b)) for a, b in shape.segments)
     yield from ((on_page(z), on_page(z) + 0.01) for z in here.places.values())
-    for point in here.scene.frame.points:
-        if here.moving(point):
-            at, down = on_page(here.places[point]), page_direction(here.foot(point))
-            end = at + symbols.FOOT_HEIGHT * down
-            yield from ((at, end + 3.2j * down), (at, end - 3.2j * down), (end + 4.5j * down, end - 4.5j * down))
+    for point, foot in here.feet.items():
+        at, down = on_page(here.places[point]), page_direction(foot)
+        end = at + symbols.FOOT_HEIGHT * down
+        yield from ((at, end + 3.2j * down), (at, end - 3.2j * down), (end + 4.5j * down, end - 4.5j * down))
     for b in here.sliders:
         reach = GUIDE_LENGTH / 2 if here.ground in (b.slide.a, b.slide.b) else symbols.BLOCK_LENGTH / 2
         at, along = on_page(b.at), on_page(b.along)
@@ -476,7 +473,7 @@ def compass_arcs(here: MechanismOnPaper) -> Piece:
     under: list[Primitive] = []
     over: list[Primitive] = []
     arcs = [
-        (step, stroke) for step in here.sheet.steps if step.diagram == "mechanism"
+        (step, stroke) for step in here.steps
         for stroke in step.strokes if isinstance(stroke, CompassArc) and stroke.radius > 1e-9
     ]  # fmt: skip
     bars: dict[complex, set[complex]] = {}

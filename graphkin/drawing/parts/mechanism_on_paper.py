@@ -14,7 +14,7 @@ from functools import cached_property
 
 from graphkin.account.notation import Notation
 from graphkin.construction.board.sheet import Sheet
-from graphkin.construction.board.steps import Mark
+from graphkin.construction.board.steps import Mark, Step
 from graphkin.construction.touching import Touching
 from graphkin.drawing.ink import symbols
 from graphkin.drawing.ink.primitives import Segment
@@ -52,7 +52,7 @@ class LinkShape:
     slots: tuple[Segment, ...] = ()
     redundant: bool = False
 
-    @property
+    @cached_property
     def segments(self) -> tuple[Segment, ...]:
         """Its straight strokes."""
         edges = zip(self.corners, (*self.corners[1:], *self.corners[:1]), strict=True)
@@ -83,9 +83,14 @@ class MechanismOnPaper:
         """Its higher pairs on paper."""
         return Touching(self.scene, 1.0 / self.sheet.scales.length, self.sheet.poses)
 
+    @cached_property
+    def steps(self) -> tuple[Step, ...]:
+        """The steps that draw it."""
+        return tuple(step for step in self.sheet.steps if step.diagram == "mechanism")
+
     def since(self, link: str) -> int | None:
         """The step from which a link is shown: all its points are marked, and it is drawn."""
-        steps, last = [step for step in self.sheet.steps if step.diagram == "mechanism"], self.stands
+        steps, last = self.steps, self.stands
         if link == self.ground or last is None:
             return steps[0].number if steps else None
         if link not in self.scene.by_name:
@@ -96,7 +101,7 @@ class MechanismOnPaper:
     @cached_property
     def stands(self) -> int | None:
         """The step from which the whole mechanism is shown; parts found later do not belong to it."""
-        steps = [step.number for step in self.sheet.steps if step.diagram == "mechanism"]
+        steps = [step.number for step in self.steps]
         polygons = min((step.number for step in self.sheet.steps if step.diagram != "mechanism"), default=math.inf)
         return max((number for number in steps if number < polygons), default=max(steps, default=None))
 
@@ -104,8 +109,8 @@ class MechanismOnPaper:
     def found(self) -> Mapping[str, int]:
         """The first step that marks each point of the mechanism."""
         found: dict[str, int] = {}
-        for step in self.sheet.steps:
-            for mark in (s for s in step.strokes if step.diagram == "mechanism" and isinstance(s, Mark)):
+        for step in self.steps:
+            for mark in (s for s in step.strokes if isinstance(s, Mark)):
                 found.setdefault(mark.ref.point, step.number)
         return found
 
@@ -175,9 +180,12 @@ class MechanismOnPaper:
         """The moving links that have a point."""
         return [n for n in self.scene.holders.get(point, ()) if n != self.ground and n in self.sheet.poses]
 
-    def foot(self, point: str) -> float:
-        """Direction of a pivot's foot (rad): down, unless links are in the way."""
-        here = self.places[point]
+    @cached_property
+    def feet(self) -> Mapping[str, float]:
+        """The directions of the feet of fixed pivots (rad): down, unless links are in the way."""
+        return {point: self._foot(self.places[point]) for point in self.scene.frame.points if self.moving(point)}
+
+    def _foot(self, here: complex) -> float:
         ways = [phase(w) for w in self.ways(here)]
 
         def cost(angle: float) -> float:
