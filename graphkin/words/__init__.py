@@ -127,7 +127,9 @@ def say(phrase: Wording, language: str = "en", show: Callable[[object], Words] =
     >>> say(Phrase("points", link="2", points="B, C"))
     'mark B, C on link 2'
     """
-    return "".join(map(plain, _closed_up(parts(phrase, language, show))))
+    said = parts(phrase, language, show)
+    text = "".join(map(plain, said))
+    return "".join(map(plain, _closed_up(said))) if _APART.search(text) else text
 
 
 def _as_it_is(gap: object) -> Words:
@@ -141,6 +143,9 @@ def rich_text(said: Wording, language: str, show: Callable[[object], Words] = _a
     from $B$ lay off what $ω_{3}$ gives: from the pole to there $v_{C}$
     """
     return RichText(*_closed_up(parts(said, language, show)))
+
+
+_APART = re.compile("[\u4e00-\u9fff] [\u4e00-\u9fff]")
 
 
 def _closed_up(parts: Iterable[Words]) -> list[Words]:

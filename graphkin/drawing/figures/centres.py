@@ -134,7 +134,8 @@ def _free(
     a number would touch one of them."""
     places = a + (b - a) * (0.1 + 0.01 * np.arange(81))
     near = [radius - np.abs(places - middle), *(np.abs(places - w) - HALF for w in taken)]
-    near += [np.abs(cross(places - p, np.array(q - p))) / abs(q - p) for p, q in others]
+    starts, ways, lengths = np.array([(p, q - p, abs(q - p)) for p, q in others]).reshape(-1, 3).T[..., None]
+    near += [*(np.abs(cross(places - starts, ways)) / lengths.real)]
     room = np.minimum.reduce([np.full(81, 9.0), *near])
     most = min(float(room.max()), 3.0)
     widest = np.flatnonzero(room > most - 2e-6).tolist()

@@ -330,18 +330,20 @@ SHADE, SHADED = 0.09, 12.0  # how much of its colour an image has within, from w
 BEYOND = 9.0  # mm: how far a direction line runs past the crossing
 
 
-def polygon_piece(here: PolygonOnPage, lines: Piece | None = None) -> Piece:
+def polygon_piece(here: PolygonOnPage, lines: tuple[Piece, Mapping[Symbol, Label]] | None = None) -> Piece:
     """Draw a polygon at its place, of which the ``lines`` may be drawn already; an enlarged place gets a ring, and its
     vectors have no names here."""
-    areas, names = Piece({"construction": tuple(rings(here))}), Piece(labels=tuple(_vector_names(here)))
-    return joined((areas, lines or polygon_lines(here), names))
+    (piece, names), areas = lines or polygon_lines(here), Piece({"construction": tuple(rings(here))})
+    elsewhere = {v.symbol for detail in here.enlarged for v in detail.vectors}
+    return joined((areas, piece, Piece(labels=tuple(names[first] for first in names if first not in elsewhere))))
 
 
-def polygon_lines(here: PolygonOnPage) -> Piece:
-    """A polygon without what its enlarged places change: rings, and names of vectors."""
+def polygon_lines(here: PolygonOnPage) -> tuple[Piece, Mapping[Symbol, Label]]:
+    """A polygon without what its enlarged places change: rings, and the names of their vectors; and the names of all
+    vectors, each by the first vector that it names."""
     areas, vectors = Piece({"construction": tuple(_images(here))}), Piece({here.diagram: (*_vectors(here),)})
     construction = areas, *trial_marks_in_polygon(here), *_bars(here), *_rays(here)
-    return joined((*construction, vectors, points(here)))
+    return joined((*construction, vectors, points(here))), dict(_vector_names(here))
 
 
 def rings(here: PolygonOnPage) -> Iterator[Group]:
@@ -458,19 +460,17 @@ def _vectors(here: PolygonOnPage) -> Iterator[Group]:
         yield group._replace(children=(*group.children, *ties))
 
 
-def _vector_names(here: PolygonOnPage) -> Iterator[Label]:
-    """A name for vectors that share tail and tip, the longest first, without enlarged ones; vectors of zero length are
-    named in words."""
+def _vector_names(here: PolygonOnPage) -> Iterator[tuple[Symbol, Label]]:
+    """A name for vectors that share tail and tip, the longest first; vectors of zero length are named in words."""
     letters = {same_place(point.at): point.letter for point in reversed(here.lettered.named)}
     groups: dict[tuple[complex, complex, bool], list[Vector]] = {}
     for _, vector in here.in_order():
         key = same_place(vector.tail), same_place(vector.tip), vector.span == 0.0
         groups.setdefault(key, []).append(vector)
-    elsewhere = {v.symbol for detail in here.enlarged for v in detail.vectors}
     for shared in sorted(groups.values(), key=lambda group: -round(abs(group[0].span), 6)):
         length, in_order = abs(shared[0].span), sorted(shared, key=lambda v: here.vectors[v.symbol][0])
-        if shared[0].symbol not in elsewhere and (name := _name(here, length, in_order, letters)) is not None:
-            yield name
+        if (name := _name(here, length, in_order, letters)) is not None:
+            yield shared[0].symbol, name
 
 
 SHORT = 7.0  # mm: beside a shorter vector its name leaves no room for a number, which stands before the name
