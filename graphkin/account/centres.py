@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
 from decimal import Decimal
 from typing import NamedTuple
 
 from graphkin.construction.centres import Centre, CentreRelation, Centres, LinkPair, Turning
 from graphkin.plane import dot
+from graphkin.scene.model import Driver
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, written
 from graphkin.words.symbols import RichText, Words
@@ -70,13 +72,21 @@ def velocity_sentences(centres: Centres) -> tuple[Phrase, ...]:
     of_links: dict[str, Phrase] = {}
     moving = centres.turning
     largest = max((abs(t.omega) for t in moving.values()), default=0.0)
-    for turning in sorted(moving.values(), key=lambda t: len(t.chain)):
+    bases = {driver.relative_to for driver in centres.scene.drivers}
+    for turning in sorted(moving.values(), key=lambda t: (len(t.chain), t.link in bases)):
         error = centres.velocity_error(Symbol("omega", link=turning.link))
         nothing = abs(turning.omega) <= max(STILL * largest, min(error, SURE * largest))  # but rounding
-        if len(turning.chain) > 1:
-            rates[turning.link], of_links[turning.link] = _of_link(centres, rates, turning, nothing)
+        if len(turning.chain) == 1 and (driver := _between_moving(centres, turning)) and not nothing:
+            if turning.link == driver.link:
+                told = _of_driver(centres, turning, driver)
+            else:  # from the driven link, through their common centre
+                told = _of_link(centres, rates, replace(turning, chain=driver.links), False)
         else:
+            told = _of_link(centres, rates, turning, nothing) if len(turning.chain) > 1 else None
+        if told is None:
             rates[turning.link] = _Rate("0" if nothing else amount(turning.omega))
+        else:
+            rates[turning.link], of_links[turning.link] = told
     links = [of_links[name] for name in moving if name in of_links]
     asked = [s for s in centres.scene.question.find if s.kind == "v" and s.to is None]
     wanted = asked if centres.scene.question.find else centres.moving_pins
@@ -113,6 +123,49 @@ def _three(centres: Centres, turning: Turning) -> tuple[Centre, Centre, Centre]:
     """The centres of a link's motion: its own, that of the link before it in its chain, and their common one."""
     frame, name, known = centres.scene.frame.name, turning.link, turning.chain[-2]
     return centres.of(name, frame), centres.of(known, frame), centres.of(name, known)
+
+
+def _between_moving(centres: Centres, turning: Turning) -> Driver | None:
+    """The driver with which a chain begins, where it moves a link that turns relative to another such link, about a
+    pin or along a guide."""
+    frame, moving = centres.scene.frame.name, centres.turning
+    for driver in centres.scene.drivers:
+        pinned = not driver.turns and centres.sheet.structure.slide(driver.key).higher
+        if turning.link in driver.links and not pinned and {*driver.links} <= moving.keys() - {frame}:
+            here, there = (centres.of(link, frame).point for link in driver.links)
+            if here is not None and there is not None and _apart(here, there) != "0":
+                return driver
+    return None
+
+
+def _of_driver(centres: Centres, turning: Turning, driver: Driver) -> tuple[_Rate, Phrase] | None:
+    """The rate of a driven link from that of the driver, relative to another moving link, and its sentence.
+
+    Of links a and b: omega_a : omega_ab = P_ab P_b0 : P_a0 P_b0; where they slide on each other, v_ab = omega_a
+    P_a0 P_b0.
+    """
+    frame, units = centres.scene.frame.name, centres.scene.units.rates
+    new, its = (centres.of(link, frame) for link in driver.links)
+    common = centres.of(*driver.links).point
+    assert new.point is not None
+    assert its.point is not None
+    near, sign = _apart(new.point, its.point), "-" * (turning.omega < 0.0)
+    gaps: dict[str, object] = {"link": turning.link, "known": "".join(driver.links), "centre": new.pair,
+                               "common": its.pair, "near": near}  # fmt: skip
+    if not driver.turns:
+        per_mm, speed = amount(centres.sheet.scales.length / units.metres), amount(abs(driver.values[1]) / units.metres)
+        rate = _Rate(sign + written.quotient(speed, written.product(near, per_mm), MOST), written.figures(near))
+        return rate, Phrase("centre from cylinder", **gaps, rate=rate.size, scale=f"{per_mm} {units.length}/mm",
+                            speed=units.of("velocity").beside(speed))  # fmt: skip
+    if common is None:
+        return None
+    far, relative = _apart(common, its.point), amount(abs(driver.values[1]))
+    carried = min(MOST, written.figures(near, far))
+    rate = _Rate(sign + written.quotient(written.product(relative, far), near, carried), carried)
+    same = dot(common - its.point, new.point - its.point) >= 0.0
+    key = "centre same sense" if same else "centre opposite sense"
+    return rate, Phrase(key, **gaps, known_centre=centres.of(*driver.links).pair, far=far,
+                        rate=true_minus(rate.written))  # fmt: skip
 
 
 def _of_link(

@@ -67,7 +67,7 @@ def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str,
     elif not still:
         verdict = Phrase("centres checked", centres=count)
     heads = ["", *(word(key, language) for key in ("centre", "place", "how found"))]
-    head = [*why, *[""] * bool(why), word("velocities by centres", language)]
+    head = [*why, *[""] * bool(why), *[word("velocities by centres", language)] * bool(velocities)]
     return heads, rows, [*head, *velocities, *near, say(verdict, language)]
 
 

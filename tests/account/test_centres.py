@@ -17,7 +17,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.words import say, written
 from tests.bench.attack import mechanism
 from tests.mechanisms import random_scene
-from tests.scenes import TRAMMEL
+from tests.scenes import TRAMMEL, four_bar
 
 
 def test_the_sense_is_opposite_where_the_common_centre_lies_between() -> None:
@@ -43,6 +43,7 @@ def test_the_told_rates_multiply_up_to_the_exact_ones(name: str) -> None:
 def test_every_told_rate_is_true_as_it_is_written(name: str) -> None:
     found = checked_centres(name)
     turning = {link: written.amount(one.omega) for link, one in found.turning.items()}
+    turning |= {"".join(d.links): written.amount(d.rate) for d in found.mechanism.drivers if d.turns}
     for phrase in velocity_sentences(found.centres):
         if phrase.key in ("centre same sense", "centre opposite sense"):
             gaps = (str(phrase.gaps[gap]).replace("−", "-") for gap in ("link", "known", "far", "near", "rate"))
@@ -51,6 +52,13 @@ def test_every_told_rate_is_true_as_it_is_written(name: str) -> None:
             value = sign * float(turning[known]) * float(far) / float(near)
             assert float(rate) == pytest.approx(value, rel=0.0, abs=0.5001 * unit_of(rate))
             turning[link] = rate
+        elif phrase.key == "centre from cylinder":
+            link, rate, near = (str(phrase.gaps[gap]) for gap in ("link", "rate", "near"))
+            speed, scale = (float(str(phrase.gaps[gap]).split()[0]) for gap in ("speed", "scale"))
+            assert float(rate) == pytest.approx(speed / (float(near) * scale), rel=0.0, abs=0.5001 * unit_of(rate))
+            turning[link] = math.copysign(float(rate), float(turning[link]))
+        elif phrase.key == "centre turns alike":
+            turning[str(phrase.gaps["link"])] = turning[str(phrase.gaps["known"])]
 
 
 def test_a_residue_is_no_rate_of_a_velocity_by_centres() -> None:
@@ -93,6 +101,38 @@ def test_velocities_of_two_slides_that_push_each_other_differ_square_to_the_dire
     said = told(wedge)
     assert "P12 lies at infinity on n(P/1), for P01P02 is the line at infinity" in said
     assert said[-1].endswith("P12 lies at infinity: their velocities differ by one square to that direction")
+
+
+CYLINDER_IN_A_FOUR_BAR = {
+    "frame": {"points": {"A": [0, 0], "B": [800, 0]}},
+    "links": {
+        "1": {"points": ["A", "C"], "length": 900, "at": {"P": [500, 150]}},
+        "2": {"points": ["B", "D"], "length": 700, "at": {"Q": [300, 90]}},
+        "3": {"points": ["C", "D"], "length": 620}, "4": {"points": ["P"], "on": "5"}, "5": {"points": ["Q"]},
+    },
+    "driver": {"slide": "4", "travel": 300, "velocity": -45},
+    "sketch": {"C": [150, 890], "D": [760, 700]},
+}  # fmt: skip
+
+
+def test_the_rates_of_a_cylinder_between_moving_links_begin_with_its_speed() -> None:
+    said = told(CYLINDER_IN_A_FOUR_BAR)
+    assert "|ω_4| = |v_45| / P04P05 = 45 mm/s / (640.03 mm · 10 mm/mm) = 0.0070309 rad/s" in said
+    assert said.index("P45 lies at infinity: ω_5 = ω_4") < next(i for i, one in enumerate(said) if "ω_2 = ω_5" in one)
+
+
+def test_the_rates_of_a_coupler_driven_from_its_crank_begin_with_their_difference() -> None:
+    said = told(four_bar(70, 140, 110, 180, driver={"link": "2", "relative_to": "1", "angle": -60, "omega": 2}))
+    begin = next(one for one in said if one.startswith("ω_2"))
+    assert begin.startswith("ω_2 = ω_21 · P14P12 / P14P24 = ω_21 · ")
+    assert begin.endswith("= 0.3904 rad/s; P12 and P24 lie on one side of P14: the same sense")
+    assert any(one.startswith("ω_1 = −ω_2 · P12P24 / P12P14") for one in said)
+
+
+def test_nothing_is_headed_velocities_of_a_mechanism_at_rest() -> None:
+    resting = four_bar(70, 150, 110, 180, driver={"link": "1", "angle": 60, "omega": 0})
+    _, _, said = centres_text(checked_centres(resting))
+    assert "Velocities by centres" not in said
 
 
 def unit_of(number: str) -> float:
