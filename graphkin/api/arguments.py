@@ -248,7 +248,7 @@ def passed_words(scene: Mechanism, passed: Iterable[ChangePoint]) -> list[Phrase
     said = []
     for links in dict.fromkeys(point.links for point in passed):
         at = [zip(scene.drivers, point.values, strict=True) for point in passed if point.links == links]
-        places = (", ".join(f"{d.key} = {scene.unit_of(d).said(v)}" for d, v in values) for values in at)
+        places = (", ".join(f"{d.key} = {scene.place_said(d, v)}" for d, v in values) for values in at)
         said.append(Phrase("passed change point", links=links_named(links), places="; ".join(dict.fromkeys(places))))
     return said
 

@@ -15,7 +15,8 @@ from graphkin.construction.board.sheet import Equation
 from graphkin.construction.board.steps import Term, plain_in
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import Mechanism
-from graphkin.words import Phrase, about, links_named, say, word
+from graphkin.scene.tables import Unit
+from graphkin.words import Phrase, about, links_named, listed, say, word
 from graphkin.words.written import MOST, amount
 
 if TYPE_CHECKING:
@@ -224,34 +225,37 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
             repeats = say(Phrase("turns to close", turns=turn.reach.turns), language)
             said += semicolon + repeats
     else:
-        said = _between(scene, turn.ranges[0])
+        said = _between(scene, turn.ranges[0], language)
     lines.append(f"{word('range', language)} {driver.key}{colon}{said}")
     lines += ["  " + say(one, language) for one in passed_words(scene, turn.reach.change_points)]
     for other in turn.ranges[1:]:
-        lines.append("  " + say(Phrase("also assembles", assembly=_between(scene, other)), language))
+        lines.append("  " + say(Phrase("also assembles", assembly=_between(scene, other, language)), language))
     if turn.not_searched:
         lines.append("  " + say(Phrase("not looked for", links=links_named(turn.not_searched)), language))
     turning = {output.quantity.pair for output in turn.outputs if output.turned}
     turning |= {driver.link} if turn.reach.full else set()
     for loop in turn.loops:
-        parts = [f"{word('basic mechanism', language)} {', '.join(loop.links)}{colon}{word(loop.name, language)}"]
+        named = f"{word('basic mechanism', language)} {say(listed(loop.links), language)}"
+        parts = [f"{named}{colon}{word(loop.name, language)}"]
         # a link that its own lengths would let turn may be held back by the links before it
         for key, links in (("turns fully", turning.intersection(loop.turns)),
                            ("could turn fully", set(loop.turns) - turning)):  # fmt: skip
-            named = ", ".join(link for link in loop.turns if link in links)
-            parts += [say(Phrase(key, links=named), language)] if links else []
+            if turned := [link for link in loop.turns if link in links]:
+                parts.append(say(Phrase(key, links=listed(turned)), language))
         lines.append(semicolon.join(parts))
     for output in turn.outputs:
         lines += _output(turn, output, language)
     for least in turn.transmission:
         where = word("same everywhere", language)
         if least.drivers:
-            places = map(scene.unit_of(driver).said, least.drivers)
+            places = (scene.place_said(driver, value) for value in least.drivers)
             where = f"{driver.key} = {word('list comma', language).join(places)}"
+        where = say(Phrase("in brackets", words=where), language)
         pressure = say(Phrase("greatest pressure", angle=f"{math.degrees(least.pressure):.6g}°"), language)
-        names = f"{least.group.kind} {', '.join(least.group.links) or least.group.label}"
+        group = least.group
+        names = f"{group.kind} {say(listed(group.links), language) if group.links else group.label}"
         angle = f"{math.degrees(least.angle):.6g}°"
-        lines.append(f"{word('least transmission', language)} {names}{colon}{angle} ({where}){semicolon}{pressure}")
+        lines.append(f"{word('least transmission', language)} {names}{colon}{angle}{where}{semicolon}{pressure}")
     lines += _curves(turn, language)
     lines += _forces_of_turn(turn, language)
     return lines + _flywheel(turn, language)
@@ -278,8 +282,7 @@ def _forces_of_turn(turn: TurnStudy, language: str) -> list[str]:
         if away := dict.fromkeys(_at(scene, e) for e in extremes if math.isinf(e.value)):
             places = word("list comma", language).join(away)
             parts.insert(0, say(Phrase("grows without bound at", place=places), language))
-        whole = word("list semicolon", language).join(parts)
-        lines.append(f"{name} ({unit.text}): {whole}")
+        lines.append(_named(name, unit, language) + word("list semicolon", language).join(parts))
     return lines
 
 
@@ -300,15 +303,17 @@ def _flywheel(turn: TurnStudy, language: str) -> list[str]:
     return [head + word("list semicolon", language).join(said)]
 
 
-def _between(scene: Mechanism, stretch: Stretch) -> str:
-    """The values of the driver at both ends of a stretch, dots where the motion does not end."""
-    unit = scene.unit_of(scene.drivers[0])
-    values = zip((stretch.low, stretch.high), stretch.ends, strict=True)
-    return " – ".join(unit.said(value) if ended else "..." for value, ended in values)
+def _between(scene: Mechanism, stretch: Stretch, language: str) -> str:
+    """The values of the driver at both ends of a stretch, dots where the motion does not end; where it ends on neither
+    side, how far it is followed."""
+    low, high = (scene.place_said(scene.drivers[0], value) for value in (stretch.low, stretch.high))
+    if not any(stretch.ends):
+        return say(Phrase("followed without an end", low=low, high=high), language)
+    return " – ".join(value if ended else "..." for value, ended in zip((low, high), stretch.ends, strict=True))
 
 
 def _at(scene: Mechanism, extreme: Extreme) -> str:
-    return scene.unit_of(scene.drivers[0]).said(extreme.driver)
+    return scene.place_said(scene.drivers[0], extreme.driver)
 
 
 def _output(turn: TurnStudy, output: Output, language: str) -> list[str]:
@@ -329,8 +334,10 @@ def _output(turn: TurnStudy, output: Output, language: str) -> list[str]:
         dwells = "dwells not counted" if any(e.rest for e in limits) else ""
         without = dwells or ("way between equal limits not counted" if len(limits) > 2 else "")
         also = f"{word('list comma', language)}{word(without, language)}" if without else ""
-        said += f", K = {back[0]:.10g} (θ = {math.degrees(back[1]):.8g}°{also})"
-    places = ", ".join(f"{amount(e.value)} @ {_at(scene, e)}" for e in output.position.extremes)
+        lag = say(Phrase("in brackets", words=f"θ = {math.degrees(back[1]):.8g}°{also}"), language)
+        said += f"{word('list comma', language)}K = {back[0]:.10g}{lag}"
+    listed = (f"{amount(e.value)} @ {_at(scene, e)}" for e in output.position.extremes)
+    places = word("list comma", language).join(listed)
     return [head + said, f"  {word('limit position', language)}{colon}{places}"]
 
 
@@ -349,10 +356,15 @@ def _curves(turn: TurnStudy, language: str) -> list[str]:
         if traced.unbounded:
             parts.append(word("unbounded", language))
         if traced.zeros:
-            places = ", ".join(scene.unit_of(scene.drivers[0]).said(z) for z in traced.zeros)
+            places = word("list comma", language).join(scene.place_said(scene.drivers[0], z) for z in traced.zeros)
             parts.append(f"{word('zero at', language)} {places}")
-        lines.append(f"{quantity} ({unit.text}): {word('list semicolon', language).join(parts)}")
+        lines.append(_named(str(quantity), unit, language) + word("list semicolon", language).join(parts))
     return lines
+
+
+def _named(name: str, unit: Unit, language: str) -> str:
+    """A quantity with its unit, before what is said of it."""
+    return name + say(Phrase("in brackets", words=unit.text), language) + word("colon", language)
 
 
 def reading_words(checked: Checked) -> Iterator[tuple[str, str, str, str, str, bool | None]]:

@@ -39,6 +39,7 @@ from graphkin.scene.scene_tables import (
 from graphkin.scene.symbol import PointRef, Printed, Symbol
 from graphkin.scene.tables import Unit, Units
 
+SEARCHED = 2e-6  # of a radian, or of the size: a double zero is found no better
 EDGE = 1e-9
 """Of the stroke or the turn: a load that begins or ends within this of a position does so exactly there."""
 
@@ -471,6 +472,11 @@ class Mechanism:
     def unit_of(self, driver: Driver, radians: bool = False) -> Unit:
         """The unit of a driver's value: degrees (radians in JSON), or the scene's unit of length."""
         return self.units.of(driver.measure, radians)
+
+    def place_said(self, driver: Driver, value: float) -> str:
+        """A value of a driver that a search has found (SI), with its unit: 0 where it is nearer to 0 than a search
+        tells."""
+        return self.unit_of(driver).said(value if abs(value) > SEARCHED * driver.span(self.size) else 0.0)
 
     def __post_init__(self) -> None:
         each = self.frame, *self.links

@@ -14,6 +14,7 @@ import pytest
 
 import graphkin
 from graphkin.api.arguments import as_scene
+from graphkin.api.report_text import turn_text
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.scene.symbol import Symbol
@@ -830,3 +831,26 @@ def test_a_distance_that_comes_to_nothing_is_0_there_and_nowhere_else() -> None:
     assert distance.least is not None
     assert (0.0, pytest.approx(math.atan2(120, 90), abs=1e-12)) == (distance.least.value, distance.zeros[0])
     assert 1 == len(distance.zeros)
+
+
+def told(scene: str | dict[str, object], language: str = "en") -> list[str]:
+    return turn_text(study_turn(driver_range(mechanism_of(scene)), everything=True), language)
+
+
+def test_a_motion_without_an_end_is_told_as_far_as_it_is_followed() -> None:
+    assert told("gears-epicyclic")[0] == (
+        "Range of the driver 1: no end as far as the motion is followed, from -1440° to 1440°")
+
+
+def test_a_place_found_nearer_to_nought_than_a_search_tells_is_told_as_nought() -> None:
+    # the coupler of a change-point four-bar drives: where the bars lie in one line, two zeros fall together
+    scene = scenes.four_bar(70, 140, 110, 180, driver={"link": "2", "angle": 22, "omega": 2}, sketch={"C": [170, 109]})
+    said = " ".join(told(scene))
+    assert "at 2 = 0° two assemblies meet" in said
+    assert "e-0" not in said
+
+
+def test_lists_and_brackets_of_a_turn_are_chinese_in_chinese() -> None:
+    said = "\n".join(told("slotter-75-150", "zh"))
+    assert "基本机构 1、2、3、6：" in said
+    assert [] == [sign for sign in (", ", " (", ": ") if sign in said]
