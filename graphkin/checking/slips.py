@@ -27,6 +27,7 @@ from graphkin.errors import GraphkinError
 from graphkin.plane import added_up, unit
 from graphkin.scene.model import LinkMass, Loading, LoadOn, Mechanism, PlacedLink
 from graphkin.scene.pairs import HigherPair, PlacedGear
+from graphkin.scene.scene_tables import STANDARD_GRAVITY
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.solver import Motion, solve
 from graphkin.solver.forces import forces_of, senses_along, value_of
@@ -487,7 +488,12 @@ def _force_slips(motion: Motion) -> Iterator[Alteration]:
         for key, share, force, couple in OF_MASSES:
             if turns or force != 1.0:
                 yield slip(key, shown, share * each, masses=[_scaled(mass, links, force, couple) for mass in masses])
-    if down:
+    units = motion.scene.units
+    if masses and math.isclose(units.newtons / units.kilograms, STANDARD_GRAVITY):  # kgf and kg, lbf and lb
+        heavy = [_scaled(mass, every[0], STANDARD_GRAVITY, STANDARD_GRAVITY) for mass in masses]
+        wrong = replace(right, masses=tuple(heavy))
+        yield Phrase("slip not over g", mass=units.mass, force=units.force), 0.08, partial(_forces, motion, wrong)
+    elif down:
         small = (replace(weight, size=weight.size / abs(down)) for weight in weights)
         yield slip("slip kg for N", None, 0.08, loads=(*small, *loads))
         heavy = [_scaled(mass, every[0], abs(down), 1.0) for mass in masses]

@@ -12,6 +12,7 @@ from graphkin import solver
 from graphkin.checking.slips import slipped_forces
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
+from tests.scenes import slider_crank
 
 SHAPER = Path(__file__).parent.parent / "validation" / "forces" / "shaper-scheme-2.toml"
 AT = {"7": 14.900596687829875, "10": -75.09940331217012}
@@ -66,3 +67,15 @@ def test_drawn_forces_are_right_within_what_a_pencil_keeps():
     scene["printed"] = {"F_2/3": round(exact * 1.004)}
     (value,) = graphkin.audit(scene).data["values"]
     assert "within drafting accuracy" == value["verdict"]
+
+
+@pytest.mark.parametrize(("force", "mass", "called"), [
+    ("N", "kg", "N taken for kg in the inertia forces"),
+    ("lbf", "lb", "inertia forces in lb·m/s² taken for lbf: not divided by 9.80665"),
+])  # fmt: skip
+def test_an_inertia_force_too_large_by_g_is_called_in_the_units_of_its_scene(force, mass, called):
+    scene = slider_crank(50, 180, units={"length": "mm", "force": force, "mass": mass}, gravity={"g": 9.80665},
+                         masses={"2": {"at": [60, 0], "mass": 3, "inertia": 0.02}})  # fmt: skip
+    exact = abs(graphkin.solve(scene)["Fi_2"][0])
+    (value,) = graphkin.audit(scene | {"printed": {"Fi_2": f"{exact * 9.80665:.5g}"}}).data["values"]
+    assert called == value["looks_like"]
