@@ -7,8 +7,6 @@ of the file.
 
 from __future__ import annotations
 
-import cmath
-import math
 import os
 from collections.abc import Mapping
 from dataclasses import field, replace
@@ -21,10 +19,10 @@ from pydantic import Field as Rule
 
 from graphkin.errors import Problem, SceneError, did_you_mean, unfit
 from graphkin.files import Json, OwnTables, Tables
-from graphkin.plane import direction
+from graphkin.plane import degrees, direction
 from graphkin.scene.scene import file_text, files_named, library, parsed, safe_name, shelf
 from graphkin.scene.scene_tables import SMALLEST, List, Magnitude, NotNegative, Number, Place, SheetWishes, Text
-from graphkin.scene.tables import FileTable, Form, Units, file_table, file_table_by_name, plain, shown, xy
+from graphkin.scene.tables import FileTable, Form, Units, file_table, file_table_by_name, plain, shown, tidy, xy
 from graphkin.words import Phrase, Wording
 
 SAME_BAR = 1e-3
@@ -314,7 +312,7 @@ def scene_table(design: Design, lengths: Mapping[str, float], places: Mapping[st
     else:
         links = {"1": _bar_link("A", "B", lengths), "2": _bar_link("B", "C", lengths),
                  "3": {"points": ["D", "C"], "length": lengths["CD"]}}  # fmt: skip
-    angle = math.degrees(cmath.phase(places[moving] - places["A"]))
+    angle = tidy(degrees(places[moving] - places["A"]))
     made = {key: text for key in ("title", "title_zh", "source") if (text := getattr(design, key))}
     return {
         **made, "units": {"length": design.units.length}, "frame": frame, "links": links,

@@ -38,6 +38,12 @@ def found(task):
     return graphkin.design({"design": task})
 
 
+@pytest.mark.parametrize("task", [SLIDER, BAR])
+def test_the_crank_of_a_designed_scene_stands_at_the_degrees_that_were_meant(task):
+    angle = found(task).scene.driver.angle
+    assert angle == round(angle, 9)
+
+
 def lengths(task):
     return found(task).data["lengths"]
 
