@@ -16,7 +16,7 @@ import pytest
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.model import Dimension, Mechanism, dimensions, with_dimensions
 from graphkin.scene.pairs import LawCam
-from graphkin.solver import Motion, driver_range, solve
+from graphkin.solver import DriverRange, Motion, driver_range, solve
 from graphkin.solver.algebra import bounds
 from graphkin.solver.algebra.constraints import Constraints
 from graphkin.solver.algebra.pose import FIELDS, REAL, Array, Pose
@@ -143,6 +143,11 @@ ROLLING = {name: getattr(rolling_linkages, name)() for name in (
 )}  # fmt: skip
 
 
+@cache
+def reach_of(name: str) -> DriverRange:
+    return driver_range(mechanism_of(ROLLING[name]) if name in ROLLING else mechanism(name))
+
+
 def in_more_digits(all_: Pose) -> Pose:
     """All links in the digits of a long double, with directions of unit length."""
     kinds = {field: np.longdouble if field in REAL else np.clongdouble for field in FIELDS}
@@ -154,7 +159,7 @@ def in_more_digits(all_: Pose) -> Pose:
 @pytest.mark.parametrize("longer", [0.0, 1e-12])
 @pytest.mark.parametrize("name", [*(name for name in SCENES if name not in FIXED), *ROLLING])
 def test_rounding_moves_no_constraint_and_no_rate_of_it_farther_than_is_told(name: str, longer: float) -> None:
-    reach = driver_range(mechanism_of(ROLLING[name]) if name in ROLLING else mechanism(name))
+    reach = reach_of(name)
     known = reach.motion(np.linspace(*reach.ends, 62)[1:-1], extended=False).accuracy
     known = known.rows(np.flatnonzero(known.ok))
     system = Constraints.whole(replace(known.structure), known.drive.followed(known.structure))
@@ -168,7 +173,7 @@ def test_rounding_moves_no_constraint_and_no_rate_of_it_farther_than_is_told(nam
 
 @pytest.mark.parametrize("name", [*(name for name in SCENES if name not in FIXED), *ROLLING])
 def test_links_that_do_not_close_are_no_farther_off_than_is_told(name: str) -> None:
-    reach = driver_range(mechanism_of(ROLLING[name]) if name in ROLLING else mechanism(name))
+    reach = reach_of(name)
     motion = reach.motion(reach.ends[0] + 0.2 * np.diff(reach.ends))
     known, size = motion.accuracy, motion.scene.size
     place = 0.0 if name in ROLLING else STEP  # of what rolls no turns are counted: it may stand anywhere
@@ -234,7 +239,7 @@ def wild(system: Constraints, all_: Pose, seed: int) -> tuple[Constraints, Pose]
 @pytest.mark.skipif(bool(np.finfo(np.longdouble).eps > 1e-18), reason="a long double has no more digits here")
 @pytest.mark.parametrize("name", [*(name for name in SCENES if name not in FIXED), *ROLLING])
 def test_rounding_of_links_anywhere_moves_no_constraint_farther_than_is_told(name: str) -> None:
-    reach = driver_range(mechanism_of(ROLLING[name]) if name in ROLLING else mechanism(name))
+    reach = reach_of(name)
     known = reach.motion(np.linspace(*reach.ends, 62)[1:-1], extended=False).accuracy
     known = known.rows(np.flatnonzero(known.ok))
     whole = Constraints.whole(replace(known.structure), known.drive.followed(known.structure))
@@ -249,7 +254,7 @@ def test_rounding_of_links_anywhere_moves_no_constraint_farther_than_is_told(nam
 @pytest.mark.skipif(bool(np.finfo(np.longdouble).eps > 1e-18), reason="a long double has no more digits here")
 @pytest.mark.parametrize("name", ["FOUR_BAR", "OFFSET_SWING", "OLDHAM", "FIVE_BAR"])
 def test_the_difference_of_the_rates_of_two_links_is_rounded_no_farther_than_is_told(name: str) -> None:
-    reach = driver_range(mechanism(name))
+    reach = reach_of(name)
     known = reach.motion(np.linspace(*reach.ends, 62)[1:-1], extended=False).accuracy
     known = known.rows(np.flatnonzero(known.ok))
     whole = Constraints.whole(replace(known.structure), known.drive.followed(known.structure))

@@ -14,10 +14,12 @@ from graphkin.solver.path.driver_path import Path
 from tests import EVERYTHING
 from tests.bench.hazards import Found, look
 
+FEW = 1000  # positions, enough for what is wrong on purpose to be seen
+
 
 @pytest.fixture(scope="module")
 def found() -> Found:
-    return look(30_000 if EVERYTHING else 1000, 11, each=8)
+    return look(30_000 if EVERYTHING else FEW, 11, each=8)
 
 
 def test_nothing_jumps_nor_is_left_open_nor_is_not_a_number(found: Found) -> None:
@@ -35,4 +37,4 @@ def test_a_jump_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
         return passed_by(path, i, lambda t: np.broadcast_to(form(np.zeros(1)), t.shape), *rest)
 
     monkeypatch.setattr(continuity, "_passed_by", in_one_form)
-    assert any("jumps" in x for x in look(3000, 11, each=6).wrong)
+    assert any("jumps" in x for x in look(FEW, 11, each=8).wrong)
