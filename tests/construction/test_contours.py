@@ -5,11 +5,13 @@ from __future__ import annotations
 import cmath
 import copy
 import math
+from functools import cache
 from typing import Any
 
 import pytest
 
 import graphkin
+from graphkin.api.checked import Checked
 from graphkin.checking.readings import read_off
 from graphkin.checking.slips import Evidence
 from graphkin.construction import execute, plan
@@ -81,6 +83,11 @@ SCENES = {
 }  # fmt: skip
 
 
+@cache
+def checked(name: str) -> Checked:
+    return graphkin.check(SCENES[name])
+
+
 @pytest.mark.parametrize("name", SCENES)
 @pytest.mark.parametrize("more", [-8, 0, 5])
 def test_a_driver_between_links_needs_no_trial_and_every_reading_agrees(name: str, more: float) -> None:
@@ -108,7 +115,7 @@ def test_whichever_link_of_a_contour_is_held_still_every_reading_agrees(
 
 @pytest.mark.parametrize("name", SCENES)
 def test_steps_name_the_equation_in_which_their_vector_stands(name: str) -> None:
-    sheet = graphkin.check(SCENES[name]).sheet
+    sheet = checked(name).sheet
     equations = {e.number: (e.diagram, {t.symbol for side in e.sides for t in side}) for e in sheet.equations}
     assert [*range(1, len(equations) + 1)] == [e.number for e in sheet.equations]
     told = [step for step in sheet.steps if step.equation and step.diagram != "mechanism"]
@@ -123,17 +130,17 @@ def test_steps_name_the_equation_in_which_their_vector_stands(name: str) -> None
 @pytest.mark.parametrize("name", SCENES)
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_no_step_has_blanks_or_takes_accelerations_for_velocities(name: str, language: str) -> None:
-    sheet = graphkin.check(SCENES[name]).sheet
+    sheet = checked(name).sheet
     said = [say(step.phrase, language).rstrip() for step in sheet.steps]
     assert not any("α" in one for one, step in zip(said, sheet.steps, strict=True) if step.diagram == "velocity")
     assert [] == [one for one in said if "= ," in one or "= ，" in one or one.endswith((",", "，方向"))]
 
 
 def test_what_is_seen_from_the_held_link_is_told_and_laid_off_with_the_term_of_coriolis() -> None:
-    sheet = graphkin.check(FOUR_BAR).sheet
+    sheet = checked("four-bar").sheet
     seen = [(step.held, step.diagram) for step in sheet.steps if step.reason == "seen from"]
     assert [("2", "velocity"), ("2", "acceleration")] == seen
-    exact = {row.symbol: row.exact for row in graphkin.check(FOUR_BAR).report.rows}
+    exact = {row.symbol: row.exact for row in checked("four-bar").report.rows}
     turned = {(s.kind, s.link): s.value for s in sheet.steps if s.reason == "rate" and s.held}
     for rate in ("omega", "alpha"):
         for link in "34":
@@ -146,7 +153,7 @@ def test_what_is_seen_from_the_held_link_is_told_and_laid_off_with_the_term_of_c
 
 @pytest.mark.parametrize("name", SCENES)
 def test_images_seen_from_a_held_link_name_their_corners_in_order_and_what_rests_by_no_vector(name: str) -> None:
-    sheet = graphkin.check(SCENES[name]).sheet
+    sheet = checked(name).sheet
     links = {link.name: link for link in (sheet.scene.frame, *sheet.scene.links)}
     for step in (step for step in sheet.steps if step.held and step.reason in ("similar", "division")):
         held = (step.symbol.to or PointRef("")).link
@@ -176,7 +183,7 @@ def test_without_a_sliding_pair_none_is_offered() -> None:
 
 
 def test_a_rate_seen_from_a_held_link_bears_the_name_of_that_last() -> None:
-    steps = graphkin.check(FOUR_BAR).sheet.steps
+    steps = checked("four-bar").sheet.steps
     (told,) = (say(step.phrase) for step in steps if str(step.symbol) == "v_D/D@2")
     assert "ω_52·ED" in told
 

@@ -15,3 +15,8 @@ def shaper():
 @pytest.fixture(scope="session")
 def six_bar():
     return handout("sixbar-guide-40deg", language="zh", formats=("pdf",))
+
+
+@pytest.fixture(scope="session")
+def shaper_forces():
+    return handout("shaper-forces", language="en", formats=("html",), positions=1)

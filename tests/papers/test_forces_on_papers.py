@@ -113,14 +113,14 @@ def test_forces_are_questions_of_a_learning_platform(papers):
     assert "116.3" in "".join(text for name, text in papers.items() if "gift" in name)
 
 
-def test_a_problem_that_asks_for_some_forces_does_not_ask_for_all() -> None:
-    problem = graphkin.handout("shaper-forces", language="en", formats=("html",), positions=1).files["problem.html"]
+def test_a_problem_that_asks_for_some_forces_does_not_ask_for_all(shaper_forces) -> None:
+    problem = shaper_forces.files["problem.html"]
     assert "Find: " in problem.decode()
     assert "all joint forces" not in problem.decode()
 
 
-def test_a_link_without_a_moment_of_inertia_is_told_without_its_couple() -> None:
-    lesson = graphkin.handout("shaper-forces", language="en", formats=("pdf",)).lesson
+def test_a_link_without_a_moment_of_inertia_is_told_without_its_couple(shaper_forces) -> None:
+    lesson = shaper_forces.lesson
     stage = next(force_stages(lesson.account))
     assert [True, False] == ["couple" in str(step.sentence("en")) for step in stage.steps]
 

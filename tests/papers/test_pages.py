@@ -107,16 +107,21 @@ def test_a_velocity_plan_and_the_inversion_of_a_cam_are_figures_of_the_page():
     assert not any("step-" in f["svg"] for p in cam for f in p["figures"][-2:])
 
 
-def test_each_velocity_plan_stands_there_from_its_own_last_step_on():
-    (position,) = _data(_page(handout(FOUND_LATER, positions=1, formats=("html",))))["positions"]
+@pytest.fixture(scope="module")
+def found_later():
+    return handout(FOUND_LATER, positions=1, formats=("html",))
+
+
+def test_each_velocity_plan_stands_there_from_its_own_last_step_on(found_later):
+    (position,) = _data(_page(found_later))["positions"]
     first, later = (f["svg"] for f in position["figures"] if f["name"] == "plan-velocity")
     two, six = (s["n"] for s in position["steps"] if s["text"].startswith("Velocity plan: line of link"))
     assert f'class="step-{two}"' in first
     assert f'class="step-{six}"' in later
 
 
-def test_every_velocity_plan_is_a_figure_of_the_solution_on_paper():
-    lesson = handout(FOUND_LATER, positions=1, formats=("html",)).lesson
+def test_every_velocity_plan_is_a_figure_of_the_solution_on_paper(found_later):
+    lesson = found_later.lesson
     figures = (block for block in laid_out(solution(lesson).blocks) if isinstance(block, Picture))
     captions = [str(words) for figure in figures for _, words in figure.caption]
     plans = ["Figure 2. Velocity plan", "Figure 4. Velocity plan",

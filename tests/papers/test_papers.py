@@ -259,8 +259,10 @@ def test_what_is_accepted_lies_as_far_as_a_pencil_may_be_off_on_either_side_to_t
     assert told == accepted(value, off, least)
 
 
-def test_what_is_told_to_be_measured_is_the_length_on_paper_times_the_scale_and_may_be_off_the_exact_value():
-    lesson = handout("shaper-forces", language="en", formats=("html",), positions=1).lesson
+def test_what_is_told_to_be_measured_is_the_length_on_paper_times_the_scale_and_may_be_off_the_exact_value(
+    shaper_forces,
+):
+    lesson = shaper_forces.lesson
     cells = {str(row.symbol): told for row, told in zip(lesson.results, result_cells(lesson), strict=True)}
     per_mm = lesson.sheet.scales.acceleration / lesson.sheet.scene.units.rates.metres
     told = cells["an_C/B"]
