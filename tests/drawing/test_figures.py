@@ -17,11 +17,12 @@ from graphkin.construction import draft
 from graphkin.drawing import Box, Drawing, Text, svg_bytes
 from graphkin.drawing.boxes import FigurePage
 from graphkin.drawing.figures.sheet import sheet_page
-from graphkin.drawing.ink.primitives import walk
+from graphkin.drawing.ink.primitives import Circle, Group, Polygon, walk
 from graphkin.drawing.sheet_plan import sheet_room
 from graphkin.drawing.text import text_box
-from graphkin.scene import library, mechanism_of
+from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.scene.scene_tables import PAPERS
+from tests import scenes
 from tests.drawn import drafted, drawn, figures
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -340,3 +341,11 @@ def test_what_rolls_has_a_plan_by_itself_and_what_slides_on_an_outline_polygons_
 ) -> None:
     always = {"mechanism", "velocity", "acceleration", "sheet", "centres"}
     assert further == sorted({*graphkin.draw(name).wanted} - always)
+
+
+def test_a_redundant_crank_stands_on_a_fixed_pivot_and_bears_its_pins() -> None:
+    page = figures(*[draft(mechanism_of_text(scenes.DOUBLE_PARALLELOGRAM, "p"))] * 2)["mechanism"]
+    points = {group.id: group for group in walk(page.children) if isinstance(group, Group)}
+    rings = {name: sum(isinstance(one, Circle) for one in walk(points[f"point-{name}"].children)) for name in "ADEF"}
+    assert {"A": 1, "D": 1, "E": 1, "F": 1} == rings
+    assert 3 == sum(isinstance(one, Polygon) for one in walk(points["link-0"].children))

@@ -175,7 +175,7 @@ def joints(here: MechanismOnPaper, without: Collection[str] = ()) -> Piece:
 
 def _joint(here: MechanismOnPaper, point: str) -> list[Primitive]:
     z, moving = here.places[point], here.moving(point)
-    held = [n for n in here.scene.holders.get(point, ()) if n in here.sheet.poses or n == here.ground]
+    held = [n for n in here.scene.holders.get(point, ()) if n in moving or n == here.ground]
     if len(held) > 1 and moving:
         on_block = point in {b.slide.pin for b in here.sliders if not b.slide.higher}
         radius = symbols.JOINT_RADIUS * (0.85 if on_block else 1.0)

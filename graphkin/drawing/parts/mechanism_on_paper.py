@@ -177,8 +177,9 @@ class MechanismOnPaper:
         return colour_of_link(self.scene, link)
 
     def moving(self, point: str) -> list[str]:
-        """The moving links that have a point."""
-        return [n for n in self.scene.holders.get(point, ()) if n != self.ground and n in self.sheet.poses]
+        """The moving links that have a point, redundant ones too."""
+        drawn = self.sheet.poses.keys() | {link.name for link in self.scene.links if link.redundant}
+        return [n for n in self.scene.holders.get(point, ()) if n != self.ground and n in drawn]
 
     @cached_property
     def feet(self) -> Mapping[str, float]:
