@@ -12,7 +12,7 @@ from graphkin.account.given import given_lengths
 from graphkin.account.notation import notation_of
 from graphkin.construction import draft, plan
 from graphkin.drawing import Text
-from graphkin.drawing.ink.primitives import Group, Polygon, walk
+from graphkin.drawing.ink.primitives import Group, Polygon, Polyline, walk
 from graphkin.drawing.parts.mechanism import mechanism_piece
 from graphkin.drawing.place.piece import ink_box
 from graphkin.drawing.sheet_plan import sheet_plan, sheet_room
@@ -250,3 +250,20 @@ def test_a_title_too_long_for_a_sheet_ends_in_dots(language, violations):
     sheet = draw(scene | long, figures=["sheet"], language=language).figures["sheet"]
     assert [] == violations(sheet.content("svg"))
     assert any(text.endswith("…") for text in words(sheet))
+
+
+def test_a_cam_larger_than_its_panel_is_cut_at_the_edge():
+    scene = {
+        "frame": {"points": {"A": [0, 0]}, "guides": {"v": {"through": [6, 0], "angle": 90}}},
+        "links": {"1": {"points": ["A"]}, "2": {"points": ["B"], "on": "0.v"}},
+        "cams": {"1": {"follower": "2", "base": {"r": 60}, "flat": True, "law": [
+            {"to": 100, "rise": 16, "by": "cycloidal"}, {"to": 200}, {"to": 300, "fall": 16, "by": "345"},
+            {"to": 360}]}},
+        "driver": {"link": "1", "angle": 150, "omega": 9},
+    }  # fmt: skip
+    groups = (thing for thing in walk(draw(scene).figures["sheet"].children) if isinstance(thing, Group))
+    (cam,) = (group for group in groups if group.id == "cam-1")
+    outline = [z for thing in walk(cam.children) if isinstance(thing, Polyline) for z in thing.points]
+    assert 10 < len(outline)
+    low = max(z.imag for z in outline)
+    assert 2 <= sum(abs(z.imag - low) < 1e-9 for z in outline)  # it ends at the edge of the panel

@@ -319,7 +319,7 @@ def mechanism_piece(sheet: Sheet, letters: Notation, room: tuple[float, float] |
     panels = [Box.around((centre - half, centre + half)) for centre in centres]
     panel = max(panels, key=lambda box: kept_in(bare, box))
     piece = _with_lengths(here, bare, panel) or bare
-    layers = {name: cut_to(things, panel) for name, things in piece.layers.items()}
+    layers = {name: cut_to(things, panel, bodies=True) for name, things in piece.layers.items()}
     names = tuple(n for n in piece.labels if panel.distance(middle_of(n.mark)) == 0.0)
     return Piece(layers, names, piece.marks), panel
 

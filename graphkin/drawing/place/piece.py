@@ -4,6 +4,7 @@ cut; and strokes as obstacles.
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -79,8 +80,12 @@ def layer_groups(piece: Piece) -> tuple[Group, ...]:
     return tuple(Group(piece.layers[name], id=name, layer=name) for name in LAYERS if piece.layers.get(name))
 
 
-def cut_to(children: Iterable[Primitive], box: Box) -> tuple[Primitive, ...]:
-    """The part of primitives in a box: lines are cut at its edge, other primitives left out if they cross it."""
+WIDE = 20.0  # mm: an outline as wide as this is the body of a link, no arrowhead or hatching
+
+
+def cut_to(children: Iterable[Primitive], box: Box, bodies: bool = False) -> tuple[Primitive, ...]:
+    """The part of primitives in a box: lines are cut at its edge, other primitives left out if they cross it; with
+    ``bodies`` the outlines of wide ones are cut as well."""
 
     def cut(thing: Primitive) -> Primitive | None:
         if isinstance(thing, Group):
@@ -89,9 +94,39 @@ def cut_to(children: Iterable[Primitive], box: Box) -> tuple[Primitive, ...]:
             inside = box.clip(thing.start, thing.end)
             return None if inside is None or inside[0] == inside[1] else thing._replace(start=inside[0], end=inside[1])
         reach = _outermost(thing)
-        return thing if reach and box.holds(Box.around(reach)) else None
+        around = Box.around(reach) if reach else None
+        if around is None or box.holds(around):
+            return thing if around else None
+        if bodies and isinstance(thing, Polygon | Circle) and max(around.width, around.height) > WIDE:
+            return _body_in(thing, box)
+        return None
 
     return map_tree(children, cut)
+
+
+def _body_in(body: Polygon | Circle, box: Box) -> Group:
+    """The part of an area in a box, and of its outline, which has no line along the edge of the box."""
+    if isinstance(body, Circle):
+        around = tuple(body.centre + cmath.rect(body.radius, math.radians(2 * i)) for i in range(180))
+        body = Polygon(around, body.fill, body.stroke)
+    area, runs = [*body.points], list[list[complex]]()
+    for turn, least in ((1, box.left), (-1, -box.right), (-1j, box.top), (1j, -box.bottom)):
+        kept = list[complex]()
+        for a, b in pairwise([*area, *area[:1]]):
+            here, there = (a * turn).real - least, (b * turn).real - least
+            if here >= 0.0:
+                kept.append(a)
+            if here * there < 0.0:
+                kept.append(a + (b - a) * here / (here - there))
+        area = kept
+    for a, b in pairwise((*body.points, body.points[0])):
+        inside = box.clip(a, b)
+        if inside is not None and runs and runs[-1][-1] == inside[0]:
+            runs[-1].append(inside[1])
+        elif inside is not None and inside[0] != inside[1]:
+            runs.append([*inside])
+    filled = (Polygon(tuple(area), body.fill),) if body.fill and area else ()
+    return Group((*filled, *(Polyline(tuple(run), body.stroke) for run in runs if body.stroke is not None)))
 
 
 def kept_in(piece: Piece, box: Box) -> int:
