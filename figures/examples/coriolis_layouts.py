@@ -120,7 +120,7 @@ def row(sheet, title, y, language):
     stages = (("velocity", 0, math.inf), ("acceleration", 0, known), ("acceleration", known + 1, math.inf))
     for column, (diagram, first, last) in enumerate(stages, 1):
         content = extent(sheet, diagram)
-        polygon = polygon_piece(PolygonOnPage(sheet, diagram, letters, language, around(content), 0j, ()))
+        polygon = polygon_piece(PolygonOnPage(sheet, diagram, letters, language, around(content), 0j))
         cell = framed(polygon, complex(LEFT + column * WIDE, y + HEAD), content)
         drawn = so_far(stepped(layer_groups(cell)), first, last)
         pieces.append(Piece({"stages": drawn if first else plainly(drawn)}))

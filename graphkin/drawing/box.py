@@ -17,9 +17,20 @@ class Box(NamedTuple):  # a page has thousands
     @classmethod
     def around(cls, points: Iterable[complex]) -> Box:
         """The smallest box that holds all points.  Raises ValueError where there is none."""
-        held = tuple(points)
-        xs, ys = [p.real for p in held], [p.imag for p in held]
-        return cls(min(xs), min(ys), max(xs), max(ys))
+        first, *others = points
+        left = right = first.real
+        top = bottom = first.imag
+        for point in others:
+            x, y = point.real, point.imag
+            if x < left:
+                left = x
+            elif x > right:
+                right = x
+            if y < top:
+                top = y
+            elif y > bottom:
+                bottom = y
+        return cls(left, top, right, bottom)
 
     @property
     def width(self) -> float:
@@ -42,7 +53,9 @@ class Box(NamedTuple):  # a page has thousands
         )  # fmt: skip
 
     def moved(self, by: complex) -> Box:
-        return Box(self.left + by.real, self.top + by.imag, self.right + by.real, self.bottom + by.imag)
+        left, top, right, bottom = self
+        x, y = by.real, by.imag
+        return Box(left + x, top + y, right + x, bottom + y)
 
     def grown(self, margin: float) -> Box:
         """The box with a margin (mm) all round; a negative one shrinks it, at most to its centre lines."""

@@ -21,7 +21,7 @@ from importlib.resources import files
 from itertools import groupby, pairwise
 from typing import Any, TypeAlias
 
-from graphkin.drawing.ink.primitives import Scan, map_tree
+from graphkin.drawing.ink.primitives import Scan, map_tree, moved
 from graphkin.drawing.text import is_italic
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.drawing.write.pdf import faces, in_faces
@@ -155,7 +155,7 @@ def _drawing(drawing: Drawing) -> Data:
     """A figure as an SVG with the faces of the document, and its description; no SVG for a figure without ink."""
     seen = clean(re.sub(r"\s+", " ", f"{drawing.title}. {drawing.desc}").strip())
     # a handout has no picture under its figures
-    inked = map_tree(drawing.children, lambda thing: None if isinstance(thing, Scan) else thing.moved(EDGE * (1 + 1j)))
+    inked = moved(map_tree(drawing.children, lambda thing: None if isinstance(thing, Scan) else thing), EDGE * (1 + 1j))
     wide, high = drawing.width + 2 * EDGE, drawing.height + 2 * EDGE
     svg = svg_element(replace(drawing, width=wide, height=high, children=inked), alone=True) if inked else ""
     size = {"width": _mm(drawing.width), "height": _mm(drawing.height), "edge": EDGE}

@@ -80,7 +80,9 @@ def id_of(pair: LinkPair) -> str:
 # -- the circle diagram ------------------------------------------------------------------------------------------------
 
 HALF = 1.9  # mm of a line left out to either side of its number
-CLEAR = 1.55  # mm from a number's middle to anything else
+CLEAR, WIDE = 1.55, 3.0  # mm from a number's middle to anything else, at least and at best
+ROUNDING = 1e-6  # mm
+SHARES = 0.1 + 0.01 * np.arange(81)  # of a side, where its number may stand
 PERMANENT, FOUND, OTHERWISE = Stroke(0.5), Stroke(0.25), Stroke(0.35, (2.4, 0.9))
 
 
@@ -132,17 +134,17 @@ def _free(
 ) -> complex | None:  # fmt: skip
     """The place on a side that lies farthest from all other sides, from the circle and from placed numbers; None where
     a number would touch one of them."""
-    places = a + (b - a) * (0.1 + 0.01 * np.arange(81))
+    places = a + (b - a) * SHARES
     near = [radius - np.abs(places - middle), *(np.abs(places - w) - HALF for w in taken)]
-    starts, ways, lengths = np.array([(p, q - p, abs(q - p)) for p, q in others]).reshape(-1, 3).T[..., None]
-    near += [*(np.abs(cross(places - starts, ways)) / lengths.real)]
-    room = np.minimum.reduce([np.full(81, 9.0), *near])
-    most = min(float(room.max()), 3.0)
-    widest = np.flatnonzero(room > most - 2e-6).tolist()
-    distance = np.abs(places - (a + b) / 2).tolist()
+    starts, ways = (np.array(ends)[:, None] for ends in ([p for p, _ in others], [q - p for p, q in others]))
+    near += [*(np.abs(cross(places - starts, ways)) / np.abs(ways))]
+    room: list[float] = np.minimum.reduce([np.full(len(places), WIDE), *near]).tolist()
+    spots: list[complex] = places.tolist()
     # of two places that are alike the first: rounding, so that the last bit does not choose
-    best = max(widest, key=lambda k: (round(min(float(room[k]), 3.0), 6), -round(distance[k], 6)))
-    return complex(places[best]) if room[best] > CLEAR else None
+    most, half = max(room) - 2 * ROUNDING, (a + b) / 2
+    widest = (k for k, wide in enumerate(room) if wide > most)
+    best = max(widest, key=lambda k: (round(room[k], 6), -round(abs(spots[k] - half), 6)))
+    return spots[best] if room[best] > CLEAR else None
 
 
 # -- marks of centres --------------------------------------------------------------------------------------------------
@@ -150,6 +152,7 @@ def _free(
 TOGETHER = 1.3  # mm: centres so near to each other share one mark
 BEYOND = 5.0  # mm of a construction line beyond what it finds
 ARROW, FAR_CLEAR = 11.0, 7.0  # mm, to what lies off the figure; between it and what is drawn
+ASIDES = [s * k * 6.0 for k in range(18) for s in ((1, -1) if k else (1,))]  # mm, where an arrow may stand
 IN_LINE = 4  # names of centres at one place
 
 
@@ -305,23 +308,22 @@ def _pointer(inside: Box, solid: Sequence[Segment], centre: Centre) -> Segment:
     """The place of an arrow to a far centre: it points straight at the centre, clear of strokes, near the edge."""
     prices: list[float] = []
     arrows: list[Segment] = []
-
-    def towards(start: complex, sense: int) -> complex:
-        if centre.point is not None:
-            return unit(on_page(centre.point) - start)
-        assert centre.direction is not None
-        return sense * on_page(centre.direction)
-
-    asides = [s * k * 6.0 for k in range(18) for s in ((1, -1) if k else (1,))]
-    middle = inside.centre
-    for sense in (1, -1) if centre.point is None else (1,):
-        across = 1j * towards(middle, sense)
-        for aside in asides:
-            start = middle + across * aside
-            aim = towards(start, sense)
+    middle, far = inside.centre, None if centre.point is None else on_page(centre.point)
+    for sense in (1, -1) if far is None else (1,):
+        if far is not None:
+            straight = unit(far - middle)
+        else:
+            assert centre.direction is not None
+            straight = sense * on_page(centre.direction)
+        for aside in ASIDES:
+            start = middle + 1j * straight * aside
+            aim = straight if far is None else unit(far - start)
             chord = inside.clip(start, start + 1e4 * aim)
+            if chord is None:
+                continue
+            long = abs(chord[1] - chord[0])
             for back in (0.0, 4.0, 10.0):
-                if chord is not None and abs(chord[1] - chord[0]) >= ARROW + back:
+                if long >= ARROW + back:
                     tip = chord[1] - back * aim
                     prices.append(0.12 * abs(aside) + 0.5 * back + 3.0 * (sense < 0))
                     arrows.append((tip - ARROW * aim, tip))
@@ -515,7 +517,7 @@ def _found(label: Label, centres: Centres) -> bool:
 
 def untold(centres: Centres, drawn: Sequence[Primitive]) -> tuple[Centre, ...]:
     """The found centres within a figure whose lines have no names on it."""
-    things = [*walk(tuple(drawn))]
+    things = walk(drawn)
     ids = {thing.id for thing in things if isinstance(thing, Text)}
     near = {thing.id for thing in things if isinstance(thing, Group) and "centre" in thing.classes
             and "far" not in thing.classes}  # fmt: skip

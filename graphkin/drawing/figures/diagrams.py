@@ -114,7 +114,7 @@ def figure_in_motion(diagram: DiagramName, page: FigurePage) -> Drawing:
     else:
         content = extent(sheet, diagram)
         panel = content.grown(MOVING)
-        piece = polygon_piece(PolygonOnPage(sheet, diagram, letters, languages(spoken)[0], panel, 0j, ()))
+        piece = polygon_piece(PolygonOnPage(sheet, diagram, letters, languages(spoken)[0], panel, 0j))
     size = complex(content.width + 2 * MOVING, content.height + 2 * MOVING)
     piece = moved_piece(piece, size / 2 - content.centre)
     named = joined((piece, Piece({"labels": tuple(_beside(label) for label in piece.labels if label.rank < 3)})))

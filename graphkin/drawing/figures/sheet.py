@@ -131,20 +131,24 @@ def _writing(
     function of a plan and of the largest letters of the given data (mm): the writing on the plan, and the rest for
     further pages.  Each part is set once for each of its rooms, for all plans tried."""
     all_of = cache(lambda size: Remainder(lines, coriolis, (), rows, size))
-    part_in = cache(lambda part, rest, room: part(page, rest, room, "own"))
+
+    @cache
+    def part_in(part: Part, rest: Remainder, room: Box) -> tuple[Piece, Remainder, Box]:
+        """A part in its own room, with the rest, and the room below it."""
+        piece, left = part(page, rest, room, "own")
+        return piece, left, below(room, piece.drawn, LEAST_GAP)
 
     def on(plan: SheetPlan, size: float) -> tuple[list[Piece], Remainder]:
         whole = all_of(size)
         if not (plan.given and plan.equations and plan.readings):
             given = given_lines(page.sheet, page.letters, page.language, plan.page.width, GIVEN[0])
             return [], replace(whole, given=given)
-        data, rest, _ = part_in(_own_given, whole, plan.given)
-        written, rest, _ = part_in(_own_equations, rest, plan.equations)
+        data, rest, under_data = part_in(_own_given, whole, plan.given)
+        written, rest, under_written = part_in(_own_equations, rest, plan.equations)
         # the same table whatever stands before it
-        table, left, _ = part_in(_readings, all_of(GIVEN[0]), plan.readings)
+        table, left, under_table = part_in(_readings, all_of(GIVEN[0]), plan.readings)
         rest, pieces = replace(rest, readings=left.readings, begun=True), [data, written, table]
-        boxes = plan.given, plan.equations, plan.readings
-        rooms = [below(box, piece.drawn) for box, piece in zip(boxes, pieces, strict=True)]
+        rooms = [under_data, under_written, under_table]
         if plan.beside is not None:  # what is written there goes on from the equations
             rooms.insert(0, plan.beside)
         more = continued(page, rest, rooms)
@@ -235,16 +239,20 @@ class Remainder:
 
 Place: TypeAlias = Literal["own", "spare", "continuation"]
 """Where a room is: that of its kind, below the caption; left by others on the first page; on a further page."""
-Part: TypeAlias = tuple[Piece, Remainder, Box]
-"""What of one kind a room holds, what is left, and the room below it."""
+Part: TypeAlias = Callable[[FigurePage, Remainder, Box, Place], tuple[Piece, Remainder]]
+"""What of one kind a room holds, and what is left."""
 
 
 def _into(page: FigurePage, rest: Remainder, room: Box, place: Place) -> tuple[list[Piece], Remainder]:
     """The part of the rest that fits a room, kinds below each other."""
     pieces: list[Piece] = []
     for part in (_equations, _senses, _given, _readings):
-        piece, rest, room = part(page, rest, room, place)
+        if pieces and pieces[-1].layers:
+            room = below(room, pieces[-1].drawn, GAP)
+        piece, rest = part(page, rest, room, place)
         pieces.append(piece)
+        if not rest:
+            break
     return pieces, rest
 
 
@@ -309,7 +317,7 @@ def captioned(box: Box, caption: str, layer: str, children: tuple[Primitive, ...
     return joined((Piece({"labels": (words,)}), Piece({layer: children})))
 
 
-def below(room: Box, drawn: tuple[Primitive, ...], gap: float = LEAST_GAP) -> Box:
+def below(room: Box, drawn: tuple[Primitive, ...], gap: float) -> Box:
     """The part of a room below its content."""
     ink = ink_box(drawn)
     return Box(room.left, (ink.bottom if ink else room.top) + gap, room.right, room.bottom)
@@ -324,28 +332,28 @@ def _foot(room: Box) -> Box:
     return Box(room.left, room.bottom - INSET[1], room.right, room.bottom)
 
 
-def _own_given(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Part:
+def _own_given(page: FigurePage, rest: Remainder, room: Box, place: Place) -> tuple[Piece, Remainder]:
     """The given data, as large as they fit, with insets below them if these have room too."""
     drawn, left = given_data(page.sheet, page.letters, page.language, room, rest.size)
     data, rest = captioned(room, page.term("given"), "labels", drawn), replace(rest, given=left)
     if left or below(room, drawn, GUTTER).top >= _foot(room).top:
-        return data, rest, room
-    insets, rest, _ = _senses(page, rest, _foot(room), place)
-    return joined((data, insets)), rest, room
+        return data, rest
+    insets, rest = _senses(page, rest, _foot(room), place)
+    return joined((data, insets)), rest
 
 
-def _own_equations(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Part:
+def _own_equations(page: FigurePage, rest: Remainder, room: Box, place: Place) -> tuple[Piece, Remainder]:
     """The equations, and below them insets, if all equations have room above these."""
     above = Box(room.left, room.top, room.right, _foot(room).top - GUTTER)
     if rest.coriolis and above.height >= EQUATIONS_ROOM:
-        written, left, _ = _equations(page, rest, above, place)
+        written, left = _equations(page, rest, above, place)
         if not left.equations:
-            insets, left, _ = _senses(page, left, _foot(room), place)
-            return joined((written, insets)), left, room
+            insets, left = _senses(page, left, _foot(room), place)
+            return joined((written, insets)), left
     return _equations(page, rest, room, place)
 
 
-def _equations(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Part:
+def _equations(page: FigurePage, rest: Remainder, room: Box, place: Place) -> tuple[Piece, Remainder]:
     box = _under_caption(room, place)
     if place == "continuation":
         blocks, count = equations_on_page(rest.equations, box.width, box.height)
@@ -353,45 +361,45 @@ def _equations(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Pa
         most = (LEAST_LETTERS,) if place == "spare" else ()
         blocks, count = equations_in_room(rest.equations, box.width, box.height, *most)
     if not count and place != "own":
-        return Piece(), rest, room
+        return Piece(), rest
     written = moved(blocks, complex(box.left, box.top))
     name = "equations continued" if place == "spare" else "equations"
     piece = captioned(box, page.term(name), "labels", (Group(written, id=name.replace(" ", "-")),))
-    return piece, replace(rest, equations=rest.equations[count:]), below(box, written, GAP)
+    return piece, replace(rest, equations=rest.equations[count:])
 
 
-def _senses(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Part:
+def _senses(page: FigurePage, rest: Remainder, room: Box, place: Place) -> tuple[Piece, Remainder]:
     pieces: list[Piece] = []
     terms, count = rest.coriolis, per_row(room.width)
     while terms and room.height >= INSET[1] - ROUNDING:
         row = Box(room.left, room.top, room.right, room.top + INSET[1])
         pieces.append(coriolis_row(page.sheet, terms[:count], page.letters, row))
         terms, room = terms[count:], Box(room.left, row.bottom + GAP, room.right, room.bottom)
-    return joined(pieces), replace(rest, coriolis=terms), room
+    return joined(pieces), replace(rest, coriolis=terms)
 
 
-def _given(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Part:
+def _given(page: FigurePage, rest: Remainder, room: Box, place: Place) -> tuple[Piece, Remainder]:
     size = max((run.size for line in rest.given for run in line), default=1.0)
     most = max(0, int((room.height - CAPTION) / (1.55 * size)))
     if place == "spare" or not rest.given or not most:
-        return Piece(), rest, room
+        return Piece(), rest
     box = _under_caption(room, place)
     lines = set_lines(rest.given[:most], complex(box.left, box.top))
     piece = captioned(box, page.term("given"), "labels", lines)
-    return piece, replace(rest, given=rest.given[most:]), below(box, lines, GAP)
+    return piece, replace(rest, given=rest.given[most:])
 
 
-def _readings(page: FigurePage, rest: Remainder, room: Box, place: Place) -> Part:
+def _readings(page: FigurePage, rest: Remainder, room: Box, place: Place) -> tuple[Piece, Remainder]:
     least = CAPTION + (LEAST_TABLE if place == "continuation" else 0.0)
     if place != "own" and (not rest.readings or room.height < least or room.width < TABLE_WIDTH):
-        return Piece(), rest, room
+        return Piece(), rest
     box = _under_caption(room, place)
     table, count = readings_table(page.sheet, rest.readings, page.letters, page.language, box)
     if not count and place != "own":
-        return Piece(), rest, room
+        return Piece(), rest
     caption = page.term("readings continued" if rest.begun and place != "continuation" else "readings")
     left = replace(rest, readings=rest.readings[count:], begun=True)
-    return captioned(box, caption, "answers", table), left, below(box, table, GAP)
+    return captioned(box, caption, "answers", table), left
 
 
 LEGIBLE_TITLE = 2.4  # mm

@@ -8,7 +8,7 @@ thousands of them, and each move makes them anew: they are tuples, which are mad
 from __future__ import annotations
 
 import cmath
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias, overload
 
@@ -25,7 +25,7 @@ Segment: TypeAlias = tuple[complex, complex]
 
 def page_direction(angle: float) -> complex:
     """Unit step on the page at an angle (rad) counter-clockwise from the x axis."""
-    return on_page(cmath.rect(1.0, angle))
+    return cmath.rect(1.0, angle).conjugate()
 
 
 @overload
@@ -209,9 +209,10 @@ class Group(NamedTuple):
     since: int | None = None
 
     def moved(self, by: complex) -> Group:
-        """The group with its children moved."""
+        """The group with all that it holds."""
         motion = self.motion and replace(self.motion, about=self.motion.about + by)
-        return self._replace(motion=motion) if motion else self
+        inside = moved(self.children, by)
+        return Group(inside, self.id, self.classes, self.layer, self.title, self.step, motion, self.since)
 
 
 Primitive: TypeAlias = Line | Polyline | Polygon | Circle | Arc | Text | Scan | Group
@@ -237,12 +238,14 @@ class Page:
     metadata: Mapping[str, object] = field(default_factory=dict)
 
 
-def walk(children: tuple[Primitive, ...]) -> Iterator[Primitive]:
+def walk(children: Iterable[Primitive]) -> list[Primitive]:
     """All primitives in the order of drawing, groups before their children."""
+    found: list[Primitive] = []
     for child in children:
-        yield child
+        found.append(child)
         if isinstance(child, Group):
-            yield from walk(child.children)
+            found += walk(child.children)
+    return found
 
 
 def map_tree(
@@ -263,4 +266,4 @@ def map_tree(
 
 def moved(children: Iterable[Primitive], by: complex) -> tuple[Primitive, ...]:
     """The primitives moved on the page (mm)."""
-    return map_tree(children, lambda thing: thing.moved(by))
+    return tuple([child.moved(by) for child in children])

@@ -7,6 +7,7 @@ the mechanism and in every diagram, where a vector has the colour of the link wh
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import lru_cache
 
 from graphkin.account.voice import link_of_vector
 from graphkin.construction.board.sheet import Sheet
@@ -55,6 +56,7 @@ def texture(index: int) -> Stroke | None:
     return None if stroke is None else stroke.coloured(WHITE)
 
 
+@lru_cache(maxsize=256)
 def tint(colour: str, strength: float = 0.14) -> str:
     """A colour thinned with white (0: white, 1: the colour), for the area of a rigid link."""
     parts = (int(colour[i : i + 2], 16) for i in (1, 3, 5))

@@ -87,24 +87,23 @@ def polygon_with_insets(
     """
     terms, small = _coriolis(sheet, diagram), details(sheet, diagram)[:MOST_DETAILS]
     count = len(terms) + len(small)
-    bare = PolygonOnPage(sheet, diagram, letters, language, panel, origin, ())
-    lines = polygon_lines(bare)
-    plain = polygon_piece(bare, lines)
+    here = PolygonOnPage(sheet, diagram, letters, language, panel, origin)
+    lines = polygon_lines(here)
+    plain = polygon_piece(here, (), lines)
     boxes = _boxes(panel, plain, strip, count, INSET)
     shown = terms[: len(boxes)]
     boxes += _boxes(panel, plain, None, len(shown) + len(small) - len(boxes), SMALL_INSET, boxes)
     enlarged = small[: len(boxes) - len(shown)]
-    here = replace(bare, enlarged=tuple(enlarged))
-    own = polygon_piece(here, lines) if enlarged else plain
-    figure, pieces, crowd = _with_details(here, own, boxes[len(shown) :], boxes)
-    crowded = crowds(here, crowd)[:MOST_CROWDS] if len(enlarged) == len(small) else []
+    own = polygon_piece(here, enlarged, lines) if enlarged else plain
+    figure, pieces, crowd = _with_details(here, enlarged, own, boxes[len(shown) :], boxes)
+    crowded = crowds(here, enlarged, crowd)[:MOST_CROWDS] if len(enlarged) == len(small) else []
     for size in (INSET, SMALL_INSET) if crowded else ():
         more = boxes + _boxes(panel, plain, strip, len(crowded), size, boxes)
         if len(more) > len(boxes):
-            there = replace(here, enlarged=(*enlarged, *crowded)[: len(more) - len(shown)])
-            clearer = _with_details(there, polygon_piece(there, lines), more[len(shown) :], more)
+            there = [*enlarged, *crowded][: len(more) - len(shown)]
+            clearer = _with_details(here, there, polygon_piece(here, there, lines), more[len(shown) :], more)
             if len(clearer[2]) < len(crowd):
-                here, boxes, (figure, pieces, _) = there, more, clearer
+                enlarged, boxes, (figure, pieces, _) = there, more, clearer
             break
     pieces = [*(coriolis_inset(sheet, one, letters, box) for one, box in zip(shown, boxes, strict=False)), *pieces]
     around = obstacles_of(figure.drawn) + Obstacles(areas=tuple(boxes))
@@ -112,7 +111,7 @@ def polygon_with_insets(
     names = {one.id: text_box(one) for one in figure.layers["labels"] if isinstance(one, Text)}
     arrows = [(step, here.drawn(vector), names.get(f"label-{vector.symbol.id}")) for step, vector in here.in_order()]
     numbers = Piece({"labels": step_numbers(arrows, keyed, panel, around)})
-    numerals = ring_numerals(here, around + obstacles_of(numbers.drawn))
+    numerals = ring_numerals(here, enlarged, around + obstacles_of(numbers.drawn))
     return joined((figure, numbers, numerals, *pieces)), terms[len(shown) :]
 
 
@@ -134,14 +133,14 @@ def _boxes(
 
 
 def _with_details(
-    here: PolygonOnPage, own: Piece, boxes: Sequence[Box], fences: Sequence[Box]
+    here: PolygonOnPage, enlarged: Sequence[Detail], own: Piece, boxes: Sequence[Box], fences: Sequence[Box]
 ) -> tuple[Piece, list[Piece], tuple[Label, ...]]:
     """A polygon, ``own`` as drawn, with its names, the insets of its enlarged parts, each in its box, and the badly
     placed names."""
     pieces = []
     shown: set[str] = set()
     repeated: set[str] = set()  # with the letters that stand at other vectors too
-    for number, (detail, box) in enumerate(zip(here.enlarged, boxes, strict=False), 1):
+    for number, (detail, box) in enumerate(zip(enlarged, boxes, strict=False), 1):
         middle, reach = here.at(detail.centre), detail.radius + 0.6
         points = [name for name in own.labels if isinstance(name.mark, complex) and abs(name.mark - middle) <= reach]
         inset, letters = _detail_inset(here, detail, box, number, points)
@@ -170,7 +169,7 @@ def _detail_inset(
     """The inset of an enlarged place in a box of the page, with its names, and the ids of those that stand in it for
     others on the polygon; ``points`` are the letters of the points in it."""
     inner = _inside(box, CAPTION)
-    sheet, letters = here.sheet, here.letters
+    letters = here.letters
 
     def at(z: complex) -> complex:
         return inner.centre + detail.factor * on_page(z - detail.centre)
@@ -181,7 +180,7 @@ def _detail_inset(
     shifts = side_by_side(v.scaled(detail.factor) for v in detail.vectors)
     for _, vector in here.in_order():
         kind = RESULTANT if vector.role == "resultant" else COMPONENT
-        colour = colour_of_vector(sheet, vector.symbol)
+        colour = here.colours[vector.symbol]
         shift = on_page(shifts.get(vector.symbol, 0j))
         tail, tip = at(vector.tail) + shift, at(vector.tip) + shift
         clipped = inner.clip(tail, tip)

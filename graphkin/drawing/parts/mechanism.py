@@ -168,8 +168,9 @@ def joints(here: MechanismOnPaper, without: Collection[str] = ()) -> Piece:
     pieces = [Piece({"mechanism": ()})]
     for point in here.places:
         if point not in without:
-            drawn = Group(tuple(_joint(here, point)), id=f"point-{point}", classes=("point",))
-            pieces.append(dated(Piece({"mechanism": (drawn,)}, (_letter(here, point),)), here.found.get(point)))
+            since = here.found.get(point)
+            drawn = Group(tuple(_joint(here, point)), id=f"point-{point}", classes=("point",), since=since)
+            pieces.append(Piece({"mechanism": (drawn,)}, (_letter(here, point, since),)))
     return joined(pieces)
 
 
@@ -191,11 +192,11 @@ def _joint(here: MechanismOnPaper, point: str) -> list[Primitive]:
     return [Line(on_page(z - 1.2), on_page(z + 1.2), thin), Line(on_page(z - 1.2j), on_page(z + 1.2j), thin)]
 
 
-def _letter(here: MechanismOnPaper, point: str) -> Label:
+def _letter(here: MechanismOnPaper, point: str, since: int | None) -> Label:
     z = here.places[point]
     away = -added_up((w / abs(w) for w in here.ways(z)), 0j)
-    letter = rich(here.letters.point(point))
-    return Label.of(letter, on_page(z), f"label-point-{point}", toward=(phase(away),) if abs(away) > 0.1 else ())
+    letter, toward = rich(here.letters.point(point)), (phase(away),) if abs(away) > 0.1 else ()
+    return Label.of(letter, on_page(z), f"label-point-{point}", toward=toward, since=since)
 
 
 def _over_block(here: MechanismOnPaper, z: complex) -> list[Primitive]:
@@ -391,8 +392,8 @@ def rate_arrows(here: MechanismOnPaper) -> Piece:
         parts = symbols.sense_arc(centre, radius, middle, sense, colour=colour, heads=heads)
         index = link if other == here.ground else link + other
         letter, at = rich(rate(kind, index)), centre + radius * page_direction(middle)
-        name = Label.of(letter, at, f"label-{id}", toward=(middle,))
-        pieces.append(dated(Piece({layer: (Group(parts, id=id, classes=("sense",)),)}, (name,)), since))
+        name = Label.of(letter, at, f"label-{id}", toward=(middle,), since=since)
+        pieces.append(Piece({layer: (Group(parts, id=id, classes=("sense",), since=since),)}, (name,)))
 
     for driver in here.scene.drivers:
         link = driver.link

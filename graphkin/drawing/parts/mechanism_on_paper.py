@@ -58,7 +58,7 @@ class LinkShape:
         edges = zip(self.corners, (*self.corners[1:], *self.corners[:1]), strict=True)
         return (*self.bars, *self.slots, *edges)
 
-    @property
+    @cached_property
     def longest(self) -> Segment | None:
         return max(self.segments, key=lambda s: abs(s[1] - s[0]), default=None)
 

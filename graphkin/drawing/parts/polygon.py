@@ -37,7 +37,7 @@ from graphkin.drawing.ink.symbols import COMPONENT, POINTER, RESULTANT, arrowhea
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.numbers import BESIDE, LEAST_NUMBERED, beside_ring, step_number
 from graphkin.drawing.place.obstacles import Obstacles
-from graphkin.drawing.place.piece import Piece, dated, joined, obstacles_of
+from graphkin.drawing.place.piece import Piece, joined, obstacles_of
 from graphkin.drawing.text import LETTER, plain, rich, runs_width, text_box
 from graphkin.plane import added_up, cross, dot
 from graphkin.scene.symbol import PointRef, Symbol
@@ -58,7 +58,7 @@ CROWD = 5.0  # how many times larger a crowd is drawn again at most
 @dataclass(frozen=True)
 class PolygonOnPage:
     """A sheet's polygon with the letters of a convention and the words of a language, its pole at ``origin`` of a page;
-    lines known by direction only are clipped to the ``panel``, and ``enlarged`` places are drawn again in insets."""
+    lines known by direction only are clipped to the ``panel``."""
 
     sheet: Sheet
     diagram: DiagramName
@@ -66,7 +66,6 @@ class PolygonOnPage:
     language: str
     panel: Box
     origin: complex
-    enlarged: tuple[Detail, ...]
 
     def at(self, z: complex) -> complex:
         """The page point of a point of the polygon."""
@@ -80,6 +79,16 @@ class PolygonOnPage:
     def vectors(self) -> Mapping[Symbol, tuple[int, Vector]]:
         """Each vector, with the number of the step that drew it last."""
         return {s.symbol: (step.number, s) for step in self.steps for s in step.vectors}
+
+    @cached_property
+    def colours(self) -> Mapping[Symbol, str]:
+        """The colour of each vector."""
+        return {symbol: colour_of_vector(self.sheet, symbol) for symbol in self.vectors}
+
+    @cached_property
+    def names(self) -> Mapping[Symbol, Label]:
+        """The names of vectors, by the first of those that share a name."""
+        return dict(_vector_names(self))
 
     @cached_property
     def lettered(self) -> PolygonPoints:
@@ -161,9 +170,9 @@ def details(sheet: Sheet, diagram: DiagramName) -> list[Detail]:
     return sorted(found, key=lambda d: (d.factor, -len(d.vectors), d.centre.real, d.centre.imag))
 
 
-def crowds(here: PolygonOnPage, crowded: Iterable[Label]) -> list[Detail]:
+def crowds(here: PolygonOnPage, enlarged: Sequence[Detail], crowded: Iterable[Label]) -> list[Detail]:
     """The places around points and tips of vectors whose letters and names find no good place at the size of the
-    figure, near ones together; without places that are enlarged already."""
+    figure, near ones together; without places that are ``enlarged`` already."""
     vectors = {f"label-{symbol.id}": vector for symbol, (_, vector) in here.vectors.items()}
     groups: list[list[tuple[complex, tuple[Vector, ...]]]] = []
     for label in crowded:
@@ -174,7 +183,7 @@ def crowds(here: PolygonOnPage, crowded: Iterable[Label]) -> list[Detail]:
             point = on_page(label.mark - here.origin)
         else:
             continue
-        if any(abs(point - known.centre) <= known.radius for known in here.enlarged):
+        if any(abs(point - known.centre) <= known.radius for known in enlarged):
             continue
         near = [group for group in groups if any(abs(point - z) < TOGETHER for z, _ in group)]
         own = point, (vector,) if vector else ()
@@ -234,14 +243,17 @@ def side_by_side(vectors: Iterable[Vector]) -> Mapping[Symbol, complex]:
 
     The longest resultant on a line stays; equal or opposite vectors lie beside it.
     """
-    shown = [v for v in vectors if abs(v.span) >= SMALL]
-    shown.sort(key=lambda v: (v.role != "resultant", -round(abs(v.span), 6)))
-    lanes: list[tuple[Vector, int]] = []
+    shown = [(v, length) for v in vectors if (length := abs(v.span)) >= SMALL]
+    shown.sort(key=lambda one: (one[0].role != "resultant", -round(one[1], 6)))
+    lanes: list[tuple[Vector, float, int]] = []
     shifts: dict[Symbol, complex] = {}
-    for vector in shown:
-        taken = {lane for other, lane in lanes if _cover(vector, other)}
+    for vector, length in shown:
+        taken = {
+            lane for other, long, lane in lanes
+            if (_covers(vector, length, other) if length >= long else _covers(other, long, vector))
+        }  # fmt: skip
         lane = next(n for k in range(len(lanes) + 1) for n in ((k, -k) if k else (0,)) if n not in taken)
-        lanes.append((vector, lane))
+        lanes.append((vector, length, lane))
         if lane:
             shifts[vector.symbol] = lane * APART * 1j * _way(vector)
     return shifts
@@ -253,13 +265,12 @@ def _way(vector: Vector) -> complex:
     return -way if (round(way.real, 6), round(way.imag, 6)) < (0.0, 0.0) else way
 
 
-def _cover(one: Vector, two: Vector) -> bool:
-    longer, shorter = (one, two) if abs(one.span) >= abs(two.span) else (two, one)
-    length = abs(longer.span)
-    way, first, second = longer.span / length, shorter.tail - longer.tail, shorter.tip - longer.tail
-    if abs(cross(way, first)) > ON_ONE_LINE or abs(cross(way, second)) > ON_ONE_LINE:
+def _covers(longer: Vector, length: float, shorter: Vector) -> bool:
+    """Whether a vector of a length lies on a part of a shorter one."""
+    way, start, end = longer.span / length, shorter.tail - longer.tail, shorter.tip - longer.tail
+    if abs(cross(way, start)) > ON_ONE_LINE or abs(cross(way, end)) > ON_ONE_LINE:
         return False
-    low, high = sorted((dot(way, first), dot(way, second)))
+    low, high = sorted((dot(way, start), dot(way, end)))
     return min(high, length) - max(low, 0.0) > OVERLAP
 
 
@@ -280,12 +291,13 @@ def _ends(here: PolygonOnPage, places: Mapping[complex, Sequence[PointRef]]) -> 
         for i, ref in enumerate(moving):
             id = f"{here.diagram}-{ref}".replace("@", "")
             dot = _dot(here.at(at), i + (order == 0))
-            group = Group((dot,), id=id, classes=("end",), title=spoken_ref(ref, here.language))
-            yield dated(Piece({here.diagram: (group,)}, (), (here.at(at),)), here.ends_since[ref])
+            said, since = spoken_ref(ref, here.language), here.ends_since[ref]
+            group = Group((dot,), id=id, classes=("end",), title=said, since=since)
+            yield Piece({here.diagram: (group,)}, (), (here.at(at),))
         if order and moving:
             letters = spaced(sign(", "), filter(None, (here.letters.end(here.diagram, ref) for ref in moving)))
-            names = _named(here, letters, at, f"label-{here.diagram}-{moving[0]}", 0, at)
-            yield dated(Piece(labels=names), here.ends_since[moving[0]])
+            id, since = f"label-{here.diagram}-{moving[0]}", here.ends_since[moving[0]]
+            yield Piece(labels=_named(here, letters, at, id, 0, at, since))
 
 
 def _dot(at: complex, ring: int) -> Circle:
@@ -302,9 +314,9 @@ def _feet(here: PolygonOnPage, feet: Sequence[NamedPoint]) -> Iterator[Piece]:
         at, id = here.at(foot.at), f"foot-{foot.symbol.id}"
         if foot.aid and here.panel.distance(at) > 0.0:
             continue
-        dot = Group((Circle(at, FOOT_RADIUS, fill=strokes.BLACK),), id=id, classes=("foot",))
-        names = _named(here, foot.letter, foot.at, f"label-{id}", 1, foot.at)
-        yield dated(Piece({here.diagram: (dot,)}, names, (at,)), foot.step)
+        dot = Group((Circle(at, FOOT_RADIUS, fill=strokes.BLACK),), id=id, classes=("foot",), since=foot.step)
+        names = _named(here, foot.letter, foot.at, f"label-{id}", 1, foot.at, foot.step)
+        yield Piece({here.diagram: (dot,)}, names, (at,))
 
 
 def _pole(here: PolygonOnPage, refs: Sequence[PointRef]) -> Piece:
@@ -314,58 +326,64 @@ def _pole(here: PolygonOnPage, refs: Sequence[PointRef]) -> Piece:
     away = -added_up((v.span for _, v in here.vectors.values() if abs(v.tail) < SAME), 0j)
     shape = Circle(here.at(0j), POLE_RADIUS, fill=strokes.WHITE, stroke=strokes.OUTLINE)
     dot = Circle(here.at(0j), 0.3, fill=strokes.BLACK)
-    group = Group((shape, dot), id=f"pole-{here.diagram}", classes=("pole",))
-    names = _named(here, name, 0j, f"label-pole-{here.diagram}", 0, away)
+    since = here.steps[0].number if here.steps else None
+    group = Group((shape, dot), id=f"pole-{here.diagram}", classes=("pole",), since=since)
+    names = _named(here, name, 0j, f"label-pole-{here.diagram}", 0, away, since)
     if name != letter:
         names = tuple(replace(label, key=Text(0j, rich(letter))) for label in names)
-    return dated(Piece({here.diagram: (group,)}, names), here.steps[0].number if here.steps else None)
+    return Piece({here.diagram: (group,)}, names)
 
 
-def _named(here: PolygonOnPage, name: RichText, at: complex, id: str, rank: int, away: complex) -> tuple[Label, ...]:
-    toward = (phase(away),) if abs(away) > SAME else ()
-    return (Label.of(rich(name), here.at(at), id.replace("@", ""), toward=toward, rank=rank),) if name else ()
+def _named(
+    here: PolygonOnPage, name: RichText, at: complex, id: str, rank: int, away: complex, since: int | None
+) -> tuple[Label, ...]:
+    if not name:
+        return ()
+    toward, id = (phase(away),) if abs(away) > SAME else (), id.replace("@", "")
+    return (Label.of(rich(name), here.at(at), id, toward=toward, rank=rank, since=since),)
 
 
 SHADE, SHADED = 0.09, 12.0  # how much of its colour an image has within, from which size (mm) on
 BEYOND = 9.0  # mm: how far a direction line runs past the crossing
 
 
-def polygon_piece(here: PolygonOnPage, lines: tuple[Piece, Mapping[Symbol, Label]] | None = None) -> Piece:
-    """Draw a polygon at its place, of which the ``lines`` may be drawn already; an enlarged place gets a ring, and its
-    vectors have no names here."""
-    (piece, names), areas = lines or polygon_lines(here), Piece({"construction": tuple(rings(here))})
-    elsewhere = {v.symbol for detail in here.enlarged for v in detail.vectors}
-    return joined((areas, piece, Piece(labels=tuple(names[first] for first in names if first not in elsewhere))))
+def polygon_piece(here: PolygonOnPage, enlarged: Sequence[Detail] = (), lines: Piece | None = None) -> Piece:
+    """Draw a polygon at its place, of which the ``lines`` may be drawn already; an ``enlarged`` place, which is drawn
+    again in an inset, gets a ring, and its vectors have no names here."""
+    elsewhere = {v.symbol for detail in enlarged for v in detail.vectors}
+    names = tuple(name for symbol, name in here.names.items() if symbol not in elsewhere)
+    areas = Piece({"construction": tuple(rings(here, enlarged))})
+    return joined((areas, lines or polygon_lines(here), Piece(labels=names)))
 
 
-def polygon_lines(here: PolygonOnPage) -> tuple[Piece, Mapping[Symbol, Label]]:
-    """A polygon without what its enlarged places change: rings, and the names of their vectors; and the names of all
-    vectors, each by the first vector that it names."""
+def polygon_lines(here: PolygonOnPage) -> Piece:
+    """A polygon without what its enlarged places change: rings, and names of vectors."""
     areas, vectors = Piece({"construction": tuple(_images(here))}), Piece({here.diagram: (*_vectors(here),)})
     construction = areas, *trial_marks_in_polygon(here), *_bars(here), *_rays(here)
-    return joined((*construction, vectors, points(here))), dict(_vector_names(here))
+    return joined((*construction, vectors, points(here)))
 
 
-def rings(here: PolygonOnPage) -> Iterator[Group]:
+def rings(here: PolygonOnPage, enlarged: Sequence[Detail]) -> Iterator[Group]:
     """A ring about each enlarged place."""
-    for order, d in enumerate(here.enlarged, 1):
+    for order, d in enumerate(enlarged, 1):
         ring = Circle(here.at(d.centre), d.radius + RING, stroke=strokes.CONSTRUCTION)
         yield Group((ring,), id=f"ring-{here.diagram}-{order}", classes=("ring",), step=d.crowd, since=here.since(d))
 
 
-def ring_numerals(here: PolygonOnPage, around: Obstacles) -> Piece:
+def ring_numerals(here: PolygonOnPage, enlarged: Sequence[Detail], around: Obstacles) -> Piece:
     """At each ring the numeral that it shares with its inset, where everything ``around`` leaves room; further off with
     a leader."""
     pieces = []
-    for order, d in enumerate(here.enlarged, 1):
+    for order, d in enumerate(enlarged, 1):
         id = f"label-ring-{here.diagram}-{order}"
-        text = Text(0j, plain(roman(order), NUMERAL), id=id, classes=("label", "ring"))
+        since = here.since(d)
+        text = Text(0j, plain(roman(order), NUMERAL), id=id, classes=("label", "ring"), since=since)
         box = text_box(text)
         found = beside_ring(box, here.at(d.centre), d.radius + RING, around, here.panel)
         if found is not None:
             middle, leader = found
-            led = (Group((Line(*leader, strokes.LEADER),)),) if leader else ()
-            pieces.append(dated(Piece({"labels": (*led, text._replace(at=middle - box.centre))}), here.since(d)))
+            led = (Group((Line(*leader, strokes.LEADER),), since=since),) if leader else ()
+            pieces.append(Piece({"labels": (*led, text._replace(at=middle - box.centre))}))
             around += obstacles_of(pieces[-1].drawn)
     return joined(pieces)
 
@@ -406,9 +424,10 @@ def _bars(here: PolygonOnPage) -> Iterator[Piece]:
                 parts.append(arrowhead(tip, clipped[1] - clipped[0], head, POINTER.head_width, strokes.BLACK))
             if carried and length > 4.0:
                 markup, id = rich(here.letters.arrow(step.symbol), 3.0), f"label-carried-{step.symbol.id}"
-                names.append(Label.of(markup, clipped, id, colour=strokes.GREY, rank=3, key=step_number(step.number)))
-            drawn = Group(tuple(parts), classes=("construction",), step=step.number)
-            yield dated(Piece({"construction": (drawn,)}, tuple(names)), step.number)
+                names.append(Label.of(markup, clipped, id, colour=strokes.GREY, rank=3, since=step.number,
+                                      key=step_number(step.number)))
+            drawn = Group(tuple(parts), classes=("construction",), step=step.number, since=step.number)
+            yield Piece({"construction": (drawn,)}, tuple(names))
 
 
 def _rays(here: PolygonOnPage) -> Iterator[Piece]:
@@ -426,10 +445,10 @@ def _rays(here: PolygonOnPage) -> Iterator[Piece]:
                     named.add(key)
                     id = f"label-direction-{step.number:02d}"
                     names.append(Label.of(rich(markup, 3.0), free, id, colour=strokes.GREY, rank=4,
-                                          classes=("direction",), key=step_number(step.number)))
+                                          classes=("direction",), since=step.number, key=step_number(step.number)))
             lines = (Line(*whole, strokes.DIRECTION),) if whole is not None else ()
-            drawn = Group(lines, classes=("direction",), step=step.number)
-            yield dated(Piece({"construction": (drawn,)}, tuple(names)), step.number)
+            drawn = Group(lines, classes=("direction",), step=step.number, since=step.number)
+            yield Piece({"construction": (drawn,)}, tuple(names))
 
 
 def _line(here: PolygonOnPage, ray: Ray, end: complex) -> tuple[Segment | None, Segment | None]:
@@ -453,7 +472,7 @@ def _vectors(here: PolygonOnPage) -> Iterator[Group]:
         tail, tip = here.drawn(vector)
         group = vector_group(
             vector.symbol.id, step, tail, tip, RESULTANT if vector.role == "resultant" else COMPONENT,
-            colour_of_vector(here.sheet, vector.symbol), spoken_vector(vector.symbol, here.language), (vector.role,),
+            here.colours[vector.symbol], spoken_vector(vector.symbol, here.language), (vector.role,),
         )  # fmt: skip
         ends = ((here.at(vector.tail), tail), (here.at(vector.tip), tip)) if vector.symbol in here.shifts else ()
         ties = tuple(Line(true, shown, strokes.CONSTRUCTION) for true, shown in ends)
@@ -461,7 +480,8 @@ def _vectors(here: PolygonOnPage) -> Iterator[Group]:
 
 
 def _vector_names(here: PolygonOnPage) -> Iterator[tuple[Symbol, Label]]:
-    """A name for vectors that share tail and tip, the longest first; vectors of zero length are named in words."""
+    """A name for vectors that share tail and tip, by the first of them, the longest first; vectors of zero length are
+    named in words."""
     letters = {same_place(point.at): point.letter for point in reversed(here.lettered.named)}
     groups: dict[tuple[complex, complex, bool], list[Vector]] = {}
     for _, vector in here.in_order():
@@ -495,7 +515,7 @@ def _name(
         value = rich(name + (sign(" = 0") if length == 0.0 else f" = {size}"), LETTER)
         return Label.of(value, here.at(first.tip), id, rank=3, since=step, key=step_number(step))
     resultants = all(v.role == "resultant" for v in vectors)
-    text = Text(0j, rich(name), "start", colour_of_vector(here.sheet, first.symbol), id, ("label",), since=step)
+    text = Text(0j, rich(name), "start", here.colours[first.symbol], id, ("label",), since=step)
     key = step_number(step, text.colour)
     if LEAST_NUMBERED <= length < SHORT and len(here.vectors) <= MANY:
         by = runs_width(key.runs) + BESIDE
@@ -536,7 +556,7 @@ def trial_marks_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
             if not trial and (of_one_point or aid.symbol.seen) and abs(clipped[1] - clipped[0]) > 4.0:
                 markup, id = rich(here.letters.arrow(aid.symbol), 3.0), f"label-special-{aid.symbol.id}"
                 rank = 3 if to and to.link in held else 4
-                labels.append(Label.of(markup, clipped, id, colour=strokes.GREY, rank=rank,
+                labels.append(Label.of(markup, clipped, id, colour=strokes.GREY, rank=rank, since=step.number,
                                        key=step_number(step.number)))
             if trial and whole and to is None and of is not None and same_place(aid.tip) not in named:
                 named.add(same_place(aid.tip))
@@ -544,7 +564,8 @@ def trial_marks_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
                 if letter:
                     name = f"label-trial-{here.diagram}-{trial}-{aid.symbol.id}"
                     labels.append(Label.of(rich(_of_trial(letter, trial), 2.5), here.at(aid.tip), name,
-                            colour=strokes.GREY, toward=(phase(clipped[1] - clipped[0]),), rank=5, classes=("trial",)))
+                            colour=strokes.GREY, toward=(phase(clipped[1] - clipped[0]),), rank=5, classes=("trial",),
+                            since=step.number))
         classes = (f"trial-{trial}",) if trial else ("special",)
-        drawn = Group(tuple(parts), classes=classes, step=step.number)
-        yield dated(Piece({"construction": (drawn,)}, tuple(labels)), step.number)
+        drawn = Group(tuple(parts), classes=classes, step=step.number, since=step.number)
+        yield Piece({"construction": (drawn,)}, tuple(labels))

@@ -203,9 +203,15 @@ def obstacles_of(children: tuple[Primitive, ...]) -> Obstacles:
     writing: list[Box] = []
     thick: list[Segment] = []
     for thing in walk(children):
+        if isinstance(thing, Group):
+            continue
         if isinstance(thing, Text):
             if thing.runs:
                 writing.append(text_box(thing))
+        elif isinstance(thing, Line):
+            (dashed if thing.stroke.dash else solid).append((thing.start, thing.end))
+            if not thing.stroke.dash and thing.stroke.width >= THICK:
+                thick.append((thing.start, thing.end))
         elif isinstance(thing, Circle) and not thing.fill and thing.stroke and thing.radius > SMALL / 2:
             # the outline of a disc: labels may stand inside
             (solid if thing.stroke.solid else dashed).extend(pairwise(_round(thing)))
@@ -220,7 +226,7 @@ def obstacles_of(children: tuple[Primitive, ...]) -> Obstacles:
                 count = len(thing.points)
                 solid.extend(pairwise(_corners(thing)))
                 solid.extend((thing.points[i], thing.points[(i + count // 2) % count]) for i in range(count // 2))
-        elif isinstance(thing, Line | Polyline | Polygon | Arc) and thing.stroke is not None:
+        elif isinstance(thing, Polyline | Polygon | Arc) and thing.stroke is not None:
             course = tuple(pairwise(_corners(thing)))
             (solid if thing.stroke.solid else dashed).extend(course)
             if thing.stroke.solid and thing.stroke.width >= THICK:
@@ -228,9 +234,7 @@ def obstacles_of(children: tuple[Primitive, ...]) -> Obstacles:
     return Obstacles(tuple(solid), tuple(dashed), (*writing, *areas), tuple(writing), tuple(thick))
 
 
-def _corners(thing: Line | Polyline | Polygon | Arc) -> tuple[complex, ...]:
-    if isinstance(thing, Line):
-        return thing.start, thing.end
+def _corners(thing: Polyline | Polygon | Arc) -> tuple[complex, ...]:
     if isinstance(thing, Polyline):
         return thing.points
     if isinstance(thing, Polygon):
