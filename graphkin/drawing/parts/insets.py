@@ -109,7 +109,7 @@ def polygon_with_insets(
     around = obstacles_of(figure.drawn) + Obstacles(areas=tuple(boxes))
     keyed = {one.step for one in figure.layers["labels"] if isinstance(one, Text) and one.step is not None}
     names = {one.id: text_box(one) for one in figure.layers["labels"] if isinstance(one, Text)}
-    arrows = [(step, here.drawn(vector), names.get(f"label-{vector.symbol.id}")) for step, vector in here.in_order()]
+    arrows = [(step, here.drawn(vector), names.get(f"label-{vector.symbol.id}")) for step, vector in here.in_order]
     numbers = Piece({"labels": step_numbers(arrows, keyed, panel, around)})
     numerals = ring_numerals(here, enlarged, around + obstacles_of(numbers.drawn))
     return joined((figure, numbers, numerals, *pieces)), terms[len(shown) :]
@@ -178,7 +178,7 @@ def _detail_inset(
     names: dict[str, Label] = {}  # by the id of the name on the polygon
     own = {v.symbol for v in detail.vectors}
     shifts = side_by_side(v.scaled(detail.factor) for v in detail.vectors)
-    for _, vector in here.in_order():
+    for _, vector in here.in_order:
         kind = RESULTANT if vector.role == "resultant" else COMPONENT
         colour = here.colours[vector.symbol]
         shift = on_page(shifts.get(vector.symbol, 0j))

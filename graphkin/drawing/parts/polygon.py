@@ -116,7 +116,8 @@ class PolygonOnPage:
         shift = self.shifts.get(vector.symbol, 0j)
         return self.at(vector.tail) + shift, self.at(vector.tip) + shift
 
-    def in_order(self) -> list[tuple[int, Vector]]:
+    @cached_property
+    def in_order(self) -> Sequence[tuple[int, Vector]]:
         """The vectors with long ones first, so that short ones lie on top."""
         return sorted(self.vectors.values(), key=lambda sv: (-round(abs(sv[1].span), 6), sv[0]))
 
@@ -468,7 +469,7 @@ def _line(here: PolygonOnPage, ray: Ray, end: complex) -> tuple[Segment | None, 
 
 def _vectors(here: PolygonOnPage) -> Iterator[Group]:
     """Every vector as an arrow; one that lies beside its place has thin lines to its true ends."""
-    for step, vector in here.in_order():
+    for step, vector in here.in_order:
         tail, tip = here.drawn(vector)
         group = vector_group(
             vector.symbol.id, step, tail, tip, RESULTANT if vector.role == "resultant" else COMPONENT,
@@ -484,7 +485,7 @@ def _vector_names(here: PolygonOnPage) -> Iterator[tuple[Symbol, Label]]:
     named in words."""
     letters = {same_place(point.at): point.letter for point in reversed(here.lettered.named)}
     groups: dict[tuple[complex, complex, bool], list[Vector]] = {}
-    for _, vector in here.in_order():
+    for _, vector in here.in_order:
         key = same_place(vector.tail), same_place(vector.tip), vector.span == 0.0
         groups.setdefault(key, []).append(vector)
     for shared in sorted(groups.values(), key=lambda group: -round(abs(group[0].span), 6)):
