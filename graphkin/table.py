@@ -11,7 +11,6 @@ another format.  A missing value (NaN) is an empty cell in CSV and HTML, ``null`
 from __future__ import annotations
 
 import csv
-import html
 import io
 import json
 import math
@@ -285,6 +284,8 @@ class Table:
         return zip(*(c.texts() for c in self.columns), strict=True)
 
     def _repr_html_(self) -> str:
+        import html  # with all its names of characters, of which a table on a terminal needs none
+
         n, ends = len(self), SHOWN // 2
         parts = [self] if n <= SHOWN else [self.rows(slice(0, ends)), self.rows(slice(n - ends, n))]
         gap = f'<tr><td colspan="{len(self.columns)}">&hellip; {n} rows &hellip;</td></tr>'

@@ -100,14 +100,17 @@ def app_of(arguments: Sequence[str] = ()) -> typer.Typer:
         help="Velocity and acceleration polygons of mechanisms: constructed, measured, checked, drawn.",
     )
     from graphkin.cli import verbs
+    from graphkin.cli.options import with_options
 
     wanted = [name for name in arguments[:1] if name in COMMANDS]
     for name in wanted or COMMANDS:
-        command = getattr(verbs, name if name != "open" else "open_page")
-        if isinstance(command, typer.Typer):
-            app.add_typer(command, name=name)
+        if name == "study":
+            study = typer.Typer(no_args_is_help=True, help="The charts of the methods against each other.")
+            study.command("speed-accuracy")(with_options(verbs.speed_accuracy))
+            study.command("stability")(with_options(verbs.stability))
+            app.add_typer(study, name=name)
         else:
-            app.command(name)(command)
+            app.command(name)(with_options(getattr(verbs, name if name != "open" else "open_page")))
     return app
 
 

@@ -86,25 +86,36 @@ class Given(SimpleNamespace):
         return not self.json and not self.quiet
 
 
-def command(*names: str) -> Callable[[Callable[[Given], None]], Callable[..., None]]:
-    """Make a command of a function of given values.
+Command = Callable[[Given], None]
+"""A command: a function of the given values."""
+
+
+def command(*names: str) -> Callable[[Command], Command]:
+    """Name the options of a command.
 
     Parameters
     ----------
     names : of its options in ``options.toml``, in the order of the help
     """
-    parameters = [_declared(name, _options()[name]) for name in names]
 
-    def made(run: Callable[[Given], None]) -> Callable[..., None]:
-        @wraps(run)
-        def called(**given: Any) -> None:
-            run(Given(**given))
+    def named(run: Command) -> Command:
+        vars(run)["options"] = names
+        return run
 
-        called.__annotations__ = {}
-        called.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
-        return called
+    return named
 
-    return made
+
+def with_options(run: Command) -> Callable[..., None]:
+    """A command with its options as parameters, for the command line."""
+
+    @wraps(run)
+    def called(**given: Any) -> None:
+        run(Given(**given))
+
+    called.__annotations__ = {}
+    parameters = [_declared(name, _options()[name]) for name in vars(run)["options"]]
+    called.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+    return called
 
 
 def split_words(words: str) -> list[str]:

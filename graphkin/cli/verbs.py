@@ -322,10 +322,6 @@ def _replaced(given: Iterable[str]) -> dict[str, str]:
     return found
 
 
-study = typer.Typer(no_args_is_help=True, help="The charts of the methods against each other.")
-
-
-@study.command("speed-accuracy")
 @command("scene", "out of speed-accuracy", "repeats", "format of speed-accuracy", "lang", "json", "quiet")
 def speed_accuracy(given: Given) -> None:
     """Cost of a position against the largest error, for all methods, measured on this machine."""
@@ -333,7 +329,6 @@ def speed_accuracy(given: Given) -> None:
     finish(given, found, found.write(given.out, given.formats))
 
 
-@study.command("stability")
 @command("out of stability", "format of stability", "lang", "json", "quiet")
 def stability(given: Given) -> None:
     """Errors beside every kind of singular position: how fast they grow, where methods stop and how they say so."""

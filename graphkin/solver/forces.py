@@ -26,7 +26,6 @@ from graphkin.solver.algebra.constraints import solve_all
 from graphkin.solver.algebra.pose import Array, known_where
 from graphkin.solver.motion import SLIGHT, Motion
 from graphkin.solver.quantities import part_along
-from graphkin.solver.touching import touch_of
 from graphkin.words import Phrase, Wording
 
 
@@ -69,6 +68,8 @@ def _lines(motion: Motion, joint: ForceJoint) -> tuple[Sequence[complex | Array]
     if joint.kind == "sliding":
         slide = motion.structure.slide(joint.slide)
         return [_square(motion, slide)], _foot(motion, slide)
+    from graphkin.solver.touching import touch_of
+
     assert joint.pair is not None
     at, normal = touch_of(motion, joint.pair)
     ways: Mapping[Meeting, Sequence[complex | Array]] = {"slides": [normal], "rolls": both, "meshes": [1j * normal]}

@@ -19,12 +19,10 @@ from graphkin.errors import GraphkinError, Problem, Unsolvable
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef
 from graphkin.solver.algebra.pose import Drive
-from graphkin.solver.cams import meeting_followers
 from graphkin.solver.compiled.engine import SINGULAR, State, new_places, own_position, positions
 from graphkin.solver.drivers import meant_value, own_values, working
 from graphkin.solver.path.assemblies import choose_modes
 from graphkin.solver.path.dead_points import SAME, DeadPoint, dead_points, singular
-from graphkin.solver.path.driver_path import MOST_GROUPS, not_tried
 from graphkin.solver.quantities import Posed
 from graphkin.solver.redundant import Fit, fit
 from graphkin.solver.sentences import driver_text
@@ -49,7 +47,10 @@ def structure_of(scene: Mechanism | Structure) -> Structure:
         return scene
     try:
         structure = analyse(scene)
-        structure = meeting_followers(structure) if structure.lifting else structure
+        if structure.lifting:
+            from graphkin.solver.cams import meeting_followers
+
+            structure = meeting_followers(structure)
     except Unsolvable as stop:
         found = _diagnosis(scene) if stop.status == "mobility" else None
         if found is None:
@@ -241,6 +242,8 @@ def from_dead_point(structure: Structure) -> Structure:
     what = Phrase("driver of key", key=driver.key)
     others = _listed(scene, known)
     if not found:
+        from graphkin.solver.path.driver_path import MOST_GROUPS, not_tried
+
         key = "no dead point at which the motion begins" if side > 0 else "no dead point at which the motion ends"
         wanted = [Phrase("change the sign of the distance or give"), *others]
         if missing := not_tried(structure):

@@ -21,7 +21,6 @@ from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import PointRef, Symbol, centre_links
 from graphkin.solver.algebra.expressions import angle_of, size
 from graphkin.solver.algebra.pose import UNIT, Array, ErrorBound, Pose, R, V
-from graphkin.solver.cams import cam_at
 from graphkin.structure import Structure
 from graphkin.structure.transmission import (
     TransmissionAngle,
@@ -180,6 +179,8 @@ def _theta(posed: AnyPosed, symbol: Symbol) -> Any:
 def _pressure(posed: Posed, symbol: Symbol) -> Array:
     cam = posed.structure.scene.law_of(symbol.link)
     if cam is not None:
+        from graphkin.solver.cams import cam_at
+
         return cam_at(cam, cam.sense * np.angle(posed.pose(cam.link).u)).pressure
     return np.asarray(np.pi / 2 - _crossing(posed.poses, joint_of_follower(posed.structure, symbol.link, symbol)))
 

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import islice, pairwise
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -24,16 +24,17 @@ from graphkin.files import json_text as one_line
 from graphkin.scene.model import Mechanism, no_force
 from graphkin.scene.scene_tables import LoadPhase
 from graphkin.scene.symbol import Symbol, Value
-from graphkin.search import changes
 from graphkin.solver.algebra.pose import Array, Pose, aimed
-from graphkin.solver.forces import Action, Forces, actions, balances, forces_of, value_of, without_line
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import SLIGHT, Motion, listed_points, own_slides
 from graphkin.solver.path.driver_range import DriverRange, range_of
 from graphkin.solver.quantities import value_of_symbol
-from graphkin.solver.touching import Measure, measured
 from graphkin.structure import Dyad, LargerGroup, Structure, links_for, part_of
 from graphkin.words import Phrase, Wording, say
+
+if TYPE_CHECKING:
+    from graphkin.solver.forces import Forces
+    from graphkin.solver.touching import Measure
 
 
 def exact_values(motion: Motion, symbols: Iterable[Symbol]) -> dict[Symbol, Value]:
@@ -53,8 +54,12 @@ def exact_values(motion: Motion, symbols: Iterable[Symbol]) -> dict[Symbol, Valu
         elif scope == "cycle":
             values[symbol] = float(of_cycle(motion, symbol)[0])
         else:
-            of_motion = scope != "force" and not symbol.axis
-            exact = (value_of_symbol(posed, symbol) if of_motion else value_of(motion, symbol))[0]
+            if scope == "force" or symbol.axis:
+                from graphkin.solver.forces import value_of
+
+                exact = value_of(motion, symbol)[0]
+            else:
+                exact = value_of_symbol(posed, symbol)[0]
             if symbol.kind == "d" and math.isnan(exact):  # the centre of links at rest: that of any motion
                 exact = growing(motion).value(symbol)[0]
             values[symbol] = complex(exact) if np.iscomplexobj(exact) else float(exact)
@@ -102,6 +107,8 @@ def forces_here(motion: Motion) -> Forces:
     if "forces here" in motion.kept:
         known: Forces = motion.kept["forces here"]
         return known
+    from graphkin.solver.forces import forces_of, without_line
+
     forces = forces_of(_of_cams(motion))
     for spring, where in without_line(forces.motion).items():
         if where[0]:
@@ -213,6 +220,8 @@ def as_drawn(motion: Motion, structure: Structure) -> Motion:
 def _arm(moving: Motion, forces: Forces, of: Symbol) -> float:
     """The component of a point's velocity along its force; for a balancing force along its line, positive in the line's
     own sense."""
+    from graphkin.solver.forces import Action, actions, balances
+
     for one in balances(moving):
         if one.symbol == of:
             on, back = (Action(None, link, one.at, np.asarray(one.along)) for link in (one.second, one.first))
@@ -256,6 +265,8 @@ class FlywheelStudy:
 
 def needed_moment(reach: DriverRange, offset: Array) -> Array:
     """The balance as a moment on the driver, positive in its sense (N m), shape (n,)."""
+    from graphkin.solver.forces import forces_of
+
     motion, moved = reach.motion(offset), reach.motion(offset, unit=True, extended=False)
     forces = forces_of(motion)
     return np.asarray(np.sum([one.power(moved) for one in forces.balancing], axis=0))
@@ -338,6 +349,8 @@ def _work(reach: DriverRange, first: Array, last: Array) -> Array:
 
 def _balanced(reach: DriverRange, edges: Array, driving: float) -> list[float]:
     """The offsets at which the needed moment crosses the driving one, jumps across it included."""
+    from graphkin.search import changes
+
     inside = (edges[:-1, None] + np.diff(edges)[:, None] * np.linspace(1e-6, 1 - 1e-6, 24)).ravel()
     crossed = changes(lambda offset: needed_moment(reach, offset) > driving, inside, within=1e-9)
     nearest = [float(edges[np.argmin(np.abs(edges - offset))]) for offset in crossed]
@@ -404,6 +417,8 @@ def _speed(reach: DriverRange, pair: str) -> Callable[[Array], Array]:
 
 def _crossings(reach: DriverRange, value: Callable[[Array], Array]) -> list[float]:
     """The offsets at which a value changes its sign over the range."""
+    from graphkin.search import changes
+
     grid = np.linspace(*reach.ends, SAMPLES + 1)
     return changes(lambda offset: value(offset) >= 0.0, grid)
 
@@ -495,6 +510,8 @@ def _of_motion(motion: Motion, angles: Mapping[str, Array]) -> Columns:
         velocity, acceleration, coriolis = (rate / fast for rate in rates)
         put("slides", pair.key, travel=travel / metres, velocity=velocity, acceleration=acceleration, coriolis=coriolis)
     for touching in scene.higher_pairs:
+        from graphkin.solver.touching import measured
+
         put(touching.table, touching.name, **measured(motion, touching))
     return found
 

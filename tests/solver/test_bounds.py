@@ -16,7 +16,7 @@ import pytest
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.model import Dimension, Mechanism, dimensions, with_dimensions
 from graphkin.scene.pairs import LawCam
-from graphkin.solver import DriverRange, Motion, driver_range, solve
+from graphkin.solver import DriverRange, Motion, cams, driver_range, solve
 from graphkin.solver.algebra import bounds
 from graphkin.solver.algebra.constraints import Constraints
 from graphkin.solver.algebra.pose import FIELDS, REAL, Array, Pose
@@ -212,7 +212,7 @@ def test_what_a_law_is_off_moves_the_follower_within_the_bound_of_it(name: str, 
         turned = (given["cos"] + 1j * given["sin"]) * np.exp(1j * STEP)
         return {**given, **rates, "cos": turned.real, "sin": turned.imag}
 
-    with patch.object(engine, "follower_inputs", off):
+    with patch.object(cams, "follower_inputs", off):
         moved = solve(scene, at={scene.drivers[0].key: math.radians(at)})
     with patch.object(bounds, "LOOKED_UP", STEP):
         found = told(own, None, slack=1.0)

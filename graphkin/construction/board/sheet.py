@@ -33,7 +33,6 @@ from graphkin.construction.board.steps import (
     VectorStep,
     changed,
 )
-from graphkin.construction.touching import Touching
 from graphkin.plane import Pose, cross
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene_tables import DIAGRAMS, Diagram
@@ -413,6 +412,8 @@ class Sheet:
         special points, with vectors seen from held links, with trial polygons and carried vectors slightly smaller."""
         places = [z for ref, z in self.points.items() if ref.point not in self.serving]
         if self.scene.higher_pairs or any(link.discs for link in (self.scene.frame, *self.scene.links)):
+            from graphkin.construction.touching import Touching
+
             per = 1.0 / self.scales.length
             places += Touching(self.scene, per, self.poses).outermost()
         ends: dict[DiagramName, tuple[list[complex], list[complex]]] = {}

@@ -12,6 +12,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import chain, product
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,7 +44,6 @@ from graphkin.construction.polygons.equations import (
     spread,
     turned,
 )
-from graphkin.construction.polygons.group_plan import GroupPlan, plan_group
 from graphkin.construction.polygons.polygons import RATE, Polygons, letter
 from graphkin.construction.polygons.seen_from import Joint, contours
 from graphkin.construction.polygons.vector_graph import (
@@ -55,7 +55,6 @@ from graphkin.construction.polygons.vector_graph import (
     past,
 )
 from graphkin.construction.position.links_on_paper import stuck
-from graphkin.construction.trains import rolled
 from graphkin.errors import Unsolvable
 from graphkin.plane import added_up, dot, unit
 from graphkin.scene.model import Driver
@@ -64,6 +63,9 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Mover, driver_pair
 from graphkin.words import links_named
 from graphkin.words.written import LONGEST, MOST
+
+if TYPE_CHECKING:
+    from graphkin.construction.polygons.group_plan import GroupPlan
 
 LETTERS = tuple("SQTUVWXYZ") + tuple(f"S{i}" for i in range(1, 30))  # of special points
 MOST_WAYS = 12  # choices of held links that are tried
@@ -125,6 +127,8 @@ def _driven(plot: Polygons, order: Order, element: Driven) -> None:
 
 def _roll(plot: Polygons, order: Order, driver: Mover) -> float:
     """The rate of a rolling link, read from a velocity plan, as the driver's rate; and the length read for it (mm)."""
+    from graphkin.construction.trains import rolled
+
     coordinate = "angle" if driver.turns else "travel", driver.key
     which = ORDERS.index(order)
     turns = [(s.a, s.b, 0.0) for s in plot.structure.slides]
@@ -284,6 +288,8 @@ def _free_letters(plot: Polygons) -> Sequence[str]:
 
 def _plans(plot: Polygons, group: LargerGroup, wide: bool = False) -> Iterator[GroupPlan]:
     """The plans for drawing a group, those with the fewest trials first; ``wide`` as in `VectorGraph`."""
+    from graphkin.construction.polygons.group_plan import plan_group
+
     graph = _graph_of(plot, group, wide)
     return plan_group(graph, partial(_direction, plot), _free_letters(plot))
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from graphkin.construction.board.instruments import Instrument
 from graphkin.construction.board.scales import Scales
@@ -34,11 +34,8 @@ from graphkin.construction.board.steps import (
     VectorStep,
     changed,
 )
-from graphkin.construction.polygons.group_plan import GroupPlan
 from graphkin.construction.polygons.vector_graph import VectorChain, node
 from graphkin.construction.position.links_on_paper import PlacedLinks, pushed_by_driver
-from graphkin.construction.touching import Touch, Touching
-from graphkin.construction.trains import TrainPlan
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.model import PlacedLink
@@ -46,6 +43,11 @@ from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Dyad, LargerGroup, Structure
 from graphkin.words import Phrase
+
+if TYPE_CHECKING:
+    from graphkin.construction.polygons.group_plan import GroupPlan
+    from graphkin.construction.touching import Touch
+    from graphkin.construction.trains import TrainPlan
 
 RATE: Mapping[Order, Literal["omega", "alpha"]] = {"velocity": "omega", "acceleration": "alpha"}
 SHARED = {"chains", "plans", "contours"}  # by all drawings of a task
@@ -232,6 +234,8 @@ class Polygons:
 
     def touch(self, name: str) -> Touch:
         """The place of a contact, or of the mesh of wheels."""
+        from graphkin.construction.touching import Touching
+
         return Touching(self.structure.scene, self.paper.mm, self.paper.poses).named(name)
 
     def length(self, arm: complex, between: Sequence[str]) -> float:

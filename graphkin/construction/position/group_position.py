@@ -43,7 +43,6 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Pose, Poses
 from graphkin.scene.model import Driver
 from graphkin.scene.symbol import Symbol
-from graphkin.search import last_true, zero_between
 from graphkin.structure import Driven, Dyad
 from graphkin.words import Phrase
 
@@ -419,6 +418,8 @@ def _closed_between(
 ) -> float | None:
     """The trial value at which a gap closes between two values with their gaps, nan for those that cannot be drawn;
     None where it does not close."""
+    from graphkin.search import last_true, zero_between
+
     (a, fa), (b, fb) = (second, first) if math.isnan(first[1]) else (first, second)
     if math.isnan(fb) and not math.isnan(fa):  # up to the last that can be drawn
         b = last_true(lambda values: np.array([not math.isnan(gap(float(value))) for value in values]), a, b, 2)

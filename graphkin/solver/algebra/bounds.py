@@ -18,7 +18,6 @@ import numpy as np
 
 from graphkin.solver.algebra.constraints import Constraints, Layout, Parts, led_relation, product, solve_all
 from graphkin.solver.algebra.pose import GIVEN, UNIT, Array, Drive, ErrorBound, Pose
-from graphkin.solver.cams import follower_inputs, greatest_jerk
 from graphkin.solver.drivers import conversion_error, law_doubts, meant, meant_angle
 from graphkin.structure import Structure
 
@@ -189,6 +188,8 @@ def _follow(
         scales[k] = scale
         if element.lifted is None:
             continue
+        from graphkin.solver.cams import follower_inputs, greatest_jerk
+
         cam = layout.link[element.lifted.link]
         inputs = follower_inputs(element.lifted, all_.u[:, cam])
         slope, second = scale * inputs["slope"], scale * inputs["second"]

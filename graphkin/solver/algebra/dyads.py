@@ -24,6 +24,9 @@ from graphkin.solver.algebra.expressions import Real, Vec, fmax, fmin, root, two
 from graphkin.solver.algebra.pose import Pose, R, V
 from graphkin.structure import DyadKind
 
+TOUCH = 1e-12
+"""A least value of a discriminant (no unit) within this of zero is a touch, where it is not known in fifty digits."""
+
 
 @dataclass(frozen=True)
 class Joints(Generic[V, R]):

@@ -22,7 +22,6 @@ from graphkin.solver.algebra.dyads import DyadSolution
 from graphkin.solver.algebra.expressions import DECIMALS, Code, Name, Real, Vec
 from graphkin.solver.algebra.larger_groups import GroupSolved, solve_group
 from graphkin.solver.algebra.pose import FIELDS, GIVEN, Array, Drive, ErrorBound, Pose, rest, turned
-from graphkin.solver.cams import follower_inputs
 from graphkin.solver.compiled.program import DimensionedProgram, program_of
 from graphkin.solver.drivers import cos_sin, law_doubts, meant, meant_angle, working
 from graphkin.structure import LargerGroup, RollingRelation, Structure
@@ -343,6 +342,8 @@ class _Run:
 
     def _lift(self, i: int, cam: LawCam) -> None:
         """Find the place of a cam's follower, by the cam's own turning."""
+        from graphkin.solver.cams import follower_inputs
+
         (turn,) = self._values(("cam", i), [self.dimensioned.program.poses[cam.link].u])
         inputs = follower_inputs(cam, np.broadcast_to(turn, (self.n,)))
         for part, column in inputs.items():

@@ -10,11 +10,10 @@ import numpy as np
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up
 from graphkin.solver.algebra.constraints import Constraints, solve_all
-from graphkin.solver.algebra.dyads import DyadSolution
+from graphkin.solver.algebra.dyads import TOUCH, DyadSolution
 from graphkin.solver.algebra.pose import Array, Drive, Pose
 from graphkin.solver.compiled.engine import SINGULAR, State, new_places, own_position
 from graphkin.solver.drivers import own_values
-from graphkin.solver.path.driver_path import TOUCH, Path, assembled
 from graphkin.solver.quantities import Posed
 from graphkin.solver.sentences import driver_text
 from graphkin.structure import (
@@ -168,6 +167,8 @@ def _other_way(structure: Structure, i: int, modes: Mapping[int, Array]) -> Word
 
 def _nearest(structure: Structure, i: int, modes: Mapping[int, Array]) -> Wording:
     """The nearest value of the first driver at which all elements up to group ``i`` can be assembled."""
+    from graphkin.solver.path.driver_path import Path, assembled
+
     if not all(e.explicit for e in structure.elements[:i]):
         return ""
     first, own = structure.scene.drivers[0], own_values(structure.scene)

@@ -6,20 +6,23 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.solver.algebra.bounds import most_of
 from graphkin.solver.algebra.dyads import DyadSolution
-from graphkin.solver.algebra.larger_groups import GroupSolved
 from graphkin.solver.algebra.pose import Array, Drive
 from graphkin.solver.compiled.engine import SINGULAR, State, closes, positions
 from graphkin.solver.drivers import meant_value
-from graphkin.solver.path.driver_path import FAR, MOST_GROUPS, Path, assembled, stretches
 from graphkin.solver.sentences import dyad_words, group_words, lies_at
 from graphkin.structure import Dyad, LargerGroup, Structure
 from graphkin.words import Phrase, Wording
+
+if TYPE_CHECKING:
+    from graphkin.solver.algebra.larger_groups import GroupSolved
+    from graphkin.solver.path.driver_path import Path
 
 MARGIN = 1e-3
 """Of the way that is searched: so much more on both sides, for what lies at its ends."""
@@ -50,6 +53,8 @@ def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
     ------
     Unsolvable : it has a larger group, whose dead points are known only along its motion
     """
+    from graphkin.solver.path.driver_path import FAR, MOST_GROUPS, Path
+
     for group in structure.larger_groups:
         where = group.named
         raise Unsolvable("dead point", Problem(where, "dead points are found for groups of two"))
@@ -79,6 +84,8 @@ def _of_group(
 ) -> Iterator[DeadPoint]:
     """The dead points of a dyad between two values of the driver, after some others whose assemblies are given or both
     tried."""
+    from graphkin.solver.path.driver_path import assembled, stretches
+
     group = path.structure.elements[i]
     assert isinstance(group, Dyad)
     for known, part in assembled(path, before, low, high, signs):
@@ -270,6 +277,8 @@ def _fold_where(structure: Structure, solved: GroupSolved, values: Array) -> Wor
 def _where(structure: Structure, i: int, values: Array, modes: Mapping[int, Array]) -> Wording:
     """The place of a group's dead point within a hundredth of a radian (of the size) of the value of the only driver,
     and its distance."""
+    from graphkin.solver.path.driver_path import Path
+
     if len(structure.scene.drivers) != 1 or not all(e.explicit for e in structure.elements[: i + 1]):
         return ""
     driver, value = structure.scene.drivers[0], float(values[0])

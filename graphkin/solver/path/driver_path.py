@@ -18,7 +18,7 @@ from functools import cached_property, partial
 import numpy as np
 
 from graphkin.search import angles_between, last_true, places_between, resolve
-from graphkin.solver.algebra.dyads import DyadSolution
+from graphkin.solver.algebra.dyads import TOUCH, DyadSolution
 from graphkin.solver.algebra.pose import Array, Drive
 from graphkin.solver.compiled.engine import SINGULAR, ExtendedPrecision, discriminant_of, newton, positions, touch
 from graphkin.solver.drivers import meant_value, working
@@ -29,8 +29,6 @@ from graphkin.words import Phrase
 
 FAR = 4.0
 """Sizes of the mechanism that a slide driver which nothing limits is followed to either side."""
-TOUCH = 1e-12
-"""A least value of a discriminant (no unit) within this of zero is a touch, where it is not known in fifty digits."""
 DOUBTFUL = 1e-9
 """Where a least value is nearer to zero, fifty digits tell whether it touches."""
 START = 1e-6

@@ -13,7 +13,7 @@ import math
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,22 +21,22 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.search import resolve, strokes_between
 from graphkin.solver.algebra.bounds import Accuracy
 from graphkin.solver.algebra.pose import FIELDS, Array, Drive, Pose, rest
-from graphkin.solver.cams import cam_angle
 from graphkin.solver.compiled.engine import positions
 from graphkin.solver.drivers import GivenValues, UniformGrid, goal_values, own_values
 from graphkin.solver.motion import Motion
 from graphkin.solver.path.assemblies import choose_modes
 from graphkin.solver.path.dead_points import singular, without_singular
-from graphkin.solver.path.driver_path import FAR, Path
 from graphkin.solver.redundant import redundant_poses
 from graphkin.solver.sentences import assembly_words
 from graphkin.structure import Structure
 from graphkin.structure.assembly import MOST_TURNS, ChangePoint, ways
 from graphkin.structure.transmission import sliding_pair
 from graphkin.words import Phrase, Wording
+
+if TYPE_CHECKING:
+    from graphkin.solver.path.driver_path import Path
 
 CLOSED = 1e-7
 """Two positions are the same where links lie closer than this, in the size of the mechanism, and turn closer (rad)."""
@@ -81,6 +81,7 @@ def range_from(structure: Structure, modes: Mapping[int, Array], start: Array, w
 
 def _followed(structure: Structure, modes: Mapping[int, Array], start: Array, which: int) -> DriverRange:
     from graphkin.solver.path.continuity import follow_path
+    from graphkin.solver.path.driver_path import FAR
 
     driver = structure.scene.drivers[which]
     turning = driver.turns
@@ -144,7 +145,8 @@ def way_to(structure: Structure, modes: Mapping[int, Array], goal: Array) -> Pat
     way round for drivers that turn; the straight path if none reaches them."""
     from graphkin.solver.path.continuity import follow_path
 
-    start, ended = own_values(structure.scene), list[tuple[Mapping[int, Array], Path]]()
+    ended: list[tuple[Mapping[int, Array], Path]] = []
+    start = own_values(structure.scene)
     for end in ways(structure.scene.drivers, start.tolist(), goal.tolist(), structure.rolls):
         path = follow_path(structure, modes, start, np.array(end))
         if path.limit is None:
@@ -278,6 +280,9 @@ class DriverRange:
     @cached_property
     def seams(self) -> Array:
         """Offsets of the seams between parts of a cam's law, in increasing order."""
+        from graphkin.search import resolve
+        from graphkin.solver.cams import cam_angle
+
         starts = [(cam, start) for cam in self.structure.lifting for start in cam.law.starts]
         if not starts:
             return np.zeros(0)
@@ -631,6 +636,8 @@ def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
         no limit positions
     CallError : there is no such sliding pair
     """
+    from graphkin.search import strokes_between
+
     if not reach.driver.turns:
         raise _without(symbol, Phrase("belongs to a whole turn but the driver"), WHERE_ELSE)
     if reach.turns != 1:
@@ -660,6 +667,7 @@ def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
 def _turns(reach: DriverRange, symbol: Symbol) -> tuple[Array, Array, Array, float]:
     """The reversals of an output over a turn of the driver: offsets and values, of a dwell its end, and the dwells'
     lengths; and the output's change in a turn."""
+    from graphkin.search import resolve
 
     def course(offset: Array, extended: bool = False) -> Array:
         """Value and rate by the driver's own angle, shape (n, 2)."""
