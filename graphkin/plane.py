@@ -121,7 +121,7 @@ def cross_arcs(p: complex, r: float, q: complex, s: float) -> tuple[complex, com
     return p + e * complex(along, height), p + e * complex(along, -height)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Pose:
     """The pose of a link: its origin (m, or mm on paper) and the unit direction of its own x axis."""
 

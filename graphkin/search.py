@@ -222,7 +222,7 @@ class Turn(NamedTuple):
     rest: float = 0.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Pieces:
     """Curves over a range of a parameter.
 

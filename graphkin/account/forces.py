@@ -54,7 +54,7 @@ SHORT = 0.3  # mm: a nearer end point of a lever is at its pole
 LEVER_ROOM = 134.0, 130.0  # mm, width and height of a lever
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class InForces(Telling):
     """A step of the forces: of loads from outside, of a group, or of a lever."""
 
@@ -279,7 +279,7 @@ def force_scale(sheet: Sheet, group: ForceGroup) -> str:
 # -- stages ------------------------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class ForceStage:
     """The steps of a group, of loads from outside, or of a lever, in words.
 

@@ -35,7 +35,7 @@ STRAIGHT = 1e-6  # of a length: so little beside a line a point lies on it
 IN_LINE = 1e-9  # rad, or of a length: so near to an axis or a guide its own points lie
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class InMechanism(Telling):
     """A step of the mechanism."""
 

@@ -52,7 +52,7 @@ RATIOS = "part", "whole", "ratio", "ratio_a", "ratio_b"
 ROLES: tuple[Role, ...] = get_args(Role)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class InPolygon(Telling):
     """A step of a polygon.  In the gaps of its sentences a, b are the letters of the given end points, c of the found
     one; A, B, C are the points of the link."""

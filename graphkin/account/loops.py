@@ -118,7 +118,7 @@ def _plain_name(unknown: Coordinate) -> str:
     return f"{'theta' if unknown[0] == 'angle' else 's'}_{unknown[1]}"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class MatrixEquation:
     """A matrix times unknowns is a column; and the solution in words (scene units)."""
 
@@ -226,7 +226,7 @@ def matrix_latex(matrix: MatrixEquation) -> str:
 # -- the loops of a position -------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class LoopText:
     """The loops of a position; the command prints ``plain`` or ``latex``.  ``rolling`` tells that cams, gears or
     rolling contacts give rates that the loops alone leave open."""

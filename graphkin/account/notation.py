@@ -64,7 +64,7 @@ def as_vector(convention: Convention, magnitude: RichText) -> RichText:
     return RichText(Atom(letter.text, letter.sub, letter.sup, not arrow, arrow, letter.meaning), *others)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Notation:
     """Names of quantities in a convention, on a sheet or on a diagram.
 

@@ -36,7 +36,7 @@ ZERO = 0.02  # mm: a shorter vector is drawn as a dot
 KNOWN = {"an": "normal", "ak": "coriolis"}  # components whose size and direction are known
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class NamedPoint:
     """A point of a polygon (mm from the pole) and its letter.
 
@@ -54,7 +54,7 @@ class NamedPoint:
     aid: bool = False
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class PolygonPoints:
     """End points, feet between components and the pole of a polygon, with their letters; ``seen`` tells whether the
     place of a special point (mm from the pole) is on the paper."""
@@ -181,7 +181,7 @@ def _links(holders: Mapping[str, tuple[str, ...]], ref: PointRef) -> list[str]:
 # -- sentences ---------------------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Account:
     """Tells the construction of one sheet in the letters of one convention."""
 
@@ -248,7 +248,7 @@ def account_of(sheet: Sheet) -> Account:
 KindOfStep = TypeVar("KindOfStep", bound=Step)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Telling:
     """The telling of a step: by its reason its ``sentences``, keys of the table of words from the fullest to the
     barest, of which the first with filled gaps is said; its ``sums``, and the ``lines`` to repeat it."""

@@ -26,7 +26,7 @@ SAME = 1e-9
 """Of the largest vector: two ends as near lie at one place."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class ReadLine:
     """A read line beside the exact one, in mm on the paper of the sheet, y up.
 
@@ -83,7 +83,7 @@ class ReadLine:
         return Phrase("line turned", angle=angle) if direction else Phrase("line long", length=percent)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class JudgedScan:
     """A scan laid on the exact figure (mm, y up), with its picture, if there is one."""
 

@@ -86,7 +86,7 @@ class Centre:
     error: float = ROUNDING
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Turning:
     """The motion of a link by centres.
 
@@ -105,7 +105,7 @@ class Turning:
     error: float = 0.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Centres:
     """The links of a scene on paper, and the centres of every two of them.
 

@@ -59,7 +59,7 @@ FITS = 1e-6
 # -- what is to be drawn -----------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Plan:
     """The plan of a drawing: its quantities, position, assembly, the equation for each dyad, and its scales.
 
@@ -517,7 +517,7 @@ def draft(
 # -- driven triangles --------------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Inversion:
     """A driven triangle with its held link as the frame; its result is the value of the equivalent driver at the common
     pair of both links (rad, m).

@@ -26,7 +26,7 @@ PAST_ROLLER = 17.0
 """mm from the roller of a follower to the middle of its guide."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Touch:
     """The contact of two links: its letter, its place, the direction of the common normal, and letters and places of
     the centres of round bodies, by link.  Meshing wheels have their centres held apart by another link: their force is
@@ -50,7 +50,7 @@ class Touch:
         return [mm / dot(self.centres[n][1] - self.at, self.normal) if n in self.centres else 0.0 for n in links]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class CamOnPaper:
     """A cam and its follower on paper (mm): the profile, the follower's point, the contact, the normal (unit, out of
     the cam), the radius of the roller (0 without one)."""
@@ -63,7 +63,7 @@ class CamOnPaper:
     roller: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Touching:
     """The higher pairs of links placed on paper; ``mm`` of paper for one m."""
 
@@ -207,7 +207,7 @@ def _free(name: str, taken: set[str]) -> str:
 # -- the outlines of cams ----------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class CamStation(OnPaper):
     """The follower turned back about the cam (inversion), in the cam's own axes from its axis (any unit of length).
 

@@ -59,7 +59,7 @@ def references(entry: object) -> tuple[str, ...]:
     return tuple(entry.origins) if isinstance(entry, Compass) else ()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Reading:
     """A file under reading, the paths of the entries taken out of it, the problems so far, to which each reader adds
     its own, and the parts that are read already.

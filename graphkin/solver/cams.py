@@ -29,7 +29,7 @@ from graphkin.solver.algebra.pose import Array, turned
 from graphkin.structure import Structure
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class CamAt:
     """A cam and its follower at angles of the law; every field of shape (n,), places from the cam's axis (m).
 
@@ -197,7 +197,7 @@ class AtDegree:
     degree: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class CamStudy:
     """The study of a cam; rates are by the cam's angle (m or rad, per rad and rad2), angles in rad, lengths in m.
 

@@ -24,7 +24,7 @@ MANY = 2000
 """From so many even steps on cosines are products."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class GivenValues:
     """Given values of the first driver."""
 
@@ -52,7 +52,7 @@ class GivenValues:
         return c, s
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class UniformGrid:
     """Values at even steps over ``way`` in ``n`` parts: start + way / n k, for k from ``first`` to ``last`` (not
     included)."""

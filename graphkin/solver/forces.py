@@ -29,7 +29,7 @@ from graphkin.solver.quantities import part_along
 from graphkin.words import Phrase, Wording
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class PairForce:
     """A force of one direction, or a couple, of ``first`` on ``second``, of unknown size; its opposite acts on
     ``first``.
@@ -120,7 +120,7 @@ DEAD = 1e-10
 BALANCE_IDLE = Phrase("the balance does no work in this position")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Forces:
     """Forces and moments at the n positions of a motion: its links cut free, with the known actions on them, and the
     forces of their pairs and the balances as unknowns."""
@@ -359,7 +359,7 @@ def forces_of(motion: Motion) -> Forces:
 # -- what acts on the links of a motion from outside: inertia forces, weights, loads, each where and while it acts -----
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Action:
     """A force or a couple on a link.
 

@@ -26,7 +26,7 @@ from graphkin.words import Phrase, Wording
 SLIGHT = 1e-9  # of what the drivers alone make: a bound above it does not tell rounding from a small value
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Motion:
     """A mechanism solved at n positions of its drivers.
 

@@ -32,7 +32,7 @@ from graphkin.structure.transmission import (
 from graphkin.words import Phrase
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Posed(Generic[V, R]):
     """The links of a structure in their poses, as arrays of shape (n,) or formulas.
 

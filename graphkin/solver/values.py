@@ -237,7 +237,7 @@ digits (Gauss and Legendre)."""
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(12)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class FlywheelStudy:
     """A flywheel on a link.
 

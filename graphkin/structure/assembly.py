@@ -106,7 +106,7 @@ def ways(
 SAME_ANGLE = 1e-9
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class ChangePoint:
     """A position where two assemblies of the group of some ``links`` meet: the drivers' ``values`` (rad, m)."""
 

@@ -29,7 +29,7 @@ from graphkin.structure.model import Coordinate, Driven, Dyad, Element, Structur
 from graphkin.words.written import roman
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class LoopArrow:
     """One arrow of a loop, fixed in ``link``.
 
@@ -59,7 +59,7 @@ class LoopArrow:
         return self.coefficient * self.axis * self.travel
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Root:
     """The closed-form root of a loop: ``key`` is its kind, ``unknown`` its quantity, ``numbers`` are its coefficients
     (SI), ``sign`` of the square root belongs to the assembly (0: there is one root only), ``value`` is the result (rad,
@@ -72,7 +72,7 @@ class Root:
     value: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Loop:
     """A closed loop of arrows.  ``links`` are the links of its group, whose motion it gives together with the other
     loops of the same ``block``, and ``unknowns`` the quantities that these give; ``ties`` name for each link the link
@@ -321,7 +321,7 @@ def _between(structure: Structure, name: str, tail: str, tip: str) -> list[LoopA
 Matrix = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class LoopBlock:
     """Loops that are solved together: ``matrix`` times the rates of ``unknowns`` gives ``velocity``, times their second
     rates ``acceleration``; rows are the x and y components of the loops in turn (m, or 1 for a travel)."""

@@ -266,7 +266,7 @@ class LargerGroup:
 Element = Driven | Dyad | LargerGroup
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Mobility:
     """F = 3 n - 2 p_L - p_H (Chebyshev-Gruebler-Kutzbach in the plane; compound hinges count k - 1)."""
 
@@ -279,7 +279,7 @@ class Mobility:
         return 3 * self.links - 2 * self.lower - self.higher
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Structure:
     """The mechanism in the order of solution.
 

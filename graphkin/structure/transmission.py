@@ -31,7 +31,7 @@ Way = tuple[Spot, Spot]
 """A direction: from one place to the other."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class TransmissionAngle:
     """Two directions; where they are ``square``, the angle is measured from the first to the normal of the second."""
 

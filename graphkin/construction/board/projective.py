@@ -42,7 +42,7 @@ def normal(a: Place) -> Place:
     return a[0] / length, a[1] / length, a[2] / length
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class ProjectiveChart:
     """The sheet as seen from the middle of the mechanism: ``unit`` (mm) is half its size, so that it spans about 1."""
 

@@ -96,7 +96,7 @@ class Scales:
         return {name: float(f"{scale:.12g}") for name, scale in scales.items() if name != "force" or scale}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Room:
     """The room that a mechanism and its polygons may fill.
 

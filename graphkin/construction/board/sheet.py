@@ -180,7 +180,7 @@ class Reading:
     per_mm: float = 0.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class LimitPosition(OnPaper):
     """The mechanism drawn once more, at a limit position of an output.
 
@@ -207,7 +207,7 @@ GroupWay = Literal["special points", "superposition"]
 what is seen from a link held still and that link's motion."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Sheet:
     """The whole drawing, in order.
 

@@ -256,7 +256,7 @@ FINDS_A_POINT: Collection[Reason] = ("arcs", "arc on path", "paths")
 NO_SYMBOL, NO_POINT, NO_PHRASE = Symbol(""), PointRef(""), Phrase("")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Step(OnPaper):
     """An action on the board: one verb with its reason and strokes; each kind of step has the arguments of its verbs,
     of which one that a reason does not have is empty.
@@ -337,7 +337,7 @@ class Step(OnPaper):
         return ()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class PlaceStep(Step):
     """A step by which the mechanism is placed: a mark, a laid off value, a line, a crossing.
 
@@ -392,7 +392,7 @@ class PlaceStep(Step):
         return tuple(name for pair in self.pairs for name in pair.split("/")) if placed else ()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class VectorStep(Step):
     """A step that draws or finds a vector of a polygon, or a line along it.
 
@@ -420,7 +420,7 @@ class VectorStep(Step):
         return super().sentence
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class EndStep(Step):
     """A step that finds or names an end point of a polygon.
 
@@ -459,7 +459,7 @@ class EndStep(Step):
         return tuple(map(end_of, self.begins))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class RateStep(Step):
     """A step that measures a rate or the speed of a sliding pair, adds two, or carries over the motion seen from a held
     link.
@@ -654,7 +654,7 @@ Stroke = Vector | Curve | Ray | CompassArc | Bar | Angle | Mark | Image
 # -- trials ------------------------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class MeasuredGap:
     """The measured gap of a left-out part.
 
@@ -675,7 +675,7 @@ TrialRow: TypeAlias = tuple[tuple[float, ...], tuple[float, ...]]
 """The values of what is moved in a trial position, and what is missed there (rad, m)."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class TrialPositions(Step):
     """A group placed by trial.
 
@@ -735,7 +735,7 @@ class TrialPositions(Step):
         return self.links
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class FarPoint:
     """Two links whose special point cannot be used.
 
@@ -750,7 +750,7 @@ class FarPoint:
     crossing: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class RateTrial(Step):
     """A trial polygon.
 
@@ -777,7 +777,7 @@ class RateTrial(Step):
         return rates[name] if name in rates else super().gap(name)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Superposed(Step):
     """The true rates by proportional division of trial polygons, or of plans of a train.
 

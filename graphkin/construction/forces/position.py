@@ -28,7 +28,7 @@ from graphkin.structure import Element, LargerGroup, Structure, analyse
 from graphkin.words import Phrase
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class DrawnPosition:
     """The joints of a sheet by name, and the images of all its links.
 

@@ -318,7 +318,7 @@ NO_GROUP = ForceGroup((), "")
 """What no group is, of steps that belong to none."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Lever:
     """Zhukovsky's lever of one driver: the velocity polygon turned by 90 degrees clockwise about its pole, so that the
     moment of a force about the pole is its power.
@@ -344,7 +344,7 @@ class Lever:
     steps: tuple[ForceStep, ...] = ()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class ForceState:
     """All forces of the mechanism, with or without the loads that begin or end exactly at the position.
 

@@ -461,7 +461,7 @@ def _against(plan: GroupPlan) -> bool:
 # -- trial polygons ----------------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class TrialPolygons:
     """The trial polygons of a group by a plan that assumes rates.
 

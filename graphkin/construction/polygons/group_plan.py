@@ -31,7 +31,7 @@ OFF = 1e-9  # sine between a leg's line and the way from joint to joint, below w
 WORST = 0.05  # crossing and distance of a special point of two moving links that is still taken
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class GroupPlan:
     """The order of drawing.
 

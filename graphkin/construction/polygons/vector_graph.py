@@ -82,7 +82,7 @@ class RelativeMotion:
 Path = tuple[RelativeMotion, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class VectorChain:
     """A vector equation to be drawn: paths from known nodes to the node ``end``.
 

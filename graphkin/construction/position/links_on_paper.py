@@ -276,7 +276,7 @@ def coordinate_on_paper(structure: Structure, paper: PlacedLinks, coordinate: Co
 Steps = tuple[Step, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Intersection:
     """The intersection of two loci.
 

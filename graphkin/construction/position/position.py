@@ -66,7 +66,7 @@ STEP, LONG_STEP = math.radians(2.0), math.radians(8.0)  # of the driver at most,
 SURPRISE = 1e-3  # so far from where it was expected a link may be found, in the size of the mechanism
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Assembly:
     """The placing of elements at a position, and the assembly of each.
 

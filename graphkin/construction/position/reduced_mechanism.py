@@ -57,7 +57,7 @@ GOOD = 0.3  # a reduced mechanism as good as this is taken without a look at the
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class ReducedMechanism:
     """A mechanism with dyads in place of a larger group.
 
@@ -232,7 +232,7 @@ def _trials(structure: Structure, group: LargerGroup, gone: set[str], known: set
 # -- what is left out --------------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class RemovedConstraint:
     """A constraint removed from a group.
 
@@ -441,7 +441,7 @@ class PlacedElements:
         return ReducedMechanism(there.structure, tuple(removed), tuple(trial), group, tuple(drawn), held=held)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class TrialDrawing:
     """A drawing of a larger group at trial values, each dyad in the assembly nearest to a guess.
 

@@ -89,7 +89,7 @@ def error_bounds(
         return {name: ErrorBound(*bounds[:, :, k]) for k, name in enumerate(names)}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Accuracy:
     """The solution at n positions, from which its errors are computed when they are asked for.
 

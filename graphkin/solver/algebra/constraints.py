@@ -193,7 +193,7 @@ def led_relation(element: Driven) -> RollingRelation:
     return RollingRelation(f"{element.link} led", terms, rolled.links if rolled else (element.link, *pair.links))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Constraints:
     """The constraints of a group at n positions of the links on which it depends, or at one position for n places.
 

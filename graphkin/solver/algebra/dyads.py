@@ -28,7 +28,7 @@ TOUCH = 1e-12
 """A least value of a discriminant (no unit) within this of zero is a touch, where it is not known in fifty digits."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Joints(Generic[V, R]):
     """The joint frames of a dyad.
 

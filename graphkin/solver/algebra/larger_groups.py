@@ -24,7 +24,7 @@ ROUGH = 1e-13
 """While more than this of a constraint is open, a step may make it more for once."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class GroupSolved:
     """The solution of a larger group.
 

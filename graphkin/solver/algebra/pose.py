@@ -34,7 +34,7 @@ FIELDS = ("z", "u", "v", "omega", "a", "alpha")
 REAL = ("omega", "alpha")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Pose(Generic[V, R]):
     """A moving frame of axes, in other axes (the world's, or those of another link).
 
@@ -201,7 +201,7 @@ GIVEN = 3 * UNIT
 """Relative error of a number of the file after its conversion from decimals and units."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class ErrorBound(Generic[R]):
     """Bounds of the errors of a frame of axes: of its origin, or the largest of any point that moves with it, and of
     its direction.  Arrays of shape (n,), or formulas; infinite where they are unknown.
@@ -261,7 +261,7 @@ class ErrorBound(Generic[R]):
         )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Drive:
     """Values of the drivers and their rates: arrays of shape (positions, drivers), SI."""
 

@@ -41,7 +41,7 @@ def known_exactly(drivers: Sequence[Driver], values: Array) -> Array:
     return found
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class ExtendedPrecision:
     """Some formulas of a mechanism in fifty digits, at positions of its drivers.
 
@@ -139,7 +139,7 @@ TINY = 1e-25
 """The same where the driver's distance from the dead point is known to fifty digits."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class State:
     """The mechanism at n positions.
 

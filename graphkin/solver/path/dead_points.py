@@ -30,7 +30,7 @@ BESIDE = 0.01
 SAME = 1e-9
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class DeadPoint:
     """A value of the driver (rad, m) at which a group stands in a dead point.
 

@@ -59,7 +59,7 @@ def _steady(mode: Array, _: Array) -> Array:
     return mode
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Path:
     """A straight path of driver values, parameter 0 .. 1, with the assembly mode of each group along it.
 

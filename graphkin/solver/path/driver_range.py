@@ -156,7 +156,7 @@ def way_to(structure: Structure, modes: Mapping[int, Array], goal: Array) -> Pat
     return ended[0][1]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class DriverRange:
     """The assembly of one position, carried along over the range of the first driver.
 
@@ -437,7 +437,7 @@ class DriverRange:
         }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class _Turned(Mapping[str, Array]):
     """The angles of links from the start at parts of a range, by name: each is computed when it is asked for."""
 
@@ -587,7 +587,7 @@ ROUNDED = 1e-11
 WHERE_ELSE = Phrase("ask for s_ theta_ or d_ at single")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Extremes:
     """The least and the greatest value of an output over a turn (m, rad), the driver's offsets where the output leaves
     them, and the angles (rad) by which the driver turns during the stroke to the greatest value and during that to the
